@@ -1,0 +1,416 @@
+/*
+ * potential_particles.h - contact between potential particles (Houlsby 2009).
+ *
+ * Generated from src/ffi by cbindgen; do not edit. MIT OR Apache-2.0.
+ *
+ * A particle is a convex shape given by planes (a, b, c, d), a rounding radius r, a sphericity k
+ * and the radius R of a shadow sphere:
+ *     S(x) = (1-k)/r^2 * sum <a x + b y + c z - d>^2 + k/R^2 * |x|^2,   f(x) = S(x) - 1,
+ * with <t> = max(t, 0); f < 0 inside, f = 0 on the surface. pp_contact_detect finds the contact
+ * of two of them.
+ *
+ * Conventions, the same for every function
+ *   Result    An int32_t status: PP_OK (0) or a positive code; pp_status_message gives its sentence.
+ *             Codes are integers; numbers are never reused. A failed solve is a status of its own
+ *             and never reads as "separated".
+ *   Order     Inputs first, then memory, then outputs.
+ *   Outputs   Written only when the call returns PP_OK (message buffers are the exception: they
+ *             are written on failure, and always end with a zero byte).
+ *   Ownership What pp_..._new gives, pp_..._free takes back, once. Everything else stays the
+ *             caller's: the library keeps no pointer after a call returns.
+ *   NULL      Refused with PP_NULL_POINTER unless a parameter says that it may be NULL.
+ *   Numbers   NaN and infinity are refused with a status that says where they were.
+ *   Units     Any consistent length unit. Angles by quaternion w, x, y, z, local to world.
+ *   Threads   Particles never change after creation: any number of threads may share them. A
+ *             pp_memory or an output belongs to one call at a time. No global state, no locks.
+ *   Errors    No panic, exception or signal leaves the library.
+ *   Layout    Structs have the same layout on every platform with 8-byte doubles; reserved fields
+ *             must be 0.
+ *
+ * In short
+ *     pp_particle *cube;
+ *     char why[PP_MESSAGE_SIZE];
+ *     if (pp_particle_new(planes, 6, r, k, R, &cube, why, sizeof why) != PP_OK) puts(why);
+ *     pp_contact contact;
+ *     pp_memory memory = {{0}};
+ *     if (pp_contact_detect(cube, &pose_a, cube, &pose_b, NULL, &memory, &contact) == PP_OK &&
+ *         contact.kind == PP_OVERLAPPING) { ... contact.normal, contact.overlap ... }
+ *     pp_particle_free(cube);
+ */
+
+
+#ifndef POTENTIAL_PARTICLES_H
+#define POTENTIAL_PARTICLES_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+// Version of this header; compare with `pp_version` of the library that was loaded.
+#define PP_VERSION_MAJOR 0
+
+// Grows with additions (or, while the major version is 0, with any change of the interface).
+#define PP_VERSION_MINOR 1
+
+// Grows with corrections that leave the interface as it is.
+#define PP_VERSION_PATCH 0
+
+// Most planes that a particle may have.
+#define PP_MAX_PLANES 65536
+
+// Size of a message buffer that holds every message whole.
+#define PP_MESSAGE_SIZE 512
+
+// Formulation "midway" (paper eqs 4 and 44): minimise t with s_A <= t and s_B <= t.
+#define PP_MIDWAY 0
+
+// Formulation "closest" (paper eqs 3, 9, 34-43): minimise s_A with s_B <= 1, and the swap.
+#define PP_CLOSEST 1
+
+// The library's own solver; falls back to a safer factorisation, then to `PP_CONIC`.
+#define PP_FAST 0
+
+// The paper's second-order cone programs, solved by clarabel: slow, independent, the judge.
+#define PP_CONIC 1
+
+// The two particles share no interior point: s >= 1.
+#define PP_SEPARATED 1
+
+// The two particles overlap: s < 1.
+#define PP_OVERLAPPING 2
+
+// "closest" was asked for, but a centre lies inside the other particle, so that its constraint
+// is slack and |P1 - P2| is no overlap distance: point, normal and overlap are those of midway.
+#define PP_FLAG_SLACK 1
+
+// Separation was proved without solving to the end: s is a lower bound > 1, nothing else is set.
+#define PP_FLAG_REJECTED 2
+
+// Both gradients vanish at the contact point (coincident centres, or flat-faced cores that
+// overlap): the normal is the line of centres, or the x axis of B when the centres coincide.
+#define PP_FLAG_NORMAL_BY_CENTRES 4
+
+// The remembered point of `pp_memory` was used as the start.
+#define PP_FLAG_WARM 8
+
+// The fast solver gave up on its plain factorisation and used the safer one.
+#define PP_FLAG_SAFER 16
+
+// The fast solver failed and the conic back end answered in its place.
+#define PP_FLAG_FELL_BACK 32
+
+// The gap is above the tolerance asked for: rounding allows no better. It is still a bound.
+#define PP_FLAG_ROUNDING_LIMITED 64
+
+// A validated particle. Created by `pp_particle_new`, released by `pp_particle_free`; immutable,
+// so that bodies and threads may share one.
+typedef struct pp_particle pp_particle;
+
+// What every function of the C interface returns: `PP_OK` or a positive code.
+typedef int32_t pp_status;
+
+// How to solve. Fill with `pp_settings_default`, then change what you need; a NULL pointer in
+// place of a pp_settings means the defaults.
+typedef struct pp_settings {
+    // `PP_MIDWAY` (default) or `PP_CLOSEST`.
+    uint32_t formulation;
+    // `PP_FAST` (default) or `PP_CONIC`.
+    uint32_t back_end;
+    // 0 (default): a separated pair may be answered by a proof of separation alone
+    // (`PP_FLAG_REJECTED`). 1: always solve, so that s, point and normal are set.
+    uint32_t solve_separated;
+    // Must be 0.
+    uint32_t reserved;
+    // Relative gap of s^2 at which the solver may stop; in (0, 0.1], default 1e-12.
+    double gap_tolerance;
+    // Weight of the point on A in the contact point of `PP_CLOSEST`: point = w*P1 + (1-w)*P2,
+    // in [0, 1], default 0.5 (equal stiffness). Paper: relative stiffness of the particles.
+    double weight_on_a;
+    // Smallest sphericity that the solver treats as given; below it, the point on a flat face
+    // is chosen as if k were this value (shape, s and overlap stay those of the given k).
+    // In [0, 0.1], default 1e-13. Raise it (1e-4, say) when flat faces rattle in dynamics.
+    double flat_regularisation;
+} pp_settings;
+
+// Where a body is: world = rotation(orientation) * local + position.
+typedef struct pp_pose {
+    // Centre of the particle (origin of its local frame), world frame, length units of the caller.
+    double position[3];
+    // Quaternion w, x, y, z, local to world. Normalised by the library; any length in
+    // [1e-150, 1e150] will do.
+    double orientation[4];
+} pp_pose;
+
+// What one ordered pair (A, B) remembers between calls, so that the next call starts warm.
+//
+// Owned by the caller: set all bytes to 0 to begin with or to forget; copy and save it freely.
+// It never changes an answer beyond its gap, whatever bytes it holds. One caller at a time.
+typedef struct pp_memory {
+    // Library's own; not for reading.
+    double state[8];
+} pp_memory;
+
+// The answer for one pair. Frames: world axes unless said otherwise; lengths in the caller's
+// unit; s, weight and gap have no unit. Fields that do not apply are NaN.
+typedef struct pp_contact {
+    // `PP_SEPARATED` or `PP_OVERLAPPING`. A failed solve has no kind: it returns a status.
+    int32_t kind;
+    // The formulation that the geometry below answers (`PP_MIDWAY` if `PP_FLAG_SLACK` is set).
+    uint32_t formulation;
+    // The back end that answered: `PP_FAST` or `PP_CONIC`.
+    uint32_t back_end;
+    // Sum of PP_FLAG_... bits.
+    uint32_t flags;
+    // Evaluations of the two potentials (fast) or interior-point iterations (conic).
+    uint32_t iterations;
+    // Always 0.
+    uint32_t reserved;
+    // Midway: t, the common scale at which the two particles touch at one point; t < 1 overlap.
+    // Closest: s_A at P2. Rejected pairs: a lower bound, > 1. A scale, no unit.
+    double s;
+    // Closest: s_B at P1; NaN for midway.
+    double s_b;
+    // Weight u of B, in [0, 1]: (1-u) grad S_A + u grad S_B = 0 at the solution.
+    double weight;
+    // Proved bound on the error of s, from this answer's own numbers: |s - s*| <= gap.
+    double gap;
+    // Overlap (YADE: penetrationDepth), length, > 0 when overlapping; NaN when separated.
+    double overlap;
+    // Unit contact normal, from A to B (positive force on B pushes it along +normal).
+    double normal[3];
+    // Contact point, world frame.
+    double point[3];
+    // Contact point minus position of A: exact lever arm even far from the world origin.
+    double branch_a[3];
+    // Contact point minus position of B.
+    double branch_b[3];
+    // Point on the surface of A (inside B when overlapping), world frame; P1 of closest.
+    double point_on_a[3];
+    // Point on the surface of B (inside A when overlapping), world frame; P2 of closest.
+    double point_on_b[3];
+} pp_contact;
+
+// Volume and inertia of a particle of unit density, in its local frame.
+typedef struct pp_mass_properties {
+    // Volume, length^3.
+    double volume;
+    // Centroid, local frame. YADE wants it at the local origin.
+    double centroid[3];
+    // Inertia about the local origin for density 1: xx, yy, zz, xy, yz, zx of the integral of
+    // (|x|^2 I - x x^T) dV, length^5.
+    double inertia[6];
+} pp_mass_properties;
+
+// The call did what it says; its outputs are written.
+#define PP_OK 0
+
+// A pointer that must not be NULL was NULL.
+#define PP_NULL_POINTER 1
+
+// A pose holds a position that is not finite.
+#define PP_BAD_POSITION 2
+
+// A pose holds a quaternion that is not finite or too short to be normalised.
+#define PP_BAD_ORIENTATION 3
+
+// A point or direction is not finite, or a direction has no length.
+#define PP_BAD_POINT 4
+
+// The settings name a formulation that does not exist.
+#define PP_UNKNOWN_FORMULATION 5
+
+// The settings name a back end that does not exist.
+#define PP_UNKNOWN_BACK_END 6
+
+// A tolerance or weight in the settings is outside its documented range.
+#define PP_BAD_SETTING 7
+
+// No solver reached an answer: the contact is unknown, which is not "no contact".
+#define PP_SOLVER_FAILED 8
+
+// An internal error was caught at the boundary: please report it.
+#define PP_INTERNAL_ERROR 9
+
+// The output buffer is too small; the needed size was written.
+#define PP_BUFFER_TOO_SMALL 10
+
+// A plane holds a coefficient that is not finite.
+#define PP_PLANE_NOT_FINITE 20
+
+// A plane has a normal (a, b, c) of length zero.
+#define PP_PLANE_ZERO_NORMAL 21
+
+// k is not a number in [0, 1].
+#define PP_BAD_SPHERICITY 22
+
+// r is not a positive finite number, and k < 1 needs it.
+#define PP_BAD_ROUNDING_RADIUS 23
+
+// R is not a positive finite number, and k > 0 needs it.
+#define PP_BAD_SHADOW_RADIUS 24
+
+// f(0) >= 0: the origin of the local frame is not inside the particle.
+#define PP_CENTRE_OUTSIDE 25
+
+// k = 0 and the planes do not enclose a bounded volume.
+#define PP_UNBOUNDED 26
+
+// More planes than `PP_MAX_PLANES`.
+#define PP_TOO_MANY_PLANES 27
+
+#ifdef __cplusplus
+extern "C" {
+#endif // __cplusplus
+
+// Version of the loaded library as "major.minor.patch". Static text: do not free it.
+const char *pp_version(void);
+
+// Fills `settings` with the defaults.
+//
+// Errors: `PP_NULL_POINTER`.
+//
+// # Safety
+// `settings` is NULL or valid for writing.
+pp_status pp_settings_default(struct pp_settings *settings);
+
+// Finds the contact of particle A at `pose_a` with particle B at `pose_b`.
+//
+// settings: may be NULL (defaults). memory: may be NULL; else what this ordered pair remembers,
+// read and updated. out: the answer; see struct pp_contact for frames, units and signs.
+// Errors: `PP_NULL_POINTER`, `PP_BAD_POSITION`, `PP_BAD_ORIENTATION`, `PP_UNKNOWN_FORMULATION`,
+// `PP_UNKNOWN_BACK_END`, `PP_BAD_SETTING`, `PP_SOLVER_FAILED`.
+//
+// # Safety
+// Pointers are NULL or valid; `memory` and `out` are not used by another call at the same time.
+pp_status pp_contact_detect(const struct pp_particle *a,
+                            const struct pp_pose *pose_a,
+                            const struct pp_particle *b,
+                            const struct pp_pose *pose_b,
+                            const struct pp_settings *settings,
+                            struct pp_memory *memory,
+                            struct pp_contact *out);
+
+// Contact area: the area of the cut that the plane through the contact point, normal to the contact
+// normal, makes through the intersection of both particles.
+//
+// contact: an overlapping answer of `pp_contact_detect` for the same particles and poses.
+// relative_tolerance: in [1e-12, 0.1]; 1e-6 is a good choice. area: receives length^2; 0 when
+// separated.
+// Errors: `PP_NULL_POINTER`, `PP_BAD_POSITION`, `PP_BAD_ORIENTATION`, `PP_BAD_POINT` (the contact
+// holds no finite point or normal), `PP_BAD_SETTING`.
+//
+// # Safety
+// Pointers are NULL or valid.
+pp_status pp_contact_area(const struct pp_particle *a,
+                          const struct pp_pose *pose_a,
+                          const struct pp_particle *b,
+                          const struct pp_pose *pose_b,
+                          const struct pp_contact *contact,
+                          double relative_tolerance,
+                          double *area);
+
+// Creates a particle from `count` planes.
+//
+// planes: count rows of a, b, c, d (outward normal and offset; local frame; the normal is used as
+// given). May be NULL when count is 0.
+// r: rounding radius, length. k: sphericity, in [0, 1]. shadow_radius: R, length.
+// out: receives the particle; release it with `pp_particle_free`.
+// message: receives, on failure, a sentence that names the plane or value (may be NULL).
+// Errors: `PP_NULL_POINTER`, `PP_PLANE_NOT_FINITE`, `PP_PLANE_ZERO_NORMAL`, `PP_BAD_SPHERICITY`,
+// `PP_BAD_ROUNDING_RADIUS`, `PP_BAD_SHADOW_RADIUS`, `PP_CENTRE_OUTSIDE`, `PP_UNBOUNDED`,
+// `PP_TOO_MANY_PLANES`.
+//
+// # Safety
+// `planes` points to 4*count doubles, `out` to one pointer, `message` to `message_size` bytes.
+pp_status pp_particle_new(const double *planes,
+                          size_t count,
+                          double r,
+                          double k,
+                          double shadow_radius,
+                          struct pp_particle **out,
+                          char *message,
+                          size_t message_size);
+
+// Releases a particle; NULL is allowed and does nothing. No pair may still be using it.
+//
+// # Safety
+// `particle` is NULL or came from `pp_particle_new` and was not released yet.
+void pp_particle_free(struct pp_particle *particle);
+
+// f = S - 1 at a world point (3 doubles), and its gradient (3 doubles, world axes, 1/length; may
+// be NULL).
+//
+// f < 0 inside, 0 on the surface, > 0 outside.
+// Errors: `PP_NULL_POINTER`, `PP_BAD_POSITION`, `PP_BAD_ORIENTATION`, `PP_BAD_POINT`.
+//
+// # Safety
+// Pointers are NULL or valid: `point` for reading 3 doubles, `f` and `gradient` for writing 1 and 3.
+pp_status pp_particle_potential(const struct pp_particle *particle,
+                                const struct pp_pose *pose,
+                                const double *point,
+                                double *f,
+                                double *gradient);
+
+// Axis-aligned box in world axes that holds the particle at this pose; tight to rounding.
+//
+// lower, upper: receive 3 doubles each, world frame.
+// Errors: `PP_NULL_POINTER`, `PP_BAD_POSITION`, `PP_BAD_ORIENTATION`.
+//
+// # Safety
+// Pointers are NULL or valid; `lower` and `upper` for writing 3 doubles.
+pp_status pp_particle_box(const struct pp_particle *particle,
+                          const struct pp_pose *pose,
+                          double *lower,
+                          double *upper);
+
+// Radius about the centre of a ball that holds the particle, length.
+//
+// Errors: `PP_NULL_POINTER`.
+//
+// # Safety
+// Pointers are NULL or valid.
+pp_status pp_particle_bounding_radius(const struct pp_particle *particle, double *radius);
+
+// Corners, local frame, of a polyhedron that holds the particle: rows of x, y, z.
+//
+// corners: room for `capacity` rows; may be NULL when capacity is 0. count: receives the number of
+// corners, also when the buffer is too small (`PP_BUFFER_TOO_SMALL`), so that one call asks the size.
+// Errors: `PP_NULL_POINTER`, `PP_BUFFER_TOO_SMALL`.
+//
+// # Safety
+// Pointers are NULL or valid; `corners` for writing 3*capacity doubles.
+pp_status pp_particle_corners(const struct pp_particle *particle,
+                              double *corners,
+                              size_t capacity,
+                              size_t *count);
+
+// Distance from the centre to the surface along a direction (3 doubles, local frame, any length).
+//
+// With it, direction * distance walks over the true surface: for meshes and pictures.
+// Errors: `PP_NULL_POINTER`, `PP_BAD_POINT`.
+//
+// # Safety
+// Pointers are NULL or valid; `direction` for reading 3 doubles.
+pp_status pp_particle_surface_distance(const struct pp_particle *particle,
+                                       const double *direction,
+                                       double *distance);
+
+// Volume, centroid and inertia for unit density, by quadrature over the true surface (relative
+// error about 1e-4 for sharp shapes, less for round ones).
+//
+// Errors: `PP_NULL_POINTER`.
+//
+// # Safety
+// Pointers are NULL or valid.
+pp_status pp_particle_mass_properties(const struct pp_particle *particle,
+                                      struct pp_mass_properties *properties);
+
+// The sentence for a status code, in English, without a full stop.
+//
+// Never NULL; an unknown code gives "unknown status code". The text is static: do not free it.
+const char *pp_status_message(pp_status status);
+
+#ifdef __cplusplus
+}  // extern "C"
+#endif  // __cplusplus
+
+#endif  /* POTENTIAL_PARTICLES_H */

@@ -1,0 +1,137 @@
+//! A polyhedron, a ball and a box that hold a particle: everything cheap tests rely on.
+
+use crate::linear_program;
+use crate::particle::Particle;
+use crate::pose::Pose;
+use nalgebra::{Matrix3, Vector3};
+
+/// What surely holds a particle, local frame.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Bounds {
+    /// Radius of a ball about the origin that holds the particle.
+    pub radius: f64,
+    /// Corners of a polyhedron that holds the particle.
+    pub corners: Box<[Vector3<f64>]>,
+    /// max |d_i|, for bounds on rounding.
+    pub longest_offset: f64,
+    /// How far beyond d_i the particle can reach along n_i: r/√(1−k); infinite for k = 1.
+    pub face_reach: f64,
+    /// s at the origin, < 1.
+    pub s_origin: f64,
+}
+
+/// Most planes whose corners are enumerated; further ones only make the polyhedron smaller.
+const MOST_FACES: usize = 24;
+
+/// Corners are found to this relative accuracy even where planes are nearly parallel, and kept when
+/// they are cut off by less: doubtful ones only make the polyhedron larger.
+const SLACK: f64 = 1e-6;
+
+/// Bounds are enlarged by this factor, which covers [`SLACK`] and the linear programs' tolerance.
+const MARGIN: f64 = 1.0 + 1e-5;
+
+impl Bounds {
+    /// `None` when nothing bounds the particle.
+    pub fn of(particle: &Particle) -> Option<Self> {
+        let face_reach = if particle.is_sphere() { f64::INFINITY } else { (1.0 / particle.plane_weight).sqrt() };
+        let sphere_reach = (1.0 / particle.sphere_weight).sqrt();
+        // f ≤ 0 implies n_i·x ≤ d_i + r/√(1−k) and |x| ≤ R/√k.
+        let face = |i: usize| (particle.normal(i), particle.d[i] + face_reach);
+        let all_faces = || (0..particle.plane_count()).map(face).collect::<Vec<_>>();
+        let half = match sphere_reach {
+            reach if reach.is_finite() => reach,
+            _ => linear_program::half_cube(&all_faces())?,
+        };
+        let faces = if particle.is_sphere() { Vec::new() } else { spread(particle).into_iter().map(face).collect() };
+        let corners = corners(&faces, half);
+        let farthest = corners.iter().map(|c| c.norm()).fold(0.0, f64::max);
+        let radius = farthest.min(sphere_reach) * MARGIN;
+        (radius.is_finite() && radius > 0.0).then(|| Self {
+            radius,
+            corners: corners.into_iter().map(|c| c * MARGIN).collect(),
+            longest_offset: particle.d.iter().fold(0.0, |longest: f64, d| longest.max(d.abs())),
+            face_reach,
+            s_origin: crate::potential::value(particle, &Vector3::zeros()).sqrt(),
+        })
+    }
+}
+
+impl Particle {
+    /// Radius of a ball about the origin that holds {S ≤ level}, level ≥ 1.
+    ///
+    /// s = √S is convex with s(0) < 1, so that along a ray it needs at least (s − s(0))/(1 − s(0)) times
+    /// the way to the surface to reach s.
+    pub(crate) fn reach(&self, level: f64) -> f64 {
+        let (s, s0) = (level.sqrt().max(1.0), self.bounds.s_origin);
+        self.bounds.radius * (s - s0) / (1.0 - s0)
+    }
+
+    /// Axis-aligned box in world axes that holds the particle at a pose, from its corners: (lower, upper).
+    pub fn bounding_box(&self, pose: &Pose) -> (Vector3<f64>, Vector3<f64>) {
+        let (mut lower, mut upper) = (pose.position, pose.position);
+        for axis in 0..3 {
+            let e = pose.rotation.row(axis).transpose();
+            // One unit in the last place of the position covers the final addition.
+            let slack = f64::EPSILON * pose.position[axis].abs();
+            upper[axis] += self.support(&e) + slack;
+            lower[axis] -= self.support(&-e) + slack;
+        }
+        (lower, upper)
+    }
+
+    /// Upper bound of max e·x over the particle, local frame, e of unit length.
+    ///
+    /// The least over the corners' polyhedron and the ball of the shadow sphere.
+    pub fn support(&self, e: &Vector3<f64>) -> f64 {
+        let farthest = self.bounds.corners.iter().map(|c| c.dot(e)).fold(f64::NEG_INFINITY, f64::max);
+        farthest.min(self.bounds.radius)
+    }
+}
+
+/// Up to [`MOST_FACES`] planes whose normals lie far from each other (farthest-point sampling).
+fn spread(particle: &Particle) -> Vec<usize> {
+    let count = particle.plane_count();
+    if count <= MOST_FACES {
+        return (0..count).collect();
+    }
+    let unit = |i: usize| particle.normal(i).normalize();
+    let mut chosen = vec![0];
+    let mut nearest: Vec<f64> = (0..count).map(|i| unit(i).dot(&unit(0))).collect();
+    while chosen.len() < MOST_FACES {
+        let next = (0..count).min_by(|&i, &j| nearest[i].total_cmp(&nearest[j])).unwrap_or(0);
+        chosen.push(next);
+        for (i, cosine) in nearest.iter_mut().enumerate() {
+            *cosine = cosine.max(unit(i).dot(&unit(next)));
+        }
+    }
+    chosen
+}
+
+/// Corners of the polyhedron {n·x ≤ h} ∩ cube: every point where three faces meet and that none cuts off.
+fn corners(faces: &[(Vector3<f64>, f64)], half: f64) -> Vec<Vector3<f64>> {
+    let mut all = faces.to_vec();
+    for axis in 0..3 {
+        for sign in [1.0, -1.0] {
+            let mut n = Vector3::zeros();
+            n[axis] = sign;
+            all.push((n, half));
+        }
+    }
+    let mut corners: Vec<Vector3<f64>> = Vec::new();
+    for i in 0..all.len() {
+        for j in i + 1..all.len() {
+            for k in j + 1..all.len() {
+                let rows = Matrix3::from_rows(&[all[i].0.transpose(), all[j].0.transpose(), all[k].0.transpose()]);
+                let Some(inverse) = rows.try_inverse() else { continue };
+                let corner = inverse * Vector3::new(all[i].1, all[j].1, all[k].1);
+                let slack = SLACK * corner.norm();
+                let kept = all.iter().all(|(n, h)| n.dot(&corner) <= h + slack * n.norm());
+                if kept && corner.iter().all(|v| v.is_finite()) && !corners.iter().any(|c| (c - corner).norm() <= slack)
+                {
+                    corners.push(corner);
+                }
+            }
+        }
+    }
+    corners
+}

@@ -1,0 +1,58 @@
+//! How far an answer can be from the optimum, from the answer's own numbers.
+//!
+//! For any weight u the minimum over x of (1−u)S_A + u·S_B is a lower bound of t², and any point x gives
+//! the upper bound max(S_A, S_B). The solver's quadratic model with the multipliers ⟨n·x − d⟩ + n·v ≥ 0 is
+//! such a minimum, solved exactly, so that its value is a lower bound too. What remains is rounding: the
+//! distances to the planes carry an error proportional to the lengths they are made from, times the
+//! pull 2(1−k)/r² Σ⟨·⟩ of the planes; that product is the condition number of S, and it is added.
+
+use crate::body::Body;
+use crate::frame;
+use crate::model::{self, Target};
+use crate::spine::{Ending, Outcome};
+use nalgebra::Vector3;
+
+/// Bound on |s − s*| for s = √(true S estimate), see [`scale`].
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Certified {
+    /// Best estimate of s.
+    pub s: f64,
+    /// |s − s*| ≤ gap.
+    pub gap: f64,
+}
+
+/// The scale s of an outcome, with the regularisation taken out again, and the bound on its error.
+pub(crate) fn scale(outcome: &Outcome, a: &Body, b: &Body, target: Target) -> Certified {
+    let weighted = |of_a, of_b| target.dual_weighted(of_a, of_b, outcome.lambda);
+    // Regularised S exceeds S by at most this where the optimum can be.
+    let level = outcome.upper.max(1.0);
+    let most = weighted(a.most_surplus(level), b.most_surplus(level));
+    let square = (outcome.lower - weighted(a.surplus(&outcome.x), b.surplus(&outcome.x))).max(0.0);
+    let low = (outcome.lower - most - outcome.rounding).max(0.0);
+    let high = outcome.upper.max(outcome.lower) + outcome.rounding;
+    let s = square.sqrt();
+    Certified { s, gap: (high.sqrt() - s).max(s - low.sqrt()) + f64::EPSILON * s }
+}
+
+/// Bounds for a point that another solver found, with the ratio of weights λ that it came with.
+///
+/// Two dual bounds are tried: the quadratic model's where its multipliers are admissible, and the
+/// linear one, φ(x) − |∇φ|·D, for any optimum within a distance D of x.
+pub(crate) fn judge(x: &Vector3<f64>, lambda: f64, a: &Body, b: &Body, target: Target) -> Outcome {
+    let (q_a, q_b) = (a.at(x, None), b.at(x, None));
+    let upper = target.merit(q_a.value, q_b.value, lambda);
+    let rounding = target.dual_weighted(a.rounding(x, &q_a), b.rounding(x, &q_b), lambda);
+    let (weight_a, weight_b) = target.weights(lambda);
+    let level = upper.max(1.0);
+    let reach = (x - a.centre()).norm() + a.particle.reach(level).min(b.particle.reach(level) + a.centre().norm());
+    let slope = (weight_a * q_a.gradient + weight_b * q_b.gradient).norm();
+    let linear = target.dual(q_a.value, q_b.value, lambda) - slope * reach;
+    let axes = frame::aligned(a, b, (weight_a, weight_b), x);
+    let (q_a, q_b) = (a.at(x, Some(&axes)), b.at(x, Some(&axes)));
+    let newton = model::solve(&q_a, &q_b, target, lambda, f64::EPSILON * upper).filter(|model| {
+        let step = axes * model.step;
+        a.keeps_planes(x, &step) && b.keeps_planes(x, &step)
+    });
+    let lower = newton.map_or(linear, |model| linear.max(model.lower));
+    Outcome { x: *x, lambda, lower, upper, rounding, iterations: 0, ending: Ending::Converged }
+}

@@ -1,0 +1,135 @@
+//! Plain structs that cross the C boundary, and their one conversion to the Rust types.
+
+/// Formulation "midway" (paper eqs 4 and 44): minimise t with s_A <= t and s_B <= t.
+pub const PP_MIDWAY: u32 = 0;
+/// Formulation "closest" (paper eqs 3, 9, 34-43): minimise s_A with s_B <= 1, and the swap.
+pub const PP_CLOSEST: u32 = 1;
+
+/// The library's own solver; falls back to a safer factorisation, then to `PP_CONIC`.
+pub const PP_FAST: u32 = 0;
+/// The paper's second-order cone programs, solved by clarabel: slow, independent, the judge.
+pub const PP_CONIC: u32 = 1;
+
+/// The two particles share no interior point: s >= 1.
+pub const PP_SEPARATED: i32 = 1;
+/// The two particles overlap: s < 1.
+pub const PP_OVERLAPPING: i32 = 2;
+
+/// "closest" was asked for, but a centre lies inside the other particle, so that its constraint
+/// is slack and |P1 - P2| is no overlap distance: point, normal and overlap are those of midway.
+pub const PP_FLAG_SLACK: u32 = 1;
+/// Separation was proved without solving to the end: s is a lower bound > 1, nothing else is set.
+pub const PP_FLAG_REJECTED: u32 = 2;
+/// Both gradients vanish at the contact point (coincident centres, or flat-faced cores that
+/// overlap): the normal is the line of centres, or the x axis of B when the centres coincide.
+pub const PP_FLAG_NORMAL_BY_CENTRES: u32 = 4;
+/// The remembered point of `pp_memory` was used as the start.
+pub const PP_FLAG_WARM: u32 = 8;
+/// The fast solver gave up on its plain factorisation and used the safer one.
+pub const PP_FLAG_SAFER: u32 = 16;
+/// The fast solver failed and the conic back end answered in its place.
+pub const PP_FLAG_FELL_BACK: u32 = 32;
+/// The gap is above the tolerance asked for: rounding allows no better. It is still a bound.
+pub const PP_FLAG_ROUNDING_LIMITED: u32 = 64;
+
+/// Where a body is: world = rotation(orientation) * local + position.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct pp_pose {
+    /// Centre of the particle (origin of its local frame), world frame, length units of the caller.
+    pub position: [f64; 3],
+    /// Quaternion w, x, y, z, local to world. Normalised by the library; any length in
+    /// [1e-150, 1e150] will do.
+    pub orientation: [f64; 4],
+}
+
+/// How to solve. Fill with `pp_settings_default`, then change what you need; a NULL pointer in
+/// place of a pp_settings means the defaults.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct pp_settings {
+    /// `PP_MIDWAY` (default) or `PP_CLOSEST`.
+    pub formulation: u32,
+    /// `PP_FAST` (default) or `PP_CONIC`.
+    pub back_end: u32,
+    /// 0 (default): a separated pair may be answered by a proof of separation alone
+    /// (`PP_FLAG_REJECTED`). 1: always solve, so that s, point and normal are set.
+    pub solve_separated: u32,
+    /// Must be 0.
+    pub reserved: u32,
+    /// Relative gap of s^2 at which the solver may stop; in (0, 0.1], default 1e-12.
+    pub gap_tolerance: f64,
+    /// Weight of the point on A in the contact point of `PP_CLOSEST`: point = w*P1 + (1-w)*P2,
+    /// in [0, 1], default 0.5 (equal stiffness). Paper: relative stiffness of the particles.
+    pub weight_on_a: f64,
+    /// Smallest sphericity that the solver treats as given; below it, the point on a flat face
+    /// is chosen as if k were this value (shape, s and overlap stay those of the given k).
+    /// In [0, 0.1], default 1e-13. Raise it (1e-4, say) when flat faces rattle in dynamics.
+    pub flat_regularisation: f64,
+}
+
+/// What one ordered pair (A, B) remembers between calls, so that the next call starts warm.
+///
+/// Owned by the caller: set all bytes to 0 to begin with or to forget; copy and save it freely.
+/// It never changes an answer beyond its gap, whatever bytes it holds. One caller at a time.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default)]
+pub struct pp_memory {
+    /// Library's own; not for reading.
+    pub state: [f64; 8],
+}
+
+/// The answer for one pair. Frames: world axes unless said otherwise; lengths in the caller's
+/// unit; s, weight and gap have no unit. Fields that do not apply are NaN.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct pp_contact {
+    /// `PP_SEPARATED` or `PP_OVERLAPPING`. A failed solve has no kind: it returns a status.
+    pub kind: i32,
+    /// The formulation that the geometry below answers (`PP_MIDWAY` if `PP_FLAG_SLACK` is set).
+    pub formulation: u32,
+    /// The back end that answered: `PP_FAST` or `PP_CONIC`.
+    pub back_end: u32,
+    /// Sum of PP_FLAG_... bits.
+    pub flags: u32,
+    /// Evaluations of the two potentials (fast) or interior-point iterations (conic).
+    pub iterations: u32,
+    /// Always 0.
+    pub reserved: u32,
+    /// Midway: t, the common scale at which the two particles touch at one point; t < 1 overlap.
+    /// Closest: s_A at P2. Rejected pairs: a lower bound, > 1. A scale, no unit.
+    pub s: f64,
+    /// Closest: s_B at P1; NaN for midway.
+    pub s_b: f64,
+    /// Weight u of B, in [0, 1]: (1-u) grad S_A + u grad S_B = 0 at the solution.
+    pub weight: f64,
+    /// Proved bound on the error of s, from this answer's own numbers: |s - s*| <= gap.
+    pub gap: f64,
+    /// Overlap (YADE: penetrationDepth), length, > 0 when overlapping; NaN when separated.
+    pub overlap: f64,
+    /// Unit contact normal, from A to B (positive force on B pushes it along +normal).
+    pub normal: [f64; 3],
+    /// Contact point, world frame.
+    pub point: [f64; 3],
+    /// Contact point minus position of A: exact lever arm even far from the world origin.
+    pub branch_a: [f64; 3],
+    /// Contact point minus position of B.
+    pub branch_b: [f64; 3],
+    /// Point on the surface of A (inside B when overlapping), world frame; P1 of closest.
+    pub point_on_a: [f64; 3],
+    /// Point on the surface of B (inside A when overlapping), world frame; P2 of closest.
+    pub point_on_b: [f64; 3],
+}
+
+/// Volume and inertia of a particle of unit density, in its local frame.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct pp_mass_properties {
+    /// Volume, length^3.
+    pub volume: f64,
+    /// Centroid, local frame. YADE wants it at the local origin.
+    pub centroid: [f64; 3],
+    /// Inertia about the local origin for density 1: xx, yy, zz, xy, yz, zx of the integral of
+    /// (|x|^2 I - x x^T) dV, length^5.
+    pub inertia: [f64; 6],
+}

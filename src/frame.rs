@@ -1,0 +1,47 @@
+//! Axes aligned with the stiffest planes at a point: the safer factorisation.
+//!
+//! Plane curvature (1−k)/r² and sphere curvature k/R² can differ by 1e18. Summed in arbitrary axes, the
+//! sphere's share drowns in the rounding of the planes'. In axes q₁ = stiffest normal, q₂ = stiffest
+//! remainder, q₃ = q₁ × q₂ the Hessian is graded, and elimination in this order keeps each
+//! direction's own relative precision.
+
+use crate::body::Body;
+use nalgebra::{Matrix3, Vector3};
+
+/// Square of the sine below which what is left of a normal is rounding.
+const PARALLEL: f64 = 1e-30;
+
+/// Orthonormal axes (columns), stiffest first, from the active planes of both bodies weighted (a, b).
+pub(crate) fn aligned(body_a: &Body, body_b: &Body, (a, b): (f64, f64), x: &Vector3<f64>) -> Matrix3<f64> {
+    let bodies = [(body_a, a), (body_b, b)];
+    let Some(first) = stiffest(bodies, x, |n| n).try_normalize(0.0) else {
+        return Matrix3::identity();
+    };
+    // Twice is enough (Kahan): the second pass removes what rounding left of the first axis.
+    let across = |n: Vector3<f64>| n - n.dot(&first) * first;
+    let second = stiffest(bodies, x, |n| across(across(n)))
+        .try_normalize(0.0)
+        .and_then(|v| across(v).try_normalize(0.5))
+        .unwrap_or_else(|| any_across(&first));
+    Matrix3::from_columns(&[first, second, first.cross(&second)])
+}
+
+/// The remainder of an active normal that carries the largest curvature.
+fn stiffest(bodies: [(&Body, f64); 2], x: &Vector3<f64>, remainder: impl Fn(Vector3<f64>) -> Vector3<f64>) -> Vector3<f64> {
+    let (mut best, mut most) = (Vector3::zeros(), 0.0);
+    for (body, scale) in bodies {
+        body.active_rows(x, |n, weight| {
+            let rest = remainder(n);
+            let stiffness = scale * weight * rest.norm_squared();
+            if stiffness > most {
+                (best, most) = (rest, stiffness);
+            }
+        });
+    }
+    best
+}
+
+/// A unit vector at right angles to a unit vector.
+fn any_across(n: &Vector3<f64>) -> Vector3<f64> {
+    n.cross(&Vector3::ith(n.iamin(), 1.0)).normalize()
+}

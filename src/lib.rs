@@ -1,0 +1,53 @@
+//! Contact detection between potential particles (Houlsby 2009; Boon, Houlsby & Utili).
+//!
+//! Read the modules in the order in which data flows:
+//!
+//! | module | holds |
+//! |---|---|
+//! | [`particle`] | what a particle is, validated once |
+//! | [`potential`] | S, ∇S, ∇²S at a point |
+//! | [`bounds`] | a polyhedron, ball and box around a particle |
+//! | [`surface`] | where a ray meets the surface |
+//! | [`mass`] | volume, centroid, inertia |
+//! | [`pose`] | where a body is |
+//! | [`settings`], [`memory`] | how to solve, and what a pair remembers |
+//! | [`pair`], `body` | two particles in one frame |
+//! | [`reject`] | cheap proofs of separation |
+//! | `model` | two quadratics solved exactly: midway and both closest points on one curve |
+//! | `frame`, `line`, `spine` | the fast solver: Newton on that model, safe axes, safe steps |
+//! | `certificate` | how far an answer can be from the optimum |
+//! | [`conic`] | the paper's second-order cone programs through clarabel: the reference |
+//! | [`contact`] | point, normal, overlap from a solution |
+//! | [`area`] | the contact area, when asked for |
+//! | [`detect`] | the whole, on one screen |
+//! | [`ffi`] | the C interface |
+
+pub mod area;
+mod body;
+pub mod bounds;
+mod certificate;
+pub mod conic;
+pub mod contact;
+pub mod detect;
+pub mod ffi;
+mod frame;
+mod line;
+mod linear_program;
+pub mod mass;
+pub mod memory;
+mod model;
+pub mod pair;
+pub mod particle;
+pub mod pose;
+pub mod potential;
+pub mod reject;
+pub mod settings;
+mod spine;
+pub mod surface;
+
+pub use contact::{Contact, Flags, Kind};
+pub use detect::{DetectError, detect};
+pub use memory::Memory;
+pub use particle::{Particle, ParticleError, Plane};
+pub use pose::{Pose, PoseError};
+pub use settings::{BackEnd, Formulation, Settings, SettingsError};

@@ -1,0 +1,105 @@
+//! Descent along a line: the merit of a target, minimised exactly enough on a segment.
+//!
+//! On a line both potentials are convex, piecewise quadratic functions of one variable, and every
+//! merit is the larger of two sums of them.
+
+use crate::body::Body;
+use crate::model::{PRICE, Target};
+use crate::potential::OnLine;
+use nalgebra::Vector3;
+
+/// Most trial points of one search; each costs less than an evaluation with Hessians.
+const MOST_TRIALS: usize = 12;
+
+/// A point of the line with both potentials there.
+#[derive(Clone, Copy, Debug)]
+struct Trial {
+    alpha: f64,
+    merit: f64,
+    pieces: [OnLine; 2],
+}
+
+/// Looks for the minimum over α in (0, most) of the merit at `from + α·direction`, from `start` on.
+///
+/// Returns the best α tried and the slopes of S_A and S_B there.
+pub(crate) fn descend(
+    a: &Body,
+    b: &Body,
+    target: Target,
+    lambda: f64,
+    from: &Vector3<f64>,
+    direction: &Vector3<f64>,
+    (start, most): (f64, f64),
+) -> (f64, f64, f64) {
+    let (mut low, mut high) = (0.0, most);
+    let mut alpha = start;
+    let mut best: Option<(Trial, f64, f64)> = None;
+    for _ in 0..MOST_TRIALS {
+        let x = from + alpha * direction;
+        let (on_a, on_b) = (a.on_line(&x, direction), b.on_line(&x, direction));
+        let pieces = pieces(target, lambda, on_a, on_b);
+        let trial = Trial { alpha, merit: pieces[0].value.max(pieces[1].value), pieces };
+        if best.is_none_or(|(b, ..)| trial.merit < b.merit) {
+            best = Some((trial, on_a.slope, on_b.slope));
+        }
+        let step = trial.minimise_pieces();
+        if step > 0.0 { low = alpha } else { high = alpha }
+        let next = alpha + step;
+        let next = if low < next && next < high { next } else { 0.5 * (low + high) };
+        // A tenth of the way is close enough for a search direction that is itself approximate, but a
+        // kink must be passed, so that the plane behind it enters the next model.
+        if (next - alpha).abs() <= 1e-3 * alpha.abs() || !(low < next && next < high) {
+            break;
+        }
+        alpha = next;
+    }
+    best.map_or((0.0, 0.0, 0.0), |(trial, slope_a, slope_b)| (trial.alpha, slope_a, slope_b))
+}
+
+/// The two functions whose larger one is the merit.
+fn pieces(target: Target, lambda: f64, a: OnLine, b: OnLine) -> [OnLine; 2] {
+    let priced = |free: OnLine, bound: OnLine, price: f64| {
+        let sum = OnLine {
+            value: free.value + price * (bound.value - 1.0),
+            slope: free.slope + price * bound.slope,
+            curvature: free.curvature + price * bound.curvature,
+        };
+        [free, sum]
+    };
+    match target {
+        Target::Midway => [a, b],
+        Target::OnB => priced(a, b, PRICE * lambda),
+        Target::OnA => priced(b, a, PRICE / lambda),
+    }
+}
+
+impl Trial {
+    /// Step to the minimum of the larger of the two quadratics.
+    fn minimise_pieces(&self) -> f64 {
+        let [p, q] = &self.pieces;
+        let (upper, other) = if p.value >= q.value { (p, q) } else { (q, p) };
+        let at = |f: &OnLine, t: f64| f.value + t * (f.slope + 0.5 * f.curvature * t);
+        let descent = -upper.slope / upper.curvature;
+        if !descent.is_finite() || at(other, descent) <= at(upper, descent) {
+            return descent;
+        }
+        // The other piece takes over on the way: where they cross, or at its own minimum if that lies
+        // before the crossing.
+        let (v, s, c) = (upper.value - other.value, upper.slope - other.slope, upper.curvature - other.curvature);
+        let towards = descent.signum();
+        let crossing = first_crossing(v, s * towards, c).map_or(0.0, |t| t * towards);
+        let valley = -other.slope / other.curvature;
+        if (valley - crossing) * towards > 0.0 && valley.is_finite() { valley } else { crossing }
+    }
+}
+
+/// Least t ≥ 0 with v + s·t + ½c·t² = 0 for v ≥ 0, without cancellation.
+fn first_crossing(v: f64, s: f64, c: f64) -> Option<f64> {
+    let discriminant = s * s - 2.0 * c * v;
+    if discriminant < 0.0 {
+        return None;
+    }
+    let root = discriminant.sqrt();
+    let t = if s < 0.0 { 2.0 * v / (root - s) } else { -(s + root) / c };
+    (t >= 0.0 && t.is_finite()).then_some(t)
+}

@@ -1,0 +1,177 @@
+//! The two quadratics at a point, solved exactly: one step of the fast solver.
+//!
+//! For weights a, b ≥ 0 let v(λ), λ = b/a, minimise a·q_A + b·q_B. The curve v(λ) runs from the minimum of
+//! A (λ → 0) to that of B (λ → ∞); along it q_A grows and q_B falls. Midway is its point with q_A = q_B,
+//! the two closest points are those with q_B = 1 and q_A = 1: one search in one variable serves all three.
+
+use crate::potential::Quadratic;
+use nalgebra::{Matrix3, Vector3};
+
+/// Which point of the curve is wanted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Target {
+    /// S_A = S_B: minimise the larger (paper eq. 44).
+    Midway,
+    /// S_B = 1: the point P2 on B closest to A, minimising S_A (paper eqs 9, 34).
+    OnB,
+    /// S_A = 1: the point P1 on A closest to B, minimising S_B.
+    OnA,
+}
+
+impl Target {
+    /// Weights (a, b) at λ.
+    pub fn weights(self, lambda: f64) -> (f64, f64) {
+        match self {
+            Self::Midway => (1.0 / (1.0 + lambda), lambda / (1.0 + lambda)),
+            Self::OnB => (1.0, lambda),
+            Self::OnA => (1.0 / lambda, 1.0),
+        }
+    }
+
+    /// The quantity being minimised, given both potentials: S_A, S_B or the larger. Infeasibility of the
+    /// constraint counts with a price above its multiplier (exact penalty).
+    pub fn merit(self, s_a: f64, s_b: f64, lambda: f64) -> f64 {
+        match self {
+            Self::Midway => s_a.max(s_b),
+            Self::OnB => s_a + PRICE * lambda * (s_b - 1.0).max(0.0),
+            Self::OnA => s_b + PRICE / lambda * (s_a - 1.0).max(0.0),
+        }
+    }
+
+    /// Value of the dual function: a lower bound of the optimum for every λ.
+    pub fn dual(self, s_a: f64, s_b: f64, lambda: f64) -> f64 {
+        let (a, b) = self.weights(lambda);
+        match self {
+            Self::Midway => a * s_a + b * s_b,
+            Self::OnB => s_a + b * (s_b - 1.0),
+            Self::OnA => a * (s_a - 1.0) + s_b,
+        }
+    }
+
+    /// Bound on the error of the dual value, from bounds on those of S_A and S_B.
+    pub fn dual_weighted(self, error_a: f64, error_b: f64, lambda: f64) -> f64 {
+        let (a, b) = self.weights(lambda);
+        a * error_a + b * error_b
+    }
+
+    /// The two numbers that are equal at the wanted point; the first grows with λ.
+    fn sides(self, q_a: f64, q_b: f64) -> (f64, f64) {
+        match self {
+            Self::Midway => (q_a, q_b),
+            Self::OnB => (1.0, q_b),
+            Self::OnA => (q_a, 1.0),
+        }
+    }
+}
+
+/// Price of infeasibility in units of the multiplier; anything above 1 makes the penalty exact.
+pub(crate) const PRICE: f64 = 2.0;
+
+/// Optimum of the two quadratics.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Optimum {
+    /// Step from the point of expansion.
+    pub step: Vector3<f64>,
+    /// Weight ratio λ = b/a.
+    pub lambda: f64,
+    /// Dual value of the model: a lower bound of the whole problem while no active plane turns negative.
+    pub lower: f64,
+}
+
+/// Most searches for λ; quadratic convergence needs a handful.
+const MOST_SEARCHES: usize = 40;
+
+/// λ stays in this range: beyond it one particle's weight is lost in rounding altogether.
+const LAMBDA_RANGE: (f64, f64) = (1e-30, 1e30);
+
+/// Solves the pair of quadratics from the guess λ. `None` when a factorisation breaks down.
+///
+/// `enough` is a mismatch of the two sides below which the search may stop.
+pub(crate) fn solve(q_a: &Quadratic, q_b: &Quadratic, target: Target, guess: f64, enough: f64) -> Option<Optimum> {
+    let (mut low, mut high) = LAMBDA_RANGE;
+    let mut lambda = guess.clamp(low, high);
+    for search in 1.. {
+        let (a, b) = target.weights(lambda);
+        let factor = Factor::of(&(a * q_a.hessian + b * q_b.hessian))?;
+        let step = -factor.solve(&(a * q_a.gradient + b * q_b.gradient));
+        let (s_a, g_a) = expand(q_a, &step);
+        let (s_b, g_b) = expand(q_b, &step);
+        let (growing, falling) = target.sides(s_a, s_b);
+        let mismatch = growing - falling;
+        let optimum = Optimum { step, lambda, lower: target.dual(s_a, s_b, lambda) };
+        if !optimum.lower.is_finite() {
+            return None;
+        }
+        if mismatch.abs() <= enough || search == MOST_SEARCHES {
+            return Some(optimum);
+        }
+        if mismatch > 0.0 { high = lambda } else { low = lambda }
+        // d step / d ln λ, from a g_A + b g_B = 0 along the curve.
+        let drift = factor.solve(&(-a * b / (a + b) * (g_b - g_a)));
+        let (rate_growing, rate_falling) = target.rates(g_a.dot(&drift), g_b.dot(&drift));
+        let rate = rate_growing - rate_falling;
+        // Far off, the logarithms of both sides are nearly linear in ln λ; near the root, the sides are.
+        let smaller = growing.min(falling);
+        let change = if mismatch.abs() > 0.5 * growing.max(falling) && smaller > 0.0 {
+            (falling / growing).ln() / (rate_growing / growing - rate_falling / falling)
+        } else {
+            -mismatch / rate
+        };
+        let mut next = if change.abs() < 0.1 { lambda * (1.0 + change) } else { lambda * change.clamp(-60.0, 60.0).exp() };
+        if !(low < next && next < high) {
+            next = (low * high).sqrt();
+        }
+        if next == lambda {
+            return Some(optimum);
+        }
+        lambda = next;
+    }
+    None
+}
+
+impl Target {
+    fn rates(self, rate_a: f64, rate_b: f64) -> (f64, f64) {
+        match self {
+            Self::Midway => (rate_a, rate_b),
+            Self::OnB => (0.0, rate_b),
+            Self::OnA => (rate_a, 0.0),
+        }
+    }
+}
+
+/// Value and gradient of a quadratic after a step.
+fn expand(q: &Quadratic, v: &Vector3<f64>) -> (f64, Vector3<f64>) {
+    let bend = q.hessian * v;
+    (q.value + v.dot(&(q.gradient + 0.5 * bend)), q.gradient + bend)
+}
+
+/// L D Lᵀ of a symmetric positive definite 3×3 matrix, eliminated in the given order of axes: stiffest
+/// first keeps the softest direction to full relative precision.
+struct Factor {
+    l10: f64,
+    l20: f64,
+    l21: f64,
+    inverse_d: [f64; 3],
+}
+
+impl Factor {
+    fn of(h: &Matrix3<f64>) -> Option<Self> {
+        let d0 = h.m11;
+        let (l10, l20) = (h.m21 / d0, h.m31 / d0);
+        let d1 = h.m22 - l10 * h.m21;
+        let c21 = h.m32 - l20 * h.m21;
+        let l21 = c21 / d1;
+        let d2 = h.m33 - l20 * h.m31 - l21 * c21;
+        (d0 > 0.0 && d1 > 0.0 && d2 > 0.0 && d2.is_finite()).then(|| Self { l10, l20, l21, inverse_d: [1.0 / d0, 1.0 / d1, 1.0 / d2] })
+    }
+
+    fn solve(&self, r: &Vector3<f64>) -> Vector3<f64> {
+        let y0 = r.x;
+        let y1 = r.y - self.l10 * y0;
+        let y2 = r.z - self.l20 * y0 - self.l21 * y1;
+        let z = y2 * self.inverse_d[2];
+        let y = y1 * self.inverse_d[1] - self.l21 * z;
+        let x = y0 * self.inverse_d[0] - self.l10 * y - self.l20 * z;
+        Vector3::new(x, y, z)
+    }
+}

@@ -1,0 +1,198 @@
+//! A potential particle: its definition, validated once.
+//!
+//! Local frame, planes i = 1..N with outward normals n_i = (a_i, b_i, c_i) and offsets d_i:
+//!
+//! ```text
+//! S(x) = (1-k)/r² · Σ ⟨n_i·x − d_i⟩²  +  k/R² · |x|²        ⟨t⟩ = max(t, 0)
+//! f(x) = S(x) − 1                                            paper eqs (2), (32)
+//! ```
+//!
+//! f = 0 is the surface, f < 0 the inside. Normals are used as given, never renormalised, so that
+//! the particle is exactly the one that the caller wrote down.
+
+use crate::bounds::Bounds;
+use crate::potential;
+use nalgebra::Vector3;
+use thiserror::Error;
+
+/// One plane a·x + b·y + c·z = d of a particle, local frame, (a, b, c) pointing outwards.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Plane {
+    /// Outward normal (a, b, c); unit length is usual, not required.
+    pub normal: Vector3<f64>,
+    /// Offset d, length. A face of the finished particle lies near d + r.
+    pub offset: f64,
+}
+
+impl From<[f64; 4]> for Plane {
+    /// From (a, b, c, d).
+    fn from([a, b, c, d]: [f64; 4]) -> Self {
+        Self { normal: Vector3::new(a, b, c), offset: d }
+    }
+}
+
+/// Most planes that a particle may have.
+pub const MAX_PLANES: usize = 65_536;
+
+/// Why planes, r, k, R do not make a particle. Each names the value and the remedy.
+#[derive(Clone, Copy, Debug, Error, PartialEq)]
+#[allow(missing_docs)]
+pub enum ParticleError {
+    #[error("plane {index} is not finite: a={a}, b={b}, c={c}, d={d}")]
+    PlaneNotFinite { index: usize, a: f64, b: f64, c: f64, d: f64 },
+    #[error("plane {index} has a normal of length zero (d={d}): give it a direction or remove it")]
+    ZeroNormal { index: usize, d: f64 },
+    #[error("sphericity k={0} is outside [0, 1]")]
+    Sphericity(f64),
+    #[error("rounding radius r={0} must be positive and finite (it may be anything only when k=1)")]
+    RoundingRadius(f64),
+    #[error("shadow radius R={0} must be positive and finite (it may be anything only when k=0)")]
+    ShadowRadius(f64),
+    #[error(
+        "the centre is not inside: f(0)={f} must be negative; plane {worst} (d={d}) lies furthest behind \
+         the origin: shift the planes so that the origin is inside"
+    )]
+    CentreOutside { f: f64, worst: usize, d: f64 },
+    #[error("the planes do not enclose a volume, and with k=0 nothing else does: add planes or take k>0")]
+    Unbounded,
+    #[error("{0} planes are more than the {MAX_PLANES} that a particle may have")]
+    TooManyPlanes(usize),
+}
+
+/// A validated potential particle, immutable; share it freely between threads and bodies.
+#[derive(Clone, Debug)]
+pub struct Particle {
+    /// Plane coefficients, one array each: the evaluation streams through them.
+    pub(crate) a: Box<[f64]>,
+    pub(crate) b: Box<[f64]>,
+    pub(crate) c: Box<[f64]>,
+    pub(crate) d: Box<[f64]>,
+    rounding_radius: f64,
+    sphericity: f64,
+    shadow_radius: f64,
+    /// (1-k)/r², the weight of the planes in S; 0 for k = 1.
+    pub(crate) plane_weight: f64,
+    /// k/R², the weight of the shadow sphere in S; 0 for k = 0.
+    pub(crate) sphere_weight: f64,
+    pub(crate) bounds: Bounds,
+}
+
+impl Particle {
+    /// Builds a particle from its planes, rounding radius r, sphericity k and shadow radius R.
+    ///
+    /// # Errors
+    /// Non-finite numbers, k outside [0, 1], r ≤ 0 (unless k = 1), R ≤ 0 (unless k = 0), a zero
+    /// normal, an origin that is not inside (f(0) ≥ 0), and for k = 0 an unbounded shape.
+    pub fn new(planes: &[Plane], r: f64, k: f64, shadow_radius: f64) -> Result<Self, ParticleError> {
+        if planes.len() > MAX_PLANES {
+            return Err(ParticleError::TooManyPlanes(planes.len()));
+        }
+        if !(0.0..=1.0).contains(&k) {
+            return Err(ParticleError::Sphericity(k));
+        }
+        let plane_weight = if k == 1.0 { 0.0 } else { (1.0 - k) / (r * r) };
+        // The weight itself must be a normal number: r = 1e-200 would make it infinite.
+        if k < 1.0 && !(r > 0.0 && r.is_finite() && plane_weight.is_normal()) {
+            return Err(ParticleError::RoundingRadius(r));
+        }
+        let sphere_weight = if k == 0.0 { 0.0 } else { k / (shadow_radius * shadow_radius) };
+        if k > 0.0 && !(shadow_radius > 0.0 && shadow_radius.is_finite() && sphere_weight.is_normal()) {
+            return Err(ParticleError::ShadowRadius(shadow_radius));
+        }
+        for (index, Plane { normal, offset: d }) in planes.iter().enumerate() {
+            let (a, b, c, d) = (normal.x, normal.y, normal.z, *d);
+            if ![a, b, c, d].iter().all(|v| v.is_finite()) {
+                return Err(ParticleError::PlaneNotFinite { index, a, b, c, d });
+            }
+            if a == 0.0 && b == 0.0 && c == 0.0 {
+                return Err(ParticleError::ZeroNormal { index, d });
+            }
+        }
+        let mut particle = Self {
+            a: planes.iter().map(|p| p.normal.x).collect(),
+            b: planes.iter().map(|p| p.normal.y).collect(),
+            c: planes.iter().map(|p| p.normal.z).collect(),
+            d: planes.iter().map(|p| p.offset).collect(),
+            rounding_radius: r,
+            sphericity: k,
+            shadow_radius,
+            plane_weight,
+            sphere_weight,
+            bounds: Bounds::default(),
+        };
+        let f = particle.potential(&Vector3::zeros());
+        if !(f < 0.0) {
+            let worst = (0..planes.len()).min_by(|&i, &j| particle.d[i].total_cmp(&particle.d[j])).unwrap_or(0);
+            return Err(ParticleError::CentreOutside { f, worst, d: particle.d.get(worst).copied().unwrap_or(f64::NAN) });
+        }
+        particle.bounds = Bounds::of(&particle).ok_or(ParticleError::Unbounded)?;
+        Ok(particle)
+    }
+
+    /// A sphere of the given radius (k = 1, no planes).
+    ///
+    /// # Errors
+    /// A radius that is not positive and finite.
+    pub fn sphere(radius: f64) -> Result<Self, ParticleError> {
+        Self::new(&[], 0.0, 1.0, radius)
+    }
+
+    /// f(x) = S(x) − 1 at a local point (paper eq. 2): negative inside, zero on the surface.
+    pub fn potential(&self, x: &Vector3<f64>) -> f64 {
+        potential::value(self, x) - 1.0
+    }
+
+    /// ∇f(x), local frame, 1/length.
+    pub fn gradient(&self, x: &Vector3<f64>) -> Vector3<f64> {
+        potential::local(self, x).gradient
+    }
+
+    /// ∇²f(x), local frame, 1/length². Where a plane is just switching on, the side without it.
+    pub fn hessian(&self, x: &Vector3<f64>) -> nalgebra::Matrix3<f64> {
+        potential::local(self, x).hessian
+    }
+
+    /// Planes as given.
+    pub fn planes(&self) -> impl ExactSizeIterator<Item = Plane> + '_ {
+        (0..self.a.len()).map(|i| Plane { normal: self.normal(i), offset: self.d[i] })
+    }
+
+    /// Number of planes.
+    pub fn plane_count(&self) -> usize {
+        self.a.len()
+    }
+
+    /// Rounding radius r, length.
+    pub fn rounding_radius(&self) -> f64 {
+        self.rounding_radius
+    }
+
+    /// Sphericity k, no unit.
+    pub fn sphericity(&self) -> f64 {
+        self.sphericity
+    }
+
+    /// Radius R of the shadow sphere, length.
+    pub fn shadow_radius(&self) -> f64 {
+        self.shadow_radius
+    }
+
+    /// Radius about the local origin of a ball that holds the whole particle.
+    pub fn bounding_radius(&self) -> f64 {
+        self.bounds.radius
+    }
+
+    /// Corners of a polyhedron that holds the whole particle, local frame.
+    pub fn bounding_corners(&self) -> &[Vector3<f64>] {
+        &self.bounds.corners
+    }
+
+    pub(crate) fn normal(&self, i: usize) -> Vector3<f64> {
+        Vector3::new(self.a[i], self.b[i], self.c[i])
+    }
+
+    /// S counts the planes only for k < 1, the sphere only for k > 0: one place says so.
+    pub(crate) fn is_sphere(&self) -> bool {
+        self.plane_weight == 0.0 || self.a.is_empty()
+    }
+}

@@ -1,0 +1,60 @@
+//! Rigid poses, and the one change of frame that a contact call makes.
+
+use nalgebra::{Matrix3, Quaternion, UnitQuaternion, Vector3};
+use thiserror::Error;
+
+/// Why numbers do not make a pose.
+#[derive(Clone, Copy, Debug, Error, PartialEq)]
+#[allow(missing_docs)]
+pub enum PoseError {
+    #[error("position ({0}, {1}, {2}) is not finite")]
+    Position(f64, f64, f64),
+    #[error("orientation w={0}, x={1}, y={2}, z={3} is not a quaternion that can be normalised")]
+    Orientation(f64, f64, f64, f64),
+}
+
+/// Where a body is: world = rotation · local + position.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pose {
+    /// Centre of the particle, world frame.
+    pub position: Vector3<f64>,
+    /// Local to world.
+    pub rotation: Matrix3<f64>,
+}
+
+impl Pose {
+    /// From a position and a quaternion (w, x, y, z), local to world, normalised here.
+    ///
+    /// # Errors
+    /// A position or quaternion that is not finite, or a quaternion shorter than 1e-150 or longer
+    /// than 1e150 (its square would leave the range of f64).
+    pub fn new(position: [f64; 3], orientation: [f64; 4]) -> Result<Self, PoseError> {
+        let [x, y, z] = position;
+        if !position.iter().all(|v| v.is_finite()) {
+            return Err(PoseError::Position(x, y, z));
+        }
+        let [w, i, j, k] = orientation;
+        let quaternion = Quaternion::new(w, i, j, k);
+        let length = quaternion.norm();
+        if !(1e-150..=1e150).contains(&length) {
+            return Err(PoseError::Orientation(w, i, j, k));
+        }
+        let unit = UnitQuaternion::new_unchecked(quaternion / length);
+        Ok(Self { position: Vector3::from(position), rotation: unit.to_rotation_matrix().into_inner() })
+    }
+
+    /// No rotation, at a position.
+    pub fn at(position: [f64; 3]) -> Result<Self, PoseError> {
+        Self::new(position, [1.0, 0.0, 0.0, 0.0])
+    }
+
+    /// World point to local point.
+    pub fn to_local(&self, world: &Vector3<f64>) -> Vector3<f64> {
+        self.rotation.tr_mul(&(world - self.position))
+    }
+
+    /// Local direction to world direction.
+    pub fn rotate(&self, local: &Vector3<f64>) -> Vector3<f64> {
+        self.rotation * local
+    }
+}

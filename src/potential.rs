@@ -1,0 +1,104 @@
+//! S, its gradient and its Hessian: the only loops over planes.
+//!
+//! Everything here takes the point y in the particle's local frame. S is piecewise quadratic, so
+//! that value, gradient and Hessian at a point describe it exactly until a plane switches.
+
+use crate::particle::Particle;
+use nalgebra::{Matrix3, Vector3};
+
+/// S near a point: S(x + h) = value + gradient·h + ½ hᵀ·hessian·h while no plane switches.
+#[derive(Clone, Copy, Debug)]
+pub struct Quadratic {
+    /// S(x), no unit.
+    pub value: f64,
+    /// ∇S(x), 1/length.
+    pub gradient: Vector3<f64>,
+    /// ∇²S(x), 1/length²; where a plane is just switching on, the side without it.
+    pub hessian: Matrix3<f64>,
+    /// 2(1-k)/r² · Σ ⟨n_i·x − d_i⟩: how fast S changes when every plane moves in by one unit of
+    /// length. Times the rounding of a plane's distance it bounds the rounding of S.
+    pub pull: f64,
+}
+
+/// S on a line: value, slope and curvature at one point of it.
+#[derive(Clone, Copy, Debug)]
+pub struct OnLine {
+    /// S.
+    pub value: f64,
+    /// dS/dα.
+    pub slope: f64,
+    /// d²S/dα².
+    pub curvature: f64,
+}
+
+/// S(y).
+pub fn value(particle: &Particle, y: &Vector3<f64>) -> f64 {
+    let mut sum = 0.0;
+    for (((a, b), c), d) in particle.a.iter().zip(&particle.b).zip(&particle.c).zip(&particle.d) {
+        let excess = (a * y.x + b * y.y + c * y.z - d).max(0.0);
+        sum += excess * excess;
+    }
+    particle.plane_weight * sum + particle.sphere_weight * y.norm_squared()
+}
+
+/// S, ∇S, ∇²S at y, local frame.
+pub fn local(particle: &Particle, y: &Vector3<f64>) -> Quadratic {
+    in_frame(particle, particle.sphere_weight, &Matrix3::identity(), y)
+}
+
+/// S, ∇S, ∇²S at the local point y, with derivatives in the frame that `rotation` leads to (local to
+/// frame), and with a weight of the shadow sphere that may differ from the particle's own.
+///
+/// Each active normal is rotated before it is squared, not the finished Hessian: in a frame aligned
+/// with a face the stiff and the soft direction then stay apart to full relative precision.
+pub fn in_frame(particle: &Particle, sphere_weight: f64, rotation: &Matrix3<f64>, y: &Vector3<f64>) -> Quadratic {
+    let (mut square, mut linear) = (0.0, 0.0);
+    let mut g = Vector3::zeros();
+    let (mut xx, mut yy, mut zz, mut xy, mut yz, mut zx) = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
+    for (((&a, &b), &c), &d) in particle.a.iter().zip(&particle.b).zip(&particle.c).zip(&particle.d) {
+        let excess = a * y.x + b * y.y + c * y.z - d;
+        if excess > 0.0 {
+            let n = rotation * Vector3::new(a, b, c);
+            square += excess * excess;
+            linear += excess;
+            g += excess * n;
+            xx += n.x * n.x;
+            yy += n.y * n.y;
+            zz += n.z * n.z;
+            xy += n.x * n.y;
+            yz += n.y * n.z;
+            zx += n.z * n.x;
+        }
+    }
+    let (w2, m2) = (2.0 * particle.plane_weight, 2.0 * sphere_weight);
+    Quadratic {
+        value: particle.plane_weight * square + sphere_weight * y.norm_squared(),
+        gradient: w2 * g + m2 * (rotation * y),
+        hessian: Matrix3::new(
+            w2 * xx + m2, w2 * xy, w2 * zx, //
+            w2 * xy, w2 * yy + m2, w2 * yz, //
+            w2 * zx, w2 * yz, w2 * zz + m2,
+        ),
+        pull: w2 * linear,
+    }
+}
+
+/// S, slope and curvature at y along the local direction `e` (any length; it sets the unit of α).
+pub fn on_line(particle: &Particle, sphere_weight: f64, y: &Vector3<f64>, e: &Vector3<f64>) -> OnLine {
+    let (mut square, mut mixed, mut steep) = (0.0, 0.0, 0.0);
+    for (((&a, &b), &c), &d) in particle.a.iter().zip(&particle.b).zip(&particle.c).zip(&particle.d) {
+        let excess = a * y.x + b * y.y + c * y.z - d;
+        let active = if excess > 0.0 { 1.0 } else { 0.0 };
+        let excess = excess * active;
+        let rate = a * e.x + b * e.y + c * e.z;
+        square += excess * excess;
+        mixed += excess * rate;
+        steep += active * rate * rate;
+    }
+    let (w, m) = (particle.plane_weight, sphere_weight);
+    OnLine {
+        value: w * square + m * y.norm_squared(),
+        slope: 2.0 * (w * mixed + m * y.dot(e)),
+        curvature: 2.0 * (w * steep + m * e.norm_squared()),
+    }
+}

@@ -1,0 +1,93 @@
+//! Every tolerance and choice of the library, in one place.
+
+use thiserror::Error;
+
+/// Which of the paper's two problems defines the contact.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Formulation {
+    /// Minimise t with s_A ≤ t and s_B ≤ t (paper eqs 4, 44).
+    #[default]
+    Midway,
+    /// Minimise s_A with s_B ≤ 1, and the swap (paper eqs 3, 9, 34–43).
+    Closest,
+}
+
+/// Who solves.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum BackEnd {
+    /// This library's solver, with the conic one as its last resort.
+    #[default]
+    Fast,
+    /// The paper's second-order cone programs through clarabel.
+    Conic,
+}
+
+/// How to solve a contact.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Settings {
+    /// Which problem.
+    pub formulation: Formulation,
+    /// Which solver.
+    pub back_end: BackEnd,
+    /// Solve separated pairs to the end as well, instead of stopping at a proof of separation.
+    pub solve_separated: bool,
+    /// Relative gap of s² at which the solver may stop, in (0, 0.1].
+    ///
+    /// 1e-12 lies a decade above what rounding leaves for well-conditioned pairs; the solver
+    /// is a Newton method, so that its last step usually lands far below it anyway.
+    pub gap_tolerance: f64,
+    /// Weight of the point on A in the contact point of [`Formulation::Closest`], in [0, 1].
+    pub weight_on_a: f64,
+    /// Sphericity below which the position on a flat face is regularised, in [0, 0.1].
+    ///
+    /// With k below this value the minimiser is chosen as if k were this value (about a sphere of
+    /// the bounding radius); s, overlap and normal stay those of the given k within the gap, which
+    /// grows by at most this value. 1e-13 is the smallest value whose pull on a flat face of unit
+    /// size still exceeds rounding; for exactly parallel faces any positive value gives the limit
+    /// k → 0⁺, the point nearest to the centres.
+    pub flat_regularisation: f64,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self {
+            formulation: Formulation::Midway,
+            back_end: BackEnd::Fast,
+            solve_separated: false,
+            gap_tolerance: 1e-12,
+            weight_on_a: 0.5,
+            flat_regularisation: 1e-13,
+        }
+    }
+}
+
+/// A setting outside its range, with its value.
+#[derive(Clone, Copy, Debug, Error, PartialEq)]
+#[allow(missing_docs)]
+pub enum SettingsError {
+    #[error("gap_tolerance={0} must lie in (0, 0.1]")]
+    GapTolerance(f64),
+    #[error("weight_on_a={0} must lie in [0, 1]")]
+    WeightOnA(f64),
+    #[error("flat_regularisation={0} must lie in [0, 0.1]")]
+    FlatRegularisation(f64),
+}
+
+impl Settings {
+    /// Checks every range.
+    ///
+    /// # Errors
+    /// The first setting outside its range.
+    pub fn validate(&self) -> Result<(), SettingsError> {
+        if !(self.gap_tolerance > 0.0 && self.gap_tolerance <= 0.1) {
+            return Err(SettingsError::GapTolerance(self.gap_tolerance));
+        }
+        if !(0.0..=1.0).contains(&self.weight_on_a) {
+            return Err(SettingsError::WeightOnA(self.weight_on_a));
+        }
+        if !(0.0..=0.1).contains(&self.flat_regularisation) {
+            return Err(SettingsError::FlatRegularisation(self.flat_regularisation));
+        }
+        Ok(())
+    }
+}

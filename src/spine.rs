@@ -1,0 +1,165 @@
+//! The fast solver: Newton on the exact quadratic pieces, with a dual bound at every step.
+//!
+//! Each iteration expands both potentials at x, solves the pair of quadratics exactly ([`crate::model`]),
+//! and moves there. The model's optimum is also a dual bound: once the active planes stay, upper and
+//! lower bound meet, and the answer is proved. A step that overshoots (a plane switched on behind x) is
+//! shortened by an exact search along it.
+
+use crate::body::Body;
+use crate::frame;
+use crate::line;
+use crate::model::{self, Target};
+use crate::pair::Pair;
+use nalgebra::Vector3;
+
+/// How the quadratics are factored.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Factorisation {
+    /// In the axes of B.
+    Plain,
+    /// In axes aligned with the stiffest planes, chosen anew at each point.
+    Aligned,
+}
+
+/// Ratio of plane to sphere curvature above which plain axes lose the soft direction: its relative error
+/// is the ratio times 1e-16, and a Newton step is still worth its cost at 1e-8 or so.
+const PLAIN_STIFFNESS: f64 = 1e7;
+
+/// Most iterations; what needs more is stuck in rounding and left to the next solver.
+const MOST_ITERATIONS: u32 = 100;
+
+/// What the solver is asked for.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Goal {
+    pub target: Target,
+    /// Relative gap at which to stop.
+    pub tolerance: f64,
+    /// Whether a proof that the optimum exceeds 1 is enough.
+    pub stop_when_separated: bool,
+}
+
+/// A point with the ratio of weights λ = u/(1−u).
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Start {
+    pub x: Vector3<f64>,
+    pub lambda: f64,
+}
+
+/// Where the solver ended; everything in the solver's frame, potentials as regularised.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Outcome {
+    pub x: Vector3<f64>,
+    pub lambda: f64,
+    /// Best estimate of the optimal S, itself a lower bound up to `rounding`.
+    pub lower: f64,
+    /// Merit of a point that was evaluated: an upper bound up to `rounding`.
+    pub upper: f64,
+    /// Bound on the rounding of both.
+    pub rounding: f64,
+    pub iterations: u32,
+    pub ending: Ending,
+}
+
+/// Why the solver stopped.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Ending {
+    /// The bounds meet within the tolerance.
+    Converged,
+    /// The bounds meet within rounding, which is more than the tolerance.
+    RoundingLimited,
+    /// The lower bound exceeds 1, which was enough.
+    Separated,
+    /// Neither; the outcome is not to be used.
+    Stuck,
+}
+
+/// The factorisation that the shapes of a pair call for.
+pub(crate) fn factorisation(a: &Body, b: &Body) -> Factorisation {
+    let stiff = a.plane_curvature().max(b.plane_curvature());
+    let soft = a.sphere_curvature().min(b.sphere_curvature());
+    if stiff <= PLAIN_STIFFNESS * soft { Factorisation::Plain } else { Factorisation::Aligned }
+}
+
+/// A start without memory: the best point on the line of centres.
+pub(crate) fn cold_start(pair: &Pair, a: &Body, b: &Body) -> Start {
+    let from = a.centre();
+    let direction = -from;
+    let (ra, rb) = (pair.a.bounding_radius(), pair.b.bounding_radius());
+    let guess = ra / (ra + rb);
+    if direction.norm_squared() == 0.0 {
+        return Start { x: Vector3::zeros(), lambda: 1.0 };
+    }
+    let (alpha, slope_a, slope_b) = line::descend(a, b, Target::Midway, 1.0, &from, &direction, (guess, 1.0));
+    // (1−u) S_A' + u S_B' = 0 on the line.
+    let lambda = -slope_a / slope_b;
+    Start { x: from + alpha * direction, lambda: if lambda > 0.0 && lambda.is_finite() { lambda } else { 1.0 } }
+}
+
+/// Solves for the goal from a start.
+pub(crate) fn solve(a: &Body, b: &Body, goal: &Goal, start: Start, factorisation: Factorisation) -> Outcome {
+    let target = goal.target;
+    let Start { mut x, mut lambda } = start;
+    let mut previous: Option<Attempt> = None;
+    let mut outcome = Outcome {
+        x,
+        lambda,
+        lower: f64::NEG_INFINITY,
+        upper: f64::INFINITY,
+        rounding: f64::INFINITY,
+        iterations: 0,
+        ending: Ending::Stuck,
+    };
+    while outcome.iterations < MOST_ITERATIONS {
+        outcome.iterations += 1;
+        let axes = match factorisation {
+            Factorisation::Plain => None,
+            Factorisation::Aligned => Some(frame::aligned(a, b, target.weights(lambda), &x)),
+        };
+        let (q_a, q_b) = (a.at(&x, axes.as_ref()), b.at(&x, axes.as_ref()));
+        let rounding = target.dual_weighted(a.rounding(&x, &q_a), b.rounding(&x, &q_b), lambda);
+        let upper = target.merit(q_a.value, q_b.value, lambda);
+        if let Some(attempt) = &mut previous {
+            let judged = target.merit(q_a.value, q_b.value, attempt.lambda);
+            if judged > attempt.merit - 1e-4 * attempt.promised + rounding && !attempt.shortened {
+                attempt.shortened = true;
+                let (alpha, ..) =
+                    line::descend(a, b, target, attempt.lambda, &attempt.from, &attempt.step, (0.5, 1.0));
+                x = attempt.from + alpha * attempt.step;
+        if std::env::var("PPDBG").is_ok() { eprintln!("   shorten {alpha:e} from merit {:e} trial {judged:e}", attempt.merit); }
+                continue;
+            }
+        }
+        let enough = (1e-2 * (upper - outcome.lower)).clamp(f64::EPSILON * upper, 1e-2 * upper);
+        let Some(model) = model::solve(&q_a, &q_b, target, lambda, enough) else { return outcome };
+        let step = axes.map_or(model.step, |axes| axes * model.step);
+        lambda = model.lambda;
+        let upper = target.merit(q_a.value, q_b.value, lambda);
+        (outcome.x, outcome.lambda) = (x + step, lambda);
+        (outcome.lower, outcome.upper, outcome.rounding) = (model.lower, upper, rounding);
+        let gap = upper - model.lower;
+        if std::env::var("PPDBG").is_ok() { eprintln!("it {} x {:?} SA {:e} SB {:e} lam {:e} lower {:e} gap {:e} rounding {:e} |step| {:e} keeps {} {}", outcome.iterations, x.as_slice(), q_a.value, q_b.value, lambda, model.lower, gap, rounding, step.norm(), a.keeps_planes(&x,&step), b.keeps_planes(&x,&step)); }
+        let done = gap <= goal.tolerance * upper || gap <= rounding;
+        let apart = goal.stop_when_separated && model.lower - rounding > 1.0;
+        if (done || apart) && a.keeps_planes(&x, &step) && b.keeps_planes(&x, &step) {
+            outcome.ending = match (done, gap + rounding <= goal.tolerance * upper) {
+                (false, _) => Ending::Separated,
+                (true, true) => Ending::Converged,
+                (true, false) => Ending::RoundingLimited,
+            };
+            return outcome;
+        }
+        previous = Some(Attempt { from: x, step, lambda, merit: upper, promised: gap, shortened: false });
+        x += step;
+    }
+    outcome
+}
+
+/// A step that was tried, to be shortened if it made things worse.
+struct Attempt {
+    from: Vector3<f64>,
+    step: Vector3<f64>,
+    lambda: f64,
+    merit: f64,
+    promised: f64,
+    shortened: bool,
+}

@@ -1,0 +1,69 @@
+//! Where a ray from inside meets the surface: exact, since S is piecewise quadratic on a line.
+
+use crate::particle::Particle;
+use crate::potential;
+use nalgebra::Vector3;
+
+/// Most pieces that a root search walks over; each Newton step from outside ends one piece or more,
+/// so that this is reached only by rounding.
+const MOST_STEPS: usize = 100;
+
+/// Distance τ ≥ 0 with S(from + τ·direction) = 1, for a local point and a local unit direction.
+///
+/// `from` should be inside (S ≤ 1); from a point outside by rounding the answer is a small negative
+/// number, from further outside `None`. Also `None` when the ray never leaves (not a particle) or
+/// something is not finite.
+pub fn distance(particle: &Particle, from: &Vector3<f64>, direction: &Vector3<f64>) -> Option<f64> {
+    let at = |tau: f64| {
+        let mut line = potential::on_line(particle, particle.sphere_weight, &(from + tau * direction), direction);
+        line.value -= 1.0;
+        line
+    };
+    // The root of the current quadratic piece is exact once the right planes are on. Before that it
+    // may jump past the root either way; the bracket turns such a jump into a Newton step from the
+    // outside, which, S being convex, never jumps.
+    let (mut inside, mut outside) = (f64::NEG_INFINITY, f64::INFINITY);
+    let mut newton_from_outside = f64::NAN;
+    let mut tau = 0.0;
+    for _ in 0..MOST_STEPS {
+        let line = at(tau);
+        if !(line.value.is_finite() && line.slope.is_finite()) {
+            return None;
+        }
+        if line.value == 0.0 {
+            return Some(tau);
+        }
+        if line.value < 0.0 {
+            inside = tau;
+        } else {
+            outside = tau;
+            newton_from_outside = tau - line.value / line.slope;
+        }
+        let mut next = if line.slope > 0.0 {
+            tau + root_of_piece(line.value, line.slope, line.curvature)
+        } else if outside == f64::INFINITY {
+            particle.bounding_radius() + from.norm()
+        } else {
+            newton_from_outside
+        };
+        if !(inside < next && next < outside) && outside < f64::INFINITY {
+            next = newton_from_outside;
+        }
+        if !next.is_finite() {
+            return None;
+        }
+        // A step no longer than rounding ends the search, and so does one that leaves the bracket.
+        if (next - tau).abs() <= 2.0 * f64::EPSILON * next.abs() || !(inside < next && next < outside) {
+            return Some(next);
+        }
+        tau = next;
+    }
+    Some(tau)
+}
+
+/// Root right of the stationary point of v + s·δ + ½c·δ² (s > 0), without cancellation; the Newton step
+/// when the quadratic has no root (its piece ends before the surface).
+fn root_of_piece(v: f64, s: f64, c: f64) -> f64 {
+    let discriminant = s * s - 2.0 * c * v;
+    if discriminant >= 0.0 { -2.0 * v / (s + discriminant.sqrt()) } else { -v / s }
+}
