@@ -6,10 +6,10 @@
 //! distances to the planes carry an error proportional to the lengths they are made from, times the
 //! pull 2(1−k)/r² Σ⟨·⟩ of the planes; that product is the condition number of S, and it is added.
 
-use crate::body::Body;
+use crate::body::{Body, Counted, Planes};
 use crate::frame;
 use crate::model::{self, Target};
-use crate::spine::{Ending, Outcome};
+use crate::spine::{self, Ending, Outcome};
 use nalgebra::Vector3;
 
 /// Bound on |s − s*| for s = √(true S estimate), see [`scale`].
@@ -39,20 +39,23 @@ pub(crate) fn scale(outcome: &Outcome, a: &Body, b: &Body, target: Target) -> Ce
 /// Two dual bounds are tried: the quadratic model's where its multipliers are admissible, and the
 /// linear one, φ(x) − |∇φ|·D, for any optimum within a distance D of x.
 pub(crate) fn judge(x: &Vector3<f64>, lambda: f64, a: &Body, b: &Body, target: Target) -> Outcome {
-    let (q_a, q_b) = (a.at(x, None), b.at(x, None));
+    let mut counted = [Counted::default(); 2];
+    let (q_a, q_b) = (a.at(x, None, &counted[0]), b.at(x, None, &counted[1]));
     let upper = target.merit(q_a.value, q_b.value, lambda);
     let rounding = target.dual_weighted(a.rounding(x, &q_a), b.rounding(x, &q_b), lambda);
-    let (weight_a, weight_b) = target.weights(lambda);
+    let weights = target.weights(lambda);
     let level = upper.max(1.0);
     let reach = (x - a.centre()).norm() + a.particle.reach(level).min(b.particle.reach(level) + a.centre().norm());
-    let slope = (weight_a * q_a.gradient + weight_b * q_b.gradient).norm();
+    let slope = (weights.0 * q_a.gradient + weights.1 * q_b.gradient).norm();
     let linear = target.dual(q_a.value, q_b.value, lambda) - slope * reach;
-    let axes = frame::aligned(a, b, (weight_a, weight_b), x);
-    let (q_a, q_b) = (a.at(x, Some(&axes)), b.at(x, Some(&axes)));
-    let newton = model::solve(&q_a, &q_b, target, lambda, f64::EPSILON * upper).filter(|model| {
+    let axes = frame::aligned([a, b], weights, x, &counted);
+    let (q_a, q_b) = (a.at(x, Some(&axes), &counted[0]), b.at(x, Some(&axes), &counted[1]));
+    let newton = model::solve(&q_a, &q_b, spine::softest(a, b), target, lambda, f64::EPSILON * upper);
+    let newton = newton.filter(|model| {
         let step = axes * model.step;
-        a.keeps_planes(x, &step) && b.keeps_planes(x, &step)
+        let [of_a, of_b] = &mut counted;
+        a.check(x, &step, of_a) == Planes::Kept && b.check(x, &step, of_b) == Planes::Kept
     });
-    let lower = newton.map_or(linear, |model| linear.max(model.lower));
+    let lower = newton.map_or(linear, |model| linear.max(model.lower - model.doubt));
     Outcome { x: *x, lambda, lower, upper, rounding, iterations: 0, ending: Ending::Converged }
 }

@@ -5,15 +5,20 @@
 //! remainder, q₃ = q₁ × q₂ the Hessian is graded, and elimination in this order keeps each
 //! direction's own relative precision.
 
-use crate::body::Body;
+use crate::body::{Body, Counted};
 use nalgebra::{Matrix3, Vector3};
 
 /// Square of the sine below which what is left of a normal is rounding.
 const PARALLEL: f64 = 1e-30;
 
-/// Orthonormal axes (columns), stiffest first, from the active planes of both bodies weighted (a, b).
-pub(crate) fn aligned(body_a: &Body, body_b: &Body, (a, b): (f64, f64), x: &Vector3<f64>) -> Matrix3<f64> {
-    let bodies = [(body_a, a), (body_b, b)];
+/// Orthonormal axes (columns), stiffest first, from the planes of both quadratics with weights (a, b).
+pub(crate) fn aligned(
+    bodies: [&Body; 2],
+    weights: (f64, f64),
+    x: &Vector3<f64>,
+    counted: &[Counted; 2],
+) -> Matrix3<f64> {
+    let bodies = [(bodies[0], &counted[0], weights.0), (bodies[1], &counted[1], weights.1)];
     let Some(first) = stiffest(bodies, x, |n| n).try_normalize(0.0) else {
         return Matrix3::identity();
     };
@@ -27,10 +32,14 @@ pub(crate) fn aligned(body_a: &Body, body_b: &Body, (a, b): (f64, f64), x: &Vect
 }
 
 /// The remainder of an active normal that carries the largest curvature.
-fn stiffest(bodies: [(&Body, f64); 2], x: &Vector3<f64>, remainder: impl Fn(Vector3<f64>) -> Vector3<f64>) -> Vector3<f64> {
+fn stiffest(
+    bodies: [(&Body, &Counted, f64); 2],
+    x: &Vector3<f64>,
+    remainder: impl Fn(Vector3<f64>) -> Vector3<f64>,
+) -> Vector3<f64> {
     let (mut best, mut most) = (Vector3::zeros(), 0.0);
-    for (body, scale) in bodies {
-        body.active_rows(x, |n, weight| {
+    for (body, counted, scale) in bodies {
+        body.rows(x, counted, |n, weight| {
             let rest = remainder(n);
             let stiffness = scale * weight * rest.norm_squared();
             if stiffness > most {

@@ -9,19 +9,17 @@ use crate::potential::OnLine;
 use nalgebra::Vector3;
 
 /// Most trial points of one search; each costs less than an evaluation with Hessians.
-const MOST_TRIALS: usize = 12;
+const MOST_TRIALS: usize = 20;
 
-/// A point of the line with both potentials there.
+/// Both potentials at a point of the line.
 #[derive(Clone, Copy, Debug)]
 struct Trial {
-    alpha: f64,
     merit: f64,
     pieces: [OnLine; 2],
 }
 
 /// Looks for the minimum over α in (0, most) of the merit at `from + α·direction`, from `start` on.
 ///
-/// Returns the best α tried and the slopes of S_A and S_B there.
 pub(crate) fn descend(
     a: &Body,
     b: &Body,
@@ -30,30 +28,48 @@ pub(crate) fn descend(
     from: &Vector3<f64>,
     direction: &Vector3<f64>,
     (start, most): (f64, f64),
-) -> (f64, f64, f64) {
+) -> Descent {
     let (mut low, mut high) = (0.0, most);
     let mut alpha = start;
-    let mut best: Option<(Trial, f64, f64)> = None;
+    let mut best: Option<(Trial, Descent)> = None;
     for _ in 0..MOST_TRIALS {
         let x = from + alpha * direction;
         let (on_a, on_b) = (a.on_line(&x, direction), b.on_line(&x, direction));
         let pieces = pieces(target, lambda, on_a, on_b);
-        let trial = Trial { alpha, merit: pieces[0].value.max(pieces[1].value), pieces };
-        if best.is_none_or(|(b, ..)| trial.merit < b.merit) {
-            best = Some((trial, on_a.slope, on_b.slope));
-        }
+        let trial = Trial { merit: pieces[0].value.max(pieces[1].value), pieces };
         let step = trial.minimise_pieces();
+        let close = step.abs() <= CLOSE * alpha.abs();
+        if best.is_none_or(|(b, _)| trial.merit < b.merit) {
+            let ahead = if close || step < 0.0 { 0.0 } else { f64::INFINITY };
+            best = Some((trial, Descent { alpha, ahead, slope_a: on_a.slope, slope_b: on_b.slope }));
+        }
         if step > 0.0 { low = alpha } else { high = alpha }
         let next = alpha + step;
         let next = if low < next && next < high { next } else { 0.5 * (low + high) };
-        // A tenth of the way is close enough for a search direction that is itself approximate, but a
-        // kink must be passed, so that the plane behind it enters the next model.
-        if (next - alpha).abs() <= 1e-3 * alpha.abs() || !(low < next && next < high) {
+        if close || (next - alpha).abs() <= CLOSE * alpha.abs() || !(low < next && next < high) {
             break;
         }
         alpha = next;
     }
-    best.map_or((0.0, 0.0, 0.0), |(trial, slope_a, slope_b)| (trial.alpha, slope_a, slope_b))
+    match best {
+        Some((_, descent)) => Descent { ahead: descent.ahead.min((high - descent.alpha).max(0.0)), ..descent },
+        None => Descent { alpha: 0.0, ahead: most, slope_a: 0.0, slope_b: 0.0 },
+    }
+}
+
+/// Relative accuracy of the minimum: the direction is itself an approximation.
+const CLOSE: f64 = 1e-3;
+
+/// Where a descent ended.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Descent {
+    /// The best α tried.
+    pub alpha: f64,
+    /// The way from there to a point where a plane has stopped the descent; 0 if none did.
+    pub ahead: f64,
+    /// dS_A/dα and dS_B/dα at the best α.
+    pub slope_a: f64,
+    pub slope_b: f64,
 }
 
 /// The two functions whose larger one is the merit.

@@ -76,6 +76,8 @@ pub(crate) struct Optimum {
     pub lambda: f64,
     /// Dual value of the model: a lower bound of the whole problem while no active plane turns negative.
     pub lower: f64,
+    /// How far `lower` may lie above the model's minimum, because the step was not solved exactly.
+    pub doubt: f64,
 }
 
 /// Most searches for λ; quadratic convergence needs a handful.
@@ -86,19 +88,30 @@ const LAMBDA_RANGE: (f64, f64) = (1e-30, 1e30);
 
 /// Solves the pair of quadratics from the guess λ. `None` when a factorisation breaks down.
 ///
-/// `enough` is a mismatch of the two sides below which the search may stop.
-pub(crate) fn solve(q_a: &Quadratic, q_b: &Quadratic, target: Target, guess: f64, enough: f64) -> Option<Optimum> {
+/// `soft` are the least curvatures of A and B in any direction (their spheres'), `enough` is a mismatch of the
+/// two sides below which the search may stop.
+pub(crate) fn solve(
+    q_a: &Quadratic,
+    q_b: &Quadratic,
+    soft: (f64, f64),
+    target: Target,
+    guess: f64,
+    enough: f64,
+) -> Option<Optimum> {
     let (mut low, mut high) = LAMBDA_RANGE;
     let mut lambda = guess.clamp(low, high);
     for search in 1.. {
         let (a, b) = target.weights(lambda);
-        let factor = Factor::of(&(a * q_a.hessian + b * q_b.hessian))?;
+        let least = a * soft.0 + b * soft.1;
+        let factor = Factor::of(&(a * q_a.hessian + b * q_b.hessian), least)?;
         let step = -factor.solve(&(a * q_a.gradient + b * q_b.gradient));
         let (s_a, g_a) = expand(q_a, &step);
         let (s_b, g_b) = expand(q_b, &step);
         let (growing, falling) = target.sides(s_a, s_b);
         let mismatch = growing - falling;
-        let optimum = Optimum { step, lambda, lower: target.dual(s_a, s_b, lambda) };
+        // With curvature of at least `least`, a remaining slope can hide this much.
+        let doubt = 0.5 * (a * g_a + b * g_b).norm_squared() / least;
+        let optimum = Optimum { step, lambda, lower: target.dual(s_a, s_b, lambda), doubt };
         if !optimum.lower.is_finite() {
             return None;
         }
@@ -142,7 +155,7 @@ impl Target {
 /// Value and gradient of a quadratic after a step.
 fn expand(q: &Quadratic, v: &Vector3<f64>) -> (f64, Vector3<f64>) {
     let bend = q.hessian * v;
-    (q.value + v.dot(&(q.gradient + 0.5 * bend)), q.gradient + bend)
+    (q.expansion + v.dot(&(q.gradient + 0.5 * bend)), q.gradient + bend)
 }
 
 /// L D Lᵀ of a symmetric positive definite 3×3 matrix, eliminated in the given order of axes: stiffest
@@ -155,14 +168,16 @@ struct Factor {
 }
 
 impl Factor {
-    fn of(h: &Matrix3<f64>) -> Option<Self> {
-        let d0 = h.m11;
+    /// `least` bounds the eigenvalues from below, and so every pivot: rounding may not take it further.
+    fn of(h: &Matrix3<f64>, least: f64) -> Option<Self> {
+        let d0 = h.m11.max(least);
         let (l10, l20) = (h.m21 / d0, h.m31 / d0);
-        let d1 = h.m22 - l10 * h.m21;
+        let d1 = (h.m22 - l10 * h.m21).max(least);
         let c21 = h.m32 - l20 * h.m21;
         let l21 = c21 / d1;
-        let d2 = h.m33 - l20 * h.m31 - l21 * c21;
-        (d0 > 0.0 && d1 > 0.0 && d2 > 0.0 && d2.is_finite()).then(|| Self { l10, l20, l21, inverse_d: [1.0 / d0, 1.0 / d1, 1.0 / d2] })
+        let d2 = (h.m33 - l20 * h.m31 - l21 * c21).max(least);
+        let inverse_d = [1.0 / d0, 1.0 / d1, 1.0 / d2];
+        (least > 0.0 && inverse_d.iter().all(|d| d.is_finite())).then_some(Self { l10, l20, l21, inverse_d })
     }
 
     fn solve(&self, r: &Vector3<f64>) -> Vector3<f64> {

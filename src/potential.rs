@@ -6,11 +6,14 @@
 use crate::particle::Particle;
 use nalgebra::{Matrix3, Vector3};
 
-/// S near a point: S(x + h) = value + gradient·h + ½ hᵀ·hessian·h while no plane switches.
+/// S near a point: S(x + h) = expansion + gradient·h + ½ hᵀ·hessian·h while the planes that are counted as
+/// active have n·(x + h) ≥ d, and no others.
 #[derive(Clone, Copy, Debug)]
 pub struct Quadratic {
     /// S(x), no unit.
     pub value: f64,
+    /// The quadratic at x; more than `value` only by planes counted before they switch on.
+    pub expansion: f64,
     /// ∇S(x), 1/length.
     pub gradient: Vector3<f64>,
     /// ∇²S(x), 1/length²; where a plane is just switching on, the side without it.
@@ -43,24 +46,33 @@ pub fn value(particle: &Particle, y: &Vector3<f64>) -> f64 {
 
 /// S, ∇S, ∇²S at y, local frame.
 pub fn local(particle: &Particle, y: &Vector3<f64>) -> Quadratic {
-    in_frame(particle, particle.sphere_weight, &Matrix3::identity(), y)
+    in_frame(particle, particle.sphere_weight, &Matrix3::identity(), y, |_, excess| excess > 0.0)
 }
 
 /// S, ∇S, ∇²S at the local point y, with derivatives in the frame that `rotation` leads to (local to
-/// frame), and with a weight of the shadow sphere that may differ from the particle's own.
+/// frame), and with a weight of the shadow sphere that may differ from the particle's own. `counts` says of a
+/// plane and its n·y − d whether it belongs to the quadratic.
 ///
 /// Each active normal is rotated before it is squared, not the finished Hessian: in a frame aligned
 /// with a face the stiff and the soft direction then stay apart to full relative precision.
-pub fn in_frame(particle: &Particle, sphere_weight: f64, rotation: &Matrix3<f64>, y: &Vector3<f64>) -> Quadratic {
-    let (mut square, mut linear) = (0.0, 0.0);
+pub fn in_frame(
+    particle: &Particle,
+    sphere_weight: f64,
+    rotation: &Matrix3<f64>,
+    y: &Vector3<f64>,
+    counts: impl Fn(usize, f64) -> bool,
+) -> Quadratic {
+    let (mut square, mut not_yet, mut linear) = (0.0, 0.0, 0.0);
     let mut g = Vector3::zeros();
     let (mut xx, mut yy, mut zz, mut xy, mut yz, mut zx) = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
-    for (((&a, &b), &c), &d) in particle.a.iter().zip(&particle.b).zip(&particle.c).zip(&particle.d) {
+    for (i, (((&a, &b), &c), &d)) in particle.a.iter().zip(&particle.b).zip(&particle.c).zip(&particle.d).enumerate() {
         let excess = a * y.x + b * y.y + c * y.z - d;
-        if excess > 0.0 {
+        if counts(i, excess) {
             let n = rotation * Vector3::new(a, b, c);
-            square += excess * excess;
-            linear += excess;
+            let reached = excess.max(0.0);
+            square += reached * reached;
+            not_yet += (excess - reached) * (excess - reached);
+            linear += reached;
             g += excess * n;
             xx += n.x * n.x;
             yy += n.y * n.y;
@@ -71,8 +83,10 @@ pub fn in_frame(particle: &Particle, sphere_weight: f64, rotation: &Matrix3<f64>
         }
     }
     let (w2, m2) = (2.0 * particle.plane_weight, 2.0 * sphere_weight);
+    let value = particle.plane_weight * square + sphere_weight * y.norm_squared();
     Quadratic {
-        value: particle.plane_weight * square + sphere_weight * y.norm_squared(),
+        value,
+        expansion: value + particle.plane_weight * not_yet,
         gradient: w2 * g + m2 * (rotation * y),
         hessian: Matrix3::new(
             w2 * xx + m2, w2 * xy, w2 * zx, //

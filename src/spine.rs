@@ -5,7 +5,7 @@
 //! lower bound meet, and the answer is proved. A step that overshoots (a plane switched on behind x) is
 //! shortened by an exact search along it.
 
-use crate::body::Body;
+use crate::body::{Body, Counted, Planes};
 use crate::frame;
 use crate::line;
 use crate::model::{self, Target};
@@ -80,6 +80,11 @@ pub(crate) fn factorisation(a: &Body, b: &Body) -> Factorisation {
     if stiff <= PLAIN_STIFFNESS * soft { Factorisation::Plain } else { Factorisation::Aligned }
 }
 
+/// Least curvatures of A and B in any direction.
+pub(crate) fn softest(a: &Body, b: &Body) -> (f64, f64) {
+    (a.sphere_curvature(), b.sphere_curvature())
+}
+
 /// A start without memory: the best point on the line of centres.
 pub(crate) fn cold_start(pair: &Pair, a: &Body, b: &Body) -> Start {
     let from = a.centre();
@@ -89,7 +94,7 @@ pub(crate) fn cold_start(pair: &Pair, a: &Body, b: &Body) -> Start {
     if direction.norm_squared() == 0.0 {
         return Start { x: Vector3::zeros(), lambda: 1.0 };
     }
-    let (alpha, slope_a, slope_b) = line::descend(a, b, Target::Midway, 1.0, &from, &direction, (guess, 1.0));
+    let line::Descent { alpha, slope_a, slope_b, .. } = line::descend(a, b, Target::Midway, 1.0, &from, &direction, (guess, 1.0));
     // (1−u) S_A' + u S_B' = 0 on the line.
     let lambda = -slope_a / slope_b;
     Start { x: from + alpha * direction, lambda: if lambda > 0.0 && lambda.is_finite() { lambda } else { 1.0 } }
@@ -109,47 +114,58 @@ pub(crate) fn solve(a: &Body, b: &Body, goal: &Goal, start: Start, factorisation
         iterations: 0,
         ending: Ending::Stuck,
     };
+    let mut counted = [Counted::default(); 2];
     while outcome.iterations < MOST_ITERATIONS {
         outcome.iterations += 1;
         let axes = match factorisation {
             Factorisation::Plain => None,
-            Factorisation::Aligned => Some(frame::aligned(a, b, target.weights(lambda), &x)),
+            Factorisation::Aligned => Some(frame::aligned([a, b], target.weights(lambda), &x, &counted)),
         };
-        let (q_a, q_b) = (a.at(&x, axes.as_ref()), b.at(&x, axes.as_ref()));
+        let (q_a, q_b) = (a.at(&x, axes.as_ref(), &counted[0]), b.at(&x, axes.as_ref(), &counted[1]));
         let rounding = target.dual_weighted(a.rounding(&x, &q_a), b.rounding(&x, &q_b), lambda);
-        let upper = target.merit(q_a.value, q_b.value, lambda);
         if let Some(attempt) = &mut previous {
-            let judged = target.merit(q_a.value, q_b.value, attempt.lambda);
-            if judged > attempt.merit - 1e-4 * attempt.promised + rounding && !attempt.shortened {
+            let merit = target.merit(q_a.value, q_b.value, attempt.lambda);
+            let worse = merit > attempt.merit - 1e-4 * attempt.promised + rounding;
+            if !attempt.shortened && (worse || !merit.is_finite()) {
                 attempt.shortened = true;
-                let (alpha, ..) =
-                    line::descend(a, b, target, attempt.lambda, &attempt.from, &attempt.step, (0.5, 1.0));
-                x = attempt.from + alpha * attempt.step;
-        if std::env::var("PPDBG").is_ok() { eprintln!("   shorten {alpha:e} from merit {:e} trial {judged:e}", attempt.merit); }
+                let descent = line::descend(a, b, target, attempt.lambda, &attempt.from, &attempt.step, (0.5, 1.0));
+                x = attempt.from + descent.alpha * attempt.step;
+                if std::env::var("PPDBG").is_ok() { eprintln!("   shorten {:e} ahead {:e} from merit {:e} trial {merit:e}", descent.alpha, descent.ahead, attempt.merit); } // PPDBG
+                let early = descent.ahead * attempt.step.norm();
+                counted = [Counted::from(early); 2];
                 continue;
             }
         }
+        let upper = target.merit(q_a.value, q_b.value, lambda);
         let enough = (1e-2 * (upper - outcome.lower)).clamp(f64::EPSILON * upper, 1e-2 * upper);
-        let Some(model) = model::solve(&q_a, &q_b, target, lambda, enough) else { return outcome };
+        let Some(model) = model::solve(&q_a, &q_b, softest(a, b), target, lambda, enough) else { return outcome };
         let step = axes.map_or(model.step, |axes| axes * model.step);
         lambda = model.lambda;
+        let planes = [a.check(&x, &step, &mut counted[0]), b.check(&x, &step, &mut counted[1])];
+        if !planes.contains(&Planes::Pulling) && planes.contains(&Planes::Dropped) {
+            if std::env::var("PPDBG").is_ok() { eprintln!("   dropped {:?}", counted); } // PPDBG
+            previous = None;
+            continue;
+        }
         let upper = target.merit(q_a.value, q_b.value, lambda);
         (outcome.x, outcome.lambda) = (x + step, lambda);
-        (outcome.lower, outcome.upper, outcome.rounding) = (model.lower, upper, rounding);
+        (outcome.lower, outcome.upper, outcome.rounding) = (model.lower, upper, rounding + model.doubt);
         let gap = upper - model.lower;
-        if std::env::var("PPDBG").is_ok() { eprintln!("it {} x {:?} SA {:e} SB {:e} lam {:e} lower {:e} gap {:e} rounding {:e} |step| {:e} keeps {} {}", outcome.iterations, x.as_slice(), q_a.value, q_b.value, lambda, model.lower, gap, rounding, step.norm(), a.keeps_planes(&x,&step), b.keeps_planes(&x,&step)); }
-        let done = gap <= goal.tolerance * upper || gap <= rounding;
-        let apart = goal.stop_when_separated && model.lower - rounding > 1.0;
-        if (done || apart) && a.keeps_planes(&x, &step) && b.keeps_planes(&x, &step) {
-            outcome.ending = match (done, gap + rounding <= goal.tolerance * upper) {
+        if std::env::var("PPDBG").is_ok() { eprintln!("it {} x {:?} SA {:e} SB {:e} lam {:e} lower {:e} gap {:e} rounding {:e} doubt {:e} |step| {:e} early {:?} {:?}", outcome.iterations, x.as_slice(), q_a.value, q_b.value, lambda, model.lower, gap, rounding, model.doubt, step.norm(), counted[0], planes); } // PPDBG
+        let exact = model.doubt <= rounding.max(goal.tolerance * upper);
+        let done = exact && (gap <= goal.tolerance * upper || gap <= rounding);
+        let apart = goal.stop_when_separated && model.lower - outcome.rounding > 1.0;
+        if (done || apart) && planes == [Planes::Kept; 2] {
+            outcome.ending = match (done, gap + outcome.rounding <= goal.tolerance * upper) {
                 (false, _) => Ending::Separated,
                 (true, true) => Ending::Converged,
                 (true, false) => Ending::RoundingLimited,
             };
             return outcome;
         }
-        previous = Some(Attempt { from: x, step, lambda, merit: upper, promised: gap, shortened: false });
+        previous = Some(Attempt { from: x, step, lambda, merit: upper, promised: gap.max(0.0), shortened: false });
         x += step;
+        counted = [Counted::default(); 2];
     }
     outcome
 }
