@@ -143,6 +143,12 @@ pub(crate) fn solve(
 }
 
 impl Target {
+    /// How far the two numbers are from being equal at the point of expansion.
+    pub fn mismatch(self, q_a: &Quadratic, q_b: &Quadratic) -> f64 {
+        let (growing, falling) = self.sides(q_a.expansion, q_b.expansion);
+        (growing - falling).abs()
+    }
+
     fn rates(self, rate_a: f64, rate_b: f64) -> (f64, f64) {
         match self {
             Self::Midway => (rate_a, rate_b),

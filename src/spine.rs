@@ -130,20 +130,21 @@ pub(crate) fn solve(a: &Body, b: &Body, goal: &Goal, start: Start, factorisation
                 attempt.shortened = true;
                 let descent = line::descend(a, b, target, attempt.lambda, &attempt.from, &attempt.step, (0.5, 1.0));
                 x = attempt.from + descent.alpha * attempt.step;
-                if std::env::var("PPDBG").is_ok() { eprintln!("   shorten {:e} ahead {:e} from merit {:e} trial {merit:e}", descent.alpha, descent.ahead, attempt.merit); } // PPDBG
                 let early = descent.ahead * attempt.step.norm();
                 counted = [Counted::from(early); 2];
                 continue;
             }
         }
         let upper = target.merit(q_a.value, q_b.value, lambda);
-        let enough = (1e-2 * (upper - outcome.lower)).clamp(f64::EPSILON * upper, 1e-2 * upper);
+        // Early on a rough λ will do; near the end, and after a step that failed, nothing but the best.
+        let best = 2.0 * f64::EPSILON * upper.max(f64::MIN_POSITIVE);
+        let rough = 1e-2 * target.mismatch(&q_a, &q_b).max(if target == Target::Midway { upper - outcome.lower } else { 0.0 });
+        let enough = if previous.as_ref().is_some_and(|p| p.shortened) { best } else { rough.clamp(best, 1e-2 * upper) };
         let Some(model) = model::solve(&q_a, &q_b, softest(a, b), target, lambda, enough) else { return outcome };
         let step = axes.map_or(model.step, |axes| axes * model.step);
         lambda = model.lambda;
         let planes = [a.check(&x, &step, &mut counted[0]), b.check(&x, &step, &mut counted[1])];
         if !planes.contains(&Planes::Pulling) && planes.contains(&Planes::Dropped) {
-            if std::env::var("PPDBG").is_ok() { eprintln!("   dropped {:?}", counted); } // PPDBG
             previous = None;
             continue;
         }
@@ -151,7 +152,6 @@ pub(crate) fn solve(a: &Body, b: &Body, goal: &Goal, start: Start, factorisation
         (outcome.x, outcome.lambda) = (x + step, lambda);
         (outcome.lower, outcome.upper, outcome.rounding) = (model.lower, upper, rounding + model.doubt);
         let gap = upper - model.lower;
-        if std::env::var("PPDBG").is_ok() { eprintln!("it {} x {:?} SA {:e} SB {:e} lam {:e} lower {:e} gap {:e} rounding {:e} doubt {:e} |step| {:e} early {:?} {:?}", outcome.iterations, x.as_slice(), q_a.value, q_b.value, lambda, model.lower, gap, rounding, model.doubt, step.norm(), counted[0], planes); } // PPDBG
         let exact = model.doubt <= rounding.max(goal.tolerance * upper);
         let done = exact && (gap <= goal.tolerance * upper || gap <= rounding);
         let apart = goal.stop_when_separated && model.lower - outcome.rounding > 1.0;
