@@ -94,7 +94,7 @@ impl<'a> Body<'a> {
         let (y, e) = (self.local(x), self.rotation.tr_mul(v));
         let blur = self.blur(x);
         let p = self.particle;
-        let mut verdict = Planes::Kept;
+        let mut worst: Option<(usize, f64)> = None;
         for (i, (((a, b), c), d)) in p.a.iter().zip(&p.b).zip(&p.c).zip(&p.d).enumerate() {
             let excess = a * y.x + b * y.y + c * y.z - d;
             if !counted.includes(i, excess, blur) {
@@ -106,12 +106,19 @@ impl<'a> Body<'a> {
             if depth >= -8.0 * f64::EPSILON * size {
                 continue;
             }
-            if excess > blur || !counted.drop(i) {
+            if excess > blur {
                 return Planes::Pulling;
             }
-            verdict = Planes::Dropped;
+            if worst.is_none_or(|(_, most)| depth < most) {
+                worst = Some((i, depth));
+            }
         }
-        verdict
+        // One at a time: without the worst, the others may push again.
+        match worst {
+            None => Planes::Kept,
+            Some((i, _)) if counted.drop(i) => Planes::Dropped,
+            Some(_) => Planes::Pulling,
+        }
     }
 
     /// Calls `visit` with the (solver frame) normal and weight of each plane of the quadratic at x.

@@ -86,6 +86,10 @@ const MOST_SEARCHES: usize = 40;
 /// λ stays in this range: beyond it one particle's weight is lost in rounding altogether.
 const LAMBDA_RANGE: (f64, f64) = (1e-30, 1e30);
 
+/// One search moves λ by at most this factor: quadratics that miss the planes further on may not
+/// reach the target at all.
+const FARTHEST: f64 = 1e6;
+
 /// Solves the pair of quadratics from the guess λ. `None` when a factorisation breaks down.
 ///
 /// `soft` are the least curvatures of A and B in any direction (their spheres'), `enough` is a mismatch of the
@@ -98,8 +102,8 @@ pub(crate) fn solve(
     guess: f64,
     enough: f64,
 ) -> Option<Optimum> {
-    let (mut low, mut high) = LAMBDA_RANGE;
-    let mut lambda = guess.clamp(low, high);
+    let mut lambda = guess.clamp(LAMBDA_RANGE.0, LAMBDA_RANGE.1);
+    let (mut low, mut high) = (lambda / FARTHEST, lambda * FARTHEST);
     for search in 1.. {
         let (a, b) = target.weights(lambda);
         let least = a * soft.0 + b * soft.1;
