@@ -27,18 +27,19 @@ pub(crate) fn scale(outcome: &Outcome, a: &Body, b: &Body, target: Target) -> Ce
     // Regularised S exceeds S by at most this where the optimum can be.
     let level = outcome.upper.max(1.0);
     let most = weighted(a.most_surplus(level), b.most_surplus(level));
-    let square = (outcome.lower - weighted(a.surplus(&outcome.x), b.surplus(&outcome.x))).max(0.0);
+    let square = (outcome.estimate - weighted(a.surplus(&outcome.x), b.surplus(&outcome.x))).max(0.0);
     let low = (outcome.lower - most - outcome.rounding).max(0.0);
-    let high = outcome.upper.max(outcome.lower) + outcome.rounding;
+    let high = outcome.upper.max(outcome.lower).max(square) + outcome.rounding;
+    let low = low.min(square);
     let s = square.sqrt();
     Certified { s, gap: (high.sqrt() - s).max(s - low.sqrt()) + f64::EPSILON * s }
 }
 
-/// Bounds for a point that another solver found, with the ratio of weights λ that it came with.
+/// Bounds for a point and a scale s that another solver found, with the ratio of weights λ that came with them.
 ///
 /// Two dual bounds are tried: the quadratic model's where its multipliers are admissible, and the
 /// linear one, φ(x) − |∇φ|·D, for any optimum within a distance D of x.
-pub(crate) fn judge(x: &Vector3<f64>, lambda: f64, a: &Body, b: &Body, target: Target) -> Outcome {
+pub(crate) fn judge(x: &Vector3<f64>, lambda: f64, s: f64, a: &Body, b: &Body, target: Target) -> Outcome {
     let mut counted = [Counted::default(); 2];
     let (q_a, q_b) = (a.at(x, None, &counted[0]), b.at(x, None, &counted[1]));
     let upper = target.merit(q_a.value, q_b.value, lambda);
@@ -48,14 +49,23 @@ pub(crate) fn judge(x: &Vector3<f64>, lambda: f64, a: &Body, b: &Body, target: T
     let reach = (x - a.centre()).norm() + a.particle.reach(level).min(b.particle.reach(level) + a.centre().norm());
     let slope = (weights.0 * q_a.gradient + weights.1 * q_b.gradient).norm();
     let linear = target.dual(q_a.value, q_b.value, lambda) - slope * reach;
-    let axes = frame::aligned([a, b], weights, x, &counted);
-    let (q_a, q_b) = (a.at(x, Some(&axes), &counted[0]), b.at(x, Some(&axes), &counted[1]));
-    let newton = model::solve(&q_a, &q_b, spine::softest(a, b), target, lambda, f64::EPSILON * upper);
-    let newton = newton.filter(|model| {
+    let mut lower = linear;
+    // Planes that only seem to be on are dropped one by one, as in the solver.
+    loop {
+        let axes = frame::aligned([a, b], weights, x, &counted);
+        let (q_a, q_b) = (a.at(x, Some(&axes), &counted[0]), b.at(x, Some(&axes), &counted[1]));
+        let Some(model) = model::solve(&q_a, &q_b, spine::softest(a, b), target, lambda, f64::EPSILON * upper) else {
+            break;
+        };
         let step = axes * model.step;
-        let [of_a, of_b] = &mut counted;
-        a.check(x, &step, of_a) == Planes::Kept && b.check(x, &step, of_b) == Planes::Kept
-    });
-    let lower = newton.map_or(linear, |model| linear.max(model.lower - model.doubt));
-    Outcome { x: *x, lambda, lower, upper, rounding, iterations: 0, ending: Ending::Converged }
+        match [a.check(x, &step, &mut counted[0]), b.check(x, &step, &mut counted[1])] {
+            [Planes::Kept, Planes::Kept] => {
+                lower = lower.max(model.lower - model.doubt);
+                break;
+            }
+            verdict if verdict.contains(&Planes::Pulling) => break,
+            _ => {}
+        }
+    }
+    Outcome { x: *x, lambda, estimate: s * s, lower, upper, rounding, iterations: 0, ending: Ending::Converged }
 }

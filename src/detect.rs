@@ -121,7 +121,7 @@ impl<'a> Search<'a> {
         };
         self.iterations += solution.iterations;
         let u = solution.weight;
-        let outcome = certificate::judge(&solution.x, u / (1.0 - u), &self.body_a, &self.body_b, target);
+        let outcome = certificate::judge(&solution.x, u / (1.0 - u), solution.s, &self.body_a, &self.body_b, target);
         Ok(Outcome { iterations: solution.iterations, ..outcome })
     }
 

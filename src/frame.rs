@@ -42,7 +42,7 @@ fn stiffest(
         body.rows(x, counted, |n, weight| {
             let rest = remainder(n);
             let stiffness = scale * weight * rest.norm_squared();
-            if stiffness > most {
+            if stiffness > most && rest.norm_squared() > PARALLEL * n.norm_squared() {
                 (best, most) = (rest, stiffness);
             }
         });

@@ -50,7 +50,9 @@ pub(crate) struct Start {
 pub(crate) struct Outcome {
     pub x: Vector3<f64>,
     pub lambda: f64,
-    /// Best estimate of the optimal S, itself a lower bound up to `rounding`.
+    /// Best estimate of the optimal S.
+    pub estimate: f64,
+    /// Lower bound up to `rounding`.
     pub lower: f64,
     /// Merit of a point that was evaluated: an upper bound up to `rounding`.
     pub upper: f64,
@@ -108,6 +110,7 @@ pub(crate) fn solve(a: &Body, b: &Body, goal: &Goal, start: Start, factorisation
     let mut outcome = Outcome {
         x,
         lambda,
+        estimate: f64::NAN,
         lower: f64::NEG_INFINITY,
         upper: f64::INFINITY,
         rounding: f64::INFINITY,
@@ -149,7 +152,7 @@ pub(crate) fn solve(a: &Body, b: &Body, goal: &Goal, start: Start, factorisation
             continue;
         }
         let upper = target.merit(q_a.value, q_b.value, lambda);
-        (outcome.x, outcome.lambda) = (x + step, lambda);
+        (outcome.x, outcome.lambda, outcome.estimate) = (x + step, lambda, model.lower);
         (outcome.lower, outcome.upper, outcome.rounding) = (model.lower, upper, rounding + model.doubt);
         let gap = upper - model.lower;
         let exact = model.doubt <= rounding.max(goal.tolerance * upper);
