@@ -67,5 +67,6 @@ pub(crate) fn judge(x: &Vector3<f64>, lambda: f64, s: f64, a: &Body, b: &Body, t
             _ => {}
         }
     }
-    Outcome { x: *x, lambda, estimate: s * s, lower, upper, rounding, iterations: 0, ending: Ending::Converged }
+    let gradients = [q_a.gradient, q_b.gradient];
+    Outcome { x: *x, lambda, gradients, estimate: s * s, lower, upper, rounding, iterations: 0, ending: Ending::Converged }
 }

@@ -2,7 +2,6 @@
 
 use crate::pair::Pair;
 use crate::pose::Pose;
-use crate::potential;
 use crate::settings::{BackEnd, Formulation};
 use crate::surface;
 use nalgebra::Vector3;
@@ -100,12 +99,12 @@ pub(crate) struct LocalContact {
 
 impl LocalContact {
     /// Midway: normal from both unit gradients at P3, surface points along it from there.
-    pub fn midway(pair: &Pair, x: &Vector3<f64>, overlapping: bool) -> Option<Self> {
-        let (normal, normal_by_centres) = normal(pair, x, x);
+    pub fn midway(pair: &Pair, x: &Vector3<f64>, gradients: &[Vector3<f64>; 2], overlapping: bool) -> Option<Self> {
+        let (normal, normal_by_centres) = normal(pair, gradients);
         let surface = if overlapping {
             let to_a = surface::distance(pair.a, &pair.in_a(x), &pair.rotation.tr_mul(&normal))?;
             let to_b = surface::distance(pair.b, x, &-normal)?;
-            Some((x + to_a * normal, x - to_b * normal, (to_a + to_b).max(0.0)))
+            Some((x + to_a * normal, x - to_b * normal, to_a + to_b))
         } else {
             None
         };
@@ -114,8 +113,13 @@ impl LocalContact {
 
     /// Closest: overlap distance |P1 − P2|, contact point their weighted mean, normal from the gradients
     /// of A at P1 and of B at P2.
-    pub fn closest(pair: &Pair, p1: &Vector3<f64>, p2: &Vector3<f64>, weight_on_a: f64) -> Self {
-        let (normal, normal_by_centres) = normal(pair, p1, p2);
+    pub fn closest(
+        pair: &Pair,
+        [p1, p2]: [&Vector3<f64>; 2],
+        gradients: &[Vector3<f64>; 2],
+        weight_on_a: f64,
+    ) -> Self {
+        let (normal, normal_by_centres) = normal(pair, gradients);
         Self {
             point: p2 + weight_on_a * (p1 - p2),
             normal,
@@ -168,11 +172,10 @@ impl Contact {
     }
 }
 
-/// Unit normal from A to B in the frame of B, from ∇S_A at `at_a` and ∇S_B at `at_b`; and whether it had to be
-/// taken from the centres because both vanish.
-fn normal(pair: &Pair, at_a: &Vector3<f64>, at_b: &Vector3<f64>) -> (Vector3<f64>, bool) {
-    let outward_a = (pair.rotation * potential::local(pair.a, &pair.in_a(at_a)).gradient).try_normalize(0.0);
-    let outward_b = potential::local(pair.b, at_b).gradient.try_normalize(0.0);
+/// Unit normal from A to B in the frame of B, from ∇S_A and ∇S_B; and whether it had to be taken from the centres
+/// because both vanish.
+fn normal(pair: &Pair, gradients: &[Vector3<f64>; 2]) -> (Vector3<f64>, bool) {
+    let [outward_a, outward_b] = gradients.map(|g| g.try_normalize(0.0));
     let combined = match (outward_a, outward_b) {
         (Some(a), Some(b)) => (a - b).try_normalize(1e-3).or(Some(a)),
         (Some(a), None) => Some(a),

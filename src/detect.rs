@@ -170,13 +170,18 @@ impl<'a> Search<'a> {
                     let of_b = self.certify(&on_a, Target::OnA);
                     contact.s_b = of_b.s;
                     contact.gap = contact.gap.max(of_b.gap);
-                    local = Some(LocalContact::closest(self.pair, &on_a.x, &on_b.x, self.settings.weight_on_a));
+                    local = Some(LocalContact::closest(
+                        self.pair,
+                        [&on_a.x, &on_b.x],
+                        &[on_a.gradients[0], on_b.gradients[1]],
+                        self.settings.weight_on_a,
+                    ));
                 }
             }
         }
         let local = match local {
             Some(local) => local,
-            None => LocalContact::midway(self.pair, &midway.x, overlapping)
+            None => LocalContact::midway(self.pair, &midway.x, &midway.gradients, overlapping)
                 .ok_or_else(|| DetectError::Failed { conic: "the surface was not found along the normal".into() })?,
         };
         contact.flags = self.flags;

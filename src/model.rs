@@ -72,10 +72,15 @@ pub(crate) const PRICE: f64 = 2.0;
 pub(crate) struct Optimum {
     /// Step from the point of expansion.
     pub step: Vector3<f64>,
+    /// ∇S_A and ∇S_B there: a·g_A + b·g_B = 0. Where a stiff plane is on by less than rounding, only the
+    /// model knows them.
+    pub gradients: [Vector3<f64>; 2],
     /// Weight ratio λ = b/a.
     pub lambda: f64,
     /// Dual value of the model: a lower bound of the whole problem while no active plane turns negative.
     pub lower: f64,
+    /// Whether the two sides agree to rounding there.
+    pub settled: bool,
     /// How far `lower` may lie above the model's minimum, because the step was not solved exactly.
     pub doubt: f64,
 }
@@ -115,7 +120,8 @@ pub(crate) fn solve(
         let mismatch = growing - falling;
         // With curvature of at least `least`, a remaining slope can hide this much.
         let doubt = 0.5 * (a * g_a + b * g_b).norm_squared() / least;
-        let optimum = Optimum { step, lambda, lower: target.dual(s_a, s_b, lambda), doubt };
+        let settled = mismatch.abs() <= 4.0 * f64::EPSILON * growing.max(falling);
+        let optimum = Optimum { step, gradients: [g_a, g_b], lambda, lower: target.dual(s_a, s_b, lambda), settled, doubt };
         if !optimum.lower.is_finite() {
             return None;
         }

@@ -28,6 +28,13 @@ const PLAIN_STIFFNESS: f64 = 1e7;
 /// Most iterations; what needs more is stuck in rounding and left to the next solver.
 const MOST_ITERATIONS: u32 = 100;
 
+/// Relative to the smaller particle, the longest last step that needs no look at where it leads: beyond it a
+/// plane that the model does not know could be met.
+const SHORT: f64 = 1e-9;
+
+/// Iterations granted to a point whose s is proved already.
+const MOST_TO_ARRIVE: u32 = 20;
+
 /// What the solver is asked for.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Goal {
@@ -50,6 +57,8 @@ pub(crate) struct Start {
 pub(crate) struct Outcome {
     pub x: Vector3<f64>,
     pub lambda: f64,
+    /// ∇S_A and ∇S_B at the optimum.
+    pub gradients: [Vector3<f64>; 2],
     /// Best estimate of the optimal S.
     pub estimate: f64,
     /// Lower bound up to `rounding`.
@@ -110,6 +119,7 @@ pub(crate) fn solve(a: &Body, b: &Body, goal: &Goal, start: Start, factorisation
     let mut outcome = Outcome {
         x,
         lambda,
+        gradients: [Vector3::zeros(); 2],
         estimate: f64::NAN,
         lower: f64::NEG_INFINITY,
         upper: f64::INFINITY,
@@ -118,6 +128,8 @@ pub(crate) fn solve(a: &Body, b: &Body, goal: &Goal, start: Start, factorisation
         ending: Ending::Stuck,
     };
     let mut counted = [Counted::default(); 2];
+    let mut proved: Option<Outcome> = None;
+    let reach = a.particle.bounding_radius().min(b.particle.bounding_radius());
     while outcome.iterations < MOST_ITERATIONS {
         outcome.iterations += 1;
         let axes = match factorisation {
@@ -139,12 +151,16 @@ pub(crate) fn solve(a: &Body, b: &Body, goal: &Goal, start: Start, factorisation
             }
         }
         let upper = target.merit(q_a.value, q_b.value, lambda);
+        if !upper.is_finite() {
+            break;
+        }
         // Early on a rough λ will do; near the end, and after a step that failed, nothing but the best.
         let best = 2.0 * f64::EPSILON * upper.max(f64::MIN_POSITIVE);
         let rough = 1e-2 * target.mismatch(&q_a, &q_b).max(if target == Target::Midway { upper - outcome.lower } else { 0.0 });
-        let enough = if previous.as_ref().is_some_and(|p| p.shortened) { best } else { rough.clamp(best, 1e-2 * upper) };
-        let Some(model) = model::solve(&q_a, &q_b, softest(a, b), target, lambda, enough) else { return outcome };
-        let step = axes.map_or(model.step, |axes| axes * model.step);
+        let enough = if previous.as_ref().is_some_and(|p| p.shortened) { best } else { rough.min(1e-2 * upper).max(best) };
+        let Some(model) = model::solve(&q_a, &q_b, softest(a, b), target, lambda, enough) else { break };
+        let to_solver = |v: Vector3<f64>| axes.map_or(v, |axes| axes * v);
+        let step = to_solver(model.step);
         lambda = model.lambda;
         let planes = [a.check(&x, &step, &mut counted[0]), b.check(&x, &step, &mut counted[1])];
         if !planes.contains(&Planes::Pulling) && planes.contains(&Planes::Dropped) {
@@ -153,6 +169,7 @@ pub(crate) fn solve(a: &Body, b: &Body, goal: &Goal, start: Start, factorisation
         }
         let upper = target.merit(q_a.value, q_b.value, lambda);
         (outcome.x, outcome.lambda, outcome.estimate) = (x + step, lambda, model.lower);
+        outcome.gradients = model.gradients.map(to_solver);
         (outcome.lower, outcome.upper, outcome.rounding) = (model.lower, upper, rounding + model.doubt);
         let gap = upper - model.lower;
         let exact = model.doubt <= rounding.max(goal.tolerance * upper);
@@ -164,13 +181,32 @@ pub(crate) fn solve(a: &Body, b: &Body, goal: &Goal, start: Start, factorisation
                 (true, true) => Ending::Converged,
                 (true, false) => Ending::RoundingLimited,
             };
-            return outcome;
+            if done && step.norm() > SHORT * reach {
+                // s is proved, but where S is flat the point is still on its way: let it arrive, within reason.
+                let here = Outcome { x, gradients: [q_a.gradient, q_b.gradient].map(to_solver), ..outcome };
+                proved.get_or_insert(here);
+            } else {
+                if done && !model.settled {
+                    // The bounds meet, but the point is only as good as λ: once more, to rounding.
+                    let last = model::solve(&q_a, &q_b, softest(a, b), target, lambda, best).unwrap_or(model);
+                    let step = to_solver(last.step);
+                    if [a.check(&x, &step, &mut counted[0]), b.check(&x, &step, &mut counted[1])] == [Planes::Kept; 2] {
+                        (outcome.x, outcome.lambda, outcome.estimate) = (x + step, last.lambda, last.lower);
+                        outcome.gradients = last.gradients.map(to_solver);
+                    }
+                }
+                return outcome;
+            }
+        }
+        outcome.ending = Ending::Stuck;
+        if let Some(proved) = proved.filter(|proved| outcome.iterations > proved.iterations + MOST_TO_ARRIVE) {
+            return Outcome { iterations: outcome.iterations, ..proved };
         }
         previous = Some(Attempt { from: x, step, lambda, merit: upper, promised: gap.max(0.0), shortened: false });
         x += step;
         counted = [Counted::default(); 2];
     }
-    outcome
+    proved.map_or(outcome, |proved| Outcome { iterations: outcome.iterations, ..proved })
 }
 
 /// A step that was tried, to be shortened if it made things worse.
