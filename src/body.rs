@@ -35,11 +35,14 @@ pub(crate) struct Counted {
     count: usize,
 }
 
-/// What a step does to the planes of a model.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+/// What a step does to the planes of a model, from best to worst.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Planes {
-    /// All still push: the model bounds S from below everywhere.
-    Kept,
+    /// All still push and no other has switched on: the quadratic is S there, and a lower bound of it
+    /// everywhere.
+    Exact,
+    /// All still push, but another is met on the way: the quadratic is a lower bound only.
+    Met,
     /// Some that had hardly switched on pull; they were dropped, and the model should be solved again.
     Dropped,
     /// Some that are clearly on at the point pull after the step: the point has to move first.
@@ -95,13 +98,15 @@ impl<'a> Body<'a> {
         let blur = self.blur(x);
         let p = self.particle;
         let mut worst: Option<(usize, f64)> = None;
+        let mut met = false;
         for (i, (((a, b), c), d)) in p.a.iter().zip(&p.b).zip(&p.c).zip(&p.d).enumerate() {
             let excess = a * y.x + b * y.y + c * y.z - d;
-            if !counted.includes(i, excess, blur) {
-                continue;
-            }
             let terms = [a * e.x, b * e.y, c * e.z];
             let depth = excess + (terms[0] + terms[1] + terms[2]);
+            if !counted.includes(i, excess, blur) {
+                met |= depth > blur;
+                continue;
+            }
             let size = excess.abs() + terms[0].abs() + terms[1].abs() + terms[2].abs();
             if depth >= -8.0 * f64::EPSILON * size {
                 continue;
@@ -115,7 +120,8 @@ impl<'a> Body<'a> {
         }
         // One at a time: without the worst, the others may push again.
         match worst {
-            None => Planes::Kept,
+            None if met => Planes::Met,
+            None => Planes::Exact,
             Some((i, _)) if counted.drop(i) => Planes::Dropped,
             Some(_) => Planes::Pulling,
         }

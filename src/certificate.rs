@@ -59,7 +59,7 @@ pub(crate) fn judge(x: &Vector3<f64>, lambda: f64, s: f64, a: &Body, b: &Body, t
         };
         let step = axes * model.step;
         match [a.check(x, &step, &mut counted[0]), b.check(x, &step, &mut counted[1])] {
-            [Planes::Kept, Planes::Kept] => {
+            [Planes::Exact | Planes::Met, Planes::Exact | Planes::Met] => {
                 lower = lower.max(model.lower - model.doubt);
                 break;
             }

@@ -54,6 +54,15 @@ impl Target {
         a * error_a + b * error_b
     }
 
+    /// Bound on the error of the merit, from bounds on those of S_A and S_B.
+    pub fn merit_rounding(self, error_a: f64, error_b: f64, lambda: f64) -> f64 {
+        match self {
+            Self::Midway => error_a.max(error_b),
+            Self::OnB => error_a + PRICE * lambda * error_b,
+            Self::OnA => error_b + PRICE / lambda * error_a,
+        }
+    }
+
     /// The two numbers that are equal at the wanted point; the first grows with λ.
     fn sides(self, q_a: f64, q_b: f64) -> (f64, f64) {
         match self {
@@ -79,9 +88,12 @@ pub(crate) struct Optimum {
     pub lambda: f64,
     /// Dual value of the model: a lower bound of the whole problem while no active plane turns negative.
     pub lower: f64,
+    /// Merit of the quadratics there.
+    pub upper: f64,
     /// Whether the two sides agree to rounding there.
     pub settled: bool,
-    /// How far `lower` may lie above the model's minimum, because the step was not solved exactly.
+    /// How far `lower` may lie above the model's minimum: what a step that is not solved exactly hides, and
+    /// the rounding of the expansion over the length of the step.
     pub doubt: f64,
 }
 
@@ -114,14 +126,15 @@ pub(crate) fn solve(
         let least = a * soft.0 + b * soft.1;
         let factor = Factor::of(&(a * q_a.hessian + b * q_b.hessian), least)?;
         let step = -factor.solve(&(a * q_a.gradient + b * q_b.gradient));
-        let (s_a, g_a) = expand(q_a, &step);
-        let (s_b, g_b) = expand(q_b, &step);
+        let (s_a, g_a, size_a) = expand(q_a, &step);
+        let (s_b, g_b, size_b) = expand(q_b, &step);
         let (growing, falling) = target.sides(s_a, s_b);
         let mismatch = growing - falling;
         // With curvature of at least `least`, a remaining slope can hide this much.
-        let doubt = 0.5 * (a * g_a + b * g_b).norm_squared() / least;
+        let doubt = 0.5 * (a * g_a + b * g_b).norm_squared() / least + 2.0 * f64::EPSILON * (a * size_a + b * size_b);
         let settled = mismatch.abs() <= 4.0 * f64::EPSILON * growing.max(falling);
-        let optimum = Optimum { step, gradients: [g_a, g_b], lambda, lower: target.dual(s_a, s_b, lambda), settled, doubt };
+        let (lower, upper) = (target.dual(s_a, s_b, lambda), target.merit(s_a, s_b, lambda));
+        let optimum = Optimum { step, gradients: [g_a, g_b], lambda, lower, upper, settled, doubt };
         if !optimum.lower.is_finite() {
             return None;
         }
@@ -168,10 +181,12 @@ impl Target {
     }
 }
 
-/// Value and gradient of a quadratic after a step.
-fn expand(q: &Quadratic, v: &Vector3<f64>) -> (f64, Vector3<f64>) {
+/// Value and gradient of a quadratic after a step, and the size of the terms that were summed.
+fn expand(q: &Quadratic, v: &Vector3<f64>) -> (f64, Vector3<f64>, f64) {
     let bend = q.hessian * v;
-    (q.expansion + v.dot(&(q.gradient + 0.5 * bend)), q.gradient + bend)
+    let length = v.norm();
+    let size = q.expansion + length * (q.gradient.norm() + length * q.hessian.norm());
+    (q.expansion + v.dot(&(q.gradient + 0.5 * bend)), q.gradient + bend, size)
 }
 
 /// L D Lᵀ of a symmetric positive definite 3×3 matrix, eliminated in the given order of axes: stiffest

@@ -28,12 +28,14 @@ const PLAIN_STIFFNESS: f64 = 1e7;
 /// Most iterations; what needs more is stuck in rounding and left to the next solver.
 const MOST_ITERATIONS: u32 = 100;
 
-/// Relative to the smaller particle, the longest last step that needs no look at where it leads: beyond it a
-/// plane that the model does not know could be met.
+/// Relative to the smaller particle, a step too short for the next one to be more precise.
 const SHORT: f64 = 1e-9;
 
-/// Iterations granted to a point whose s is proved already.
-const MOST_TO_ARRIVE: u32 = 20;
+/// Relative gap above which a proof is not taken for good at once.
+const SHARP: f64 = 1e-2;
+
+/// Iterations granted to sharpen what is proved already.
+const MOST_TO_ARRIVE: u32 = 5;
 
 /// What the solver is asked for.
 #[derive(Clone, Copy, Debug)]
@@ -128,7 +130,10 @@ pub(crate) fn solve(a: &Body, b: &Body, goal: &Goal, start: Start, factorisation
         ending: Ending::Stuck,
     };
     let mut counted = [Counted::default(); 2];
-    let mut proved: Option<Outcome> = None;
+    let (mut proved, mut arriving) = (None::<Outcome>, 0);
+    let check = |x: &Vector3<f64>, step: &Vector3<f64>, counted: &mut [Counted; 2]| {
+        a.check(x, step, &mut counted[0]).max(b.check(x, step, &mut counted[1]))
+    };
     let reach = a.particle.bounding_radius().min(b.particle.bounding_radius());
     while outcome.iterations < MOST_ITERATIONS {
         outcome.iterations += 1;
@@ -137,9 +142,10 @@ pub(crate) fn solve(a: &Body, b: &Body, goal: &Goal, start: Start, factorisation
             Factorisation::Aligned => Some(frame::aligned([a, b], target.weights(lambda), &x, &counted)),
         };
         let (q_a, q_b) = (a.at(&x, axes.as_ref(), &counted[0]), b.at(&x, axes.as_ref(), &counted[1]));
-        let rounding = target.dual_weighted(a.rounding(&x, &q_a), b.rounding(&x, &q_b), lambda);
         if let Some(attempt) = &mut previous {
             let merit = target.merit(q_a.value, q_b.value, attempt.lambda);
+            // Two values of S cannot be told apart below their rounding.
+            let rounding = target.merit_rounding(a.rounding(&x, &q_a), b.rounding(&x, &q_b), attempt.lambda);
             let worse = merit > attempt.merit - 1e-4 * attempt.promised + rounding;
             if !attempt.shortened && (worse || !merit.is_finite()) {
                 attempt.shortened = true;
@@ -156,53 +162,53 @@ pub(crate) fn solve(a: &Body, b: &Body, goal: &Goal, start: Start, factorisation
         }
         // Early on a rough λ will do; near the end, and after a step that failed, nothing but the best.
         let best = 2.0 * f64::EPSILON * upper.max(f64::MIN_POSITIVE);
-        let rough = 1e-2 * target.mismatch(&q_a, &q_b).max(if target == Target::Midway { upper - outcome.lower } else { 0.0 });
-        let enough = if previous.as_ref().is_some_and(|p| p.shortened) { best } else { rough.min(1e-2 * upper).max(best) };
-        let Some(model) = model::solve(&q_a, &q_b, softest(a, b), target, lambda, enough) else { break };
+        let behind = if target == Target::Midway { upper - outcome.lower } else { 0.0 };
+        let rough = (1e-2 * target.mismatch(&q_a, &q_b).max(behind)).min(1e-2 * upper).max(best);
+        let enough = if previous.as_ref().is_some_and(|p| p.shortened) { best } else { rough };
         let to_solver = |v: Vector3<f64>| axes.map_or(v, |axes| axes * v);
-        let step = to_solver(model.step);
+        let Some(mut model) = model::solve(&q_a, &q_b, softest(a, b), target, lambda, enough) else { break };
+        let mut step = to_solver(model.step);
+        let mut planes = check(&x, &step, &mut counted);
+        if planes == Planes::Exact && !model.settled {
+            // The right planes: now the exact optimum of their quadratics.
+            let Some(settled) = model::solve(&q_a, &q_b, softest(a, b), target, model.lambda, best) else { break };
+            (model, step) = (settled, to_solver(settled.step));
+            planes = check(&x, &step, &mut counted);
+        }
         lambda = model.lambda;
-        let planes = [a.check(&x, &step, &mut counted[0]), b.check(&x, &step, &mut counted[1])];
-        if !planes.contains(&Planes::Pulling) && planes.contains(&Planes::Dropped) {
+        if planes == Planes::Dropped {
             previous = None;
             continue;
         }
         let upper = target.merit(q_a.value, q_b.value, lambda);
-        (outcome.x, outcome.lambda, outcome.estimate) = (x + step, lambda, model.lower);
-        outcome.gradients = model.gradients.map(to_solver);
-        (outcome.lower, outcome.upper, outcome.rounding) = (model.lower, upper, rounding + model.doubt);
-        let gap = upper - model.lower;
-        let exact = model.doubt <= rounding.max(goal.tolerance * upper);
-        let done = exact && (gap <= goal.tolerance * upper || gap <= rounding);
-        let apart = goal.stop_when_separated && model.lower - outcome.rounding > 1.0;
-        if (done || apart) && planes == [Planes::Kept; 2] {
-            outcome.ending = match (done, gap + outcome.rounding <= goal.tolerance * upper) {
-                (false, _) => Ending::Separated,
-                (true, true) => Ending::Converged,
-                (true, false) => Ending::RoundingLimited,
-            };
-            if done && step.norm() > SHORT * reach {
-                // s is proved, but where S is flat the point is still on its way: let it arrive, within reason.
-                let here = Outcome { x, gradients: [q_a.gradient, q_b.gradient].map(to_solver), ..outcome };
-                proved.get_or_insert(here);
-            } else {
-                if done && !model.settled {
-                    // The bounds meet, but the point is only as good as λ: once more, to rounding.
-                    let last = model::solve(&q_a, &q_b, softest(a, b), target, lambda, best).unwrap_or(model);
-                    let step = to_solver(last.step);
-                    if [a.check(&x, &step, &mut counted[0]), b.check(&x, &step, &mut counted[1])] == [Planes::Kept; 2] {
-                        (outcome.x, outcome.lambda, outcome.estimate) = (x + step, last.lambda, last.lower);
-                        outcome.gradients = last.gradients.map(to_solver);
-                    }
-                }
-                return outcome;
+        outcome = Outcome {
+            x: x + step,
+            lambda,
+            gradients: model.gradients.map(to_solver),
+            estimate: model.lower,
+            lower: model.lower,
+            upper: if planes == Planes::Exact { model.upper } else { upper },
+            rounding: model.doubt + target.dual_weighted(a.rounding(&x, &q_a), b.rounding(&x, &q_b), lambda),
+            ..outcome
+        };
+        let gap = outcome.upper - outcome.lower + outcome.rounding;
+        if planes == Planes::Exact {
+            let precise = gap <= goal.tolerance * outcome.upper;
+            let ending = if precise { Ending::Converged } else { Ending::RoundingLimited };
+            if precise || (step.norm() <= SHORT * reach && gap <= SHARP * outcome.upper) {
+                return Outcome { ending, ..outcome };
             }
+            // Proved, but over a long step; the same from nearby is sharper.
+            proved = Some(Outcome { ending, ..outcome }).filter(|new| proved.is_none_or(|old| new.rounding < old.rounding)).or(proved);
         }
-        outcome.ending = Ending::Stuck;
-        if let Some(proved) = proved.filter(|proved| outcome.iterations > proved.iterations + MOST_TO_ARRIVE) {
-            return Outcome { iterations: outcome.iterations, ..proved };
+        if goal.stop_when_separated && planes != Planes::Pulling && model.lower - outcome.rounding > 1.0 {
+            return Outcome { ending: Ending::Separated, ..outcome };
         }
-        previous = Some(Attempt { from: x, step, lambda, merit: upper, promised: gap.max(0.0), shortened: false });
+        arriving += u32::from(proved.is_some());
+        if arriving > MOST_TO_ARRIVE {
+            break;
+        }
+        previous = Some(Attempt { from: x, step, lambda, merit: upper, promised: (upper - model.lower).max(0.0), shortened: false });
         x += step;
         counted = [Counted::default(); 2];
     }
