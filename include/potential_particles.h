@@ -78,11 +78,11 @@
 // The two particles overlap: s < 1.
 #define PP_OVERLAPPING 2
 
-// "closest" was asked for, but a centre lies inside the other particle, so that its constraint
-// is slack and |P1 - P2| is no overlap distance: point, normal and overlap are those of midway.
+// "closest" was asked for, but its constraint is slack: a centre (for k = 0, the core) of one particle
+// lies inside the other, so that |P1 - P2| is no overlap distance. All fields are those of midway.
 #define PP_FLAG_SLACK 1
 
-// Separation was proved without solving to the end: s is a lower bound > 1, nothing else is set.
+// Separation was proved without solving to the end: s is a proved lower bound >= 1, no more is set.
 #define PP_FLAG_REJECTED 2
 
 // Both gradients vanish at the contact point (coincident centres, or flat-faced cores that
@@ -165,7 +165,7 @@ typedef struct pp_contact {
     // Always 0.
     uint32_t reserved;
     // Midway: t, the common scale at which the two particles touch at one point; t < 1 overlap.
-    // Closest: s_A at P2. Rejected pairs: a lower bound, > 1. A scale, no unit.
+    // Closest: s_A at P2. Rejected pairs: a lower bound, >= 1. No unit.
     double s;
     // Closest: s_B at P1; NaN for midway.
     double s_b;

@@ -137,6 +137,23 @@ impl<'a> Search<'a> {
         certificate::scale(outcome, &self.body_a, &self.body_b, target)
     }
 
+    /// One of the two problems of closest, or `None` where its constraint is slack: the optimum is then the
+    /// minimum of the other particle, for k > 0 its centre, for k = 0 anywhere in its core, and no contact
+    /// point. Midway has no such case.
+    fn constrained(&mut self, target: Target, start: Option<Start>) -> Result<Option<(Outcome, Certified)>, DetectError> {
+        let centre_inside = match target {
+            Target::OnB => self.pair.b.potential(&self.pair.centre) < 0.0,
+            _ => self.pair.a.potential(&self.body_a.local(&self.body_b.centre())) < 0.0,
+        };
+        if centre_inside {
+            return Ok(None);
+        }
+        let outcome = self.solve(target, start)?;
+        let scale = self.certify(&outcome, target);
+        // A scale that cannot be told from 0 belongs to a core.
+        Ok((scale.s > scale.gap).then_some((outcome, scale)))
+    }
+
     /// The geometry that the settings ask for, from the solution of midway.
     fn describe(
         mut self,
@@ -152,30 +169,27 @@ impl<'a> Search<'a> {
         contact.weight = midway.lambda / (1.0 + midway.lambda);
         let mut local = None;
         if self.settings.formulation == Formulation::Closest {
-            // With a centre inside the other particle the constraint is slack and the optimum is that
-            // centre: no contact point. Midway has no such case.
-            let slack = self.pair.b.potential(&self.pair.centre) < 0.0
-                || self.pair.a.potential(&self.body_a.local(&self.body_b.centre())) < 0.0;
-            if slack {
-                self.flags.insert(Flags::SLACK);
-                contact.formulation = Formulation::Midway;
-            } else {
-                let start = Some(Start { x: midway.x, lambda: midway.lambda });
-                let on_b = self.solve(Target::OnB, start)?;
-                let of_a = self.certify(&on_b, Target::OnB);
-                (contact.s, contact.gap) = (of_a.s, of_a.gap);
-                contact.weight = on_b.lambda / (1.0 + on_b.lambda);
-                if overlapping {
-                    let on_a = self.solve(Target::OnA, start)?;
-                    let of_b = self.certify(&on_a, Target::OnA);
-                    contact.s_b = of_b.s;
-                    contact.gap = contact.gap.max(of_b.gap);
-                    local = Some(LocalContact::closest(
-                        self.pair,
-                        [&on_a.x, &on_b.x],
-                        &[on_a.gradients[0], on_b.gradients[1]],
-                        self.settings.weight_on_a,
-                    ));
+            let start = Some(Start { x: midway.x, lambda: midway.lambda });
+            let on_b = self.constrained(Target::OnB, start)?;
+            let on_a = if overlapping && on_b.is_some() { self.constrained(Target::OnA, start)? } else { None };
+            match (on_b, on_a) {
+                (Some((on_b, of_a)), on_a) if on_a.is_some() || !overlapping => {
+                    (contact.s, contact.gap) = (of_a.s, of_a.gap);
+                    contact.weight = on_b.lambda / (1.0 + on_b.lambda);
+                    if let Some((on_a, of_b)) = on_a {
+                        contact.s_b = of_b.s;
+                        contact.gap = contact.gap.max(of_b.gap);
+                        local = Some(LocalContact::closest(
+                            self.pair,
+                            [&on_a.x, &on_b.x],
+                            &[on_a.gradients[0], on_b.gradients[1]],
+                            self.settings.weight_on_a,
+                        ));
+                    }
+                }
+                _ => {
+                    self.flags.insert(Flags::SLACK);
+                    contact.formulation = Formulation::Midway;
                 }
             }
         }

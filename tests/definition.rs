@@ -144,8 +144,8 @@ proptest! {
                 let off = |particle: &Particle, pose: &Pose, point: &Vector3<f64>| {
                     (s_of(particle, pose, point) - 1.0).abs() / (0.5 * particle.gradient(&pose.to_local(point)).norm())
                 };
-                prop_assert!(off(&a, &at_a, &contact.point_on_a) < 1e-12);
-                prop_assert!(off(&b, &at_b, &contact.point_on_b) < 1e-12);
+                prop_assert!(off(&a, &at_a, &contact.point_on_a) < 1e-12, "{:e} {:?}", off(&a, &at_a, &contact.point_on_a), contact);
+                prop_assert!(off(&b, &at_b, &contact.point_on_b) < 1e-12, "{:e} {:?}", off(&b, &at_b, &contact.point_on_b), contact);
                 if contact.formulation == Formulation::Closest {
                     prop_assert!(s_of(&a, &at_a, &contact.point_on_b) < 1.0 + 1e-9);
                     prop_assert!(s_of(&b, &at_b, &contact.point_on_a) < 1.0 + 1e-9);

@@ -15,10 +15,10 @@ pub const PP_SEPARATED: i32 = 1;
 /// The two particles overlap: s < 1.
 pub const PP_OVERLAPPING: i32 = 2;
 
-/// "closest" was asked for, but a centre lies inside the other particle, so that its constraint
-/// is slack and |P1 - P2| is no overlap distance: point, normal and overlap are those of midway.
+/// "closest" was asked for, but its constraint is slack: a centre (for k = 0, the core) of one particle
+/// lies inside the other, so that |P1 - P2| is no overlap distance. All fields are those of midway.
 pub const PP_FLAG_SLACK: u32 = 1;
-/// Separation was proved without solving to the end: s is a lower bound > 1, nothing else is set.
+/// Separation was proved without solving to the end: s is a proved lower bound >= 1, no more is set.
 pub const PP_FLAG_REJECTED: u32 = 2;
 /// Both gradients vanish at the contact point (coincident centres, or flat-faced cores that
 /// overlap): the normal is the line of centres, or the x axis of B when the centres coincide.
@@ -97,7 +97,7 @@ pub struct pp_contact {
     /// Always 0.
     pub reserved: u32,
     /// Midway: t, the common scale at which the two particles touch at one point; t < 1 overlap.
-    /// Closest: s_A at P2. Rejected pairs: a lower bound, > 1. A scale, no unit.
+    /// Closest: s_A at P2. Rejected pairs: a lower bound, >= 1. No unit.
     pub s: f64,
     /// Closest: s_B at P1; NaN for midway.
     pub s_b: f64,

@@ -1,0 +1,108 @@
+//! The committed C header is the one that cbindgen makes of `src/ffi`, and it names this version.
+
+use std::path::{Path, PathBuf};
+use std::{env, fs};
+
+/// Set to any value, it makes the test write the header instead of comparing it.
+const WRITE: &str = "PP_WRITE_HEADER";
+const REMEDY: &str = "make header    # or: PP_WRITE_HEADER=1 cargo test --test header";
+
+fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+}
+
+fn header_path() -> PathBuf {
+    root().join("include/potential_particles.h")
+}
+
+fn committed() -> String {
+    fs::read_to_string(header_path())
+        .unwrap_or_else(|e| panic!("{}: {e}\nWrite it with\n    {REMEDY}", header_path().display()))
+}
+
+/// From `src/ffi` alone: public items elsewhere in the crate are no part of the C interface.
+fn generated() -> String {
+    let config = cbindgen::Config::from_file(root().join("cbindgen.toml")).expect("cbindgen.toml is readable");
+    let builder = cbindgen::Builder::new().with_config(config).with_src(root().join("src/ffi/mod.rs"));
+    let mut text = Vec::new();
+    builder.generate().expect("cbindgen reads src/ffi").write(&mut text);
+    String::from_utf8(text).expect("cbindgen writes UTF-8")
+}
+
+/// Lines that only `old` (`-`) or only `new` (`+`) has, in order, numbered by their own text.
+fn difference(old: &str, new: &str) -> Vec<String> {
+    let (old, new): (Vec<_>, Vec<_>) = (old.lines().collect(), new.lines().collect());
+    // common[i][j]: length of the longest common subsequence of old[i..] and new[j..].
+    let mut common = vec![vec![0usize; new.len() + 1]; old.len() + 1];
+    for i in (0..old.len()).rev() {
+        for j in (0..new.len()).rev() {
+            common[i][j] =
+                if old[i] == new[j] { common[i + 1][j + 1] + 1 } else { common[i + 1][j].max(common[i][j + 1]) };
+        }
+    }
+    let (mut i, mut j, mut lines) = (0, 0, Vec::new());
+    while i < old.len() || j < new.len() {
+        if i < old.len() && j < new.len() && old[i] == new[j] {
+            (i, j) = (i + 1, j + 1);
+        } else if i < old.len() && (j == new.len() || common[i + 1][j] >= common[i][j + 1]) {
+            lines.push(format!("-{:4} {}", i + 1, old[i]));
+            i += 1;
+        } else {
+            lines.push(format!("+{:4} {}", j + 1, new[j]));
+            j += 1;
+        }
+    }
+    lines
+}
+
+fn version_macro(header: &str, part: &str) -> String {
+    let define = format!("#define PP_VERSION_{part} ");
+    header
+        .lines()
+        .find_map(|line| line.strip_prefix(&define))
+        .unwrap_or_else(|| panic!("the header has no line \"{define}...\""))
+        .trim()
+        .to_owned()
+}
+
+#[test]
+fn committed_header_is_the_generated_one() {
+    let new = generated();
+    if env::var_os(WRITE).is_some() {
+        fs::write(header_path(), &new).expect("the header is writable");
+        return;
+    }
+    let old = committed();
+    assert!(
+        old == new,
+        "include/potential_particles.h differs from src/ffi (- committed, + generated):\n{}\nWrite it anew with\n    {REMEDY}",
+        match difference(&old, &new) {
+            lines if lines.is_empty() => "(line endings or the end of the file only)".to_owned(),
+            lines => lines.join("\n"),
+        },
+    );
+}
+
+/// Read from `src/ffi` through cbindgen, so that it holds while the header is being rewritten, too.
+#[test]
+fn version_macros_are_those_of_the_package() {
+    let header = generated();
+    for (part, package) in [
+        ("MAJOR", env!("CARGO_PKG_VERSION_MAJOR")),
+        ("MINOR", env!("CARGO_PKG_VERSION_MINOR")),
+        ("PATCH", env!("CARGO_PKG_VERSION_PATCH")),
+    ] {
+        assert_eq!(
+            version_macro(&header, part),
+            package,
+            "PP_VERSION_{part} in src/ffi/contact.rs must follow the version {} in Cargo.toml",
+            env!("CARGO_PKG_VERSION"),
+        );
+    }
+}
+
+#[test]
+fn difference_names_the_changed_lines_only() {
+    assert!(difference("a\nb\nc\n", "a\nb\nc\n").is_empty());
+    assert_eq!(difference("a\nb\nc\n", "a\nB\nc\nd\n"), ["-   2 b", "+   2 B", "+   4 d"]);
+}

@@ -1,0 +1,139 @@
+//! Particles: every violation is its own error and names the value; bounds hold; derivatives match.
+
+use nalgebra::Vector3;
+use potential_particles::area::Section;
+use potential_particles::{Particle, ParticleError, Plane, Pose, PoseError};
+use std::f64::consts::PI;
+
+fn cube_planes(offset: f64) -> Vec<Plane> {
+    (0..3).flat_map(|axis| [1.0, -1.0].map(|sign| Plane { normal: Vector3::ith(axis, sign), offset })).collect()
+}
+
+fn tetrahedron(offset: f64) -> Vec<Plane> {
+    [[1.0, 1.0, 1.0], [1.0, -1.0, -1.0], [-1.0, 1.0, -1.0], [-1.0, -1.0, 1.0]]
+        .map(|n| Plane { normal: Vector3::from(n) / 3f64.sqrt(), offset })
+        .to_vec()
+}
+
+#[test]
+fn each_violation_is_its_own_error_and_names_the_value() {
+    let planes = cube_planes(0.45);
+    let with = |change: &dyn Fn(&mut Vec<Plane>)| {
+        let mut planes = planes.clone();
+        change(&mut planes);
+        Particle::new(&planes, 0.05, 0.1, 0.9).unwrap_err()
+    };
+    type E = ParticleError;
+    let cases: Vec<(E, &str)> = vec![
+        (with(&|p| p[3].offset = f64::NAN), "plane 3 is not finite"),
+        (with(&|p| p[2].normal.y = f64::INFINITY), "plane 2 is not finite"),
+        (with(&|p| p[4].normal = Vector3::zeros()), "plane 4 has a normal of length zero"),
+        (with(&|p| p[1].offset = -0.06), "plane 1 (d=-0.06)"),
+        (Particle::new(&planes, 0.05, -0.1, 0.9).unwrap_err(), "k=-0.1"),
+        (Particle::new(&planes, 0.05, 1.1, 0.9).unwrap_err(), "k=1.1"),
+        (Particle::new(&planes, 0.05, f64::NAN, 0.9).unwrap_err(), "k=NaN"),
+        (Particle::new(&planes, 0.0, 0.1, 0.9).unwrap_err(), "r=0"),
+        (Particle::new(&planes, f64::NAN, 0.1, 0.9).unwrap_err(), "r=NaN"),
+        (Particle::new(&planes, 1e-200, 0.1, 0.9).unwrap_err(), "r=0.000"),
+        (Particle::new(&planes, 0.05, 0.1, -2.0).unwrap_err(), "R=-2"),
+        (Particle::new(&planes, 0.05, 0.1, f64::INFINITY).unwrap_err(), "R=inf"),
+        (Particle::new(&planes[..5], 0.05, 0.0, 0.9).unwrap_err(), "do not enclose a volume"),
+        (Particle::new(&[], 0.05, 0.0, 0.9).unwrap_err(), "do not enclose a volume"),
+        (Particle::new(&vec![planes[0]; 65_537], 0.05, 0.1, 0.9).unwrap_err(), "65537 planes"),
+    ];
+    for (error, text) in &cases {
+        assert!(error.to_string().contains(text), "{error} should contain {text}");
+    }
+    // Values that are dead for the given k are not looked at.
+    assert!(Particle::new(&planes, f64::NAN, 1.0, 0.9).is_ok());
+    assert!(Particle::new(&planes, 0.05, 0.0, f64::NAN).is_ok());
+    assert!(matches!(Particle::sphere(0.0), Err(E::ShadowRadius(_))));
+    assert!(matches!(Pose::at([0.0, f64::NAN, 0.0]), Err(PoseError::Position(..))));
+    assert!(matches!(Pose::new([0.0; 3], [0.0; 4]), Err(PoseError::Orientation(..))));
+}
+
+#[test]
+fn derivatives_match_differences() {
+    for (planes, k) in [(cube_planes(0.4), 0.2), (tetrahedron(0.2), 0.0), (cube_planes(0.4), 1.0)] {
+        let particle = Particle::new(&planes, 0.1, k, 0.8).unwrap();
+        for x in [Vector3::new(0.45, 0.1, -0.05), Vector3::new(0.47, 0.48, -0.46), Vector3::new(0.1, 0.05, 0.0)] {
+            let h = 1e-5;
+            for axis in 0..3 {
+                let e = Vector3::ith(axis, h);
+                let slope = (particle.potential(&(x + e)) - particle.potential(&(x - e))) / (2.0 * h);
+                let bend = (particle.gradient(&(x + e)) - particle.gradient(&(x - e))) / (2.0 * h);
+                assert!((slope - particle.gradient(&x)[axis]).abs() < 1e-6);
+                assert!((bend - particle.hessian(&x).column(axis)).norm() < 1e-5);
+            }
+        }
+    }
+}
+
+#[test]
+fn the_given_normals_are_used_as_they_are() {
+    // Twice the normal and offset: that plane counts four times in S.
+    let mut planes = cube_planes(0.4);
+    planes[0] = Plane { normal: 2.0 * planes[0].normal, offset: 0.8 };
+    let particle = Particle::new(&planes, 0.1, 0.0, 0.0).unwrap();
+    assert!((particle.potential(&Vector3::new(0.45, 0.0, 0.0)) + 1.0 - 1.0).abs() < 1e-14);
+    assert!((particle.potential(&Vector3::new(-0.45, 0.0, 0.0)) + 1.0 - 0.25).abs() < 1e-14);
+}
+
+#[test]
+fn bounds_hold_every_surface_point() {
+    let many: Vec<Plane> = (0..400)
+        .map(|i| {
+            // Golden spiral: planes all around.
+            let (z, phi) = (1.0 - (2.0 * i as f64 + 1.0) / 400.0, i as f64 * 2.399963);
+            let s = (1.0 - z * z).sqrt();
+            Plane { normal: Vector3::new(s * phi.cos(), s * phi.sin(), z), offset: 0.4 + 0.02 * (i % 7) as f64 }
+        })
+        .collect();
+    let mut doubled = cube_planes(0.4);
+    doubled.extend(cube_planes(0.4));
+    for (planes, r, k) in
+        [(cube_planes(0.4), 0.1, 0.3), (tetrahedron(0.2), 0.01, 1e-6), (tetrahedron(0.2), 0.01, 0.0), (many, 0.05, 0.0), (doubled, 0.1, 0.0)]
+    {
+        let particle = Particle::new(&planes, r, k, 0.9).unwrap();
+        let pose = Pose::new([1.0, 2.0, 3.0], [0.3, -0.4, 0.5, 0.6]).unwrap();
+        let (lower, upper) = particle.bounding_box(&pose);
+        let mut fullest: f64 = 0.0;
+        for i in 0..2000 {
+            let (z, phi) = (1.0 - (2.0 * i as f64 + 1.0) / 2000.0, i as f64 * 2.399963);
+            let s = (1.0 - z * z).sqrt();
+            let e = Vector3::new(s * phi.cos(), s * phi.sin(), z);
+            let x = potential_particles::surface::distance(&particle, &Vector3::zeros(), &e).unwrap() * e;
+            assert!(particle.potential(&x).abs() < 1e-9 / r);
+            assert!(x.norm() <= particle.bounding_radius());
+            let world = pose.position + pose.rotate(&x);
+            assert!((0..3).all(|axis| lower[axis] <= world[axis] && world[axis] <= upper[axis]));
+            assert!(x.dot(&e) <= particle.support(&e));
+            fullest = fullest.max(x.norm());
+        }
+        assert!(particle.bounding_radius() < 2.0 * fullest, "a ball of {} for {fullest}", particle.bounding_radius());
+    }
+}
+
+#[test]
+fn contact_area_matches_closed_forms() {
+    let origin = Pose::at([0.0; 3]).unwrap();
+    // Two unit spheres at distance 1: a disc of radius √3/2.
+    let sphere = Particle::sphere(1.0).unwrap();
+    let other = Pose::at([0.0, 0.0, 1.0]).unwrap();
+    let half = Vector3::new(0.0, 0.0, 0.5);
+    let section = Section { branch_a: half, branch_b: -half, normal: Vector3::z() };
+    let area = section.area(&sphere, &origin, &sphere, &other, 1e-9).unwrap();
+    assert!((area / (0.75 * PI) - 1.0).abs() < 1e-9);
+
+    // A cube (k = 0, r tiny) shifted by a quarter along x on another one: three quarters of its face.
+    let r = 1e-9;
+    let cube = Particle::new(&cube_planes(0.5 - r), r, 0.0, 0.0).unwrap();
+    let other = Pose::at([0.25, 0.0, 1.0 - 1e-6]).unwrap();
+    let point = Vector3::new(0.125, 0.0, 0.5 - 0.5e-6);
+    let section = Section { branch_a: point, branch_b: point - other.position, normal: Vector3::z() };
+    for tolerance in [1e-3, 1e-6, 1e-9] {
+        let area = section.area(&cube, &origin, &cube, &other, tolerance).unwrap();
+        assert!((area / 0.75 - 1.0).abs() < tolerance, "{area} at {tolerance}");
+    }
+    assert!(Section { normal: Vector3::zeros(), ..section }.area(&cube, &origin, &cube, &other, 1e-6).is_none());
+}
