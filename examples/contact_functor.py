@@ -1,0 +1,58 @@
+# SPDX-License-Identifier: MIT OR Apache-2.0
+"""Which functor finds the contacts: that of this library, or the one built into YADE."""
+
+from yade import Ig2_PP_PP_ScGeom, PotentialParticle
+
+LIBRARY, BUILTIN = "library", "builtin"
+
+
+class ContactFunctor:
+    """The Ig2 functor, the shape class that it serves, and what it counted."""
+
+    def __init__(self, kind):
+        if kind == BUILTIN:
+            self.plugin = None
+            self.shape_class = PotentialParticle
+            self.functor = Ig2_PP_PP_ScGeom(calContactArea=False)
+        else:
+            self.plugin = _plugin()
+            self.shape_class = self.plugin.ConicPotentialParticle
+            self.functor = self.plugin.Ig2_ConicPP_ConicPP_ScGeom(calContactArea=False, measureTime=True)
+
+    @property
+    def name(self):
+        return type(self.functor).__name__
+
+    def prepare(self):
+        """To be called once YADE's engines and bodies are in place."""
+        if self.plugin:
+            self.plugin.prepare()
+
+    def counts(self):
+        """Calls, pairs solved, cheaply rejected, answered by the fallback, failed; seconds inside.
+
+        None where the functor keeps no count.
+        """
+        names = ("calls", "solved", "rejected", "fellBack", "failures", "seconds")
+        return {name: getattr(self.functor, name, None) for name in names}
+
+    def failure_report(self):
+        """The first failure of each pair, as dictionaries with ids, poses and a message."""
+        return list(getattr(self.functor, "failureReport", []))
+
+    def versions(self):
+        """Of the library and the plugin; nothing for the functor built into YADE."""
+        if not self.plugin:
+            return {}
+        return {"library": self.plugin.library_version(), "glue": self.plugin.__version__}
+
+
+def _plugin():
+    try:
+        import potential_particles
+    except ImportError as error:
+        raise SystemExit(
+            f"The plugin potential_particles does not load ({error}): build it with `make` and put "
+            "yade-glue/build/python on PYTHONPATH, or set FUNCTOR=builtin."
+        ) from error
+    return potential_particles
