@@ -1,0 +1,113 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# A YADE that does not fit is refused, at load time and at build time, with the differences listed.
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+
+import yade
+import yade.config
+import yade.system
+import yade.wrapper
+from harness import *
+
+check = Checks()
+GLUE = os.path.join(os.environ["PP_PACKAGE"], "potential_particles")
+HERE = os.path.dirname(os.path.abspath(sys.modules["harness"].__file__))
+SOURCE = os.path.join(HERE, os.pardir, os.pardir, "yade-glue", "abi")
+LIBRARIES = os.path.dirname(os.path.dirname(os.path.dirname(yade.__file__)))
+
+
+def import_module():
+    sys.modules.pop("potential_particles", None)
+    import potential_particles
+    return potential_particles
+
+
+# Another version: refused, nothing registered, and the next try with the right one works.
+true_version = yade.config.version
+yade.config.version = "2099.01a"
+try:
+    import_module()
+    check.true(False, "another version was accepted")
+except ImportError as error:
+    check.equal(type(error).__name__, "AbiError", "kind of the refusal")
+    check.true("2099.01a" in str(error) and true_version in str(error), f"the refusal names both versions: {error}")
+    check.equal(len(getattr(error, "differences", [])), 1, "differences are listed")
+check.true(not hasattr(yade.wrapper, "ConicPotentialParticle"), "nothing is registered after a refusal")
+check.true("ConicPotentialParticle" not in yade.system._allSerializables, "nor listed")
+yade.config.version = true_version
+# Engines that exist before the module does: their dispatchers must learn of the new shape.
+fresh_scene(yade.Ig2_PP_PP_ScGeom(), dt=1e-9)
+module = import_module()
+check.true(hasattr(yade.wrapper, "ConicPotentialParticle"), "the right version is accepted")
+check.equal(list(module._glue.differences_of_layout()), [], "no differences of layout")
+
+add(cube(), Vector3(0, 0, 0), fixed=True)
+add(cube(), Vector3(0, 0, 0.98), fixed=True)
+module.prepare()
+O.run(2, True)
+check.true(O.interactions[0, 1].isReal, "engines made before the import serve the new shape, the built-in functor included")
+
+# A second copy of the module in the same process finds its names taken.
+check.raises(Exception, lambda: module._glue.register_classes(), "second registration", "already has a class")
+
+# Without YADE there is a sentence that says what to do.
+outside = subprocess.run([sys.executable, "-c", "import potential_particles"], capture_output=True, text=True,
+                         env=dict(os.environ, PYTHONPATH=os.environ["PP_PACKAGE"]))
+check.true(outside.returncode != 0 and "needs YADE" in outside.stderr, f"outside YADE: {outside.stderr[-300:]}")
+# In a plain Python that finds YADE it works like inside.
+program = """
+import sys
+sys.path.insert(0, %r)
+import potential_particles
+print(potential_particles.ConicPotentialParticle(k=1.0, R=2.0).boundingRadius)
+""" % os.path.dirname(os.path.dirname(yade.__file__))
+plain_python = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True,
+                              env=dict(os.environ, PYTHONPATH=os.environ["PP_PACKAGE"]))
+last = (plain_python.stdout.split() or ["nothing"])[-1]
+check.true(last.startswith("2."), f"in a plain Python: {last} {plain_python.stderr[-300:]}")
+
+# The build-time check, with declarations that are wrong on purpose.
+def build_check(edits):
+    """Exit status and messages of check_abi.py for a copy of abi/ with edits {file: (old, new)}."""
+    with tempfile.TemporaryDirectory() as folder:
+        abi = os.path.join(folder, "abi")
+        shutil.copytree(SOURCE, abi)
+        for name, (old, new) in edits.items():
+            path = os.path.join(abi, name)
+            text = open(path).read()
+            check.true(old in text, f"{name} holds what the test changes")
+            open(path, "w").write(text.replace(old, new, 1))
+        # The assertions would stop the compiler first; here the comparison itself is on trial.
+        path = os.path.join(abi, "base.hpp")
+        text = re.sub(r"#define (PP_ABI_(?:SIZE|OFFSET)\(.*?\))(.*\\\n)?.*", r"#define \1 static_assert(true)", open(path).read())
+        open(path, "w").write(text)
+        probe = os.path.join(folder, "probe.so")
+        compiled = subprocess.run(
+            ["g++", "-std=c++17", "-O0", "-fPIC", "-shared", "-w", "-DEIGEN_DONT_ALIGN", "-DEIGEN_DONT_VECTORIZE",
+             "-DBOOST_BIND_GLOBAL_PLACEHOLDERS", "-DBOOST_ALLOW_DEPRECATED_HEADERS", "-I/usr/include/eigen3",
+             "-I/usr/include/python3.11", os.path.join(abi, "probe.cpp"), "-o", probe],
+            capture_output=True, text=True)
+        if not check.equal(compiled.returncode, 0, f"probe compiled\n{compiled.stderr[-2000:]}"):
+            return None, ""
+        done = subprocess.run([sys.executable, os.path.join(abi, "check_abi.py"), "--libraries", LIBRARIES, "--probe", probe],
+                              capture_output=True, text=True)
+        return done.returncode, done.stdout + done.stderr
+
+
+status, text = build_check({})
+check.true(status == 0 and "16 classes" in text, f"the true declarations: {status} {text}")
+dict_, custom = ("    virtual boost::python::dict %s() const;\n" % name for name in ("pyDict", "pyDictCustom"))
+status, text = build_check({
+    "knksphys.hpp": ("    Real ks;\n", "    Real ks;\n    Real extra;\n"),
+    "serializable.hpp": (dict_ + custom, custom + dict_),
+    "functor.hpp": ("virtual void preStep();", "virtual void beforeStep();")})
+check.equal(status, 1, "wrong declarations: exit status")
+for expected in ("NormShearPhys: declared 104 bytes, the library frees 96", "Serializable: slot 8",
+                 "IGeomFunctor: slot 17", "beforeStep"):
+    check.true(expected in text, f"the report has '{expected}':\n{text[-3000:]}")
+
+check.finish()

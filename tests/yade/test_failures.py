@@ -1,0 +1,62 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# What cannot be solved is counted and reported once, and YADE lives.
+import math
+
+import potential_particles
+import yade
+from harness import *
+
+check = Checks()
+nan = float("nan")
+
+contacts = yade.Ig2_ConicPP_ConicPP_ScGeom()
+fresh_scene(contacts, dt=1e-9)
+for z in (0, 0.98, 5):
+    add(cube(), Vector3(0, 0, z), fixed=True)
+O.run(2, True)
+contact = O.interactions[0, 1]
+depth, normal, point = contact.geom.penetrationDepth, contact.geom.normal, contact.geom.contactPoint
+check.equal(contacts.failures, 0, "no failure at first")
+
+# A body that flew off to NaN.
+O.bodies[1].state.pos = Vector3(0, nan, 0.98)
+loop = O.engines[2]
+for _ in range(3):
+    loop()  # only this engine: the collider would not know where to put the body
+report = contacts.failureReport
+check.equal(contacts.failures, 3, "every failure is counted")
+check.equal(len(report), 1, "and reported once")
+if report:
+    entry = report[0]
+    check.equal((entry["id1"], entry["id2"]), (0, 1), "ids in the report")
+    check.true(math.isnan(entry["pose2"][0][1]) and entry["pose2"][0][2] == 0.98, f"pose in the report: {entry['pose2']}")
+    check.equal(entry["pose1"], ((0, 0, 0), (1, 0, 0, 0)), "pose of body 1")
+    check.true("position" in entry["message"], f"message in the report: {entry['message']}")
+contact = O.interactions[0, 1]
+check.true(contact.isReal, "the contact is not dropped")
+kept = contact.geom.penetrationDepth, contact.geom.normal, contact.geom.contactPoint
+check.equal(kept, (depth, normal, point), "and keeps its geometry")
+
+# It comes back: the pair is solved again.
+O.bodies[1].state.pos = Vector3(0, 0, 0.97)
+loop()
+check.close(O.interactions[0, 1].geom.penetrationDepth, depth + 0.01, 1e-6, "solved again")
+check.equal(contacts.failures, 3, "no new failure")
+contacts.resetCounters()
+check.equal((contacts.calls, contacts.solved, contacts.rejected, contacts.failures), (0, 0, 0, 0), "counters reset")
+check.equal(contacts.failureReport, [], "report emptied")
+
+# Time is added up when asked.
+check.equal(contacts.seconds, 0.0, "no time is measured unless asked")
+contacts.measureTime = True
+O.run(50, True)
+check.true(contacts.seconds > 0, "time is measured when asked")
+
+# Forced, without a position: YADE gets a geometry and no exception.
+O.bodies[2].state.pos = Vector3(nan, 0, 0)
+forced = utils.createInteraction(1, 2)
+check.true(forced.geom.penetrationDepth < 0, "a forced pair that cannot be solved counts as apart")
+check.close(forced.geom.normal.norm(), 1, 1e-12, "with a unit normal")
+check.equal(contacts.failures, 1, "and is counted")
+
+check.finish()

@@ -1,0 +1,54 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Contacts across the border of a periodic cell.
+import potential_particles
+import yade
+from harness import *
+
+check = Checks()
+
+
+def across(functor_, positions, size=4.0):
+    fresh_scene(functor_, dt=1e-7, periodic=True)
+    O.cell.setBox(Vector3(size, size, size))
+    for position in positions:
+        add(cube(), position, turned((0, 0, 1), 0.1 * len(O.bodies)))
+    O.run(3, True)
+    return [c for c in O.interactions if c.isReal]
+
+
+# The same two cubes: once side by side, once through the border.
+inside = across(yade.Ig2_ConicPP_ConicPP_ScGeom(), [Vector3(1.5, 2, 2), Vector3(2.49, 2.05, 2)])
+check.equal(len(inside), 1, "one contact inside")
+geom = inside[0].geom
+direct = geom.normal, geom.penetrationDepth, geom.contactPoint - O.bodies[inside[0].id1].state.pos, inside[0].phys.contactArea
+forces = [O.forces.f(0), O.forces.f(1)]
+check.true(forces[0].norm() > 1, "a force acts inside")
+check.close(forces[0], -forces[1], 1e-9 * forces[0].norm(), "equal and opposite inside")
+
+through = across(yade.Ig2_ConicPP_ConicPP_ScGeom(), [Vector3(3.5, 2, 2), Vector3(0.49, 2.05, 2)])
+check.equal(len(through), 1, "one contact through the border")
+contact = through[0]
+check.true(contact.cellDist != (0, 0, 0), f"through the border: {contact.cellDist}")
+first, second = O.bodies[contact.id1].state, O.bodies[contact.id2].state
+sense = 1 if contact.id1 == 0 else -1
+check.close(contact.geom.normal, sense * direct[0], 1e-6, "normal through the border")
+check.close(contact.geom.penetrationDepth, direct[1], 1e-7, "overlap through the border")
+if contact.id1 == 0:
+    check.close(contact.geom.contactPoint - first.pos, direct[2], 1e-5, "contact point lies in the image of body 1")
+check.close(contact.phys.contactArea, direct[3], 1e-4, "contact area through the border")
+on0, on1 = O.forces.f(0), O.forces.f(1)
+check.true(on0.norm() > 1, f"a force acts: {on0}")
+check.close(on0, -on1, 1e-9 * on0.norm(), "equal and opposite through the border")
+check.close(on0, forces[0], 1e-3 * forces[0].norm(), "the same force as inside")
+check.equal(functor().failures, 0, "failures")
+
+# Through createInteraction, which computes the shift by itself (of the second body, and only
+# towards lower coordinates: it rounds towards zero).
+fresh_scene(yade.Ig2_ConicPP_ConicPP_ScGeom(), dt=1e-7, periodic=True)
+O.cell.setBox(Vector3(4, 4, 4))
+for position in (Vector3(3.5, 2, 2), Vector3(0.49, 2.05, 2)):
+    add(cube(), position, turned((0, 0, 1), 0.1 * len(O.bodies)))
+forced = utils.createInteraction(1, 0)
+check.close(forced.geom.penetrationDepth, direct[1], 1e-7, "forced through the border")
+
+check.finish()

@@ -1,0 +1,75 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# O.save and O.load in every format: attributes, the pair's memory, and a run that goes on as if
+# nothing had happened.
+import os
+import tempfile
+
+import potential_particles
+import yade
+from harness import *
+
+check = Checks()
+folder = tempfile.mkdtemp()
+
+
+def scene():
+    contacts = yade.Ig2_ConicPP_ConicPP_ScGeom(formulation="midway", tolerance=1e-11, areaTolerance=1e-5,
+                                               twoDdir=(0.5, 0.25, 0.125), label="contacts")
+    fresh_scene(contacts, dt=2e-5, gravity=(0, 0, -9.81), friction=0.5)
+    add(cube(half=0.8, R=1.4), Vector3(0, 0, 0), fixed=True)
+    add(pyramid(automaticBox=True), Vector3(0.1, 0.05, 1.08), turned((0, 0, 1), 0.4))
+    add(cube(half=0.3, R=0.52), Vector3(-0.35, -0.3, 1.13), turned((1, 1, 0), 0.05))
+
+
+def go_on():
+    O.run(300, True)
+    return state_numbers()
+
+
+for ending in ("yade.gz", "xml", "xml.bz2", "memory"):
+    scene()
+    O.run(1500, True)
+    real = {(c.id1, c.id2) for c in O.interactions if c.isReal}
+    check.true(len(real) >= 2, f"{ending}: in contact when saved ({real})")
+    memories = {(c.id1, c.id2): c.geom.memory for c in O.interactions if c.isReal}
+    check.true(all(memory.strip("0") for memory in memories.values()), f"{ending}: pairs remember something")
+    attributes = [b.shape.dict() for b in O.bodies], functor().dict()
+    name = os.path.join(folder, "scene." + ending)
+    O.saveTmp("saved") if ending == "memory" else O.save(name)
+    expected = go_on()
+
+    O.reset()
+    O.loadTmp("saved") if ending == "memory" else O.load(name)
+    potential_particles.prepare()
+    check.equal([type(b.shape).__name__ for b in O.bodies], ["ConicPotentialParticle"] * 3, f"{ending}: shapes")
+    check.equal(type(functor()).__name__, "Ig2_ConicPP_ConicPP_ScGeom", f"{ending}: functor")
+    loaded = [b.shape.dict() for b in O.bodies], functor().dict()
+    check.true(loaded == attributes, f"{ending}: attributes\n{loaded}\n{attributes}")
+    loaded = {(c.id1, c.id2): c.geom.memory for c in O.interactions if c.isReal}
+    check.equal(loaded, memories, f"{ending}: memories of the pairs")
+    check.true(all(b.shape.volume > 0 for b in O.bodies), f"{ending}: particles are there again")
+    found = go_on()
+    worst = max(abs(x - y) for x, y in zip(found, expected))
+    check.true(len(found) == len(expected) and worst < 1e-9, f"{ending}: the run goes on as before, off by {worst:g}")
+    check.equal(functor().failures, 0, f"{ending}: failures")
+
+# A scene whose contacts are YADE's own ScGeom, as it would be after a change of functor.
+fresh_scene(yade.Ig2_PP_PP_ScGeom(calContactArea=False), dt=1e-9)
+for z in (0, 0.98):
+    add(plain(cube_planes(), r=0.05, k=0.05, R=0.9), Vector3(0, 0, z), fixed=True, volume=1, inertia=Vector3(1, 1, 1))
+O.run(2, True)
+depth = O.interactions[0, 1].geom.penetrationDepth
+check.equal(type(O.interactions[0, 1].geom).__name__, "ScGeom", "made by the built-in functor")
+ours = yade.InteractionLoop([yade.Ig2_PP_PP_ScGeom_Conic(calContactArea=False)], [yade.Ip2_FrictMat_FrictMat_KnKsPhys()],
+                            [yade.Law2_SCG_KnKsPhys_KnKsLaw()])
+O.engines = O.engines[:2] + [ours] + O.engines[3:]
+name = os.path.join(folder, "foreign.xml")
+O.save(name)
+O.load(name)
+O.run(3, True)
+contact = O.interactions[0, 1]
+check.true(contact.isReal and type(contact.geom).__name__ == "ScGeom", "a real contact keeps the geometry that it has")
+check.close(contact.geom.penetrationDepth, depth, 1e-5, "and is served")
+check.equal((functor().failures, functor().calls), (0, 3), "by ours")
+
+check.finish()

@@ -1,0 +1,157 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Contacts between potential particles for YADE.
+
+Import it at the top of a YADE script, before O.engines is filled:
+
+    import potential_particles
+
+Then these classes stand beside YADE's own:
+
+    ConicPotentialParticle       a PotentialParticle that is validated when it is made
+    Ig2_ConicPP_ConicPP_ScGeom   its contact functor
+    Ig2_PP_PP_ScGeom_Conic       the same for plain PotentialParticle shapes too: put it in the
+                                 place of Ig2_PP_PP_ScGeom
+    ScGeomConicPP                the ScGeom that they fill
+
+Before a run with several threads, call potential_particles.prepare() once O.engines and O.bodies
+are filled, and after O.load: see there.
+
+The plugin is made for one build of YADE, Debian's 2023.02a on amd64. Anything else is refused with
+AbiError, which lists what differs; nothing is registered then.
+"""
+import builtins
+import sys
+
+__version__ = "0.1.0"
+SUPPORTED_YADE = "2023.02a"
+
+__all__ = ["AbiError", "library_version", "prepare"]
+
+
+class AbiError(ImportError):
+    """This YADE is not the one that the plugin was made for. `differences` lists how it differs."""
+
+    def __init__(self, differences):
+        self.differences = list(differences)
+        super().__init__(
+            "potential_particles was made for YADE %s of Debian 12 (amd64) and does not fit this one:\n  %s"
+            % (SUPPORTED_YADE, "\n  ".join(self.differences)))
+
+
+def _import_yade():
+    try:
+        import yade.system  # noqa: F401 (starts YADE's registry of classes)
+        import yade
+    except ImportError as error:
+        raise ImportError(
+            "potential_particles needs YADE (Debian package yade): run the script with `yade script.py`, or with "
+            "/usr/bin/python3.11 after sys.path.insert(0, '/usr/lib/x86_64-linux-gnu/yade-double/py'). "
+            + str(error)) from error
+    return yade
+
+
+def _check_version(yade):
+    import yade.config
+    found = str(getattr(yade.config, "version", "unknown"))
+    if found != SUPPORTED_YADE:
+        raise AbiError(["yade.config.version is '%s', expected '%s'" % (found, SUPPORTED_YADE)])
+    if sys.version_info[:2] != (3, 11):
+        raise AbiError(["Python is %d.%d, expected 3.11" % sys.version_info[:2]])
+
+
+def _import_glue():
+    try:
+        from . import _glue
+    except ImportError as error:
+        reason = str(error)
+        if "libpotential_particles" in reason:
+            remedy = "build the library with `cargo build --release`, in the place that the plugin was linked to"
+        elif "undefined symbol" in reason:
+            remedy = "the YADE that runs lacks a function that the plugin calls; it is not Debian's " + SUPPORTED_YADE
+        else:
+            remedy = "build the plugin with `cmake -S yade-glue -B yade-glue/build && cmake --build yade-glue/build`"
+        raise ImportError("potential_particles cannot load its plugin: %s (%s)" % (reason, remedy)) from error
+    return _glue
+
+
+def _check_library(glue):
+    header = ".".join(map(str, glue.header_version))
+    # While the major version is 0, a new minor version is a new interface.
+    if glue.library_version().split(".")[:2] != header.split(".")[:2]:
+        raise ImportError(
+            "potential_particles: the library is version %s, the plugin was built for %s; build the plugin again"
+            % (glue.library_version(), header))
+
+
+def _register(yade, glue):
+    import yade.wrapper
+    glue.register_classes()
+    missing = [name for name in glue.class_names if not hasattr(yade.wrapper, name)]
+    if missing:
+        raise ImportError("potential_particles: YADE did not take the classes %s; its messages above say why"
+                          % ", ".join(missing))
+    import __main__
+    for name in glue.class_names:
+        for place in (yade, builtins, __main__):
+            setattr(place, name, getattr(yade.wrapper, name))
+        globals()[name] = getattr(yade.wrapper, name)
+        yade.system._allSerializables.add(name)
+    __all__.extend(glue.class_names)
+
+
+def _dispatchers(yade):
+    """Of the present scene: (dispatchers of bounds, dispatchers of geometry)."""
+    bounds, geometry = [], []
+    for engine in yade.wrapper.Omega().engines:
+        for holder in (engine, getattr(engine, "boundDispatcher", None), getattr(engine, "geomDispatcher", None)):
+            if isinstance(holder, yade.wrapper.BoundDispatcher):
+                bounds.append(holder)
+            elif isinstance(holder, yade.wrapper.IGeomDispatcher):
+                geometry.append(holder)
+    return bounds, geometry
+
+
+def _resize_dispatchers(yade):
+    # Their tables have a row for each class of shape that existed when their functors were added.
+    for group in _dispatchers(yade):
+        for dispatcher in group:
+            dispatcher.functors = dispatcher.functors
+
+
+def prepare():
+    """Looks up, once and in one thread, every functor that the scene will need.
+
+    YADE copies a functor that serves a derived shape (as PotentialParticle2AABB serves
+    ConicPotentialParticle) into its table at the first look-up, without a lock, within its parallel
+    loops. With one thread nothing can go wrong; with several, call this before the first step.
+    """
+    import yade
+    bounds, geometry = _dispatchers(yade)
+    shapes = {type(body.shape): body.shape for body in yade.wrapper.Omega().bodies if body.shape is not None}
+    for shape in shapes.values():
+        for dispatcher in bounds:
+            dispatcher.dispFunctor(shape)
+        for other in shapes.values():
+            for dispatcher in geometry:
+                dispatcher.dispFunctor(shape, other)
+
+
+def library_version():
+    """Version of the Rust library that was loaded."""
+    return _glue.library_version()
+
+
+def _load():
+    yade = _import_yade()
+    _check_version(yade)
+    glue = _import_glue()
+    _check_library(glue)
+    differences = list(glue.differences_of_layout())
+    if differences:
+        raise AbiError(differences)
+    _register(yade, glue)
+    _resize_dispatchers(yade)
+    return glue
+
+
+_glue = _load()

@@ -1,0 +1,354 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "archives.hpp"
+
+#include "conic_potential_particle.hpp"
+#include "python_class.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace potential_particles {
+
+using yade::Vector3r;
+
+namespace {
+
+    constexpr char doc[]
+        = "Potential particle whose contacts are found by the potential-particles library.\n\n"
+          "A convex shape of planes (a, b, c, d), rounding radius r, sphericity k and shadow sphere of radius R:\n"
+          "(1-k)/r^2 * sum <a x + b y + c z - d>^2 + k/R^2 * |x|^2 = 1 on the surface, with <t> = max(t, 0).\n"
+          "An invalid particle raises ValueError when it is made or changed. Without any box attribute the\n"
+          "bounding box is computed. Use with PotentialParticle2AABB and Ig2_ConicPP_ConicPP_ScGeom.";
+
+    constexpr pp_pose identity = { { 0, 0, 0 }, { 1, 0, 0, 0 } };
+
+    // The attributes of the base that PotentialParticle2AABB reads.
+    constexpr std::array<const char*, 6> boxAttributes
+        = { "AabbMinMax", "minAabb", "maxAabb", "minAabbRotated", "maxAabbRotated", "vertices" };
+
+    // YADE's defaults mean "nothing given", which matters for attributes copied from a plain shape.
+    bool saysSomething(const yade::PotentialParticle& shape, const std::string& boxAttribute)
+    {
+        if (boxAttribute == "AabbMinMax")
+            return shape.AabbMinMax;
+        if (boxAttribute == "vertices")
+            return !shape.vertices.empty();
+        const Vector3r& corner = boxAttribute == "minAabb" ? shape.minAabb
+            : boxAttribute == "maxAabb"                    ? shape.maxAabb
+            : boxAttribute == "minAabbRotated"             ? shape.minAabbRotated
+                                                           : shape.maxAabbRotated;
+        return !corner.isZero(0);
+    }
+
+} // namespace
+
+ConicPotentialParticle::ConicPotentialParticle()
+    : accepted(Definition::of(*this))
+{
+    int& index = modifyClassIndex();
+    if (index == -1) {
+        index = getMaxCurrentlyUsedClassIndexOfKin() + 1;
+        incrementMaxCurrentlyUsedClassIndexOfKin();
+    }
+}
+
+ConicPotentialParticle::~ConicPotentialParticle() = default;
+
+std::string ConicPotentialParticle::getClassName() const { return "ConicPotentialParticle"; }
+int ConicPotentialParticle::getBaseClassNumber() const { return 1; }
+std::string ConicPotentialParticle::getBaseClassName(unsigned int index) const
+{
+    return index == 0 ? "PotentialParticle" : "";
+}
+
+int& ConicPotentialParticle::modifyClassIndex()
+{
+    static int index = -1;
+    return index;
+}
+
+const int& ConicPotentialParticle::getClassIndex() const
+{
+    return const_cast<ConicPotentialParticle*>(this)->modifyClassIndex();
+}
+
+const int& ConicPotentialParticle::getBaseClassIndex(int depth) const
+{
+    // An instance, because that is what knows the index; kept, because the index is a reference.
+    static const yade::PotentialParticle& base = *new yade::PotentialParticle;
+    return depth == 1 ? base.getClassIndex() : base.getBaseClassIndex(depth - 1);
+}
+
+// --- the particle ---------------------------------------------------------------------------
+
+std::shared_ptr<const Particle> ConicPotentialParticle::particle() const
+{
+    auto particle = std::atomic_load(&current);
+    if (particle && !particle->definition.roughlyDescribes(*this))
+        particle.reset();
+    return particle;
+}
+
+const pp_particle* ConicPotentialParticle::require() const
+{
+    const auto particle = std::atomic_load(&current);
+    if (!particle)
+        throw std::logic_error("ConicPotentialParticle was made without its constructor from Python");
+    return particle->require();
+}
+
+void ConicPotentialParticle::settle()
+{
+    const auto before = std::atomic_load(&current);
+    if (!before || !before->definition.describes(*this)) {
+        const auto made = Particle::make(Definition::of(*this));
+        if (!made->handle() && !made->pending()) {
+            accepted.giveTo(*this);
+            throw std::invalid_argument("ConicPotentialParticle: " + made->refusal());
+        }
+        accepted = made->definition;
+        std::atomic_store(&current, made);
+    }
+    if (automaticBox)
+        fillBox();
+}
+
+void ConicPotentialParticle::fillBox()
+{
+    const auto particle = std::atomic_load(&current);
+    if (!particle->handle())
+        return;
+    std::size_t count = 0;
+    const pp_status sized = pp_particle_corners(particle->handle(), nullptr, 0, &count);
+    if (sized != PP_BUFFER_TOO_SMALL)
+        requireOk(sized);
+    std::vector<Vector3r> corners(count);
+    if (count > 0)
+        requireOk(pp_particle_corners(particle->handle(), corners.front().data(), count, &count));
+    Vector3r lower, upper;
+    requireOk(pp_particle_box(particle->handle(), &identity, lower.data(), upper.data()));
+
+    vertices = std::move(corners);
+    minAabb = minAabbRotated = -lower;
+    maxAabb = maxAabbRotated = upper;
+    AabbMinMax = true;
+}
+
+// --- Python ---------------------------------------------------------------------------------
+
+void ConicPotentialParticle::pySetAttr(const std::string& key, const py::object& value)
+{
+    if (key == "planes") {
+        pySetPlanes(value);
+    } else if (key == "automaticBox") {
+        automaticBoxGiven = py::extract<bool>(value)();
+    } else {
+        PotentialParticle::pySetAttr(key, value);
+        if (std::find(boxAttributes.begin(), boxAttributes.end(), key) != boxAttributes.end())
+            boxGiven = boxGiven || saysSomething(*this, key);
+    }
+}
+
+py::dict ConicPotentialParticle::pyDict() const
+{
+    py::dict attributes;
+    attributes["automaticBox"] = automaticBox;
+    attributes.update(pyDictCustom());
+    attributes.update(PotentialParticle::pyDict());
+    return attributes;
+}
+
+void ConicPotentialParticle::callPostLoad()
+{
+    PotentialParticle::callPostLoad();
+    // An explicit choice wins over what the presence of a box suggests: a copy of a shape carries
+    // both the box and the information whose it is.
+    if (automaticBoxGiven)
+        automaticBox = *automaticBoxGiven;
+    else if (boxGiven)
+        automaticBox = false;
+    automaticBoxGiven.reset();
+    boxGiven = false;
+    settle();
+}
+
+py::list ConicPotentialParticle::pyPlanes() const
+{
+    if (!accepted.listsAgree())
+        require();
+    py::list rows;
+    for (std::size_t i = 0; i < a.size(); ++i)
+        rows.append(py::make_tuple(a[i], b[i], c[i], d[i]));
+    return rows;
+}
+
+void ConicPotentialParticle::pySetPlanes(const py::object& rows)
+{
+    Definition next = Definition::of(*this);
+    for (auto* list : { &next.a, &next.b, &next.c, &next.d })
+        list->clear();
+    for (py::ssize_t i = 0; i < py::len(rows); ++i) {
+        const py::object row = rows[i];
+        if (py::len(row) != 4)
+            throw std::invalid_argument("planes: row " + std::to_string(i) + " has " + std::to_string(py::len(row))
+                                        + " numbers, not the four (a, b, c, d)");
+        next.a.push_back(py::extract<double>(row[0]));
+        next.b.push_back(py::extract<double>(row[1]));
+        next.c.push_back(py::extract<double>(row[2]));
+        next.d.push_back(py::extract<double>(row[3]));
+    }
+    next.giveTo(*this);
+}
+
+void ConicPotentialParticle::pySetAutomaticBox(bool automatic)
+{
+    automaticBox = automatic;
+    settle();
+}
+
+namespace {
+    pp_mass_properties massProperties(const pp_particle* particle)
+    {
+        pp_mass_properties properties;
+        requireOk(pp_particle_mass_properties(particle, &properties));
+        return properties;
+    }
+}
+
+double ConicPotentialParticle::pyVolume() const { return massProperties(require()).volume; }
+
+Vector3r ConicPotentialParticle::pyCentroid() const { return Vector3r(massProperties(require()).centroid); }
+
+Eigen::Matrix3d ConicPotentialParticle::pyInertia() const
+{
+    const auto [xx, yy, zz, xy, yz, zx] = massProperties(require()).inertia;
+    Eigen::Matrix3d inertia;
+    inertia << xx, xy, zx, xy, yy, yz, zx, yz, zz;
+    return inertia;
+}
+
+double ConicPotentialParticle::pyBoundingRadius() const
+{
+    double radius;
+    requireOk(pp_particle_bounding_radius(require(), &radius));
+    return radius;
+}
+
+double ConicPotentialParticle::pyPotential(const Vector3r& point) const
+{
+    double value;
+    requireOk(pp_particle_potential(require(), &identity, point.data(), &value, nullptr));
+    return value;
+}
+
+py::list ConicPotentialParticle::pySurfaceDistance(const py::object& directions) const
+{
+    const pp_particle* particle = require();
+    py::list distances;
+    for (py::ssize_t i = 0; i < py::len(directions); ++i) {
+        const Vector3r direction = py::extract<Vector3r>(directions[i]);
+        double distance;
+        requireOk(pp_particle_surface_distance(particle, direction.data(), &distance));
+        distances.append(distance);
+    }
+    return distances;
+}
+
+namespace {
+
+    // A property of the base whose change makes the particle anew.
+    template <class Value>
+    void defining(PythonClass<ConicPotentialParticle, yade::PotentialParticle>& registered, const char* name,
+                  Value yade::PotentialParticle::*field, const char* fieldDoc)
+    {
+        using Shape = ConicPotentialParticle;
+        registered.add_property(
+            name, py::make_getter(field, py::return_value_policy<py::return_by_value>()),
+            pythonFunction<void, Shape&, const Value&>([field](Shape& shape, const Value& value) {
+                shape.*field = value;
+                shape.settle();
+            }),
+            fieldDoc);
+    }
+
+    // Reading: vectors by reference, as YADE does, so that shape.minAabb[0] = 1 works; lists by value.
+    py::object reader(Vector3r yade::PotentialParticle::*field) { return py::make_getter(field); }
+
+    template <class Value> py::object reader(Value yade::PotentialParticle::*field)
+    {
+        return py::make_getter(field, py::return_value_policy<py::return_by_value>());
+    }
+
+    // A property of the base that, once set, belongs to the user.
+    template <class Value>
+    void boxed(PythonClass<ConicPotentialParticle, yade::PotentialParticle>& registered, const char* name,
+               Value yade::PotentialParticle::*field, const char* fieldDoc)
+    {
+        using Shape = ConicPotentialParticle;
+        registered.add_property(name, reader(field),
+                                pythonFunction<void, Shape&, const Value&>([field](Shape& shape, const Value& value) {
+                                    shape.*field = value;
+                                    shape.automaticBox = false;
+                                }),
+                                fieldDoc);
+    }
+
+} // namespace
+
+void ConicPotentialParticle::pyRegisterClass(py::object scope)
+{
+    checkPyClassRegistersItself("ConicPotentialParticle");
+    const py::scope inside(scope);
+    const auto style = docstringStyle();
+    using Base = yade::PotentialParticle;
+    using Shape = ConicPotentialParticle;
+    auto registered = registerClass<Shape, Base>("ConicPotentialParticle", doc);
+
+    defining(registered, "a", &Base::a, "First component of each plane normal. See planes for setting all four lists at once.");
+    defining(registered, "b", &Base::b, "Second component of each plane normal.");
+    defining(registered, "c", &Base::c, "Third component of each plane normal.");
+    defining(registered, "d", &Base::d, "Offset of each plane from the centre.");
+    defining(registered, "r", &Base::r, "Rounding radius, length; > 0 unless k = 1.");
+    defining(registered, "k", &Base::k, "Sphericity in [0, 1]: 0 rounded polyhedron, 1 sphere of radius R.");
+    defining(registered, "R", &Base::R, "Radius of the shadow sphere, length; > 0 unless k = 0.");
+
+    boxed(registered, "AabbMinMax", &Base::AabbMinMax, "Whether the box of the vertices is used, or a cube of half size R.");
+    boxed(registered, "minAabb", &Base::minAabb, "Extent below the centre, positive, local axes; for display.");
+    boxed(registered, "maxAabb", &Base::maxAabb, "Extent above the centre, local axes; for display.");
+    boxed(registered, "minAabbRotated", &Base::minAabbRotated, "As minAabb, for contact detection when there are no vertices.");
+    boxed(registered, "maxAabbRotated", &Base::maxAabbRotated, "As maxAabb, for contact detection when there are no vertices.");
+    boxed(registered, "vertices", &Base::vertices, "Corners of a polyhedron that holds the particle, local axes.");
+
+    registered
+        .add_property("planes", &Shape::pyPlanes,
+                      pythonFunction<void, Shape&, const py::object&>([](Shape& shape, const py::object& rows) {
+                          shape.pySetPlanes(rows);
+                          shape.settle();
+                      }),
+                      "All planes as a list of (a, b, c, d); sets the four lists at once.")
+        .add_property("automaticBox", +[](const Shape& shape) { return shape.automaticBox; }, &Shape::pySetAutomaticBox,
+                      "Whether the box attributes are computed. Turned off by setting one of them.")
+        .add_property("volume", &Shape::pyVolume, "Volume, by quadrature over the true surface.")
+        .add_property("centroid", &Shape::pyCentroid, "Centroid in local axes; YADE wants it at the origin.")
+        .add_property("inertia", &Shape::pyInertia,
+                      "Inertia matrix about the local origin for density 1; State.inertia wants principal axes.")
+        .add_property("boundingRadius", &Shape::pyBoundingRadius, "Radius of a ball about the centre that holds the particle.")
+        .def("potential", &Shape::pyPotential, py::arg("point"),
+             "f at a point in local axes: < 0 inside, 0 on the surface, > 0 outside.")
+        .def("surfaceDistance", &Shape::pySurfaceDistance, py::arg("directions"),
+             "Distance from the centre to the surface along each of a list of directions, local axes.");
+}
+
+// --- archives -------------------------------------------------------------------------------
+
+template <class Archive> void ConicPotentialParticle::serialize(Archive& archive, unsigned)
+{
+    serializeBase<yade::PotentialParticle>(archive, *this, "PotentialParticle");
+    archive& boost::serialization::make_nvp("automaticBox", automaticBox);
+    if (Archive::is_loading::value)
+        settle();
+}
+
+} // namespace potential_particles
+
+BOOST_CLASS_EXPORT(potential_particles::ConicPotentialParticle)

@@ -1,0 +1,291 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// What go() does. The attributes and their way to Python and archives: ig2_registration.cpp.
+#include "../abi/knksphys.hpp"
+#include "../abi/scgeom.hpp"
+
+#include "conic_potential_particle.hpp"
+#include "ig2_conic_pp.hpp"
+#include "particle_store.hpp"
+#include "pose.hpp"
+#include "ray.hpp"
+#include "sc_geom_conic_pp.hpp"
+
+#include <boost/make_shared.hpp>
+
+#include <algorithm>
+#include <limits>
+#include <typeinfo>
+
+namespace potential_particles {
+
+using yade::Interaction;
+using yade::PotentialParticle;
+using yade::ScGeom;
+using yade::Shape;
+using yade::State;
+using yade::Vector3r;
+
+namespace {
+
+    // penetrationDepth of a pair that does not touch. Laws ask for its sign only: the width of the
+    // gap is not computed.
+    constexpr double apart = -1.0;
+
+    std::shared_ptr<const Particle> particleOf(const boost::shared_ptr<Shape>& shape, const PotentialParticle& pp)
+    {
+        if (typeid(pp) == typeid(ConicPotentialParticle))
+            if (auto particle = static_cast<const ConicPotentialParticle&>(pp).particle())
+                return particle;
+        return ParticleStore::instance().find(shape, pp);
+    }
+
+    bool isUnit(const Vector3r& vector) { return std::abs(vector.squaredNorm() - 1) < 1e-6; }
+
+    // Of a finite length, else the x axis.
+    Vector3r directionOf(const Vector3r& vector)
+    {
+        const double length = vector.norm();
+        return length > 0 && std::isfinite(length) ? Vector3r(vector / length) : Vector3r(Vector3r::UnitX());
+    }
+
+    // A boundary may prescribe the normal (world axes); the second shape has the last word, as in
+    // YADE's own functor. False when none does, or when what it prescribes has no direction.
+    bool prescribedNormal(const PotentialParticle& shape1, const PotentialParticle& shape2, Vector3r& normal)
+    {
+        if (!shape1.fixedNormal && !shape2.fixedNormal)
+            return false;
+        const Vector3r given = shape2.fixedNormal ? Vector3r(-shape2.boundaryNormal) : shape1.boundaryNormal;
+        if (!(given.norm() > 0 && given.allFinite()))
+            return false;
+        normal = given.normalized();
+        return true;
+    }
+
+    void copyTo(double (&array)[3], const Vector3r& vector) { std::copy_n(vector.data(), 3, array); }
+
+} // namespace
+
+struct Ig2_ConicPP_ConicPP_ScGeom::Pair {
+    const PotentialParticle& shape1;
+    const PotentialParticle& shape2;
+    const State& state1;
+    const State& state2;
+    const Vector3r& shift2;
+    const bool force;
+    const boost::shared_ptr<Interaction>& interaction;
+    // Both functors have run before: the pair has a history, which must not be dropped.
+    const bool real;
+    const pp_pose pose1;
+    const pp_pose pose2;
+
+    std::shared_ptr<const Particle> particle1 = nullptr;
+    std::shared_ptr<const Particle> particle2 = nullptr;
+    ScGeom* geom = nullptr;
+    pp_memory* memory = nullptr;
+
+    Vector3r branch() const { return state2.se3.position + shift2 - state1.se3.position; }
+
+    // Finds or makes the geometry. False when another functor left one that is no ScGeom.
+    bool findGeom()
+    {
+        geom = dynamic_cast<ScGeom*>(interaction->geom.get());
+        if (geom && typeid(*geom) == typeid(ScGeomConicPP)) {
+            memory = &static_cast<ScGeomConicPP*>(geom)->memory;
+            return true;
+        }
+        if (real)
+            return geom != nullptr; // of another functor or file: served without memory
+        const auto made = boost::make_shared<ScGeomConicPP>();
+        made->normal = directionOf(branch());
+        made->contactPoint = state1.se3.position + 0.5 * branch();
+        made->penetrationDepth = apart;
+        interaction->geom = made;
+        geom = made.get();
+        memory = &made->memory;
+        return true;
+    }
+
+    // Ends the step for this pair. The stored normal must still be that of the last step.
+    void precompute(const Vector3r& normal, const yade::Scene* scene)
+    {
+        geom->precompute(state1, state2, scene, interaction, normal, !real, shift2, false);
+    }
+
+    // The normal of the last step, or the line of centres (a law may have zeroed the former).
+    Vector3r lastNormal() const
+    {
+        return isUnit(geom->normal) ? geom->normal : directionOf(branch());
+    }
+};
+
+bool Ig2_ConicPP_ConicPP_ScGeom::go(const boost::shared_ptr<Shape>& cm1, const boost::shared_ptr<Shape>& cm2,
+                                    const State& state1, const State& state2, const Vector3r& shift2,
+                                    const bool& force, const boost::shared_ptr<Interaction>& interaction)
+{
+    const Stopwatch stopwatch(counters, settings.measureTime);
+    // The dispatcher calls with what get2DFunctorType1/2 say, or shapes derived from it.
+    Pair pair { static_cast<const PotentialParticle&>(*cm1),
+                static_cast<const PotentialParticle&>(*cm2),
+                state1,
+                state2,
+                shift2,
+                force,
+                interaction,
+                interaction->hasGeomAndPhys(),
+                poseOf(state1, Vector3r::Zero()),
+                poseOf(state2, shift2) };
+    if (pair.shape1.isBoundary && pair.shape2.isBoundary)
+        return false;
+    counters.add(Count::calls);
+    try {
+        pair.particle1 = particleOf(cm1, pair.shape1);
+        pair.particle2 = particleOf(cm2, pair.shape2);
+        return contact(pair);
+    } catch (const std::exception& error) {
+        fail(pair, error.what());
+    } catch (...) {
+        fail(pair, "unknown error");
+    }
+    return pair.real || (force && interaction->geom);
+}
+
+// The pair is solved as it comes, so there is nothing to reverse: both shapes are of one kind, and
+// body 1 of the interaction is body 1 of the arguments.
+bool Ig2_ConicPP_ConicPP_ScGeom::goReverse(const boost::shared_ptr<Shape>& cm1, const boost::shared_ptr<Shape>& cm2,
+                                           const State& state1, const State& state2, const Vector3r& shift2,
+                                           const bool& force, const boost::shared_ptr<Interaction>& interaction)
+{
+    return go(cm1, cm2, state1, state2, shift2, force, interaction);
+}
+
+bool Ig2_ConicPP_ConicPP_ScGeom::contact(Pair& pair)
+{
+    if (!pair.findGeom()) {
+        fail(pair, "the interaction holds a geometry that is no ScGeom; it is left as it is");
+        return true;
+    }
+    for (const auto* particle : { pair.particle1.get(), pair.particle2.get() }) {
+        if (!particle->handle()) {
+            fail(pair, (particle == pair.particle1.get() ? "shape of the first body: " : "shape of the second body: ")
+                     + particle->refusal());
+            return keep(pair);
+        }
+    }
+
+    pp_contact found;
+    if (const pp_status status = detect(pair, found); status != PP_OK) {
+        fail(pair, pp_status_message(status));
+        return keep(pair);
+    }
+    counters.add(found.flags & PP_FLAG_REJECTED ? Count::rejected : Count::solved);
+    if (found.flags & PP_FLAG_FELL_BACK)
+        counters.add(Count::fellBack);
+
+    if (found.kind == PP_OVERLAPPING) {
+        fill(pair, found);
+        return true;
+    }
+    if (!pair.real && !pair.force)
+        return false;
+    // The law ends the contact when it reads a negative overlap.
+    pair.geom->penetrationDepth = apart;
+    pair.precompute(pair.lastNormal(), scene);
+    return true;
+}
+
+// Unknown is not separated: a contact keeps its last overlap, point and normal for this step.
+bool Ig2_ConicPP_ConicPP_ScGeom::keep(Pair& pair)
+{
+    if (pair.real)
+        pair.precompute(pair.lastNormal(), scene);
+    return pair.real || pair.force;
+}
+
+pp_status Ig2_ConicPP_ConicPP_ScGeom::detect(Pair& pair, pp_contact& found)
+{
+    const pp_particle* a = pair.particle1->handle();
+    const pp_particle* b = pair.particle2->handle();
+    const pp_status status = pp_contact_detect(a, &pair.pose1, b, &pair.pose2, &library, pair.memory, &found);
+    if (status == PP_OK || library.back_end == PP_CONIC)
+        return status;
+    // Without memory, in case that is what led astray.
+    pp_settings slow = library;
+    slow.back_end = PP_CONIC;
+    if (pp_contact_detect(a, &pair.pose1, b, &pair.pose2, &slow, nullptr, &found) != PP_OK)
+        return status;
+    counters.add(Count::fellBack);
+    return PP_OK;
+}
+
+void Ig2_ConicPP_ConicPP_ScGeom::fill(Pair& pair, pp_contact& found)
+{
+    const Vector3r point(found.point);
+    Vector3r normal(found.normal);
+    if (prescribedNormal(pair.shape1, pair.shape2, normal)) {
+        // Overlap, and the points on both surfaces, along that normal through the contact point.
+        const double depth1 = distanceToSurface(*pair.particle1, pair.pose1, point, normal);
+        const double depth2 = distanceToSurface(*pair.particle2, pair.pose2, point, -normal);
+        found.overlap = depth1 + depth2;
+        copyTo(found.normal, normal);
+        copyTo(found.point_on_a, point + depth1 * normal);
+        copyTo(found.point_on_b, point - depth2 * normal);
+    }
+
+    // In this order: precompute() takes the old normal and the new contact point.
+    ScGeom& geom = *pair.geom;
+    geom.contactPoint = point;
+    geom.penetrationDepth = found.overlap;
+    // For physics made from radii (FrictPhys, Mindlin). A property of the body, so that stiffness
+    // does not depend on where a particle happens to be touched first.
+    geom.refR1 = pair.particle1->boundingRadius();
+    geom.refR2 = pair.particle2->boundingRadius();
+    pair.precompute(normal, scene);
+    fillPhysics(pair, found);
+}
+
+void Ig2_ConicPP_ConicPP_ScGeom::fillPhysics(Pair& pair, const pp_contact& found)
+{
+    // In the first step of a contact there is none yet: the area then stays 0 for that step.
+    auto* const phys = dynamic_cast<yade::KnKsPhys*>(pair.interaction->phys.get());
+    if (!phys)
+        return;
+    phys->ptOnP1 = Vector3r(found.point_on_a);
+    phys->ptOnP2 = Vector3r(found.point_on_b);
+
+    if (!settings.calContactArea) {
+        phys->jointLength = 1.0;
+        phys->contactArea = settings.twoDimension ? settings.unitWidth2D : 1.0;
+    } else if (settings.twoDimension) {
+        // The width of the overlap in the plane, across the normal.
+        const Vector3r normal(found.normal);
+        Vector3r across = normal.cross(settings.twoDdir);
+        if (across.norm() < 1e-7 * settings.twoDdir.norm())
+            across = settings.twoDdir.unitOrthogonal();
+        across.normalize();
+        const Vector3r point(found.point);
+        const auto reach = [&](const Vector3r& direction) {
+            return std::min(distanceToSurface(*pair.particle1, pair.pose1, point, direction),
+                            distanceToSurface(*pair.particle2, pair.pose2, point, direction));
+        };
+        phys->jointLength = reach(across) + reach(-across);
+        phys->contactArea = settings.unitWidth2D * phys->jointLength;
+    } else {
+        double area;
+        requireOk(pp_contact_area(pair.particle1->handle(), &pair.pose1, pair.particle2->handle(), &pair.pose2, &found,
+                                  settings.areaTolerance, &area));
+        phys->contactArea = area;
+    }
+}
+
+void Ig2_ConicPP_ConicPP_ScGeom::fail(const Pair& pair, const std::string& why) noexcept
+{
+    counters.add(Count::failures);
+    try {
+        failures.add({ pair.interaction->id1, pair.interaction->id2, pair.pose1, pair.pose2, why });
+    } catch (...) {
+        // Copying the text may run out of memory; the failure is counted.
+    }
+}
+
+} // namespace potential_particles

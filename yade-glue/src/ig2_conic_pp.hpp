@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The contact functors: potential particles to ScGeom.
+#pragma once
+
+#include "../abi/archive.hpp"
+#include "../abi/functor.hpp"
+#include "contact_settings.hpp"
+#include "counters.hpp"
+#include "failure_report.hpp"
+
+#include <boost/python/list.hpp>
+#include <boost/serialization/access.hpp>
+
+namespace yade {
+class ScGeom;
+}
+
+namespace potential_particles {
+
+class Particle;
+
+// For two ConicPotentialParticle shapes. go() runs in many threads at once, without the lock of
+// Python: it calls no Python, and no exception leaves it.
+class Ig2_ConicPP_ConicPP_ScGeom : public yade::IGeomFunctor {
+public:
+    Ig2_ConicPP_ConicPP_ScGeom();
+    ~Ig2_ConicPP_ConicPP_ScGeom() override;
+    PP_ABI_SERIALIZABLE_OVERRIDES
+
+    std::string get2DFunctorType1() const override;
+    std::string get2DFunctorType2() const override;
+    std::string checkOrder() const override;
+
+    bool go(const boost::shared_ptr<yade::Shape>& shape1, const boost::shared_ptr<yade::Shape>& shape2,
+            const yade::State& state1, const yade::State& state2, const yade::Vector3r& shift2, const bool& force,
+            const boost::shared_ptr<yade::Interaction>& interaction) override;
+    bool goReverse(const boost::shared_ptr<yade::Shape>& shape1, const boost::shared_ptr<yade::Shape>& shape2,
+                   const yade::State& state1, const yade::State& state2, const yade::Vector3r& shift2,
+                   const bool& force, const boost::shared_ptr<yade::Interaction>& interaction) override;
+
+private:
+    friend class boost::serialization::access;
+    template <class Archive> void serialize(Archive& archive, unsigned);
+
+    struct Pair; // the arguments of one call, put in order
+    bool contact(Pair& pair);
+    bool keep(Pair& pair);
+    pp_status detect(Pair& pair, pp_contact& found);
+    void fill(Pair& pair, pp_contact& found);
+    void fillPhysics(Pair& pair, const pp_contact& found);
+    void fail(const Pair& pair, const std::string& why) noexcept;
+
+    void settle();
+    boost::python::list pyFailureReport() const;
+    double pySeconds() const;
+    void pyResetCounters();
+
+    // `settings` as set from Python; `library` is its parsed form. Both change only between steps,
+    // like the attributes of every functor of YADE.
+    ContactSettings settings;
+    ContactSettings accepted;
+    pp_settings library;
+    Counters counters;
+    FailureReport failures;
+};
+
+// The same for every pair of potential particles, YADE's own PotentialParticle among them: takes
+// the place of Ig2_PP_PP_ScGeom in a script. Particles of plain shapes come from the ParticleStore.
+class Ig2_PP_PP_ScGeom_Conic final : public Ig2_ConicPP_ConicPP_ScGeom {
+public:
+    ~Ig2_PP_PP_ScGeom_Conic() override;
+    std::string getBaseClassName(unsigned int index = 0) const override;
+    std::string getClassName() const override;
+    void pyRegisterClass(boost::python::object scope) override;
+
+    std::string get2DFunctorType1() const override;
+    std::string get2DFunctorType2() const override;
+    std::string checkOrder() const override;
+
+private:
+    friend class boost::serialization::access;
+    template <class Archive> void serialize(Archive& archive, unsigned);
+};
+
+} // namespace potential_particles

@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The contact functors' names, attributes, Python classes and archives.
+#include "archives.hpp"
+
+#include "ig2_conic_pp.hpp"
+#include "python_class.hpp"
+
+#include <boost/serialization/base_object.hpp>
+#include <boost/serialization/string.hpp>
+
+namespace potential_particles {
+
+namespace {
+
+    constexpr char doc[]
+        = "Contact of two ConicPotentialParticle shapes: fills ScGeom (normal from body 1 to 2, contactPoint,\n"
+          "penetrationDepth; refR1, refR2: bounding radii) and, with KnKsPhys, its ptOnP1, ptOnP2 and contactArea.\n"
+          "Pairs that cannot be solved are counted in failures and described in failureReport; a contact then keeps\n"
+          "its last geometry. Laws that take spheres' lever arms must be told not to, for example\n"
+          "Law2_ScGeom_FrictPhys_CundallStrack(sphericalBodies=False).";
+    constexpr char plainDoc[]
+        = "As Ig2_ConicPP_ConicPP_ScGeom, for every pair of PotentialParticle shapes, plain ones too: put it in the\n"
+          "place of Ig2_PP_PP_ScGeom. Its keyword arguments are understood.";
+
+    py::tuple pose(const pp_pose& given)
+    {
+        const auto& [x, y, z] = given.position;
+        const auto& [qw, qx, qy, qz] = given.orientation;
+        return py::make_tuple(py::make_tuple(x, y, z), py::make_tuple(qw, qx, qy, qz));
+    }
+
+} // namespace
+
+Ig2_ConicPP_ConicPP_ScGeom::Ig2_ConicPP_ConicPP_ScGeom()
+    : library(settings.parsed())
+{
+}
+
+Ig2_ConicPP_ConicPP_ScGeom::~Ig2_ConicPP_ConicPP_ScGeom() = default;
+Ig2_PP_PP_ScGeom_Conic::~Ig2_PP_PP_ScGeom_Conic() = default;
+
+std::string Ig2_ConicPP_ConicPP_ScGeom::getClassName() const { return "Ig2_ConicPP_ConicPP_ScGeom"; }
+int Ig2_ConicPP_ConicPP_ScGeom::getBaseClassNumber() const { return 1; }
+std::string Ig2_ConicPP_ConicPP_ScGeom::getBaseClassName(unsigned int index) const
+{
+    return index == 0 ? "IGeomFunctor" : "";
+}
+std::string Ig2_ConicPP_ConicPP_ScGeom::get2DFunctorType1() const { return "ConicPotentialParticle"; }
+std::string Ig2_ConicPP_ConicPP_ScGeom::get2DFunctorType2() const { return "ConicPotentialParticle"; }
+std::string Ig2_ConicPP_ConicPP_ScGeom::checkOrder() const { return "ConicPotentialParticle ConicPotentialParticle"; }
+
+std::string Ig2_PP_PP_ScGeom_Conic::getClassName() const { return "Ig2_PP_PP_ScGeom_Conic"; }
+std::string Ig2_PP_PP_ScGeom_Conic::getBaseClassName(unsigned int index) const
+{
+    return index == 0 ? "Ig2_ConicPP_ConicPP_ScGeom" : "";
+}
+std::string Ig2_PP_PP_ScGeom_Conic::get2DFunctorType1() const { return "PotentialParticle"; }
+std::string Ig2_PP_PP_ScGeom_Conic::get2DFunctorType2() const { return "PotentialParticle"; }
+std::string Ig2_PP_PP_ScGeom_Conic::checkOrder() const { return "PotentialParticle PotentialParticle"; }
+
+void Ig2_ConicPP_ConicPP_ScGeom::settle()
+{
+    try {
+        library = settings.parsed();
+        accepted = settings;
+    } catch (const std::invalid_argument& error) {
+        settings = accepted;
+        throw std::invalid_argument(getClassName() + ": " + error.what());
+    }
+}
+
+void Ig2_ConicPP_ConicPP_ScGeom::callPostLoad()
+{
+    IGeomFunctor::callPostLoad();
+    settle();
+}
+
+void Ig2_ConicPP_ConicPP_ScGeom::pySetAttr(const std::string& key, const py::object& value)
+{
+    bool own = false;
+    ContactSettings::eachAttribute([&](const char* name, auto member, const char*) {
+        if (key != name)
+            return;
+        settings.*member = py::extract<typename Pointed<decltype(member)>::type>(value)();
+        own = true;
+    });
+    if (!own)
+        IGeomFunctor::pySetAttr(key, value);
+}
+
+py::dict Ig2_ConicPP_ConicPP_ScGeom::pyDict() const
+{
+    py::dict attributes;
+    ContactSettings::eachAttribute(
+        [&](const char* name, auto member, const char*) { attributes[name] = py::object(settings.*member); });
+    attributes.update(pyDictCustom());
+    attributes.update(IGeomFunctor::pyDict());
+    return attributes;
+}
+
+void Ig2_ConicPP_ConicPP_ScGeom::pyRegisterClass(py::object scope)
+{
+    checkPyClassRegistersItself("Ig2_ConicPP_ConicPP_ScGeom");
+    const py::scope inside(scope);
+    const auto style = docstringStyle();
+    using Functor = Ig2_ConicPP_ConicPP_ScGeom;
+    auto registered = registerClass<Functor, yade::IGeomFunctor>("Ig2_ConicPP_ConicPP_ScGeom", doc);
+
+    ContactSettings::eachAttribute([&](const char* name, auto member, const char* attributeDoc) {
+        using Value = typename Pointed<decltype(member)>::type;
+        registered.add_property(name,
+                                pythonFunction<Value, const Functor&>(
+                                    [member](const Functor& functor) { return functor.settings.*member; }),
+                                pythonFunction<void, Functor&, const Value&>(
+                                    [member](Functor& functor, const Value& value) {
+                                        functor.settings.*member = value;
+                                        functor.settle();
+                                    }),
+                                attributeDoc);
+    });
+
+    const auto count = [&](const char* name, Count what, const char* attributeDoc) {
+        registered.add_property(name,
+                                pythonFunction<std::uint64_t, const Functor&>(
+                                    [what](const Functor& functor) { return functor.counters.total(what); }),
+                                attributeDoc);
+    };
+    count("calls", Count::calls, "Calls so far, pairs of two boundaries excepted.");
+    count("solved", Count::solved, "Pairs solved to the end.");
+    count("rejected", Count::rejected, "Pairs proved separated without solving to the end.");
+    count("fellBack", Count::fellBack, "Pairs answered by the conic back end because the fast one gave up.");
+    count("failures", Count::failures, "Failed calls: no answer by any back end, or no valid particle or pose.");
+    registered
+        .add_property("seconds", &Functor::pySeconds,
+                      "Time inside this functor, summed over threads, while measureTime was True.")
+        .add_property("failureReport", &Functor::pyFailureReport,
+                      "First failure of each pair: dicts of ids, poses ((position), (w, x, y, z)) and message.")
+        .def("resetCounters", &Functor::pyResetCounters, "Sets all counters to 0 and empties failureReport.");
+}
+
+void Ig2_PP_PP_ScGeom_Conic::pyRegisterClass(py::object scope)
+{
+    checkPyClassRegistersItself("Ig2_PP_PP_ScGeom_Conic");
+    const py::scope inside(scope);
+    const auto style = docstringStyle();
+    registerClass<Ig2_PP_PP_ScGeom_Conic, Ig2_ConicPP_ConicPP_ScGeom>("Ig2_PP_PP_ScGeom_Conic", plainDoc);
+}
+
+py::list Ig2_ConicPP_ConicPP_ScGeom::pyFailureReport() const
+{
+    py::list report;
+    for (const Failure& failure : failures.all()) {
+        py::dict entry;
+        entry["id1"] = failure.id1;
+        entry["id2"] = failure.id2;
+        entry["pose1"] = pose(failure.pose1);
+        entry["pose2"] = pose(failure.pose2);
+        entry["message"] = failure.message;
+        report.append(entry);
+    }
+    return report;
+}
+
+double Ig2_ConicPP_ConicPP_ScGeom::pySeconds() const
+{
+    return 1e-9 * static_cast<double>(counters.total(Count::nanoseconds));
+}
+
+void Ig2_ConicPP_ConicPP_ScGeom::pyResetCounters()
+{
+    counters.reset();
+    failures.clear();
+}
+
+template <class Archive> void Ig2_ConicPP_ConicPP_ScGeom::serialize(Archive& archive, unsigned)
+{
+    serializeBase<yade::IGeomFunctor>(archive, *this, "IGeomFunctor");
+    ContactSettings::eachAttribute(
+        [&](const char* name, auto member, const char*) { archiveAttribute(archive, name, settings.*member); });
+    if (Archive::is_loading::value)
+        settle();
+}
+
+template <class Archive> void Ig2_PP_PP_ScGeom_Conic::serialize(Archive& archive, unsigned)
+{
+    // The base is ours, so Boost's own way works here.
+    archive& BOOST_SERIALIZATION_BASE_OBJECT_NVP(Ig2_ConicPP_ConicPP_ScGeom);
+}
+
+} // namespace potential_particles
+
+BOOST_CLASS_EXPORT(potential_particles::Ig2_ConicPP_ConicPP_ScGeom)
+BOOST_CLASS_EXPORT(potential_particles::Ig2_PP_PP_ScGeom_Conic)

@@ -1,0 +1,337 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Each field is written on one side and read on the other: set from Python (that is, by YADE's own
+// code) to a value no other field has and read through our declaration, or, where Python may not
+// set it, the other way round. Virtual tables of our classes are compared with those of their
+// bases: a slot that our class does not override must hold the same function.
+#include "load_check.hpp"
+
+#include "../abi/functor.hpp"
+#include "../abi/knksphys.hpp"
+#include "../abi/scgeom.hpp"
+#include "../abi/shape.hpp"
+
+#include "conic_potential_particle.hpp"
+#include "ig2_conic_pp.hpp"
+#include "sc_geom_conic_pp.hpp"
+
+#include <boost/python/errors.hpp>
+#include <boost/python/extract.hpp>
+#include <boost/python/import.hpp>
+
+#include <dlfcn.h>
+#include <link.h>
+#include <malloc.h>
+
+#include <algorithm>
+#include <array>
+#include <initializer_list>
+
+namespace potential_particles {
+
+namespace py = boost::python;
+using namespace yade;
+
+namespace {
+
+    using Differences = std::vector<std::string>;
+
+    std::string takePythonError()
+    {
+        PyObject *type = nullptr, *value = nullptr, *trace = nullptr;
+        PyErr_Fetch(&type, &value, &trace);
+        const py::handle<> text(py::allow_null(value ? PyObject_Str(value) : nullptr));
+        std::string message = text ? py::extract<std::string>(py::object(text))() : "unknown Python error";
+        Py_XDECREF(type);
+        Py_XDECREF(value);
+        Py_XDECREF(trace);
+        PyErr_Clear();
+        return message;
+    }
+
+    // Values, a new one at each call, as the type wants them.
+    class Values {
+    public:
+        template <class Value> Value next();
+
+    private:
+        double number() { return 3.25 + ++counter; }
+        int counter = 0;
+    };
+    template <> double Values::next() { return number(); }
+    template <> int Values::next() { return 1000 + ++counter; }
+    template <> long Values::next() { return 100000 + ++counter; }
+    template <> std::string Values::next() { return "label" + std::to_string(++counter); }
+    template <> Vector3r Values::next() { return Vector3r(number(), number(), number()); }
+    template <> Vector3i Values::next() { return Vector3i::Constant(next<int>()) + Vector3i(0, 1000, 2000); }
+    template <> Quaternionr Values::next() { return Quaternionr(number(), number(), number(), number()).normalized(); }
+    template <> std::vector<double> Values::next() { return { number(), number() }; }
+    template <> std::vector<Vector3r> Values::next() { return { next<Vector3r>(), next<Vector3r>() }; }
+
+    // One object, made by YADE's Python, seen through our declaration of its class.
+    template <class Class> class Probe {
+    public:
+        Probe(Differences& differences, const char* className)
+            : differences(differences)
+            , className(className)
+            , object(py::import("yade.wrapper").attr(className)())
+            , seen(py::extract<Class&>(object)())
+        {
+            // Only a lower bound: the allocator rounds up.
+            if (const auto block = malloc_usable_size(&seen); block < sizeof(Class))
+                differences.push_back(std::string(className) + ": YADE allocates " + std::to_string(block)
+                                      + " bytes, declared are " + std::to_string(sizeof(Class)));
+        }
+
+        template <class Value> Probe& field(const char* name, Value Class::*member)
+        {
+            return field<Value>(name, [member](Class& seen) -> Value& { return seen.*member; });
+        }
+
+        template <class Value, class Access> Probe& field(const char* name, Access access)
+        {
+            if constexpr (std::is_same_v<Value, bool>) {
+                // Twice, so that a constant byte in its place does not pass.
+                (void)(compare<bool>(name, access, true) && compare<bool>(name, access, false));
+            } else {
+                compare<Value>(name, access, values.template next<Value>());
+            }
+            return *this;
+        }
+
+        Class& instance() { return seen; }
+
+    private:
+        // False when it noted a difference.
+        template <class Value, class Access> bool compare(const char* name, Access access, const Value& value)
+        try {
+            const std::string where = std::string(className) + "." + name;
+            const py::object given(value);
+            if (PyObject_SetAttrString(object.ptr(), name, given.ptr()) == 0) {
+                if (access(seen) == value)
+                    return true;
+                differences.push_back(where + ": set from Python, not found at its declared place");
+            } else {
+                PyErr_Clear();
+                access(seen) = value;
+                if (py::extract<Value>(object.attr(name))() == value)
+                    return true;
+                differences.push_back(where + ": written at its declared place, not seen from Python");
+            }
+            return false;
+        } catch (const py::error_already_set&) {
+            differences.push_back(std::string(className) + "." + name + ": " + takePythonError());
+            return false;
+        }
+
+        Differences& differences;
+        const char* className;
+        py::object object;
+        Class& seen;
+        Values values;
+    };
+
+    void checkShape(Differences& found)
+    {
+        using P = PotentialParticle;
+        Probe<P>(found, "PotentialParticle")
+            .field<Vector3r>("color", [](P& p) -> Vector3r& { return p.color; })
+            .field<bool>("wire", [](P& p) -> bool& { return p.wire; })
+            .field<bool>("highlight", [](P& p) -> bool& { return p.highlight; })
+            .field("id", &P::id)
+            .field("isBoundary", &P::isBoundary)
+            .field("fixedNormal", &P::fixedNormal)
+            .field("boundaryNormal", &P::boundaryNormal)
+            .field("AabbMinMax", &P::AabbMinMax)
+            .field("minAabb", &P::minAabb)
+            .field("maxAabb", &P::maxAabb)
+            .field("minAabbRotated", &P::minAabbRotated)
+            .field("maxAabbRotated", &P::maxAabbRotated)
+            .field("r", &P::r)
+            .field("R", &P::R)
+            .field("k", &P::k)
+            .field("vertices", &P::vertices)
+            .field("a", &P::a)
+            .field("b", &P::b)
+            .field("c", &P::c)
+            .field("d", &P::d);
+    }
+
+    void checkState(Differences& found)
+    {
+        Probe<State> probe(found, "State");
+        probe.field<Vector3r>("pos", [](State& s) -> Vector3r& { return s.se3.position; })
+            .field<Vector3r>("pos", [](State& s) -> Vector3r& { return s.pos; })
+            .field<Quaternionr>("ori", [](State& s) -> Quaternionr& { return s.se3.orientation; })
+            .field<Quaternionr>("ori", [](State& s) -> Quaternionr& { return s.ori; })
+            .field("vel", &State::vel)
+            .field("mass", &State::mass)
+            .field("angVel", &State::angVel)
+            .field("angMom", &State::angMom)
+            .field("inertia", &State::inertia)
+            .field("refPos", &State::refPos)
+            .field("refOri", &State::refOri)
+            .field("isDamped", &State::isDamped)
+            .field("densityScaling", &State::densityScaling);
+    }
+
+    void checkGeometry(Differences& found)
+    {
+        using G = ScGeom;
+        Probe<G>(found, "ScGeom")
+            .field<Vector3r>("normal", [](G& g) -> Vector3r& { return g.normal; })
+            .field<Vector3r>("contactPoint", [](G& g) -> Vector3r& { return g.contactPoint; })
+            .field<double>("refR1", [](G& g) -> double& { return g.refR1; })
+            .field<double>("refR2", [](G& g) -> double& { return g.refR2; })
+            .field<double>("refR1", [](G& g) -> double& { return g.radius1; })
+            .field<double>("refR2", [](G& g) -> double& { return g.radius2; })
+            .field("penetrationDepth", &G::penetrationDepth)
+            .field("shearInc", &G::shearInc);
+    }
+
+    void checkPhysics(Differences& found)
+    {
+        using P = KnKsPhys;
+        Probe<P>(found, "KnKsPhys")
+            .field<double>("kn", [](P& p) -> double& { return p.kn; })
+            .field<Vector3r>("normalForce", [](P& p) -> Vector3r& { return p.normalForce; })
+            .field<double>("ks", [](P& p) -> double& { return p.ks; })
+            .field<Vector3r>("shearForce", [](P& p) -> Vector3r& { return p.shearForce; })
+            .field<double>("tangensOfFrictionAngle", [](P& p) -> double& { return p.tangensOfFrictionAngle; })
+            .field("frictionAngle", &P::frictionAngle)
+            .field("viscousDamping", &P::viscousDamping)
+            .field("maxClosure", &P::maxClosure)
+            .field("u_elastic", &P::u_elastic)
+            .field("brittleLength", &P::brittleLength)
+            .field("knVol", &P::knVol)
+            .field("ksVol", &P::ksVol)
+            .field("kn_i", &P::kn_i)
+            .field("ks_i", &P::ks_i)
+            .field("normalViscous", &P::normalViscous)
+            .field("shearViscous", &P::shearViscous)
+            .field("intactRock", &P::intactRock)
+            .field("jointType", &P::jointType)
+            .field("shearDir", &P::shearDir)
+            .field("prevNormal", &P::prevNormal)
+            .field("warmstart", &P::warmstart)
+            .field("ptOnP1", &P::ptOnP1)
+            .field("ptOnP2", &P::ptOnP2)
+            .field("cumulative_us", &P::cumulative_us)
+            .field("mobilizedShear", &P::mobilizedShear)
+            .field("contactArea", &P::contactArea)
+            .field("prevSigma", &P::prevSigma)
+            .field("jointLength", &P::jointLength)
+            .field("shearIncrementForCD", &P::shearIncrementForCD)
+            .field("useFaceProperties", &P::useFaceProperties)
+            .field("cohesion", &P::cohesion)
+            .field("tension", &P::tension)
+            .field("cohesionBroken", &P::cohesionBroken)
+            .field("tensionBroken", &P::tensionBroken)
+            .field("phi_b", &P::phi_b)
+            .field("phi_r", &P::phi_r)
+            .field("u_cumulative", &P::u_cumulative)
+            .field("initialShearDir", &P::initialShearDir)
+            .field("effective_phi", &P::effective_phi)
+            .field("isSliding", &P::isSliding);
+    }
+
+    void checkInteraction(Differences& found)
+    {
+        using I = Interaction;
+        Probe<I> probe(found, "Interaction");
+        probe.field("isActive", &I::isActive)
+            .field("id1", &I::id1)
+            .field("id2", &I::id2)
+            .field("iterMadeReal", &I::iterMadeReal)
+            .field("cellDist", &I::cellDist)
+            .field("iterBorn", &I::iterBorn);
+        I& interaction = probe.instance();
+        if (interaction.geom || interaction.phys || !interaction.functorCache.geomExists)
+            found.push_back("Interaction: a new one does not look empty at geom, phys, functorCache");
+    }
+
+    void checkFunctor(Differences& found)
+    {
+        Probe<IGeomFunctor> probe(found, "Ig2_PP_PP_ScGeom");
+        probe.field<std::string>("label", [](IGeomFunctor& f) -> std::string& { return f.label; });
+        IGeomFunctor& builtin = probe.instance();
+        const std::string first = builtin.get2DFunctorType1(), second = builtin.get2DFunctorType2();
+        if (first != "PotentialParticle" || second != "PotentialParticle" || builtin.checkOrder() != first + " " + second)
+            found.push_back("IGeomFunctor: virtual calls on Ig2_PP_PP_ScGeom do not answer as they should");
+    }
+
+    // --- virtual tables ---------------------------------------------------------------------
+
+    constexpr std::size_t firstVirtual = 2; // behind offset-to-top and type information
+
+    struct Table {
+        const void* const* slots;
+        std::size_t words; // as the symbol table of its library has it; 0 when not found
+    };
+
+    Table tableOf(const void* object)
+    {
+        const auto* functions = *static_cast<const void* const* const*>(object);
+        Dl_info library;
+        ElfW(Sym)* symbol = nullptr;
+        const bool known = dladdr1(functions, &library, reinterpret_cast<void**>(&symbol), RTLD_DL_SYMENT) && symbol;
+        return { functions - firstVirtual, known ? symbol->st_size / sizeof(void*) : 0 };
+    }
+
+    // overridden: slots that the derived class fills itself.
+    void compareTables(Differences& found, const char* name, const Factorable& derived, const Factorable& base,
+                       std::size_t words, std::initializer_list<std::size_t> overridden)
+    {
+        const Table own = tableOf(&derived), theirs = tableOf(&base);
+        if (own.words != words || theirs.words != words) {
+            found.push_back(std::string(name) + ": virtual table of " + std::to_string(own.words) + " words, its base's "
+                            + std::to_string(theirs.words) + ", expected " + std::to_string(words) + " in both");
+            return;
+        }
+        for (std::size_t slot = firstVirtual; slot < words; ++slot) {
+            const bool ours = std::find(overridden.begin(), overridden.end(), slot) != overridden.end();
+            const bool equal = own.slots[slot] == theirs.slots[slot];
+            if (ours == equal && own.slots[slot] != nullptr)
+                found.push_back(std::string(name) + ": slot " + std::to_string(slot) + " of the virtual table is "
+                                + (equal ? "the base's, expected ours" : "not the base's"));
+        }
+    }
+
+    void checkTables(Differences& found)
+    {
+        const ConicPotentialParticle shape;
+        const PotentialParticle plainShape;
+        // 19 and 20 are the second base's offset and type information.
+        compareTables(found, "ConicPotentialParticle", shape, plainShape, 28,
+                      { 2, 3, 4, 5, 6, 7, 8, 10, 12, 14, 15, 16, 20, 22, 23, 24, 25, 26 });
+        const ScGeomConicPP geom;
+        const ScGeom plainGeom;
+        compareTables(found, "ScGeomConicPP", geom, plainGeom, 28, { 2, 3, 4, 5, 6, 7, 8, 10, 12, 20, 23, 24 });
+        // Against YADE's own functor, which overrides the same functions: the sizes must agree.
+        const Ig2_ConicPP_ConicPP_ScGeom functor;
+        const py::object builtin = py::import("yade.wrapper").attr("Ig2_PP_PP_ScGeom")();
+        const std::size_t ours = tableOf(&functor).words;
+        const std::size_t theirs = tableOf(&py::extract<IGeomFunctor&>(builtin)()).words;
+        if (ours == 0 || ours != theirs)
+            found.push_back("Ig2_ConicPP_ConicPP_ScGeom: virtual table of " + std::to_string(ours)
+                            + " words, Ig2_PP_PP_ScGeom has " + std::to_string(theirs));
+    }
+
+} // namespace
+
+std::vector<std::string> differencesOfLayout()
+{
+    Differences found;
+    const std::array checks
+        = { checkShape, checkState, checkGeometry, checkPhysics, checkInteraction, checkFunctor, checkTables };
+    for (const auto check : checks) {
+        try {
+            check(found);
+        } catch (const py::error_already_set&) {
+            found.push_back("a class that is needed cannot be used from Python: " + takePythonError());
+        }
+    }
+    return found;
+}
+
+} // namespace potential_particles

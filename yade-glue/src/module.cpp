@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The extension module potential_particles._glue. The package's __init__.py decides what to call.
+#include "../abi/base.hpp"
+
+#include "load_check.hpp"
+#include "particle_store.hpp"
+#include "registration.hpp"
+
+#include <boost/python/def.hpp>
+#include <boost/python/list.hpp>
+#include <boost/python/module.hpp>
+#include <boost/python/scope.hpp>
+
+namespace py = boost::python;
+namespace pp = potential_particles;
+
+namespace {
+
+py::list differencesOfLayout()
+{
+    py::list sentences;
+    for (const std::string& sentence : pp::differencesOfLayout())
+        sentences.append(sentence);
+    return sentences;
+}
+
+std::size_t storedParticles() { return pp::ParticleStore::instance().size(); }
+
+} // namespace
+
+BOOST_PYTHON_MODULE(_glue)
+{
+    py::list names;
+    for (const char* name : pp::classNames)
+        names.append(name);
+    py::scope().attr("class_names") = names;
+    py::scope().attr("header_version") = py::make_tuple(PP_VERSION_MAJOR, PP_VERSION_MINOR, PP_VERSION_PATCH);
+
+    py::def("library_version", &pp_version);
+    py::def("differences_of_layout", &differencesOfLayout);
+    py::def("register_classes", &pp::registerClasses);
+    py::def("stored_particles", &storedParticles);
+}

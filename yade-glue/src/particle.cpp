@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "particle.hpp"
+
+#include <cstring>
+#include <limits>
+#include <stdexcept>
+
+namespace potential_particles {
+
+namespace {
+
+    bool sameBits(const std::vector<double>& left, const std::vector<double>& right)
+    {
+        return left.size() == right.size()
+            && (left.empty() || std::memcmp(left.data(), right.data(), left.size() * sizeof(double)) == 0);
+    }
+
+    bool sameBits(double left, double right) { return std::memcmp(&left, &right, sizeof left) == 0; }
+
+    std::string lengths(const Definition& definition)
+    {
+        return "the planes are incomplete: a, b, c, d have " + std::to_string(definition.a.size()) + ", "
+            + std::to_string(definition.b.size()) + ", " + std::to_string(definition.c.size()) + " and "
+            + std::to_string(definition.d.size())
+            + " entries; set all four to one length, or use shape.planes = [(a, b, c, d), ...]";
+    }
+
+} // namespace
+
+Definition Definition::of(const yade::PotentialParticle& shape)
+{
+    return { shape.a, shape.b, shape.c, shape.d, shape.r, shape.k, shape.R };
+}
+
+void Definition::giveTo(yade::PotentialParticle& shape) const
+{
+    shape.a = a;
+    shape.b = b;
+    shape.c = c;
+    shape.d = d;
+    shape.r = r;
+    shape.k = k;
+    shape.R = R;
+}
+
+bool Definition::describes(const yade::PotentialParticle& shape) const
+{
+    return sameBits(r, shape.r) && sameBits(k, shape.k) && sameBits(R, shape.R) && sameBits(a, shape.a)
+        && sameBits(b, shape.b) && sameBits(c, shape.c) && sameBits(d, shape.d);
+}
+
+bool Definition::roughlyDescribes(const yade::PotentialParticle& shape) const
+{
+    return sameBits(r, shape.r) && sameBits(k, shape.k) && sameBits(R, shape.R) && a.size() == shape.a.size()
+        && b.size() == shape.b.size() && c.size() == shape.c.size() && d.size() == shape.d.size();
+}
+
+bool Definition::listsAgree() const
+{
+    return a.size() == b.size() && a.size() == c.size() && a.size() == d.size();
+}
+
+std::shared_ptr<const Particle> Particle::make(Definition definition)
+{
+    return std::shared_ptr<const Particle>(new Particle(std::move(definition)));
+}
+
+Particle::Particle(Definition given)
+    : definition(std::move(given))
+    , radius(std::numeric_limits<double>::quiet_NaN())
+{
+    if (pending()) {
+        whyNot = lengths(definition);
+        return;
+    }
+    std::vector<double> rows;
+    rows.reserve(4 * definition.a.size());
+    for (std::size_t i = 0; i < definition.a.size(); ++i)
+        rows.insert(rows.end(), { definition.a[i], definition.b[i], definition.c[i], definition.d[i] });
+
+    pp_particle* made = nullptr;
+    char message[PP_MESSAGE_SIZE] = "";
+    const pp_status status = pp_particle_new(rows.data(), definition.a.size(), definition.r, definition.k,
+                                             definition.R, &made, message, sizeof message);
+    if (status != PP_OK) {
+        whyNot = message[0] ? message : pp_status_message(status);
+        return;
+    }
+    owned.reset(made);
+    requireOk(pp_particle_bounding_radius(made, &radius));
+}
+
+const pp_particle* Particle::require() const
+{
+    if (!owned)
+        throw std::invalid_argument(whyNot);
+    return owned.get();
+}
+
+void requireOk(pp_status status)
+{
+    if (status != PP_OK)
+        throw std::invalid_argument(pp_status_message(status));
+}
+
+} // namespace potential_particles

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The library's particle that belongs to a YADE shape.
+#pragma once
+
+#include "../abi/shape.hpp"
+
+#include <potential_particles.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace potential_particles {
+
+// The attributes of a shape that say which particle it is.
+struct Definition {
+    std::vector<double> a, b, c, d;
+    double r, k, R;
+
+    static Definition of(const yade::PotentialParticle& shape);
+    void giveTo(yade::PotentialParticle& shape) const;
+
+    // Bit for bit, so that a NaN equals itself.
+    bool describes(const yade::PotentialParticle& shape) const;
+    // The same without reading the coefficients: r, k, R and the number of planes.
+    bool roughlyDescribes(const yade::PotentialParticle& shape) const;
+    bool listsAgree() const;
+};
+
+// A definition and what the library made of it. Never changes, so threads may share it.
+class Particle {
+public:
+    // Never null. A definition that the library refuses gives a particle without handle.
+    static std::shared_ptr<const Particle> make(Definition definition);
+
+    // Null when refused or pending.
+    const pp_particle* handle() const { return owned.get(); }
+    // Lists of different lengths: a script is about to set the other lists.
+    bool pending() const { return !definition.listsAgree(); }
+    // Why there is no handle, as a sentence; empty when there is one.
+    const std::string& refusal() const { return whyNot; }
+    // Throws std::invalid_argument with the refusal when there is no handle.
+    const pp_particle* require() const;
+    double boundingRadius() const { return radius; }
+
+    const Definition definition;
+
+private:
+    struct Release {
+        void operator()(pp_particle* particle) const { pp_particle_free(particle); }
+    };
+
+    explicit Particle(Definition given);
+
+    std::unique_ptr<pp_particle, Release> owned;
+    std::string whyNot;
+    double radius;
+};
+
+// Throws std::invalid_argument with the library's sentence unless the status is PP_OK.
+void requireOk(pp_status status);
+
+} // namespace potential_particles

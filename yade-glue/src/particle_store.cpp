@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "particle_store.hpp"
+
+#include <algorithm>
+#include <cstdint>
+
+namespace potential_particles {
+
+ParticleStore& ParticleStore::instance()
+{
+    // Never destroyed: OpenMP threads may outlive the statics of this module.
+    static ParticleStore& store = *new ParticleStore;
+    return store;
+}
+
+std::shared_ptr<const Particle> ParticleStore::find(const boost::shared_ptr<yade::Shape>& owner,
+                                                    const yade::PotentialParticle& shape)
+{
+    Shard& shard = shardOf(&shape);
+    {
+        const std::lock_guard<std::mutex> lock(shard.mutex);
+        const auto found = shard.entries.find(&shape);
+        if (found != shard.entries.end() && found->second.particle->definition.describes(shape))
+            return found->second.particle;
+    }
+    // Made outside the lock: two threads may both make it, which is waste and no error.
+    auto made = Particle::make(Definition::of(shape));
+    const std::lock_guard<std::mutex> lock(shard.mutex);
+    shard.entries[&shape] = { owner, made };
+    if (shard.entries.size() >= shard.sweepAt)
+        sweep(shard);
+    return made;
+}
+
+std::size_t ParticleStore::size()
+{
+    std::size_t total = 0;
+    for (Shard& shard : shards) {
+        const std::lock_guard<std::mutex> lock(shard.mutex);
+        total += shard.entries.size();
+    }
+    return total;
+}
+
+ParticleStore::Shard& ParticleStore::shardOf(const void* address)
+{
+    // Shapes are some hundred bytes apart: drop the low bits, mix in higher ones.
+    const auto bits = reinterpret_cast<std::uintptr_t>(address) >> 6;
+    return shards[(bits ^ (bits >> 6) ^ (bits >> 12)) % shards.size()];
+}
+
+void ParticleStore::sweep(Shard& shard)
+{
+    for (auto entry = shard.entries.begin(); entry != shard.entries.end();) {
+        if (entry->second.owner.expired())
+            entry = shard.entries.erase(entry);
+        else
+            ++entry;
+    }
+    shard.sweepAt = std::max<std::size_t>(64, 2 * shard.entries.size());
+}
+
+} // namespace potential_particles

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The library's particles of shapes that cannot carry one: YADE's own PotentialParticle.
+#pragma once
+
+#include "particle.hpp"
+
+#include <array>
+#include <mutex>
+#include <unordered_map>
+
+#include <boost/weak_ptr.hpp>
+
+namespace potential_particles {
+
+// Keyed by the address of the shape, and checked against every coefficient at every look-up, so
+// that neither a changed attribute nor a reused address can return a particle of other days. The
+// comparison costs some ten nanoseconds; the locks are spread over shards, since the threads of a
+// step look up different bodies most of the time.
+class ParticleStore {
+public:
+    static ParticleStore& instance();
+
+    std::shared_ptr<const Particle> find(const boost::shared_ptr<yade::Shape>& owner,
+                                         const yade::PotentialParticle& shape);
+    // Particles held now, for tests and curiosity.
+    std::size_t size();
+
+private:
+    struct Entry {
+        boost::weak_ptr<yade::Shape> owner;
+        std::shared_ptr<const Particle> particle;
+    };
+    struct Shard {
+        std::mutex mutex;
+        std::unordered_map<const void*, Entry> entries;
+        // Entries of shapes that died are swept when the shard reaches this size.
+        std::size_t sweepAt = 64;
+    };
+
+    Shard& shardOf(const void* address);
+    static void sweep(Shard& shard);
+
+    std::array<Shard, 64> shards;
+};
+
+} // namespace potential_particles

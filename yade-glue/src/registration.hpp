@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Makes our classes known to YADE.
+#pragma once
+
+namespace potential_particles {
+
+// To YADE's factory, class table and Python module yade.wrapper. Throws std::runtime_error when a
+// name is taken.
+void registerClasses();
+
+// In the order in which bases come before what derives from them.
+constexpr const char* classNames[]
+    = { "ConicPotentialParticle", "ScGeomConicPP", "Ig2_ConicPP_ConicPP_ScGeom", "Ig2_PP_PP_ScGeom_Conic" };
+
+} // namespace potential_particles

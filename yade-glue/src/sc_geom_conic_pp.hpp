@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// ScGeom that also holds what the library remembers about the pair.
+#pragma once
+
+#include "../abi/archive.hpp"
+#include "../abi/scgeom.hpp"
+
+#include <boost/serialization/access.hpp>
+
+#include <potential_particles.h>
+
+namespace potential_particles {
+
+// It takes no class index of its own: for the dispatchers it is an ScGeom, so every law on ScGeom
+// serves it as before. (Its name sorts behind "ScGeom" because dispMatrix() shows, for an index,
+// the first class that has it.)
+class ScGeomConicPP final : public yade::ScGeom {
+public:
+    ScGeomConicPP();
+    ~ScGeomConicPP() override;
+    PP_ABI_SERIALIZABLE_OVERRIDES
+
+    pp_memory memory = { { 0 } };
+
+private:
+    friend class boost::serialization::access;
+    template <class Archive> void serialize(Archive& archive, unsigned);
+
+    std::string pyMemory() const;
+    void pySetMemory(const std::string& hexadecimal);
+};
+
+} // namespace potential_particles
