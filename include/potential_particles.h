@@ -85,8 +85,8 @@
 // Separation was proved without solving to the end: s is a proved lower bound >= 1, no more is set.
 #define PP_FLAG_REJECTED 2
 
-// Both gradients vanish at the contact point (coincident centres, or flat-faced cores that
-// overlap): the normal is the line of centres, or the x axis of B when the centres coincide.
+// Both gradients vanish at the contact point, as when the centres coincide: no normal is right, and
+// the one given is the line of centres, or the x axis of B.
 #define PP_FLAG_NORMAL_BY_CENTRES 4
 
 // The remembered point of `pp_memory` was used as the start.
@@ -175,17 +175,19 @@ typedef struct pp_contact {
     double gap;
     // Overlap (YADE: penetrationDepth), length, > 0 when overlapping; NaN when separated.
     double overlap;
-    // Unit contact normal, from A to B (positive force on B pushes it along +normal).
+    // Unit contact normal, from A to B (positive force on B pushes it along +normal), from the gradients
+    // of S_A and S_B; for k below flat_regularisation from those of the regularised shapes, so that it is
+    // defined even where flat-faced cores overlap.
     double normal[3];
-    // Contact point, world frame.
+    // Contact point, world frame: P3 of midway, or the weighted mean of P1 and P2 of closest.
     double point[3];
     // Contact point minus position of A: exact lever arm even far from the world origin.
     double branch_a[3];
     // Contact point minus position of B.
     double branch_b[3];
-    // Point on the surface of A (inside B when overlapping), world frame; P1 of closest.
+    // Point on the surface of A inside B, world frame; P1 of closest. NaN when separated.
     double point_on_a[3];
-    // Point on the surface of B (inside A when overlapping), world frame; P2 of closest.
+    // Point on the surface of B inside A, world frame; P2 of closest. NaN when separated.
     double point_on_b[3];
 } pp_contact;
 
@@ -296,7 +298,7 @@ pp_status pp_contact_detect(const struct pp_particle *a,
 // relative_tolerance: in [1e-12, 0.1]; 1e-6 is a good choice. area: receives length^2; 0 when
 // separated.
 // Errors: `PP_NULL_POINTER`, `PP_BAD_POSITION`, `PP_BAD_ORIENTATION`, `PP_BAD_POINT` (the contact
-// holds no finite point or normal), `PP_BAD_SETTING`.
+// was not filled: no kind, point or normal), `PP_BAD_SETTING`.
 //
 // # Safety
 // Pointers are NULL or valid.
@@ -350,7 +352,7 @@ pp_status pp_particle_potential(const struct pp_particle *particle,
                                 double *f,
                                 double *gradient);
 
-// Axis-aligned box in world axes that holds the particle at this pose; tight to rounding.
+// Axis-aligned box in world axes that holds the particle at this pose: the box of its corners.
 //
 // lower, upper: receive 3 doubles each, world frame.
 // Errors: `PP_NULL_POINTER`, `PP_BAD_POSITION`, `PP_BAD_ORIENTATION`.

@@ -31,7 +31,14 @@ impl Section {
     ///
     /// Adaptive Simpson quadrature over the angle; a sector is halved until its two estimates agree to its
     /// share of `relative_tolerance`. `None` when the section holds no finite point or normal.
-    pub fn area(&self, a: &Particle, pose_a: &Pose, b: &Particle, pose_b: &Pose, relative_tolerance: f64) -> Option<f64> {
+    pub fn area(
+        &self,
+        a: &Particle,
+        pose_a: &Pose,
+        b: &Particle,
+        pose_b: &Pose,
+        relative_tolerance: f64,
+    ) -> Option<f64> {
         let unit = self.normal.try_normalize(0.0)?;
         let first = unit.cross(&Vector3::ith(unit.iamin(), 1.0)).try_normalize(0.0)?;
         let second = unit.cross(&first);

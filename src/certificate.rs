@@ -68,5 +68,15 @@ pub(crate) fn judge(x: &Vector3<f64>, lambda: f64, s: f64, a: &Body, b: &Body, t
         }
     }
     let gradients = [q_a.gradient, q_b.gradient];
-    Outcome { x: *x, lambda, gradients, estimate: s * s, lower, upper, rounding, iterations: 0, ending: Ending::Converged }
+    Outcome {
+        x: *x,
+        lambda,
+        gradients,
+        estimate: s * s,
+        lower,
+        upper,
+        rounding,
+        iterations: 0,
+        ending: Ending::Converged,
+    }
 }

@@ -369,9 +369,8 @@ fn correct(
         }
         let at = both(pair, &(x + answer.step));
         let agreement = (10.0 * tuning.tolerance).min(AGREEMENT);
-        let near = |value: f64| {
-            (goal.objective(at) - value * unit).abs() <= agreement * unit + goal.objective(sizes.noise)
-        };
+        let near =
+            |value: f64| (goal.objective(at) - value * unit).abs() <= agreement * unit + goal.objective(sizes.noise);
         let kept = goal.held(at) <= 1.0 + agreement + goal.held(sizes.noise);
         let trusted = near(answer.head) && near(answer.dual) && kept;
         if trusted || best.is_err() {

@@ -65,7 +65,7 @@ pub struct Contact {
     pub iterations: u32,
     /// Midway: t. Closest: s_A at P2. Rejected: a proved lower bound, ≥ 1.
     pub s: f64,
-    /// Closest: s_B at P1.
+    /// Closest: s_B at P1; NaN for midway.
     pub s_b: f64,
     /// Weight u of B: (1−u)∇S_A + u∇S_B = 0.
     pub weight: f64,
@@ -118,13 +118,14 @@ impl LocalContact {
         [p1, p2]: [&Vector3<f64>; 2],
         gradients: &[Vector3<f64>; 2],
         weight_on_a: f64,
+        overlapping: bool,
     ) -> Self {
         let (normal, normal_by_centres) = normal(pair, gradients);
         Self {
             point: p2 + weight_on_a * (p1 - p2),
             normal,
             normal_by_centres,
-            surface: Some((*p1, *p2, (p1 - p2).norm())),
+            surface: overlapping.then(|| (*p1, *p2, (p1 - p2).norm())),
         }
     }
 }

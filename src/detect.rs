@@ -140,7 +140,11 @@ impl<'a> Search<'a> {
     /// One of the two problems of closest, or `None` where its constraint is slack: the optimum is then the
     /// minimum of the other particle, for k > 0 its centre, for k = 0 anywhere in its core, and no contact
     /// point. Midway has no such case.
-    fn constrained(&mut self, target: Target, start: Option<Start>) -> Result<Option<(Outcome, Certified)>, DetectError> {
+    fn constrained(
+        &mut self,
+        target: Target,
+        start: Option<Start>,
+    ) -> Result<Option<(Outcome, Certified)>, DetectError> {
         let centre_inside = match target {
             Target::OnB => self.pair.b.potential(&self.pair.centre) < 0.0,
             _ => self.pair.a.potential(&self.body_a.local(&self.body_b.centre())) < 0.0,
@@ -171,26 +175,17 @@ impl<'a> Search<'a> {
         if self.settings.formulation == Formulation::Closest {
             let start = Some(Start { x: midway.x, lambda: midway.lambda });
             let on_b = self.constrained(Target::OnB, start)?;
-            let on_a = if overlapping && on_b.is_some() { self.constrained(Target::OnA, start)? } else { None };
-            match (on_b, on_a) {
-                (Some((on_b, of_a)), on_a) if on_a.is_some() || !overlapping => {
-                    (contact.s, contact.gap) = (of_a.s, of_a.gap);
-                    contact.weight = on_b.lambda / (1.0 + on_b.lambda);
-                    if let Some((on_a, of_b)) = on_a {
-                        contact.s_b = of_b.s;
-                        contact.gap = contact.gap.max(of_b.gap);
-                        local = Some(LocalContact::closest(
-                            self.pair,
-                            [&on_a.x, &on_b.x],
-                            &[on_a.gradients[0], on_b.gradients[1]],
-                            self.settings.weight_on_a,
-                        ));
-                    }
-                }
-                _ => {
-                    self.flags.insert(Flags::SLACK);
-                    contact.formulation = Formulation::Midway;
-                }
+            let on_a = if on_b.is_some() { self.constrained(Target::OnA, start)? } else { None };
+            if let (Some((on_b, of_a)), Some((on_a, of_b))) = (on_b, on_a) {
+                (contact.s, contact.s_b) = (of_a.s, of_b.s);
+                contact.gap = of_a.gap.max(of_b.gap);
+                contact.weight = on_b.lambda / (1.0 + on_b.lambda);
+                let gradients = [on_a.gradients[0], on_b.gradients[1]];
+                let weight = self.settings.weight_on_a;
+                local = Some(LocalContact::closest(self.pair, [&on_a.x, &on_b.x], &gradients, weight, overlapping));
+            } else {
+                self.flags.insert(Flags::SLACK);
+                contact.formulation = Formulation::Midway;
             }
         }
         let local = match local {

@@ -43,7 +43,11 @@ pub(crate) fn descend(
             let ahead = if close || step < 0.0 { 0.0 } else { f64::INFINITY };
             best = Some((trial, Descent { alpha, ahead, slope_a: on_a.slope, slope_b: on_b.slope }));
         }
-        if step > 0.0 { low = alpha } else { high = alpha }
+        if step > 0.0 {
+            low = alpha
+        } else {
+            high = alpha
+        }
         let next = alpha + step;
         let next = if low < next && next < high { next } else { 0.5 * (low + high) };
         if close || (next - alpha).abs() <= CLOSE * alpha.abs() || !(low < next && next < high) {

@@ -19,10 +19,8 @@ impl Memory {
     /// From the eight numbers of the C interface; whatever is not a filled memory is an empty one.
     pub fn from_raw(state: [f64; 8]) -> Self {
         let [tag, x, y, z, lambda, ..] = state;
-        let usable = tag == Self::FILLED
-            && [x, y, z].iter().all(|v| v.is_finite())
-            && lambda > 0.0
-            && lambda.is_finite();
+        let usable =
+            tag == Self::FILLED && [x, y, z].iter().all(|v| v.is_finite()) && lambda > 0.0 && lambda.is_finite();
         Self { last: usable.then(|| (Vector3::new(x, y, z), lambda)) }
     }
 

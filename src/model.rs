@@ -107,6 +107,10 @@ const LAMBDA_RANGE: (f64, f64) = (1e-30, 1e30);
 /// reach the target at all.
 const FARTHEST: f64 = 1e6;
 
+/// A last change of ln λ, and mismatch of the sides, below this is carried over by derivatives: what is left
+/// out is its square.
+const EXTRAPOLATED: f64 = 1e-8;
+
 /// Solves the pair of quadratics from the guess λ. `None` when a factorisation breaks down.
 ///
 /// `soft` are the least curvatures of A and B in any direction (their spheres'), `enough` is a mismatch of the
@@ -119,31 +123,43 @@ pub(crate) fn solve(
     guess: f64,
     enough: f64,
 ) -> Option<Optimum> {
+    let (h_a, h_b) = (Symmetric::of(&q_a.hessian), Symmetric::of(&q_b.hessian));
     let mut lambda = guess.clamp(LAMBDA_RANGE.0, LAMBDA_RANGE.1);
     let (mut low, mut high) = (lambda / FARTHEST, lambda * FARTHEST);
-    for search in 1.. {
+    for search in 1..=MOST_SEARCHES {
         let (a, b) = target.weights(lambda);
         let least = a * soft.0 + b * soft.1;
-        let factor = Factor::of(&(a * q_a.hessian + b * q_b.hessian), least)?;
+        let factor = Factor::of(&h_a.weighted(a, &h_b, b), least)?;
         let step = -factor.solve(&(a * q_a.gradient + b * q_b.gradient));
-        let (s_a, g_a, size_a) = expand(q_a, &step);
-        let (s_b, g_b, size_b) = expand(q_b, &step);
+        let (bend_a, bend_b) = (h_a.times(&step), h_b.times(&step));
+        let s_a = q_a.expansion + step.dot(&(q_a.gradient + 0.5 * bend_a));
+        let s_b = q_b.expansion + step.dot(&(q_b.gradient + 0.5 * bend_b));
+        let (g_a, g_b) = (q_a.gradient + bend_a, q_b.gradient + bend_b);
         let (growing, falling) = target.sides(s_a, s_b);
         let mismatch = growing - falling;
-        // With curvature of at least `least`, a remaining slope can hide this much.
-        let doubt = 0.5 * (a * g_a + b * g_b).norm_squared() / least + 2.0 * f64::EPSILON * (a * size_a + b * size_b);
-        let settled = mismatch.abs() <= 4.0 * f64::EPSILON * growing.max(falling);
-        let (lower, upper) = (target.dual(s_a, s_b, lambda), target.merit(s_a, s_b, lambda));
-        let optimum = Optimum { step, gradients: [g_a, g_b], lambda, lower, upper, settled, doubt };
-        if !optimum.lower.is_finite() {
+        if !(s_a.is_finite() && s_b.is_finite()) {
             return None;
         }
-        if mismatch.abs() <= enough || search == MOST_SEARCHES {
-            return Some(optimum);
+        let settled = mismatch.abs() <= 4.0 * f64::EPSILON * growing.max(falling);
+        let optimum = |step: Vector3<f64>, lambda, (s_a, s_b): (f64, f64), settled| {
+            let length = step.norm();
+            let size = |q: &Quadratic, h: &Symmetric| q.expansion + length * (q.gradient.norm() + length * h.size());
+            // With curvature of at least `least`, a remaining slope can hide this much.
+            let hidden = 0.5 * (a * g_a + b * g_b).norm_squared() / least;
+            let doubt = hidden + 2.0 * f64::EPSILON * (a * size(q_a, &h_a) + b * size(q_b, &h_b));
+            let (lower, upper) = (target.dual(s_a, s_b, lambda), target.merit(s_a, s_b, lambda));
+            Some(Optimum { step, gradients: [g_a, g_b], lambda, lower, upper, settled, doubt })
+        };
+        if mismatch.abs() <= enough || settled || search == MOST_SEARCHES {
+            return optimum(step, lambda, (s_a, s_b), settled);
         }
-        if mismatch > 0.0 { high = lambda } else { low = lambda }
+        if mismatch > 0.0 {
+            high = lambda
+        } else {
+            low = lambda
+        }
         // d step / d ln λ, from a g_A + b g_B = 0 along the curve.
-        let drift = factor.solve(&(-a * b / (a + b) * (g_b - g_a)));
+        let drift = factor.solve(&(a * b / (a + b) * (g_a - g_b)));
         let (rate_growing, rate_falling) = target.rates(g_a.dot(&drift), g_b.dot(&drift));
         let rate = rate_growing - rate_falling;
         // Far off, the logarithms of both sides are nearly linear in ln λ; near the root, the sides are.
@@ -153,12 +169,17 @@ pub(crate) fn solve(
         } else {
             -mismatch / rate
         };
-        let mut next = if change.abs() < 0.1 { lambda * (1.0 + change) } else { lambda * change.clamp(-60.0, 60.0).exp() };
+        if change.abs() <= EXTRAPOLATED && mismatch.abs() <= EXTRAPOLATED * growing.max(falling) {
+            let sides = (s_a + change * g_a.dot(&drift), s_b + change * g_b.dot(&drift));
+            return optimum(step + change * drift, lambda * (1.0 + change), sides, true);
+        }
+        let mut next =
+            if change.abs() < 0.1 { lambda * (1.0 + change) } else { lambda * change.clamp(-60.0, 60.0).exp() };
         if !(low < next && next < high) {
             next = (low * high).sqrt();
         }
         if next == lambda {
-            return Some(optimum);
+            return optimum(step, lambda, (s_a, s_b), settled);
         }
         lambda = next;
     }
@@ -181,12 +202,45 @@ impl Target {
     }
 }
 
-/// Value and gradient of a quadratic after a step, and the size of the terms that were summed.
-fn expand(q: &Quadratic, v: &Vector3<f64>) -> (f64, Vector3<f64>, f64) {
-    let bend = q.hessian * v;
-    let length = v.norm();
-    let size = q.expansion + length * (q.gradient.norm() + length * q.hessian.norm());
-    (q.expansion + v.dot(&(q.gradient + 0.5 * bend)), q.gradient + bend, size)
+/// A symmetric 3×3 matrix by its lower half.
+#[derive(Clone, Copy)]
+struct Symmetric {
+    xx: f64,
+    yx: f64,
+    zx: f64,
+    yy: f64,
+    zy: f64,
+    zz: f64,
+}
+
+impl Symmetric {
+    fn of(m: &Matrix3<f64>) -> Self {
+        Self { xx: m.m11, yx: m.m21, zx: m.m31, yy: m.m22, zy: m.m32, zz: m.m33 }
+    }
+
+    fn weighted(&self, a: f64, other: &Self, b: f64) -> Self {
+        Self {
+            xx: a * self.xx + b * other.xx,
+            yx: a * self.yx + b * other.yx,
+            zx: a * self.zx + b * other.zx,
+            yy: a * self.yy + b * other.yy,
+            zy: a * self.zy + b * other.zy,
+            zz: a * self.zz + b * other.zz,
+        }
+    }
+
+    fn times(&self, v: &Vector3<f64>) -> Vector3<f64> {
+        Vector3::new(
+            self.xx * v.x + self.yx * v.y + self.zx * v.z,
+            self.yx * v.x + self.yy * v.y + self.zy * v.z,
+            self.zx * v.x + self.zy * v.y + self.zz * v.z,
+        )
+    }
+
+    /// The trace: for a positive semidefinite matrix a bound of its norm.
+    fn size(&self) -> f64 {
+        self.xx + self.yy + self.zz
+    }
 }
 
 /// L D Lᵀ of a symmetric positive definite 3×3 matrix, eliminated in the given order of axes: stiffest
@@ -200,15 +254,19 @@ struct Factor {
 
 impl Factor {
     /// `least` bounds the eigenvalues from below, and so every pivot: rounding may not take it further.
-    fn of(h: &Matrix3<f64>, least: f64) -> Option<Self> {
-        let d0 = h.m11.max(least);
-        let (l10, l20) = (h.m21 / d0, h.m31 / d0);
-        let d1 = (h.m22 - l10 * h.m21).max(least);
-        let c21 = h.m32 - l20 * h.m21;
-        let l21 = c21 / d1;
-        let d2 = (h.m33 - l20 * h.m31 - l21 * c21).max(least);
-        let inverse_d = [1.0 / d0, 1.0 / d1, 1.0 / d2];
-        (least > 0.0 && inverse_d.iter().all(|d| d.is_finite())).then_some(Self { l10, l20, l21, inverse_d })
+    fn of(h: &Symmetric, least: f64) -> Option<Self> {
+        let i0 = 1.0 / h.xx.max(least);
+        let (l10, l20) = (h.yx * i0, h.zx * i0);
+        let i1 = 1.0 / (h.yy - l10 * h.yx).max(least);
+        let c21 = h.zy - l20 * h.yx;
+        let l21 = c21 * i1;
+        let i2 = 1.0 / (h.zz - l20 * h.zx - l21 * c21).max(least);
+        (least > 0.0 && i0.is_finite() && i1.is_finite() && i2.is_finite()).then_some(Self {
+            l10,
+            l20,
+            l21,
+            inverse_d: [i0, i1, i2],
+        })
     }
 
     fn solve(&self, r: &Vector3<f64>) -> Vector3<f64> {

@@ -38,18 +38,18 @@ pub const MAX_PLANES: usize = 65_536;
 #[derive(Clone, Copy, Debug, Error, PartialEq)]
 #[allow(missing_docs)]
 pub enum ParticleError {
-    #[error("plane {index} is not finite: a={a}, b={b}, c={c}, d={d}")]
+    #[error("plane {index} is not finite: a={a:?}, b={b:?}, c={c:?}, d={d:?}")]
     PlaneNotFinite { index: usize, a: f64, b: f64, c: f64, d: f64 },
-    #[error("plane {index} has a normal of length zero (d={d}): give it a direction or remove it")]
+    #[error("plane {index} has a normal of length zero (d={d:?}): give it a direction or remove it")]
     ZeroNormal { index: usize, d: f64 },
-    #[error("sphericity k={0} is outside [0, 1]")]
+    #[error("sphericity k={0:?} is outside [0, 1]")]
     Sphericity(f64),
-    #[error("rounding radius r={0} must be positive and finite (it may be anything only when k=1)")]
+    #[error("rounding radius r={0:?} must be positive and finite (it may be anything only when k=1)")]
     RoundingRadius(f64),
-    #[error("shadow radius R={0} must be positive and finite (it may be anything only when k=0)")]
+    #[error("shadow radius R={0:?} must be positive and finite (it may be anything only when k=0)")]
     ShadowRadius(f64),
     #[error(
-        "the centre is not inside: f(0)={f} must be negative; plane {worst} (d={d}) lies furthest behind \
+        "the centre is not inside: f(0)={f:?} must be negative; plane {worst} (d={d:?}) lies furthest behind \
          the origin: shift the planes so that the origin is inside"
     )]
     CentreOutside { f: f64, worst: usize, d: f64 },
@@ -123,7 +123,11 @@ impl Particle {
         let f = particle.potential(&Vector3::zeros());
         if !(f < 0.0) {
             let worst = (0..planes.len()).min_by(|&i, &j| particle.d[i].total_cmp(&particle.d[j])).unwrap_or(0);
-            return Err(ParticleError::CentreOutside { f, worst, d: particle.d.get(worst).copied().unwrap_or(f64::NAN) });
+            return Err(ParticleError::CentreOutside {
+                f,
+                worst,
+                d: particle.d.get(worst).copied().unwrap_or(f64::NAN),
+            });
         }
         particle.bounds = Bounds::of(&particle).ok_or(ParticleError::Unbounded)?;
         Ok(particle)

@@ -7,9 +7,9 @@ use thiserror::Error;
 #[derive(Clone, Copy, Debug, Error, PartialEq)]
 #[allow(missing_docs)]
 pub enum PoseError {
-    #[error("position ({0}, {1}, {2}) is not finite")]
+    #[error("position ({0:?}, {1:?}, {2:?}) is not finite")]
     Position(f64, f64, f64),
-    #[error("orientation w={0}, x={1}, y={2}, z={3} is not a quaternion that can be normalised")]
+    #[error("orientation w={0:?}, x={1:?}, y={2:?}, z={3:?} is not a quaternion that can be normalised")]
     Orientation(f64, f64, f64, f64),
 }
 

@@ -89,9 +89,15 @@ pub fn in_frame(
         expansion: value + particle.plane_weight * not_yet,
         gradient: w2 * g + m2 * (rotation * y),
         hessian: Matrix3::new(
-            w2 * xx + m2, w2 * xy, w2 * zx, //
-            w2 * xy, w2 * yy + m2, w2 * yz, //
-            w2 * zx, w2 * yz, w2 * zz + m2,
+            w2 * xx + m2,
+            w2 * xy,
+            w2 * zx, //
+            w2 * xy,
+            w2 * yy + m2,
+            w2 * yz, //
+            w2 * zx,
+            w2 * yz,
+            w2 * zz + m2,
         ),
         pull: w2 * linear,
     }

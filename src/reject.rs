@@ -25,7 +25,13 @@ pub fn proves_separation(pair: &Pair) -> bool {
 /// f ≤ 0 implies n·x ≤ d + r/√(1−k). The ball of `other` is tried against every face; its corners, which
 /// are tighter, against the face that its centre lies furthest beyond. `to_other` takes
 /// directions from the frame of `host` to that of `other`.
-fn beyond_a_face(host: &Particle, centre: &Vector3<f64>, other: &Particle, to_other: &Matrix3<f64>, distance: f64) -> bool {
+fn beyond_a_face(
+    host: &Particle,
+    centre: &Vector3<f64>,
+    other: &Particle,
+    to_other: &Matrix3<f64>,
+    distance: f64,
+) -> bool {
     if host.is_sphere() {
         return false;
     }

@@ -107,7 +107,8 @@ pub(crate) fn cold_start(pair: &Pair, a: &Body, b: &Body) -> Start {
     if direction.norm_squared() == 0.0 {
         return Start { x: Vector3::zeros(), lambda: 1.0 };
     }
-    let line::Descent { alpha, slope_a, slope_b, .. } = line::descend(a, b, Target::Midway, 1.0, &from, &direction, (guess, 1.0));
+    let line::Descent { alpha, slope_a, slope_b, .. } =
+        line::descend(a, b, Target::Midway, 1.0, &from, &direction, (guess, 1.0));
     // (1−u) S_A' + u S_B' = 0 on the line.
     let lambda = -slope_a / slope_b;
     Start { x: from + alpha * direction, lambda: if lambda > 0.0 && lambda.is_finite() { lambda } else { 1.0 } }
@@ -199,7 +200,9 @@ pub(crate) fn solve(a: &Body, b: &Body, goal: &Goal, start: Start, factorisation
                 return Outcome { ending, ..outcome };
             }
             // Proved, but over a long step; the same from nearby is sharper.
-            proved = Some(Outcome { ending, ..outcome }).filter(|new| proved.is_none_or(|old| new.rounding < old.rounding)).or(proved);
+            proved = Some(Outcome { ending, ..outcome })
+                .filter(|new| proved.is_none_or(|old| new.rounding < old.rounding))
+                .or(proved);
         }
         if goal.stop_when_separated && planes != Planes::Pulling && model.lower - outcome.rounding > 1.0 {
             return Outcome { ending: Ending::Separated, ..outcome };
@@ -208,7 +211,14 @@ pub(crate) fn solve(a: &Body, b: &Body, goal: &Goal, start: Start, factorisation
         if arriving > MOST_TO_ARRIVE {
             break;
         }
-        previous = Some(Attempt { from: x, step, lambda, merit: upper, promised: (upper - model.lower).max(0.0), shortened: false });
+        previous = Some(Attempt {
+            from: x,
+            step,
+            lambda,
+            merit: upper,
+            promised: (upper - model.lower).max(0.0),
+            shortened: false,
+        });
         x += step;
         counted = [Counted::default(); 2];
     }

@@ -8,6 +8,9 @@ use nalgebra::Vector3;
 /// so that this is reached only by rounding.
 const MOST_STEPS: usize = 100;
 
+/// Relative length of a last Newton step whose square is below rounding.
+const CLOSE: f64 = 1e-9;
+
 /// Distance τ ≥ 0 with S(from + τ·direction) = 1, for a local point and a local unit direction.
 ///
 /// `from` should be inside (S ≤ 1); from a point outside by rounding the answer is a small negative
@@ -25,19 +28,23 @@ pub fn distance(particle: &Particle, from: &Vector3<f64>, direction: &Vector3<f6
     let (mut inside, mut outside) = (f64::NEG_INFINITY, f64::INFINITY);
     let mut newton_from_outside = f64::NAN;
     let mut tau = 0.0;
+    let rounding = 2.0 * f64::EPSILON * (from.norm() + particle.bounds.longest_offset);
     for _ in 0..MOST_STEPS {
         let line = at(tau);
         if !(line.value.is_finite() && line.slope.is_finite()) {
             return None;
         }
-        if line.value == 0.0 {
-            return Some(tau);
+        let newton = tau - line.value / line.slope;
+        // Close to the root a Newton step is exact to the square of its length; and no step means anything
+        // below the rounding of a point on the ray.
+        if line.slope > 0.0 && (newton - tau).abs() <= (CLOSE * newton.abs()).max(rounding) {
+            return Some(newton);
         }
         if line.value < 0.0 {
             inside = tau;
         } else {
             outside = tau;
-            newton_from_outside = tau - line.value / line.slope;
+            newton_from_outside = newton;
         }
         let mut next = if line.slope > 0.0 {
             tau + root_of_piece(line.value, line.slope, line.curvature)
@@ -52,8 +59,7 @@ pub fn distance(particle: &Particle, from: &Vector3<f64>, direction: &Vector3<f6
         if !next.is_finite() {
             return None;
         }
-        // A step no longer than rounding ends the search, and so does one that leaves the bracket.
-        if (next - tau).abs() <= 2.0 * f64::EPSILON * next.abs() || !(inside < next && next < outside) {
+        if !(inside < next && next < outside) {
             return Some(next);
         }
         tau = next;

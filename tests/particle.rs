@@ -32,10 +32,10 @@ fn each_violation_is_its_own_error_and_names_the_value() {
         (Particle::new(&planes, 0.05, -0.1, 0.9).unwrap_err(), "k=-0.1"),
         (Particle::new(&planes, 0.05, 1.1, 0.9).unwrap_err(), "k=1.1"),
         (Particle::new(&planes, 0.05, f64::NAN, 0.9).unwrap_err(), "k=NaN"),
-        (Particle::new(&planes, 0.0, 0.1, 0.9).unwrap_err(), "r=0"),
+        (Particle::new(&planes, 0.0, 0.1, 0.9).unwrap_err(), "r=0.0"),
         (Particle::new(&planes, f64::NAN, 0.1, 0.9).unwrap_err(), "r=NaN"),
-        (Particle::new(&planes, 1e-200, 0.1, 0.9).unwrap_err(), "r=0.000"),
-        (Particle::new(&planes, 0.05, 0.1, -2.0).unwrap_err(), "R=-2"),
+        (Particle::new(&planes, 1e-200, 0.1, 0.9).unwrap_err(), "r=1e-200"),
+        (Particle::new(&planes, 0.05, 0.1, -2.0).unwrap_err(), "R=-2.0"),
         (Particle::new(&planes, 0.05, 0.1, f64::INFINITY).unwrap_err(), "R=inf"),
         (Particle::new(&planes[..5], 0.05, 0.0, 0.9).unwrap_err(), "do not enclose a volume"),
         (Particle::new(&[], 0.05, 0.0, 0.9).unwrap_err(), "do not enclose a volume"),
@@ -91,9 +91,13 @@ fn bounds_hold_every_surface_point() {
         .collect();
     let mut doubled = cube_planes(0.4);
     doubled.extend(cube_planes(0.4));
-    for (planes, r, k) in
-        [(cube_planes(0.4), 0.1, 0.3), (tetrahedron(0.2), 0.01, 1e-6), (tetrahedron(0.2), 0.01, 0.0), (many, 0.05, 0.0), (doubled, 0.1, 0.0)]
-    {
+    for (planes, r, k) in [
+        (cube_planes(0.4), 0.1, 0.3),
+        (tetrahedron(0.2), 0.01, 1e-6),
+        (tetrahedron(0.2), 0.01, 0.0),
+        (many, 0.05, 0.0),
+        (doubled, 0.1, 0.0),
+    ] {
         let particle = Particle::new(&planes, r, k, 0.9).unwrap();
         let pose = Pose::new([1.0, 2.0, 3.0], [0.3, -0.4, 0.5, 0.6]).unwrap();
         let (lower, upper) = particle.bounding_box(&pose);

@@ -106,12 +106,8 @@ impl Program {
             unit,
         };
         for i in 0..3 {
-            let row: [(usize, f64); 4] = [
-                (1, pair.rotation[(i, 0)]),
-                (2, pair.rotation[(i, 1)]),
-                (3, pair.rotation[(i, 2)]),
-                (4 + i, -1.0),
-            ];
+            let row: [(usize, f64); 4] =
+                [(1, pair.rotation[(i, 0)]), (2, pair.rotation[(i, 1)]), (3, pair.rotation[(i, 2)]), (4 + i, -1.0)];
             program.row(&row, -untied[i]);
         }
         program.cone_since(0, SupportedConeT::ZeroConeT);

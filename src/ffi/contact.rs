@@ -92,7 +92,7 @@ pub unsafe extern "C" fn pp_contact_detect(
 /// relative_tolerance: in [1e-12, 0.1]; 1e-6 is a good choice. area: receives length^2; 0 when
 /// separated.
 /// Errors: `PP_NULL_POINTER`, `PP_BAD_POSITION`, `PP_BAD_ORIENTATION`, `PP_BAD_POINT` (the contact
-/// holds no finite point or normal), `PP_BAD_SETTING`.
+/// was not filled: no kind, point or normal), `PP_BAD_SETTING`.
 ///
 /// # Safety
 /// Pointers are NULL or valid.
@@ -114,9 +114,13 @@ pub unsafe extern "C" fn pp_contact_area(
         if !(1e-12..=0.1).contains(&relative_tolerance) {
             return Err(PP_BAD_SETTING);
         }
-        if contact.kind != PP_OVERLAPPING {
-            out.write(0.0);
-            return Ok(());
+        match contact.kind {
+            PP_OVERLAPPING => {}
+            PP_SEPARATED => {
+                out.write(0.0);
+                return Ok(());
+            }
+            _ => return Err(PP_BAD_POINT),
         }
         let section = Section {
             branch_a: contact.branch_a.into(),

@@ -112,7 +112,7 @@ pub unsafe extern "C" fn pp_particle_potential(
     })
 }
 
-/// Axis-aligned box in world axes that holds the particle at this pose; tight to rounding.
+/// Axis-aligned box in world axes that holds the particle at this pose: the box of its corners.
 ///
 /// lower, upper: receive 3 doubles each, world frame.
 /// Errors: `PP_NULL_POINTER`, `PP_BAD_POSITION`, `PP_BAD_ORIENTATION`.
@@ -202,7 +202,9 @@ pub unsafe extern "C" fn pp_particle_surface_distance(
         let particle = &unsafe { borrow(particle) }?.0;
         let direction = finite(unsafe { triple(direction) }?)?;
         let distance = unsafe { output(distance) }?;
-        let unit = direction.try_normalize(0.0).filter(|u| u.norm() > 0.5).ok_or(PP_BAD_POINT)?;
+        // Scaled first, so that the squares stay in range.
+        let scaled = direction / direction.amax();
+        let unit = scaled.try_normalize(0.5).ok_or(PP_BAD_POINT)?;
         distance.write(crate::surface::distance(particle, &Vector3::zeros(), &unit).ok_or(PP_BAD_POINT)?);
         Ok(())
     })

@@ -76,9 +76,5 @@ const MESSAGES: &[(pp_status, &CStr)] = &[
 /// Never NULL; an unknown code gives "unknown status code". The text is static: do not free it.
 #[unsafe(no_mangle)]
 pub extern "C" fn pp_status_message(status: pp_status) -> *const c_char {
-    MESSAGES
-        .iter()
-        .find(|(code, _)| *code == status)
-        .map_or(c"unknown status code", |(_, text)| text)
-        .as_ptr()
+    MESSAGES.iter().find(|(code, _)| *code == status).map_or(c"unknown status code", |(_, text)| text).as_ptr()
 }

@@ -20,8 +20,8 @@ pub const PP_OVERLAPPING: i32 = 2;
 pub const PP_FLAG_SLACK: u32 = 1;
 /// Separation was proved without solving to the end: s is a proved lower bound >= 1, no more is set.
 pub const PP_FLAG_REJECTED: u32 = 2;
-/// Both gradients vanish at the contact point (coincident centres, or flat-faced cores that
-/// overlap): the normal is the line of centres, or the x axis of B when the centres coincide.
+/// Both gradients vanish at the contact point, as when the centres coincide: no normal is right, and
+/// the one given is the line of centres, or the x axis of B.
 pub const PP_FLAG_NORMAL_BY_CENTRES: u32 = 4;
 /// The remembered point of `pp_memory` was used as the start.
 pub const PP_FLAG_WARM: u32 = 8;
@@ -107,17 +107,19 @@ pub struct pp_contact {
     pub gap: f64,
     /// Overlap (YADE: penetrationDepth), length, > 0 when overlapping; NaN when separated.
     pub overlap: f64,
-    /// Unit contact normal, from A to B (positive force on B pushes it along +normal).
+    /// Unit contact normal, from A to B (positive force on B pushes it along +normal), from the gradients
+    /// of S_A and S_B; for k below flat_regularisation from those of the regularised shapes, so that it is
+    /// defined even where flat-faced cores overlap.
     pub normal: [f64; 3],
-    /// Contact point, world frame.
+    /// Contact point, world frame: P3 of midway, or the weighted mean of P1 and P2 of closest.
     pub point: [f64; 3],
     /// Contact point minus position of A: exact lever arm even far from the world origin.
     pub branch_a: [f64; 3],
     /// Contact point minus position of B.
     pub branch_b: [f64; 3],
-    /// Point on the surface of A (inside B when overlapping), world frame; P1 of closest.
+    /// Point on the surface of A inside B, world frame; P1 of closest. NaN when separated.
     pub point_on_a: [f64; 3],
-    /// Point on the surface of B (inside A when overlapping), world frame; P2 of closest.
+    /// Point on the surface of B inside A, world frame; P2 of closest. NaN when separated.
     pub point_on_b: [f64; 3],
 }
 

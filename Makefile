@@ -1,0 +1,93 @@
+# Two commands matter: "make demo" and "make test". "make" alone explains all.
+
+define HELP
+Contact detection between potential particles.
+
+  make demo     set up, build, and let 200 pyramids fall in YADE; results in out/pyramids
+  make test     set up, build, and run every test
+
+  make setup    install what is missing from Debian 12 (YADE, compilers, Boost, Eigen, ...)
+  make build    the library and the YADE plugin
+  make library  the library alone: target/release/libpotential_particles.so
+  make header   write include/potential_particles.h anew from src/ffi
+  make lint     formatting and warnings
+  make bench    benchmarks
+  make clean    remove everything built (results in out/ stay)
+
+Variables, as in "make demo STEPS=1000 BODIES=50":
+
+  STEPS=14000       demo: number of time steps
+  BODIES=200        demo: number of pyramids
+  FUNCTOR=library   demo: who finds the contacts: library, or builtin for YADE's own functor
+  THREADS=1         demo: threads of YADE
+  VERBOSE=1         test: show the output of every stage, not only of those that fail
+  CARGO_TARGET_DIR  where cargo builds (default: target)
+endef
+
+THREADS ?= 1
+
+MAKEFLAGS += --no-print-directory
+
+# Absolute, so that tools that run in other folders mean the same one.
+override CARGO_TARGET_DIR := $(abspath $(or $(CARGO_TARGET_DIR),target))
+export CARGO_TARGET_DIR
+LIBRARY := $(CARGO_TARGET_DIR)/release/libpotential_particles.so
+GLUE_BUILD := yade-glue/build
+
+# Where rustup puts cargo, for shells that were open before.
+export PATH := $(PATH):$(HOME)/.cargo/bin
+
+heading = @printf '== %s\n' '$(1)'
+
+.PHONY: help demo test setup build library glue header lint bench clean
+.DEFAULT_GOAL := help
+# The steps of one goal build on each other in the order in which they are named.
+.NOTPARALLEL:
+
+help:
+	$(info $(HELP))
+	@:
+
+setup:
+	@scripts/setup.sh
+
+# Needs cargo and a C compiler only: this target works on any system.
+library:
+	$(call heading,Library)
+	@cargo build --release
+
+# Compares the plugin with the installed YADE, too, whenever it was built anew.
+glue: setup library
+	$(call heading,YADE plugin)
+	@cmake -S yade-glue -B $(GLUE_BUILD) -DPP_LIBRARY=$(LIBRARY) >/dev/null
+	@cmake --build $(GLUE_BUILD) --parallel $$(nproc)
+
+build: glue
+
+demo: export STEPS := $(STEPS)
+demo: export BODIES := $(BODIES)
+demo: export FUNCTOR := $(FUNCTOR)
+demo: glue
+	$(call heading,Falling pyramids)
+	@scripts/yade.sh -j$(THREADS) examples/pyramids.py
+
+test:
+	@scripts/test.sh
+
+header:
+	@PP_WRITE_HEADER=1 cargo test --quiet --release --test header
+
+lint:
+	$(call heading,Formatting)
+	@cargo fmt --check
+	$(call heading,Warnings)
+	@if cargo clippy --version >/dev/null 2>&1; then cargo clippy --all-targets -- -D warnings; \
+	else echo 'skipped: clippy is not installed (rustup component add clippy)'; fi
+
+bench:
+	$(call heading,Benchmarks)
+	@cargo bench
+
+clean:
+	@cargo clean
+	@rm -rf $(GLUE_BUILD)

@@ -1,0 +1,92 @@
+#!/usr/bin/env bash
+# Installs what the build, the tests and the examples need from Debian, if anything is missing.
+# Safe to run again: with nothing missing it changes nothing and takes a fraction of a second.
+set -euo pipefail
+
+readonly YADE_VERSION=2023.02a
+readonly PACKAGES=(
+    # the simulator whose classes the plugin extends, and its Python
+    yade libyade python3-yade
+    # to build the plugin
+    g++ cmake make python3-dev libboost-python-dev libboost-serialization-dev libeigen3-dev
+    # to check it: objdump and nm; leaks and bad memory accesses (libc6-dbg is what valgrind reads)
+    binutils valgrind libc6-dbg
+    # pictures and summaries
+    python3-matplotlib python3-numpy
+)
+
+die() {
+    printf 'setup: %s\n' "$*" >&2
+    exit 1
+}
+
+# The plugin fits the memory layout of one build of YADE only.
+check_system() {
+    local id=unknown release=unknown
+    if [ -r /etc/os-release ]; then
+        id=$(. /etc/os-release && echo "${ID:-unknown}")
+        release=$(. /etc/os-release && echo "${VERSION_ID:-unknown}")
+    fi
+    [ "$id" = debian ] && [ "$release" = 12 ] ||
+        die "this is $id $release, and the YADE plugin needs Debian 12 (the library alone builds anywhere: cargo build --release)."
+    local machine
+    machine=$(uname -m)
+    [ "$machine" = x86_64 ] ||
+        die "this machine is $machine, and the YADE plugin needs x86_64 (the library alone builds anywhere: cargo build --release)."
+}
+
+check_cargo() {
+    command -v cargo >/dev/null ||
+        die "cargo is not on PATH: install a Rust toolchain first (https://rustup.rs), or add its bin directory to PATH."
+}
+
+# Prints the wanted packages that are not installed.
+missing() {
+    # dpkg-query lists unknown packages on stderr and fails for them; what it does print decides.
+    { dpkg-query --show --showformat='${db:Status-Abbrev}${Package}\n' "${PACKAGES[@]}" 2>/dev/null || true; } |
+        awk -v wanted="${PACKAGES[*]}" '
+            /^.i / { installed[$2] = 1 }
+            END { n = split(wanted, name, " "); for (i = 1; i <= n; i++) if (!(name[i] in installed)) print name[i] }'
+}
+
+install() {
+    local packages=("$@") root=()
+    if [ "$(id -u)" -ne 0 ]; then
+        # Without a terminal nobody could type a password: then only a sudo that asks for none will do.
+        if ! command -v sudo >/dev/null || ! { sudo -n true 2>/dev/null || [ -t 0 ]; }; then
+            die "these Debian packages are missing and neither root nor sudo is at hand; let an administrator run: apt-get install --no-install-recommends ${packages[*]}"
+        fi
+        root=(sudo)
+    fi
+    # "env", since sudo drops the variable when it is merely exported.
+    local apt=("${root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -qq -o Dpkg::Use-Pty=0
+        -o DPkg::Lock::Timeout=300)
+    local log
+    log=$(mktemp)
+    printf 'Installing from Debian (some minutes the first time): %s\n' "${packages[*]}"
+    # A failed update is no verdict: the lists at hand may do, and the installation tells.
+    if ! { "${apt[@]}" update || true; "${apt[@]}" install --yes --no-install-recommends "${packages[@]}"; } >"$log" 2>&1; then
+        tail -n 20 "$log" >&2
+        die "apt-get could not install: ${packages[*]} (its last words are above, the whole is in $log)."
+    fi
+    rm -f "$log"
+}
+
+check_yade() {
+    local versions
+    versions=$(dpkg-query --show --showformat='${Package} ${Version}\n' yade libyade python3-yade)
+    if awk -v want="$YADE_VERSION" '{ sub(/-[^-]*$/, "", $2); if ($2 != want) exit 1 }' <<<"$versions"; then
+        return
+    fi
+    die "the plugin fits YADE $YADE_VERSION only, and this machine has $(paste -s -d, <<<"$versions"): install Debian 12's own packages."
+}
+
+check_system
+check_cargo
+mapfile -t absent < <(missing)
+if [ "${#absent[@]}" -gt 0 ]; then
+    install "${absent[@]}"
+    mapfile -t absent < <(missing)
+    [ "${#absent[@]}" -eq 0 ] || die "apt-get reported success, yet these packages are still missing: ${absent[*]}."
+fi
+check_yade

@@ -1,0 +1,23 @@
+/* Every function and every status of potential_particles.h, as a C caller meets them. */
+#include "check.h"
+#include "tests.h"
+
+#include <stdio.h>
+
+int main(void) {
+    /* In order with what a library writes to stderr, should it panic. */
+    setvbuf(stdout, NULL, _IOLBF, BUFSIZ);
+    test_layout();
+    test_status();
+    test_particle();
+    test_query();
+    test_pose();
+    test_settings();
+    test_sphere_contact();
+    test_cube_contact();
+    test_area();
+    test_memory();
+    test_symmetry();
+    test_threads();
+    return check_report();
+}

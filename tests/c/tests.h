@@ -1,0 +1,18 @@
+/* One function per file, in the order in which main runs them. */
+#ifndef TESTS_H
+#define TESTS_H
+
+void test_layout(void);
+void test_status(void);
+void test_particle(void);
+void test_query(void);
+void test_pose(void);
+void test_settings(void);
+void test_sphere_contact(void);
+void test_cube_contact(void);
+void test_area(void);
+void test_memory(void);
+void test_symmetry(void);
+void test_threads(void);
+
+#endif
