@@ -78,5 +78,6 @@ pub(crate) fn judge(x: &Vector3<f64>, lambda: f64, s: f64, a: &Body, b: &Body, t
         rounding,
         iterations: 0,
         ending: Ending::Converged,
+        expansion: None,
     }
 }

@@ -11,7 +11,7 @@ use crate::particle::Particle;
 use crate::pose::Pose;
 use crate::reject;
 use crate::settings::{BackEnd, Formulation, Settings, SettingsError};
-use crate::spine::{self, Ending, Factorisation, Goal, Outcome, Start};
+use crate::spine::{self, Ending, Expansion, Factorisation, Goal, Outcome, Start};
 use thiserror::Error;
 
 /// Why there is no answer.
@@ -48,7 +48,7 @@ pub fn detect(
         return Ok(Contact::separated(settings.formulation, 1.0));
     }
     let mut search = Search::new(&pair, settings, memory.as_deref().copied());
-    let midway = search.solve(Target::Midway, search.start)?;
+    let midway = search.solve(Target::Midway, search.start, None)?;
     if let Some(memory) = memory {
         memory.last = Some((midway.x, midway.lambda));
     }
@@ -77,7 +77,7 @@ struct Search<'a> {
 impl<'a> Search<'a> {
     fn new(pair: &'a Pair<'a>, settings: &'a Settings, memory: Option<Memory>) -> Self {
         let (body_a, body_b) = Body::both(pair, settings.flat_regularisation);
-        let start = memory.and_then(|m| m.last).map(|(x, lambda)| Start { x, lambda });
+        let start = memory.and_then(|m| m.last).map(|(x, lambda)| Start { x, lambda, near: true });
         let mut flags = Flags::default();
         if start.is_some() && settings.back_end == BackEnd::Fast {
             flags.insert(Flags::WARM);
@@ -86,7 +86,12 @@ impl<'a> Search<'a> {
     }
 
     /// The ladder: from the start at hand, cold, with the safer factorisation, and by the cone program.
-    fn solve(&mut self, target: Target, start: Option<Start>) -> Result<Outcome, DetectError> {
+    fn solve(
+        &mut self,
+        target: Target,
+        start: Option<Start>,
+        mut left: Option<Expansion>,
+    ) -> Result<Outcome, DetectError> {
         if self.settings.back_end == BackEnd::Fast {
             let usual = spine::factorisation(&self.body_a, &self.body_b);
             let mut rungs = [start.map(|s| (Some(s), usual)), Some((None, usual)), None];
@@ -95,7 +100,8 @@ impl<'a> Search<'a> {
             }
             for (start, factorisation) in rungs.into_iter().flatten() {
                 let start = start.unwrap_or_else(|| spine::cold_start(self.pair, &self.body_a, &self.body_b));
-                let outcome = spine::solve(&self.body_a, &self.body_b, &self.goal(target), start, factorisation);
+                let outcome =
+                    spine::solve(&self.body_a, &self.body_b, &self.goal(target), start, left.take(), factorisation);
                 self.iterations += outcome.iterations;
                 if outcome.ending != Ending::Stuck {
                     if factorisation != usual {
@@ -140,11 +146,7 @@ impl<'a> Search<'a> {
     /// One of the two problems of closest, or `None` where its constraint is slack: the optimum is then the
     /// minimum of the other particle, for k > 0 its centre, for k = 0 anywhere in its core, and no contact
     /// point. Midway has no such case.
-    fn constrained(
-        &mut self,
-        target: Target,
-        start: Option<Start>,
-    ) -> Result<Option<(Outcome, Certified)>, DetectError> {
+    fn constrained(&mut self, target: Target, midway: &Outcome) -> Result<Option<(Outcome, Certified)>, DetectError> {
         let centre_inside = match target {
             Target::OnB => self.pair.b.potential(&self.pair.centre) < 0.0,
             _ => self.pair.a.potential(&self.body_a.local(&self.body_b.centre())) < 0.0,
@@ -152,7 +154,9 @@ impl<'a> Search<'a> {
         if centre_inside {
             return Ok(None);
         }
-        let outcome = self.solve(target, start)?;
+        // It lies near midway on the same curve, mostly on the same planes.
+        let start = Start { x: midway.x, lambda: midway.lambda, near: true };
+        let outcome = self.solve(target, Some(start), midway.expansion)?;
         let scale = self.certify(&outcome, target);
         // A scale that cannot be told from 0 belongs to a core.
         Ok((scale.s > scale.gap).then_some((outcome, scale)))
@@ -173,9 +177,8 @@ impl<'a> Search<'a> {
         contact.weight = midway.lambda / (1.0 + midway.lambda);
         let mut local = None;
         if self.settings.formulation == Formulation::Closest {
-            let start = Some(Start { x: midway.x, lambda: midway.lambda });
-            let on_b = self.constrained(Target::OnB, start)?;
-            let on_a = if on_b.is_some() { self.constrained(Target::OnA, start)? } else { None };
+            let on_b = self.constrained(Target::OnB, midway)?;
+            let on_a = if on_b.is_some() { self.constrained(Target::OnA, midway)? } else { None };
             if let (Some((on_b, of_a)), Some((on_a, of_b))) = (on_b, on_a) {
                 (contact.s, contact.s_b) = (of_a.s, of_b.s);
                 contact.gap = of_a.gap.max(of_b.gap);

@@ -10,7 +10,8 @@ use crate::frame;
 use crate::line;
 use crate::model::{self, Target};
 use crate::pair::Pair;
-use nalgebra::Vector3;
+use crate::potential::Quadratic;
+use nalgebra::{Matrix3, Vector3};
 
 /// How the quadratics are factored.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -47,11 +48,25 @@ pub(crate) struct Goal {
     pub stop_when_separated: bool,
 }
 
-/// A point with the ratio of weights λ = u/(1−u).
+/// Where to begin.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Start {
     pub x: Vector3<f64>,
+    /// Ratio of weights λ = u/(1−u).
     pub lambda: f64,
+    /// Whether the planes on at x are likely those of the optimum, as from memory or a neighbouring problem.
+    pub near: bool,
+}
+
+/// Both quadratics at a point.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Expansion {
+    x: Vector3<f64>,
+    /// Axes of the quadratics (columns, in the solver's frame), if not the solver's own.
+    axes: Option<Matrix3<f64>>,
+    counted: [Counted; 2],
+    q_a: Quadratic,
+    q_b: Quadratic,
 }
 
 /// Where the solver ended; everything in the solver's frame, potentials as regularised.
@@ -71,6 +86,8 @@ pub(crate) struct Outcome {
     pub rounding: f64,
     pub iterations: u32,
     pub ending: Ending,
+    /// The quadratics whose optimum this is.
+    pub expansion: Option<Expansion>,
 }
 
 /// Why the solver stopped.
@@ -105,132 +122,174 @@ pub(crate) fn cold_start(pair: &Pair, a: &Body, b: &Body) -> Start {
     let (ra, rb) = (pair.a.bounding_radius(), pair.b.bounding_radius());
     let guess = ra / (ra + rb);
     if direction.norm_squared() == 0.0 {
-        return Start { x: Vector3::zeros(), lambda: 1.0 };
+        return Start { x: Vector3::zeros(), lambda: 1.0, near: false };
     }
     let line::Descent { alpha, slope_a, slope_b, .. } =
         line::descend(a, b, Target::Midway, 1.0, &from, &direction, (guess, 1.0));
     // (1−u) S_A' + u S_B' = 0 on the line.
     let lambda = -slope_a / slope_b;
-    Start { x: from + alpha * direction, lambda: if lambda > 0.0 && lambda.is_finite() { lambda } else { 1.0 } }
+    let lambda = if lambda > 0.0 && lambda.is_finite() { lambda } else { 1.0 };
+    Start { x: from + alpha * direction, lambda, near: false }
 }
 
-/// Solves for the goal from a start.
-pub(crate) fn solve(a: &Body, b: &Body, goal: &Goal, start: Start, factorisation: Factorisation) -> Outcome {
-    let target = goal.target;
-    let Start { mut x, mut lambda } = start;
-    let mut previous: Option<Attempt> = None;
-    let mut outcome = Outcome {
-        x,
-        lambda,
-        gradients: [Vector3::zeros(); 2],
-        estimate: f64::NAN,
-        lower: f64::NEG_INFINITY,
-        upper: f64::INFINITY,
-        rounding: f64::INFINITY,
-        iterations: 0,
-        ending: Ending::Stuck,
-    };
-    let mut counted = [Counted::default(); 2];
-    let (mut proved, mut arriving) = (None::<Outcome>, 0);
-    let check = |x: &Vector3<f64>, step: &Vector3<f64>, counted: &mut [Counted; 2]| {
-        a.check(x, step, &mut counted[0]).max(b.check(x, step, &mut counted[1]))
-    };
-    let reach = a.particle.bounding_radius().min(b.particle.bounding_radius());
-    while outcome.iterations < MOST_ITERATIONS {
-        outcome.iterations += 1;
+impl Expansion {
+    fn at(
+        bodies: [&Body; 2],
+        x: Vector3<f64>,
+        weights: (f64, f64),
+        counted: [Counted; 2],
+        factorisation: Factorisation,
+    ) -> Self {
         let axes = match factorisation {
             Factorisation::Plain => None,
-            Factorisation::Aligned => Some(frame::aligned([a, b], target.weights(lambda), &x, &counted)),
+            Factorisation::Aligned => Some(frame::aligned(bodies, weights, &x, &counted)),
         };
-        let (q_a, q_b) = (a.at(&x, axes.as_ref(), &counted[0]), b.at(&x, axes.as_ref(), &counted[1]));
-        if let Some(attempt) = &mut previous {
-            let merit = target.merit(q_a.value, q_b.value, attempt.lambda);
+        let [q_a, q_b] = [0, 1].map(|i| bodies[i].at(&x, axes.as_ref(), &counted[i]));
+        Self { x, axes, counted, q_a, q_b }
+    }
+
+    fn to_solver(&self, v: Vector3<f64>) -> Vector3<f64> {
+        self.axes.map_or(v, |axes| axes * v)
+    }
+
+    /// Bounds on the rounding of S_A and S_B.
+    fn rounding(&self, a: &Body, b: &Body) -> (f64, f64) {
+        (a.rounding(&self.x, &self.q_a), b.rounding(&self.x, &self.q_b))
+    }
+
+    /// What `step` does to the planes of both quadratics.
+    fn check(&mut self, a: &Body, b: &Body, step: &Vector3<f64>) -> Planes {
+        let [of_a, of_b] = &mut self.counted;
+        a.check(&self.x, step, of_a).max(b.check(&self.x, step, of_b))
+    }
+
+    fn merit(&self, target: Target, lambda: f64) -> f64 {
+        target.merit(self.q_a.value, self.q_b.value, lambda)
+    }
+}
+
+/// Solves for the goal from a start, or from quadratics that another problem of the same pair has left.
+pub(crate) fn solve(
+    a: &Body,
+    b: &Body,
+    goal: &Goal,
+    start: Start,
+    left: Option<Expansion>,
+    factorisation: Factorisation,
+) -> Outcome {
+    let target = goal.target;
+    let reach = a.particle.bounding_radius().min(b.particle.bounding_radius());
+    let mut lambda = start.lambda;
+    let expand = |x, lambda, counted| Expansion::at([a, b], x, target.weights(lambda), counted, factorisation);
+    let mut here = left.unwrap_or_else(|| expand(start.x, lambda, [Counted::default(); 2]));
+    let mut thorough = start.near;
+    let mut previous: Option<Attempt> = None;
+    let (mut proved, mut arriving) = (None::<Outcome>, 0);
+    let mut lower = f64::NEG_INFINITY;
+    let mut iterations = u32::from(left.is_none());
+    while iterations < MOST_ITERATIONS {
+        if let Some(attempt) = previous.filter(|_| !thorough) {
+            let merit = here.merit(target, attempt.lambda);
             // Two values of S cannot be told apart below their rounding.
-            let rounding = target.merit_rounding(a.rounding(&x, &q_a), b.rounding(&x, &q_b), attempt.lambda);
-            let worse = merit > attempt.merit - 1e-4 * attempt.promised + rounding;
-            if !attempt.shortened && (worse || !merit.is_finite()) {
-                attempt.shortened = true;
+            let (of_a, of_b) = here.rounding(a, b);
+            let rounding = target.merit_rounding(of_a, of_b, attempt.lambda);
+            if merit > attempt.merit - 1e-4 * attempt.promised + rounding || !merit.is_finite() {
                 let descent = line::descend(a, b, target, attempt.lambda, &attempt.from, &attempt.step, (0.5, 1.0));
-                x = attempt.from + descent.alpha * attempt.step;
-                let early = descent.ahead * attempt.step.norm();
-                counted = [Counted::from(early); 2];
-                continue;
+                let counted = Counted::from(descent.ahead * attempt.step.norm());
+                here = expand(attempt.from + descent.alpha * attempt.step, lambda, [counted; 2]);
+                iterations += 1;
+                thorough = true;
             }
         }
-        let upper = target.merit(q_a.value, q_b.value, lambda);
+        let upper = here.merit(target, lambda);
         if !upper.is_finite() {
             break;
         }
         // Early on a rough λ will do; near the end, and after a step that failed, nothing but the best.
         let best = 2.0 * f64::EPSILON * upper.max(f64::MIN_POSITIVE);
-        let behind = if target == Target::Midway { upper - outcome.lower } else { 0.0 };
-        let rough = (1e-2 * target.mismatch(&q_a, &q_b).max(behind)).min(1e-2 * upper).max(best);
-        let enough = if previous.as_ref().is_some_and(|p| p.shortened) { best } else { rough };
-        let to_solver = |v: Vector3<f64>| axes.map_or(v, |axes| axes * v);
-        let Some(mut model) = model::solve(&q_a, &q_b, softest(a, b), target, lambda, enough) else { break };
-        let mut step = to_solver(model.step);
-        let mut planes = check(&x, &step, &mut counted);
+        let behind = if target == Target::Midway { upper - lower } else { 0.0 };
+        let rough = (1e-2 * target.mismatch(&here.q_a, &here.q_b).max(behind)).min(1e-2 * upper).max(best);
+        let optimum = |guess, enough| model::solve(&here.q_a, &here.q_b, softest(a, b), target, guess, enough);
+        let Some(mut model) = optimum(lambda, if thorough { best } else { rough }) else { break };
+        let mut step = here.to_solver(model.step);
+        let mut checked = here;
+        let mut planes = checked.check(a, b, &step);
         if planes == Planes::Exact && !model.settled {
             // The right planes: now the exact optimum of their quadratics.
-            let Some(settled) = model::solve(&q_a, &q_b, softest(a, b), target, model.lambda, best) else { break };
-            (model, step) = (settled, to_solver(settled.step));
-            planes = check(&x, &step, &mut counted);
+            let Some(settled) = optimum(model.lambda, best) else { break };
+            (model, step) = (settled, here.to_solver(settled.step));
+            planes = checked.check(a, b, &step);
         }
         lambda = model.lambda;
         if planes == Planes::Dropped {
-            previous = None;
+            here = expand(here.x, lambda, checked.counted);
+            iterations += 1;
+            (previous, thorough) = (None, false);
             continue;
         }
-        let upper = target.merit(q_a.value, q_b.value, lambda);
-        outcome = Outcome {
-            x: x + step,
+        let upper = here.merit(target, lambda);
+        let (of_a, of_b) = here.rounding(a, b);
+        let mut outcome = Outcome {
+            x: here.x + step,
             lambda,
-            gradients: model.gradients.map(to_solver),
+            gradients: model.gradients.map(|g| here.to_solver(g)),
             estimate: model.lower,
             lower: model.lower,
             upper: if planes == Planes::Exact { model.upper } else { upper },
-            rounding: model.doubt + target.dual_weighted(a.rounding(&x, &q_a), b.rounding(&x, &q_b), lambda),
-            ..outcome
+            rounding: model.doubt + target.dual_weighted(of_a, of_b, lambda),
+            iterations,
+            ending: Ending::Stuck,
+            expansion: Some(here),
         };
-        let gap = outcome.upper - outcome.lower + outcome.rounding;
+        lower = model.lower;
+        if goal.stop_when_separated && planes != Planes::Pulling && lower - outcome.rounding > 1.0 {
+            return Outcome { ending: Ending::Separated, ..outcome };
+        }
         if planes == Planes::Exact {
+            let gap = outcome.upper - outcome.lower + outcome.rounding;
             let precise = gap <= goal.tolerance * outcome.upper;
-            let ending = if precise { Ending::Converged } else { Ending::RoundingLimited };
+            outcome.ending = if precise { Ending::Converged } else { Ending::RoundingLimited };
             if precise || (step.norm() <= SHORT * reach && gap <= SHARP * outcome.upper) {
-                return Outcome { ending, ..outcome };
+                return outcome;
             }
             // Proved, but over a long step; the same from nearby is sharper.
-            proved = Some(Outcome { ending, ..outcome })
-                .filter(|new| proved.is_none_or(|old| new.rounding < old.rounding))
-                .or(proved);
-        }
-        if goal.stop_when_separated && planes != Planes::Pulling && model.lower - outcome.rounding > 1.0 {
-            return Outcome { ending: Ending::Separated, ..outcome };
+            if proved.is_none_or(|old| outcome.rounding < old.rounding) {
+                proved = Some(outcome);
+            }
         }
         arriving += u32::from(proved.is_some());
         if arriving > MOST_TO_ARRIVE {
             break;
         }
-        previous = Some(Attempt {
-            from: x,
-            step,
-            lambda,
-            merit: upper,
-            promised: (upper - model.lower).max(0.0),
-            shortened: false,
-        });
-        x += step;
-        counted = [Counted::default(); 2];
+        let promised = (upper - model.lower).max(0.0);
+        previous = Some(Attempt { from: here.x, step, lambda, merit: upper, promised });
+        thorough = false;
+        here = expand(here.x + step, lambda, [Counted::default(); 2]);
+        iterations += 1;
     }
-    proved.map_or(outcome, |proved| Outcome { iterations: outcome.iterations, ..proved })
+    match proved {
+        Some(proved) => Outcome { iterations, ..proved },
+        None => Outcome {
+            x: here.x,
+            lambda,
+            gradients: [Vector3::zeros(); 2],
+            estimate: f64::NAN,
+            lower,
+            upper: f64::INFINITY,
+            rounding: f64::INFINITY,
+            iterations,
+            ending: Ending::Stuck,
+            expansion: None,
+        },
+    }
 }
 
 /// A step that was tried, to be shortened if it made things worse.
+#[derive(Clone, Copy)]
 struct Attempt {
     from: Vector3<f64>,
     step: Vector3<f64>,
     lambda: f64,
     merit: f64,
     promised: f64,
-    shortened: bool,
 }
