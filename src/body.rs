@@ -158,6 +158,11 @@ impl<'a> Body<'a> {
         planes + ROUNDING * f64::EPSILON * q.value
     }
 
+    /// Lower bound of [`Self::rounding`] where S has the given gradient.
+    pub fn least_rounding(&self, x: &Vector3<f64>, gradient: &Vector3<f64>) -> f64 {
+        self.blur(x) * gradient.norm()
+    }
+
     /// Largest curvature that one plane can give S.
     pub fn plane_curvature(&self) -> f64 {
         2.0 * self.particle.plane_weight

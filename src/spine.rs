@@ -32,6 +32,9 @@ const MOST_ITERATIONS: u32 = 100;
 /// Relative to the smaller particle, a step too short for the next one to be more precise.
 const SHORT: f64 = 1e-9;
 
+/// Factor of the least possible gap that is as good as any.
+const AS_SHARP: f64 = 8.0;
+
 /// Relative gap above which a proof is not taken for good at once.
 const SHARP: f64 = 1e-2;
 
@@ -158,8 +161,8 @@ impl Expansion {
     }
 
     /// What `step` does to the planes of both quadratics.
-    fn check(&mut self, a: &Body, b: &Body, step: &Vector3<f64>) -> Planes {
-        let [of_a, of_b] = &mut self.counted;
+    fn check(&self, a: &Body, b: &Body, step: &Vector3<f64>, counted: &mut [Counted; 2]) -> Planes {
+        let [of_a, of_b] = counted;
         a.check(&self.x, step, of_a).max(b.check(&self.x, step, of_b))
     }
 
@@ -212,17 +215,17 @@ pub(crate) fn solve(
         let optimum = |guess, enough| model::solve(&here.q_a, &here.q_b, softest(a, b), target, guess, enough);
         let Some(mut model) = optimum(lambda, if thorough { best } else { rough }) else { break };
         let mut step = here.to_solver(model.step);
-        let mut checked = here;
-        let mut planes = checked.check(a, b, &step);
+        let mut counted = here.counted;
+        let mut planes = here.check(a, b, &step, &mut counted);
         if planes == Planes::Exact && !model.settled {
             // The right planes: now the exact optimum of their quadratics.
             let Some(settled) = optimum(model.lambda, best) else { break };
             (model, step) = (settled, here.to_solver(settled.step));
-            planes = checked.check(a, b, &step);
+            planes = here.check(a, b, &step, &mut counted);
         }
         lambda = model.lambda;
         if planes == Planes::Dropped {
-            here = expand(here.x, lambda, checked.counted);
+            here = expand(here.x, lambda, counted);
             iterations += 1;
             (previous, thorough) = (None, false);
             continue;
@@ -249,7 +252,14 @@ pub(crate) fn solve(
             let gap = outcome.upper - outcome.lower + outcome.rounding;
             let precise = gap <= goal.tolerance * outcome.upper;
             outcome.ending = if precise { Ending::Converged } else { Ending::RoundingLimited };
-            if precise || (step.norm() <= SHORT * reach && gap <= SHARP * outcome.upper) {
+            // What rounding leaves at the optimum itself: no other point of expansion will do much better.
+            let least = target.dual_weighted(
+                a.least_rounding(&here.x, &outcome.gradients[0]),
+                b.least_rounding(&here.x, &outcome.gradients[1]),
+                lambda,
+            );
+            let sharp = gap <= AS_SHARP * least || step.norm() <= SHORT * reach;
+            if precise || (sharp && gap <= SHARP * outcome.upper) {
                 return outcome;
             }
             // Proved, but over a long step; the same from nearby is sharper.
