@@ -19,6 +19,7 @@ Variables, as in "make demo STEPS=1000 BODIES=50":
   STEPS=14000       demo: number of time steps
   BODIES=200        demo: number of pyramids
   FUNCTOR=library   demo: who finds the contacts: library, or builtin for YADE's own functor
+  OUTPUT=out/pyramids  demo: where the results go
   THREADS=1         demo: threads of YADE
   VERBOSE=1         test: show the output of every stage, not only of those that fail
   CARGO_TARGET_DIR  where cargo builds (default: target)
@@ -67,6 +68,7 @@ build: glue
 demo: export STEPS := $(STEPS)
 demo: export BODIES := $(BODIES)
 demo: export FUNCTOR := $(FUNCTOR)
+demo: export OUTPUT := $(OUTPUT)
 demo: glue
 	$(call heading,Falling pyramids)
 	@scripts/yade.sh -j$(THREADS) examples/pyramids.py

@@ -76,7 +76,7 @@ def main():
     steps = settings.whole_number("STEPS", PAPER_STEPS, 1, "number of steps")
     count = settings.whole_number("BODIES", 200, 1, "number of pyramids")
     kind = settings.choice("FUNCTOR", LIBRARY, (LIBRARY, BUILTIN), "contact functor")
-    out = HERE.parent / "out" / "pyramids"
+    out = settings.folder("OUTPUT", HERE.parent / "out" / "pyramids")
     contact = ContactFunctor(kind)
     pyramid = Pyramid(SIZE)
     mesh = surface_mesh(pyramid.surface)

@@ -2,6 +2,7 @@
 """Values that the user may set in the environment; a bad one ends the script with one sentence."""
 
 import os
+import pathlib
 
 
 def whole_number(name, default, least, meaning):
@@ -32,3 +33,8 @@ def choice(name, default, choices, meaning):
             f"or leave {name} out for {default}."
         )
     return text
+
+
+def folder(name, default):
+    """The environment variable `name` as a folder to write to."""
+    return pathlib.Path(os.environ.get(name, "").strip() or default)

@@ -76,5 +76,7 @@ for threads in 1 2; do
     stage suite "YADE scenes, -j$threads" tests/yade/run.py -j "$threads"
 done
 
+stage suite "Short demo" scripts/short_demo.sh
+
 printf '\n%d passed, %d failed\n' "$passed" "$failed"
 [ "$failed" -eq 0 ]
