@@ -79,8 +79,11 @@ impl<'a> Body<'a> {
             Some(axes) => axes.tr_mul(&self.rotation),
             None => self.rotation,
         };
-        let counts = self.counts(x, counted);
-        potential::in_frame(self.particle, self.sphere_weight, &rotation, &self.local(x), counts)
+        let blur = self.blur(x);
+        let early = counted.early.max(blur);
+        potential::in_frame(self.particle, self.sphere_weight, &rotation, &self.local(x), early, |i, excess| {
+            counted.includes(i, excess, blur)
+        })
     }
 
     /// (Regularised) S at x along the direction e.
@@ -99,23 +102,27 @@ impl<'a> Body<'a> {
         let p = self.particle;
         let mut worst: Option<(usize, f64)> = None;
         let mut met = false;
-        for (i, (((a, b), c), d)) in p.a.iter().zip(&p.b).zip(&p.c).zip(&p.d).enumerate() {
-            let excess = a * y.x + b * y.y + c * y.z - d;
-            let terms = [a * e.x, b * e.y, c * e.z];
-            let depth = excess + (terms[0] + terms[1] + terms[2]);
-            if !counted.includes(i, excess, blur) {
-                met |= depth > blur;
-                continue;
-            }
-            let size = excess.abs() + terms[0].abs() + terms[1].abs() + terms[2].abs();
-            if depth >= -8.0 * f64::EPSILON * size {
-                continue;
-            }
-            if excess > blur {
-                return Planes::Pulling;
-            }
-            if worst.is_none_or(|(_, most)| depth < most) {
-                worst = Some((i, depth));
+        // Planes of the quadratic are near y, planes that are met near y + e: no other is near either.
+        let far = counted.early.max(blur).max(p.bounds.longest_normal * e.norm());
+        for run in p.leaves.near(&y, far) {
+            for (i, [a, b, c], d) in p.run(run) {
+                let excess = a * y.x + b * y.y + c * y.z - d;
+                let terms = [a * e.x, b * e.y, c * e.z];
+                let depth = excess + (terms[0] + terms[1] + terms[2]);
+                if !counted.includes(i, excess, blur) {
+                    met |= depth > blur;
+                    continue;
+                }
+                let size = excess.abs() + terms[0].abs() + terms[1].abs() + terms[2].abs();
+                if depth >= -8.0 * f64::EPSILON * size {
+                    continue;
+                }
+                if excess > blur {
+                    return Planes::Pulling;
+                }
+                if worst.is_none_or(|(_, most)| depth < most) {
+                    worst = Some((i, depth));
+                }
             }
         }
         // One at a time: without the worst, the others may push again.
@@ -130,19 +137,14 @@ impl<'a> Body<'a> {
     /// Calls `visit` with the (solver frame) normal and weight of each plane of the quadratic at x.
     pub fn rows(&self, x: &Vector3<f64>, counted: &Counted, mut visit: impl FnMut(Vector3<f64>, f64)) {
         let y = self.local(x);
-        let counts = self.counts(x, counted);
-        let p = self.particle;
-        for i in 0..p.plane_count() {
-            let n = p.normal(i);
-            if counts(i, n.dot(&y) - p.d[i]) {
-                visit(self.rotation * n, p.plane_weight);
+        let blur = self.blur(x);
+        for run in self.particle.leaves.near(&y, counted.early.max(blur)) {
+            for (i, [a, b, c], d) in self.particle.run(run) {
+                if counted.includes(i, a * y.x + b * y.y + c * y.z - d, blur) {
+                    visit(self.rotation * Vector3::new(a, b, c), self.particle.plane_weight);
+                }
             }
         }
-    }
-
-    fn counts(&self, x: &Vector3<f64>, counted: &Counted) -> impl Fn(usize, f64) -> bool {
-        let blur = self.blur(x);
-        move |i, excess| counted.includes(i, excess, blur)
     }
 
     /// Bound on the rounding of a distance to a plane at x: a sum of terms as long as the point, the centre

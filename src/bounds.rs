@@ -14,6 +14,8 @@ pub(crate) struct Bounds {
     pub corners: Box<[Vector3<f64>]>,
     /// max |d_i|, for bounds on rounding.
     pub longest_offset: f64,
+    /// max |n_i|, likewise.
+    pub longest_normal: f64,
     /// How far beyond d_i the particle can reach along n_i: r/√(1−k); infinite for k = 1.
     pub face_reach: f64,
     /// s at the origin, < 1.
@@ -50,6 +52,7 @@ impl Bounds {
             radius,
             corners: corners.into_iter().map(|c| c * MARGIN).collect(),
             longest_offset: particle.d.iter().fold(0.0, |longest: f64, d| longest.max(d.abs())),
+            longest_normal: (0..particle.plane_count()).map(|i| particle.normal(i).norm()).fold(0.0, f64::max),
             face_reach,
             s_origin: crate::potential::value(particle, &Vector3::zeros()).sqrt(),
         })

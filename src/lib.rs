@@ -5,6 +5,7 @@
 //! | module | holds |
 //! |---|---|
 //! | [`particle`] | what a particle is, validated once |
+//! | `leaves` | its planes in groups, so that far ones are never touched |
 //! | [`potential`] | S, ∇S, ∇²S at a point |
 //! | [`bounds`] | a polyhedron, ball and box around a particle |
 //! | [`surface`] | where a ray meets the surface |
@@ -31,6 +32,7 @@ pub mod contact;
 pub mod detect;
 pub mod ffi;
 mod frame;
+mod leaves;
 mod line;
 mod linear_program;
 pub mod mass;

@@ -11,6 +11,7 @@
 //! the particle is exactly the one that the caller wrote down.
 
 use crate::bounds::Bounds;
+use crate::leaves::Leaves;
 use crate::potential;
 use nalgebra::Vector3;
 use thiserror::Error;
@@ -62,7 +63,7 @@ pub enum ParticleError {
 /// A validated potential particle, immutable; share it freely between threads and bodies.
 #[derive(Clone, Debug)]
 pub struct Particle {
-    /// Plane coefficients, one array each: the evaluation streams through them.
+    /// Plane coefficients, one array each, in the order of `leaves`: the evaluation streams through them.
     pub(crate) a: Box<[f64]>,
     pub(crate) b: Box<[f64]>,
     pub(crate) c: Box<[f64]>,
@@ -75,6 +76,9 @@ pub struct Particle {
     /// k/R², the weight of the shadow sphere in S; 0 for k = 0.
     pub(crate) sphere_weight: f64,
     pub(crate) bounds: Bounds,
+    pub(crate) leaves: Leaves,
+    /// For each plane as kept, its place among those given.
+    order: Box<[usize]>,
 }
 
 impl Particle {
@@ -108,26 +112,26 @@ impl Particle {
                 return Err(ParticleError::ZeroNormal { index, d });
             }
         }
+        let (leaves, order) = Leaves::of(planes);
         let mut particle = Self {
-            a: planes.iter().map(|p| p.normal.x).collect(),
-            b: planes.iter().map(|p| p.normal.y).collect(),
-            c: planes.iter().map(|p| p.normal.z).collect(),
-            d: planes.iter().map(|p| p.offset).collect(),
+            a: order.iter().map(|&i| planes[i].normal.x).collect(),
+            b: order.iter().map(|&i| planes[i].normal.y).collect(),
+            c: order.iter().map(|&i| planes[i].normal.z).collect(),
+            d: order.iter().map(|&i| planes[i].offset).collect(),
             rounding_radius: r,
             sphericity: k,
             shadow_radius,
             plane_weight,
             sphere_weight,
             bounds: Bounds::default(),
+            leaves,
+            order,
         };
         let f = particle.potential(&Vector3::zeros());
         if !(f < 0.0) {
-            let worst = (0..planes.len()).min_by(|&i, &j| particle.d[i].total_cmp(&particle.d[j])).unwrap_or(0);
-            return Err(ParticleError::CentreOutside {
-                f,
-                worst,
-                d: particle.d.get(worst).copied().unwrap_or(f64::NAN),
-            });
+            let behind = |&i: &usize, &j: &usize| planes[i].offset.total_cmp(&planes[j].offset);
+            let worst = (0..planes.len()).min_by(behind).unwrap_or(0);
+            return Err(ParticleError::CentreOutside { f, worst, d: planes.get(worst).map_or(f64::NAN, |p| p.offset) });
         }
         particle.bounds = Bounds::of(&particle).ok_or(ParticleError::Unbounded)?;
         Ok(particle)
@@ -157,8 +161,12 @@ impl Particle {
     }
 
     /// Planes as given.
-    pub fn planes(&self) -> impl ExactSizeIterator<Item = Plane> + '_ {
-        (0..self.a.len()).map(|i| Plane { normal: self.normal(i), offset: self.d[i] })
+    pub fn planes(&self) -> impl ExactSizeIterator<Item = Plane> {
+        let mut planes = vec![Plane { normal: Vector3::zeros(), offset: 0.0 }; self.a.len()];
+        for (place, &given) in self.order.iter().enumerate() {
+            planes[given] = Plane { normal: self.normal(place), offset: self.d[place] };
+        }
+        planes.into_iter()
     }
 
     /// Number of planes.
@@ -189,6 +197,13 @@ impl Particle {
     /// Corners of a polyhedron that holds the whole particle, local frame.
     pub fn bounding_corners(&self) -> &[Vector3<f64>] {
         &self.bounds.corners
+    }
+
+    /// Place, normal and offset of each plane of a run.
+    #[inline]
+    pub(crate) fn run(&self, run: std::ops::Range<usize>) -> impl Iterator<Item = (usize, [f64; 3], f64)> + '_ {
+        let (a, b, c, d) = (&self.a[run.clone()], &self.b[run.clone()], &self.c[run.clone()], &self.d[run.clone()]);
+        run.zip(a.iter().zip(b).zip(c).zip(d)).map(|(i, (((&a, &b), &c), &d))| (i, [a, b, c], d))
     }
 
     pub(crate) fn normal(&self, i: usize) -> Vector3<f64> {

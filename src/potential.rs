@@ -37,21 +37,23 @@ pub struct OnLine {
 /// S(y).
 pub fn value(particle: &Particle, y: &Vector3<f64>) -> f64 {
     let mut sum = 0.0;
-    for (((a, b), c), d) in particle.a.iter().zip(&particle.b).zip(&particle.c).zip(&particle.d) {
-        let excess = (a * y.x + b * y.y + c * y.z - d).max(0.0);
-        sum += excess * excess;
+    for run in particle.leaves.near(y, 0.0) {
+        for (_, [a, b, c], d) in particle.run(run) {
+            let excess = (a * y.x + b * y.y + c * y.z - d).max(0.0);
+            sum += excess * excess;
+        }
     }
     particle.plane_weight * sum + particle.sphere_weight * y.norm_squared()
 }
 
 /// S, ∇S, ∇²S at y, local frame.
 pub fn local(particle: &Particle, y: &Vector3<f64>) -> Quadratic {
-    in_frame(particle, particle.sphere_weight, &Matrix3::identity(), y, |_, excess| excess > 0.0)
+    in_frame(particle, particle.sphere_weight, &Matrix3::identity(), y, 0.0, |_, excess| excess > 0.0)
 }
 
 /// S, ∇S, ∇²S at the local point y, with derivatives in the frame that `rotation` leads to (local to
 /// frame), and with a weight of the shadow sphere that may differ from the particle's own. `counts` says of a
-/// plane and its n·y − d whether it belongs to the quadratic.
+/// plane and its n·y − d whether it belongs to the quadratic; none below −`early` does.
 ///
 /// Each active normal is rotated before it is squared, not the finished Hessian: in a frame aligned
 /// with a face the stiff and the soft direction then stay apart to full relative precision.
@@ -60,26 +62,29 @@ pub fn in_frame(
     sphere_weight: f64,
     rotation: &Matrix3<f64>,
     y: &Vector3<f64>,
+    early: f64,
     counts: impl Fn(usize, f64) -> bool,
 ) -> Quadratic {
     let (mut square, mut not_yet, mut linear) = (0.0, 0.0, 0.0);
     let mut g = Vector3::zeros();
     let (mut xx, mut yy, mut zz, mut xy, mut yz, mut zx) = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
-    for (i, (((&a, &b), &c), &d)) in particle.a.iter().zip(&particle.b).zip(&particle.c).zip(&particle.d).enumerate() {
-        let excess = a * y.x + b * y.y + c * y.z - d;
-        if counts(i, excess) {
-            let n = rotation * Vector3::new(a, b, c);
-            let reached = excess.max(0.0);
-            square += reached * reached;
-            not_yet += (excess - reached) * (excess - reached);
-            linear += reached;
-            g += excess * n;
-            xx += n.x * n.x;
-            yy += n.y * n.y;
-            zz += n.z * n.z;
-            xy += n.x * n.y;
-            yz += n.y * n.z;
-            zx += n.z * n.x;
+    for run in particle.leaves.near(y, early) {
+        for (i, [a, b, c], d) in particle.run(run) {
+            let excess = a * y.x + b * y.y + c * y.z - d;
+            if counts(i, excess) {
+                let n = rotation * Vector3::new(a, b, c);
+                let reached = excess.max(0.0);
+                square += reached * reached;
+                not_yet += (excess - reached) * (excess - reached);
+                linear += reached;
+                g += excess * n;
+                xx += n.x * n.x;
+                yy += n.y * n.y;
+                zz += n.z * n.z;
+                xy += n.x * n.y;
+                yz += n.y * n.z;
+                zx += n.z * n.x;
+            }
         }
     }
     let (w2, m2) = (2.0 * particle.plane_weight, 2.0 * sphere_weight);
@@ -106,14 +111,16 @@ pub fn in_frame(
 /// S, slope and curvature at y along the local direction `e` (any length; it sets the unit of α).
 pub fn on_line(particle: &Particle, sphere_weight: f64, y: &Vector3<f64>, e: &Vector3<f64>) -> OnLine {
     let (mut square, mut mixed, mut steep) = (0.0, 0.0, 0.0);
-    for (((&a, &b), &c), &d) in particle.a.iter().zip(&particle.b).zip(&particle.c).zip(&particle.d) {
-        let excess = a * y.x + b * y.y + c * y.z - d;
-        let active = if excess > 0.0 { 1.0 } else { 0.0 };
-        let excess = excess * active;
-        let rate = a * e.x + b * e.y + c * e.z;
-        square += excess * excess;
-        mixed += excess * rate;
-        steep += active * rate * rate;
+    for run in particle.leaves.near(y, 0.0) {
+        for (_, [a, b, c], d) in particle.run(run) {
+            let excess = a * y.x + b * y.y + c * y.z - d;
+            let active = if excess > 0.0 { 1.0 } else { 0.0 };
+            let excess = excess * active;
+            let rate = a * e.x + b * e.y + c * e.z;
+            square += excess * excess;
+            mixed += excess * rate;
+            steep += active * rate * rate;
+        }
     }
     let (w, m) = (particle.plane_weight, sphere_weight);
     OnLine {

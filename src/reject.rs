@@ -36,13 +36,16 @@ fn beyond_a_face(
         return false;
     }
     let ball = other.bounding_radius();
-    let (mut most, mut face) = (f64::NEG_INFINITY, 0);
-    for (i, (((a, b), c), d)) in host.a.iter().zip(&host.b).zip(&host.c).zip(&host.d).enumerate() {
-        let beyond = a * centre.x + b * centre.y + c * centre.z - d;
-        if beyond > most {
-            (most, face) = (beyond, i);
+    let (most, face) = host.leaves.largest(centre, |run| {
+        let (mut most, mut face) = (f64::NEG_INFINITY, 0);
+        for (i, [a, b, c], d) in host.run(run) {
+            let beyond = a * centre.x + b * centre.y + c * centre.z - d;
+            if beyond > most {
+                (most, face) = (beyond, i);
+            }
         }
-    }
+        (most, face)
+    });
     let n = host.normal(face);
     let length = n.norm();
     let reach = host.bounds.face_reach;

@@ -121,7 +121,8 @@ fn directions() -> impl Strategy<Value = Vector3<f64>> {
 }
 
 fn orientations() -> impl Strategy<Value = [f64; 4]> {
-    prop::array::uniform4(-1.0..1.0).prop_filter("too short", |q: &[f64; 4]| q.iter().map(|c| c * c).sum::<f64>() > 0.01)
+    prop::array::uniform4(-1.0..1.0)
+        .prop_filter("too short", |q: &[f64; 4]| q.iter().map(|c| c * c).sum::<f64>() > 0.01)
 }
 
 /// A pair with overlap or a small gap along a random direction.

@@ -75,11 +75,23 @@ impl Worst {
 }
 
 fn table(title: &str, families: &BTreeMap<String, Worst>) {
-    println!("\n{title}\n{:16} {:>5} {:>9} {:>9} {:>9} {:>9} {:>5} {:>6} {:>5} {:>5} flags", "family", "pairs", "s error", "point", "gap", "err/gap", "iter", "mean", "wrong", "fail");
+    println!(
+        "\n{title}\n{:16} {:>5} {:>9} {:>9} {:>9} {:>9} {:>5} {:>6} {:>5} {:>5} flags",
+        "family", "pairs", "s error", "point", "gap", "err/gap", "iter", "mean", "wrong", "fail"
+    );
     for (family, w) in families {
         println!(
             "{family:16} {:5} {:9.1e} {:9.1e} {:9.1e} {:9.1e} {:5} {:6.1} {:5} {:5} {:#b}",
-            w.pairs, w.s, w.point, w.gap, w.beyond_gap, w.iterations, f64::from(w.total_iterations) / w.pairs as f64, w.wrong_side, w.failures, w.flags
+            w.pairs,
+            w.s,
+            w.point,
+            w.gap,
+            w.beyond_gap,
+            w.iterations,
+            f64::from(w.total_iterations) / w.pairs as f64,
+            w.wrong_side,
+            w.failures,
+            w.flags
         );
     }
 }
