@@ -105,6 +105,10 @@
 // so that bodies and threads may share one.
 typedef struct pp_particle pp_particle;
 
+// A validated particle of the plane. Created by `pp_particle_new_2d`, released by
+// `pp_particle_free_2d`; immutable, so that bodies and threads may share one.
+typedef struct pp_particle_2d pp_particle_2d;
+
 // What every function of the C interface returns: `PP_OK` or a positive code.
 typedef int32_t pp_status;
 
@@ -173,6 +177,8 @@ typedef struct pp_contact {
     double weight;
     // Proved bound on the error of s, from this answer's own numbers: |s - s*| <= gap.
     double gap;
+    // Bound on the distance of the point (closest: of each of P1 and P2) to the exact optimum, length.
+    double point_bound;
     // Overlap (YADE: penetrationDepth), length, > 0 when overlapping; NaN when separated.
     double overlap;
     // Unit contact normal, from A to B (positive force on B pushes it along +normal), from the gradients
@@ -201,6 +207,57 @@ typedef struct pp_mass_properties {
     // (|x|^2 I - x x^T) dV, length^5.
     double inertia[6];
 } pp_mass_properties;
+
+// Where a body of the plane is: world = rotation(angle) * local + position.
+typedef struct pp_pose_2d {
+    // Centre of the particle (origin of its local frame), world frame, length units of the caller.
+    double position[2];
+    // Angle from world to local axes, radians, anticlockwise; any finite number.
+    double angle;
+} pp_pose_2d;
+
+// The answer for one pair of the plane: the fields of struct pp_contact, with vectors of two.
+// Frames: world axes unless said otherwise; lengths in the caller's unit; s, weight and gap have no
+// unit. Fields that do not apply are NaN.
+typedef struct pp_contact_2d {
+    // `PP_SEPARATED` or `PP_OVERLAPPING`. A failed solve has no kind: it returns a status.
+    int32_t kind;
+    // The formulation that the geometry below answers (`PP_MIDWAY` if `PP_FLAG_SLACK` is set).
+    uint32_t formulation;
+    // The back end that answered: `PP_FAST` or `PP_CONIC`.
+    uint32_t back_end;
+    // Sum of PP_FLAG_... bits.
+    uint32_t flags;
+    // Evaluations of the two potentials (fast) or interior-point iterations (conic).
+    uint32_t iterations;
+    // Always 0.
+    uint32_t reserved;
+    // Midway: t, the common scale at which the two particles touch at one point; t < 1 overlap.
+    // Closest: s_A at P2. Rejected pairs: a lower bound, >= 1. No unit.
+    double s;
+    // Closest: s_B at P1; NaN for midway.
+    double s_b;
+    // Weight u of B, in [0, 1]: (1-u) grad S_A + u grad S_B = 0 at the solution.
+    double weight;
+    // Proved bound on the error of s, from this answer's own numbers: |s - s*| <= gap.
+    double gap;
+    // Bound on the distance of the point (closest: of each of P1 and P2) to the exact optimum, length.
+    double point_bound;
+    // Overlap (YADE: penetrationDepth), length, > 0 when overlapping; NaN when separated.
+    double overlap;
+    // Unit contact normal, from A to B (positive force on B pushes it along +normal).
+    double normal[2];
+    // Contact point, world frame: P3 of midway, or the weighted mean of P1 and P2 of closest.
+    double point[2];
+    // Contact point minus position of A: exact lever arm even far from the world origin.
+    double branch_a[2];
+    // Contact point minus position of B.
+    double branch_b[2];
+    // Point on the boundary of A inside B, world frame; P1 of closest. NaN when separated.
+    double point_on_a[2];
+    // Point on the boundary of B inside A, world frame; P2 of closest. NaN when separated.
+    double point_on_b[2];
+} pp_contact_2d;
 
 // The call did what it says; its outputs are written.
 #define PP_OK 0
@@ -405,6 +462,94 @@ pp_status pp_particle_surface_distance(const struct pp_particle *particle,
 // Pointers are NULL or valid.
 pp_status pp_particle_mass_properties(const struct pp_particle *particle,
                                       struct pp_mass_properties *properties);
+
+// Creates a particle of the plane from `count` lines a x + b y = d.
+//
+// With S(x) = (1-k)/r^2 * sum <a x + b y - d>^2 + k/R^2 * |x|^2 all else is as in
+// `pp_particle_new`, and the codes of planes stand for lines.
+// lines: count rows of a, b, d (outward normal and offset; local frame; the normal is used as
+// given). May be NULL when count is 0.
+// r: rounding radius, length. k: sphericity, in [0, 1]. shadow_radius: R, length.
+// out: receives the particle; release it with `pp_particle_free_2d`.
+// message: receives, on failure, a sentence that names the line or value (may be NULL).
+// Errors: `PP_NULL_POINTER`, `PP_PLANE_NOT_FINITE`, `PP_PLANE_ZERO_NORMAL`, `PP_BAD_SPHERICITY`,
+// `PP_BAD_ROUNDING_RADIUS`, `PP_BAD_SHADOW_RADIUS`, `PP_CENTRE_OUTSIDE`, `PP_UNBOUNDED` (k = 0 and
+// the lines enclose no area), `PP_TOO_MANY_PLANES`.
+//
+// # Safety
+// `lines` points to 3*count doubles, `out` to one pointer, `message` to `message_size` bytes.
+pp_status pp_particle_new_2d(const double *lines,
+                             size_t count,
+                             double r,
+                             double k,
+                             double shadow_radius,
+                             struct pp_particle_2d **out,
+                             char *message,
+                             size_t message_size);
+
+// Releases a particle of the plane; NULL is allowed and does nothing. No pair may still be using it.
+//
+// # Safety
+// `particle` is NULL or came from `pp_particle_new_2d` and was not released yet.
+void pp_particle_free_2d(struct pp_particle_2d *particle);
+
+// f = S - 1 at a world point (2 doubles), and its gradient (2 doubles, world axes, 1/length; may
+// be NULL).
+//
+// f < 0 inside, 0 on the boundary, > 0 outside.
+// Errors: `PP_NULL_POINTER`, `PP_BAD_POSITION`, `PP_BAD_ORIENTATION`, `PP_BAD_POINT`.
+//
+// # Safety
+// Pointers are NULL or valid: `point` for reading 2 doubles, `f` and `gradient` for writing 1 and 2.
+pp_status pp_particle_potential_2d(const struct pp_particle_2d *particle,
+                                   const struct pp_pose_2d *pose,
+                                   const double *point,
+                                   double *f,
+                                   double *gradient);
+
+// Radius about the centre of a circle that holds the particle, length: two particles whose centres are
+// further apart than both radii together need no call of `pp_contact_detect_2d`.
+//
+// Errors: `PP_NULL_POINTER`.
+//
+// # Safety
+// Pointers are NULL or valid.
+pp_status pp_particle_bounding_radius_2d(const struct pp_particle_2d *particle,
+                                         double *radius);
+
+// Finds the contact of particle A at `pose_a` with particle B at `pose_b`, both of the plane.
+//
+// settings: may be NULL (defaults). memory: may be NULL; else what this ordered pair remembers,
+// read and updated. out: the answer; see struct pp_contact_2d for frames, units and signs.
+// Errors: `PP_NULL_POINTER`, `PP_BAD_POSITION`, `PP_BAD_ORIENTATION` (an angle that is not finite),
+// `PP_UNKNOWN_FORMULATION`, `PP_UNKNOWN_BACK_END`, `PP_BAD_SETTING`, `PP_SOLVER_FAILED`.
+//
+// # Safety
+// Pointers are NULL or valid; `memory` and `out` are not used by another call at the same time.
+pp_status pp_contact_detect_2d(const struct pp_particle_2d *a,
+                               const struct pp_pose_2d *pose_a,
+                               const struct pp_particle_2d *b,
+                               const struct pp_pose_2d *pose_b,
+                               const struct pp_settings *settings,
+                               struct pp_memory *memory,
+                               struct pp_contact_2d *out);
+
+// Contact length (YADE: jointLength): how much of the line through the contact point, normal to the
+// contact normal, lies in both particles.
+//
+// contact: an overlapping answer of `pp_contact_detect_2d` for the same particles and poses.
+// length: receives a length; 0 when separated. Exact to rounding.
+// Errors: `PP_NULL_POINTER`, `PP_BAD_POSITION`, `PP_BAD_ORIENTATION`, `PP_BAD_POINT` (the contact
+// was not filled: no kind, point or normal).
+//
+// # Safety
+// Pointers are NULL or valid.
+pp_status pp_contact_length_2d(const struct pp_particle_2d *a,
+                               const struct pp_pose_2d *pose_a,
+                               const struct pp_particle_2d *b,
+                               const struct pp_pose_2d *pose_b,
+                               const struct pp_contact_2d *contact,
+                               double *length);
 
 // The sentence for a status code, in English, without a full stop.
 //

@@ -134,14 +134,15 @@ impl<'a> Body<'a> {
         }
     }
 
-    /// Calls `visit` with the (solver frame) normal and weight of each plane of the quadratic at x.
-    pub fn rows(&self, x: &Vector3<f64>, counted: &Counted, mut visit: impl FnMut(Vector3<f64>, f64)) {
+    /// Calls `visit` with the (solver frame) normal, the weight and n·x − d of each plane of the quadratic at x.
+    pub fn rows(&self, x: &Vector3<f64>, counted: &Counted, mut visit: impl FnMut(Vector3<f64>, f64, f64)) {
         let y = self.local(x);
         let blur = self.blur(x);
         for run in self.particle.leaves.near(&y, counted.early.max(blur)) {
             for (i, [a, b, c], d) in self.particle.run(run) {
-                if counted.includes(i, a * y.x + b * y.y + c * y.z - d, blur) {
-                    visit(self.rotation * Vector3::new(a, b, c), self.particle.plane_weight);
+                let excess = a * y.x + b * y.y + c * y.z - d;
+                if counted.includes(i, excess, blur) {
+                    visit(self.rotation * Vector3::new(a, b, c), self.particle.plane_weight, excess);
                 }
             }
         }
@@ -149,7 +150,7 @@ impl<'a> Body<'a> {
 
     /// Bound on the rounding of a distance to a plane at x: a sum of terms as long as the point, the centre
     /// and the offsets, each known to a few units in the last place.
-    fn blur(&self, x: &Vector3<f64>) -> f64 {
+    pub fn blur(&self, x: &Vector3<f64>) -> f64 {
         ROUNDING * f64::EPSILON * (x.norm() + 2.0 * self.centre.norm() + self.particle.bounds.longest_offset)
     }
 

@@ -5,7 +5,7 @@ use crate::particle::Particle;
 use crate::pose::Pose;
 use nalgebra::{Matrix3, Vector3};
 
-/// What surely holds a particle, local frame.
+/// What surely holds a particle, local frame; for a particle of the plane, its cut at z = 0.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Bounds {
     /// Radius of a ball about the origin that holds the particle.
@@ -42,10 +42,10 @@ impl Bounds {
         let all_faces = || (0..particle.plane_count()).map(face).collect::<Vec<_>>();
         let half = match sphere_reach {
             reach if reach.is_finite() => reach,
-            _ => linear_program::half_cube(&all_faces())?,
+            _ => linear_program::half_cube(&all_faces(), particle.dimensions)?,
         };
         let faces = if particle.is_sphere() { Vec::new() } else { spread(particle).into_iter().map(face).collect() };
-        let corners = corners(&faces, half);
+        let corners = corners(&faces, half, particle.dimensions);
         let farthest = corners.iter().map(|c| c.norm()).fold(0.0, f64::max);
         let radius = farthest.min(sphere_reach) * MARGIN;
         (radius.is_finite() && radius > 0.0).then(|| Self {
@@ -111,9 +111,11 @@ fn spread(particle: &Particle) -> Vec<usize> {
 }
 
 /// Corners of the polyhedron {n·x ≤ h} ∩ cube: every point where three faces meet and that none cuts off.
-fn corners(faces: &[(Vector3<f64>, f64)], half: f64) -> Vec<Vector3<f64>> {
+/// In the plane the cube has no height, so that every corner has z = 0.
+fn corners(faces: &[(Vector3<f64>, f64)], half: f64, dimensions: usize) -> Vec<Vector3<f64>> {
     let mut all = faces.to_vec();
     for axis in 0..3 {
+        let half = if axis < dimensions { half } else { 0.0 };
         for sign in [1.0, -1.0] {
             let mut n = Vector3::zeros();
             n[axis] = sign;

@@ -8,7 +8,7 @@
 
 use crate::body::{Body, Counted, Planes};
 use crate::frame;
-use crate::model::{self, Target};
+use crate::model::{self, Response, Target};
 use crate::spine::{self, Ending, Outcome};
 use nalgebra::Vector3;
 
@@ -34,6 +34,42 @@ pub(crate) fn scale(outcome: &Outcome, a: &Body, b: &Body, target: Target) -> Ce
     let s = square.sqrt();
     Certified { s, gap: (high.sqrt() - s).max(s - low.sqrt()) + f64::EPSILON * s }
 }
+
+/// Bound on the distance from the point of an outcome to the optimum, length.
+///
+/// Where the optimum is that of known quadratics, only their data is in doubt: each plane's distance by its
+/// rounding, each body's force a·∇S_A by the rounding of its direction. The answer of the optimum to each is
+/// a linear problem that is solved already, and the lengths are added. Elsewhere strong convexity bounds it:
+/// ½·curvature·distance² ≤ upper − lower.
+pub(crate) fn distance(outcome: &Outcome, a: &Body, b: &Body, target: Target) -> f64 {
+    let weights = target.weights(outcome.lambda);
+    let soft = spine::softest(a, b);
+    let convexity = || {
+        let excess = (outcome.upper - outcome.lower).max(0.0) + outcome.rounding;
+        (2.0 * excess / (weights.0 * soft.0 + weights.1 * soft.1)).sqrt()
+    };
+    let Some(expansion) = outcome.expansion.filter(|_| outcome.ending != Ending::Stuck) else { return convexity() };
+    let gradients = outcome.gradients.map(|g| expansion.to_axes(&g));
+    let (q_a, q_b) = (&expansion.q_a, &expansion.q_b);
+    let Some(response) = Response::of(q_a, q_b, soft, target, outcome.lambda, &gradients) else { return convexity() };
+    let step = outcome.x - expansion.x;
+    let mut sum = 0.0;
+    for (i, (body, weight)) in [(a, weights.0), (b, weights.1)].into_iter().enumerate() {
+        // A plane that moves in by its rounding raises S by 2wp and turns the slope by 2wn times that.
+        let blur = body.blur(&outcome.x);
+        body.rows(&expansion.x, &expansion.counted[i], |n, w, excess| {
+            let depth = (excess + n.dot(&step)).max(0.0);
+            let mismatch = target.mismatch_of(i, 2.0 * w * depth);
+            sum += blur * response.distance(&expansion.to_axes(&(2.0 * weight * w * n)), mismatch);
+        });
+        sum += weight * gradients[i].norm() * TURN * f64::EPSILON * response.per_slope() + blur;
+    }
+    // Carried along from the point of expansion, and rounded at the end.
+    sum + TURN * f64::EPSILON * (step.norm() + outcome.x.norm())
+}
+
+/// Units in the last place by which a rotated normal may be turned.
+const TURN: f64 = 4.0;
 
 /// Bounds for a point and a scale s that another solver found, with the ratio of weights λ that came with them.
 ///

@@ -1,6 +1,6 @@
 //! The reference back end: the paper's second-order cone programs, handed to clarabel.
 //!
-//! # The programs (paper eqs 34–44, 3-D, written in the frame of B)
+//! # The programs (paper eqs 34–44, written in the frame of B; eqs 19–31 are the same without z)
 //!
 //! ```text
 //! unknowns   head (t, or s of the objective), x_A, x_B (both local), p_A,i, p_B,i

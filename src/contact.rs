@@ -71,6 +71,8 @@ pub struct Contact {
     pub weight: f64,
     /// |s − s*| ≤ gap (and the same for s_b).
     pub gap: f64,
+    /// Bound on the distance of the point (of closest: of each of P1 and P2) to the optimum, length.
+    pub point_bound: f64,
     /// Overlap, > 0 when overlapping; NaN when separated.
     pub overlap: f64,
     /// Unit normal from A to B.
@@ -146,6 +148,7 @@ impl Contact {
             s_b: f64::NAN,
             weight: f64::NAN,
             gap: f64::NAN,
+            point_bound: f64::NAN,
             overlap: f64::NAN,
             normal: nan,
             point: nan,

@@ -139,6 +139,10 @@ impl<'a> Search<'a> {
         }
     }
 
+    fn bound(&self, outcome: &Outcome, target: Target) -> f64 {
+        certificate::distance(outcome, &self.body_a, &self.body_b, target)
+    }
+
     fn certify(&self, outcome: &Outcome, target: Target) -> Certified {
         certificate::scale(outcome, &self.body_a, &self.body_b, target)
     }
@@ -182,6 +186,7 @@ impl<'a> Search<'a> {
             if let (Some((on_b, of_a)), Some((on_a, of_b))) = (on_b, on_a) {
                 (contact.s, contact.s_b) = (of_a.s, of_b.s);
                 contact.gap = of_a.gap.max(of_b.gap);
+                contact.point_bound = self.bound(&on_b, Target::OnB).max(self.bound(&on_a, Target::OnA));
                 contact.weight = on_b.lambda / (1.0 + on_b.lambda);
                 let gradients = [on_a.gradients[0], on_b.gradients[1]];
                 let weight = self.settings.weight_on_a;
@@ -190,6 +195,9 @@ impl<'a> Search<'a> {
                 self.flags.insert(Flags::SLACK);
                 contact.formulation = Formulation::Midway;
             }
+        }
+        if local.is_none() {
+            contact.point_bound = self.bound(midway, Target::Midway);
         }
         let local = match local {
             Some(local) => local,

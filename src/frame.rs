@@ -39,7 +39,7 @@ fn stiffest(
 ) -> Vector3<f64> {
     let (mut best, mut most) = (Vector3::zeros(), 0.0);
     for (body, counted, scale) in bodies {
-        body.rows(x, counted, |n, weight| {
+        body.rows(x, counted, |n, weight, _| {
             let rest = remainder(n);
             let stiffness = scale * weight * rest.norm_squared();
             if stiffness > most && rest.norm_squared() > PARALLEL * n.norm_squared() {

@@ -21,6 +21,7 @@
 //! | [`contact`] | point, normal, overlap from a solution |
 //! | [`area`] | the contact area, when asked for |
 //! | [`detect`] | the whole, on one screen |
+//! | [`planar`] | the same for particles of the plane |
 //! | [`ffi`] | the C interface |
 
 pub mod area;
@@ -40,6 +41,7 @@ pub mod memory;
 mod model;
 pub mod pair;
 pub mod particle;
+pub mod planar;
 pub mod pose;
 pub mod potential;
 pub mod reject;

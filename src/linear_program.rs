@@ -1,4 +1,4 @@
-//! Whether planes enclose a volume, and how large it is: small linear programs for clarabel.
+//! Whether planes enclose a volume (lines an area), and how large it is: small linear programs for clarabel.
 //!
 //! Only particles with k = 0 need them, once, when they are made.
 
@@ -7,11 +7,12 @@ use clarabel::solver::{DefaultSettingsBuilder, DefaultSolver, IPSolver, Nonnegat
 use nalgebra::Vector3;
 
 /// Half the edge of a cube about the origin that holds {x : n·x ≤ h for every face}; `None` if unbounded.
+/// With two dimensions, of a square in the plane z = 0, to which x is then confined.
 ///
 /// First the recession cone {v : n·v ≤ 0}: cut by the unit cube it reaches either 0 or 1 along some
 /// axis, so that the answer does not depend on scale. Then the extent along each axis.
-pub(crate) fn half_cube(faces: &[(Vector3<f64>, f64)]) -> Option<f64> {
-    let axes = || (0..3).flat_map(|axis| [1.0, -1.0].map(|sign| Vector3::ith(axis, sign)));
+pub(crate) fn half_cube(faces: &[(Vector3<f64>, f64)], dimensions: usize) -> Option<f64> {
+    let axes = || (0..dimensions).flat_map(|axis| [1.0, -1.0].map(|sign| Vector3::ith(axis, sign)));
     let unit: Vec<_> = faces.iter().map(|(n, h)| (n / n.norm(), h / n.norm())).collect();
     let scale = unit.iter().map(|(_, h)| h.abs()).fold(0.0, f64::max);
     if unit.is_empty() || !(scale > 0.0) {
@@ -20,25 +21,32 @@ pub(crate) fn half_cube(faces: &[(Vector3<f64>, f64)]) -> Option<f64> {
     let cone: Vec<_> = unit.iter().map(|(n, _)| (*n, 0.0)).chain(axes().map(|e| (e, 1.0))).collect();
     for e in axes() {
         // 0 when bounded, 1 when not; a failed program is taken for unbounded.
-        if maximum(&cone, &e)? > 0.5 {
+        if maximum(&cone, &e, dimensions)? > 0.5 {
             return None;
         }
     }
     let scaled: Vec<_> = unit.iter().map(|(n, h)| (*n, h / scale)).collect();
-    axes().map(|e| maximum(&scaled, &e)).try_fold(0.0, |most: f64, extent| Some(most.max(extent?))).map(|m| m * scale)
+    axes()
+        .map(|e| maximum(&scaled, &e, dimensions))
+        .try_fold(0.0, |most: f64, extent| Some(most.max(extent?)))
+        .map(|m| m * scale)
 }
 
-/// max e·x subject to n·x ≤ h.
-fn maximum(faces: &[(Vector3<f64>, f64)], e: &Vector3<f64>) -> Option<f64> {
+/// max e·x subject to n·x ≤ h, over the first coordinates of x.
+fn maximum(faces: &[(Vector3<f64>, f64)], e: &Vector3<f64>, dimensions: usize) -> Option<f64> {
     let count = faces.len();
-    let rows: Vec<usize> = (0..3).flat_map(|_| 0..count).collect();
-    let values: Vec<f64> = (0..3).flat_map(|axis| faces.iter().map(move |(n, _)| n[axis])).collect();
-    let a = CscMatrix::new(count, 3, vec![0, count, 2 * count, 3 * count], rows, values);
+    let rows: Vec<usize> = (0..dimensions).flat_map(|_| 0..count).collect();
+    let values: Vec<f64> = (0..dimensions).flat_map(|axis| faces.iter().map(move |(n, _)| n[axis])).collect();
+    let starts = (0..=dimensions).map(|axis| axis * count).collect();
+    let a = CscMatrix::new(count, dimensions, starts, rows, values);
     let h: Vec<f64> = faces.iter().map(|(_, h)| *h).collect();
     let settings = DefaultSettingsBuilder::default().verbose(false).build().ok()?;
-    let p = CscMatrix::zeros((3, 3));
-    let mut solver = DefaultSolver::new(&p, (-e).as_slice(), &a, &h, &[NonnegativeConeT(count)], settings).ok()?;
+    let p = CscMatrix::zeros((dimensions, dimensions));
+    let objective = -e;
+    let mut solver =
+        DefaultSolver::new(&p, &objective.as_slice()[..dimensions], &a, &h, &[NonnegativeConeT(count)], settings)
+            .ok()?;
     solver.solve();
     matches!(solver.solution.status, SolverStatus::Solved | SolverStatus::AlmostSolved)
-        .then(|| e.x * solver.solution.x[0] + e.y * solver.solution.x[1] + e.z * solver.solution.x[2])
+        .then(|| e.iter().zip(&solver.solution.x).map(|(e, x)| e * x).sum())
 }

@@ -90,7 +90,7 @@ pub(crate) struct Optimum {
     pub lower: f64,
     /// Merit of the quadratics there.
     pub upper: f64,
-    /// Whether the two sides agree to rounding there.
+    /// Whether λ is as good as rounding allows.
     pub settled: bool,
     /// How far `lower` may lie above the model's minimum: what a step that is not solved exactly hides, and
     /// the rounding of the expansion over the length of the step.
@@ -179,7 +179,8 @@ pub(crate) fn solve(
             next = (low * high).sqrt();
         }
         if next == lambda {
-            return optimum(step, lambda, (s_a, s_b), settled);
+            // No λ does better.
+            return optimum(step, lambda, (s_a, s_b), true);
         }
         lambda = next;
     }
@@ -193,12 +194,67 @@ impl Target {
         (growing - falling).abs()
     }
 
+    /// What a change of S_A (0) or S_B (1) does to the difference of the two numbers.
+    pub fn mismatch_of(self, body: usize, change: f64) -> f64 {
+        match (self, body) {
+            (Self::OnB, 0) | (Self::OnA, 1) => 0.0,
+            _ => change,
+        }
+    }
+
     fn rates(self, rate_a: f64, rate_b: f64) -> (f64, f64) {
         match self {
             Self::Midway => (rate_a, rate_b),
             Self::OnB => (0.0, rate_b),
             Self::OnA => (rate_a, 0.0),
         }
+    }
+}
+
+/// How the optimum answers to small changes of the data: the derivative of the conditions
+/// a·g_A + b·g_B = 0 and "both sides are equal".
+pub(crate) struct Response {
+    factor: Factor,
+    /// H⁻¹h, with h the gradient of the difference of the sides.
+    along: Vector3<f64>,
+    /// hᵀH⁻¹h.
+    stiffness: f64,
+}
+
+impl Response {
+    /// `gradients` are those at the optimum, in the axes of the quadratics.
+    pub fn of(
+        q_a: &Quadratic,
+        q_b: &Quadratic,
+        soft: (f64, f64),
+        target: Target,
+        lambda: f64,
+        gradients: &[Vector3<f64>; 2],
+    ) -> Option<Self> {
+        let (a, b) = target.weights(lambda);
+        let (h_a, h_b) = (Symmetric::of(&q_a.hessian), Symmetric::of(&q_b.hessian));
+        let factor = Factor::of(&h_a.weighted(a, &h_b, b), a * soft.0 + b * soft.1)?;
+        let [g_a, g_b] = gradients;
+        let h = match target {
+            Target::Midway => g_b - g_a,
+            Target::OnB => *g_b,
+            Target::OnA => -g_a,
+        };
+        let along = factor.solve(&h);
+        let stiffness = h.dot(&along);
+        (stiffness > 0.0).then_some(Self { factor, along, stiffness })
+    }
+
+    /// Length of the move of the optimum when the slope a·g_A + b·g_B changes by `slope` and the difference of
+    /// the sides by `mismatch`.
+    pub fn distance(&self, slope: &Vector3<f64>, mismatch: f64) -> f64 {
+        let free = self.factor.solve(slope);
+        (free + self.along * ((mismatch - self.along.dot(slope)) / self.stiffness)).norm()
+    }
+
+    /// Bound on the move per unit of slope, in whatever direction.
+    pub fn per_slope(&self) -> f64 {
+        self.factor.inverse_trace()
     }
 }
 
@@ -267,6 +323,13 @@ impl Factor {
             l21,
             inverse_d: [i0, i1, i2],
         })
+    }
+
+    /// Trace of the inverse: bounds its norm.
+    fn inverse_trace(&self) -> f64 {
+        let [i0, i1, i2] = self.inverse_d;
+        let m20 = self.l10 * self.l21 - self.l20;
+        i0 + i1 * (1.0 + self.l10 * self.l10) + i2 * (1.0 + self.l21 * self.l21 + m20 * m20)
     }
 
     fn solve(&self, r: &Vector3<f64>) -> Vector3<f64> {

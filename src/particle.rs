@@ -58,6 +58,33 @@ pub enum ParticleError {
     Unbounded,
     #[error("{0} planes are more than the {MAX_PLANES} that a particle may have")]
     TooManyPlanes(usize),
+    #[error("line {index} is not finite: a={a:?}, b={b:?}, d={d:?}")]
+    LineNotFinite { index: usize, a: f64, b: f64, d: f64 },
+    #[error("line {index} has a normal of length zero (d={d:?}): give it a direction or remove it")]
+    ZeroLineNormal { index: usize, d: f64 },
+    #[error(
+        "the centre is not inside: f(0)={f:?} must be negative; line {worst} (d={d:?}) lies furthest behind \
+         the origin: shift the lines so that the origin is inside"
+    )]
+    CentreOutsideLines { f: f64, worst: usize, d: f64 },
+    #[error("the lines do not enclose an area, and with k=0 nothing else does: add lines or take k>0")]
+    OpenLines,
+    #[error("{0} lines are more than the {MAX_PLANES} that a particle may have")]
+    TooManyLines(usize),
+}
+
+impl ParticleError {
+    /// The same of a particle of the plane, whose planes (a, b, 0, d) the caller knows as lines.
+    pub(crate) fn of_lines(self) -> Self {
+        match self {
+            Self::PlaneNotFinite { index, a, b, d, .. } => Self::LineNotFinite { index, a, b, d },
+            Self::ZeroNormal { index, d } => Self::ZeroLineNormal { index, d },
+            Self::CentreOutside { f, worst, d } => Self::CentreOutsideLines { f, worst, d },
+            Self::Unbounded => Self::OpenLines,
+            Self::TooManyPlanes(count) => Self::TooManyLines(count),
+            other => other,
+        }
+    }
 }
 
 /// A validated potential particle, immutable; share it freely between threads and bodies.
@@ -68,6 +95,8 @@ pub struct Particle {
     pub(crate) b: Box<[f64]>,
     pub(crate) c: Box<[f64]>,
     pub(crate) d: Box<[f64]>,
+    /// Coordinates that count: 3, or 2 where only the cut at z = 0 is meant ([`crate::planar`]).
+    pub(crate) dimensions: usize,
     rounding_radius: f64,
     sphericity: f64,
     shadow_radius: f64,
@@ -88,6 +117,18 @@ impl Particle {
     /// Non-finite numbers, k outside [0, 1], r ≤ 0 (unless k = 1), R ≤ 0 (unless k = 0), a zero
     /// normal, an origin that is not inside (f(0) ≥ 0), and for k = 0 an unbounded shape.
     pub fn new(planes: &[Plane], r: f64, k: f64, shadow_radius: f64) -> Result<Self, ParticleError> {
+        Self::build(planes, r, k, shadow_radius, 3)
+    }
+
+    /// The same for planes (a, b, 0, d) of which only the cut at z = 0 has to be bounded.
+    ///
+    /// # Errors
+    /// Those of [`Particle::new`], speaking of lines.
+    pub(crate) fn in_plane(planes: &[Plane], r: f64, k: f64, shadow_radius: f64) -> Result<Self, ParticleError> {
+        Self::build(planes, r, k, shadow_radius, 2).map_err(ParticleError::of_lines)
+    }
+
+    fn build(planes: &[Plane], r: f64, k: f64, shadow_radius: f64, dimensions: usize) -> Result<Self, ParticleError> {
         if planes.len() > MAX_PLANES {
             return Err(ParticleError::TooManyPlanes(planes.len()));
         }
@@ -118,6 +159,7 @@ impl Particle {
             b: order.iter().map(|&i| planes[i].normal.y).collect(),
             c: order.iter().map(|&i| planes[i].normal.z).collect(),
             d: order.iter().map(|&i| planes[i].offset).collect(),
+            dimensions,
             rounding_radius: r,
             sphericity: k,
             shadow_radius,

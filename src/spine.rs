@@ -64,12 +64,12 @@ pub(crate) struct Start {
 /// Both quadratics at a point.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Expansion {
-    x: Vector3<f64>,
+    pub x: Vector3<f64>,
     /// Axes of the quadratics (columns, in the solver's frame), if not the solver's own.
     axes: Option<Matrix3<f64>>,
-    counted: [Counted; 2],
-    q_a: Quadratic,
-    q_b: Quadratic,
+    pub counted: [Counted; 2],
+    pub q_a: Quadratic,
+    pub q_b: Quadratic,
 }
 
 /// Where the solver ended; everything in the solver's frame, potentials as regularised.
@@ -149,6 +149,11 @@ impl Expansion {
         };
         let [q_a, q_b] = [0, 1].map(|i| bodies[i].at(&x, axes.as_ref(), &counted[i]));
         Self { x, axes, counted, q_a, q_b }
+    }
+
+    /// A direction of the solver's frame in the axes of the quadratics.
+    pub fn to_axes(&self, v: &Vector3<f64>) -> Vector3<f64> {
+        self.axes.map_or(*v, |axes| axes.tr_mul(v))
     }
 
     fn to_solver(&self, v: Vector3<f64>) -> Vector3<f64> {
@@ -248,7 +253,7 @@ pub(crate) fn solve(
         if goal.stop_when_separated && planes != Planes::Pulling && lower - outcome.rounding > 1.0 {
             return Outcome { ending: Ending::Separated, ..outcome };
         }
-        if planes == Planes::Exact {
+        if planes == Planes::Exact && model.settled {
             let gap = outcome.upper - outcome.lower + outcome.rounding;
             let precise = gap <= goal.tolerance * outcome.upper;
             outcome.ending = if precise { Ending::Converged } else { Ending::RoundingLimited };

@@ -11,6 +11,9 @@
 //!
 //! Rows, in order: three ties (zero cone); for each plane its row and p ≥ 0, then six for the box
 //! (non-negative cone); one second-order cone for each particle.
+//!
+//! For particles of the plane this becomes eqs 19–31: z is no unknown, so that δ has two columns, and there
+//! are two ties, four rows for the box and two entries of x in a cone. (With k = 0 nothing would hold z.)
 
 use super::{ConicError, Goal};
 use crate::pair::Pair;
@@ -66,8 +69,10 @@ pub(super) struct Program {
     cones: Vec<SupportedConeT<f64>>,
     variables: usize,
     heads: [usize; 2],
-    /// The six rows of the box, or none.
+    /// The rows of the box, or none.
     box_rows: Range<usize>,
+    /// Columns of δ_B.
+    point: Range<usize>,
     unit: f64,
 }
 
@@ -80,7 +85,7 @@ impl Program {
     /// The program of the correction to x, frame of B, inside the box of half-width `half`.
     pub fn correction(pair: &Pair, goal: Goal, x: &Vector3<f64>, half: f64, scales: [f64; 2]) -> Self {
         // Half the diagonal of the box, with a margin for rounding: how far any point of it is from x.
-        let reach = 1.001 * 3.0_f64.sqrt() * half;
+        let reach = 1.001 * (pair.b.dimensions as f64).sqrt() * half;
         // The local point of A is by definition that of x: no tie is left over.
         Self::build(pair, goal, [pair.in_a(x), *x], &Vector3::zeros(), half, reach, scales)
     }
@@ -94,20 +99,27 @@ impl Program {
         reach: f64,
         scales: [f64; 2],
     ) -> Self {
+        let dimensions = pair.b.dimensions;
+        // First columns of δ_A and δ_B, and the entries of v·δ in a row.
+        let firsts = [1, 1 + dimensions];
+        let along = |side: usize, v: &Vector3<f64>| -> Vec<(usize, f64)> {
+            (0..dimensions).map(|j| (firsts[side] + j, v[j])).collect()
+        };
         let mut program = Self {
             rows: Vec::new(),
             columns: Vec::new(),
             values: Vec::new(),
             right: Vec::new(),
             cones: Vec::new(),
-            variables: 7,
+            variables: 1 + 2 * dimensions,
             heads: [0; 2],
             box_rows: 0..0,
+            point: firsts[1]..firsts[1] + dimensions,
             unit,
         };
-        for i in 0..3 {
-            let row: [(usize, f64); 4] =
-                [(1, pair.rotation[(i, 0)]), (2, pair.rotation[(i, 1)]), (3, pair.rotation[(i, 2)]), (4 + i, -1.0)];
+        for i in 0..dimensions {
+            let mut row = along(0, &pair.rotation.row(i).transpose());
+            row.push((firsts[1] + i, -1.0));
             program.row(&row, -untied[i]);
         }
         program.cone_since(0, SupportedConeT::ZeroConeT);
@@ -126,8 +138,9 @@ impl Program {
                 if slack > norm * reach {
                     continue;
                 }
-                let (p, x) = (program.variables, 1 + 3 * side);
-                let row = [(x, n.x / norm), (x + 1, n.y / norm), (x + 2, n.z / norm), (p, -length / norm)];
+                let p = program.variables;
+                let mut row = along(side, &(n / norm));
+                row.push((p, -length / norm));
                 program.row(&row, slack / (norm * unit));
                 program.row(&[(p, -1.0)], 0.0);
                 program.variables += 1;
@@ -136,8 +149,8 @@ impl Program {
         }
         if reach.is_finite() {
             let first = program.right.len();
-            program.box_rows = first..first + 6;
-            for column in 4..7 {
+            program.box_rows = first..first + 2 * dimensions;
+            for column in program.point.clone() {
                 program.row(&[(column, 1.0)], 1.0);
                 program.row(&[(column, -1.0)], 1.0);
             }
@@ -157,8 +170,8 @@ impl Program {
             }
             if particle.sphere_weight > 0.0 {
                 let weight = particle.sphere_weight.sqrt() / scales[side];
-                for (j, origin) in origins[side].iter().enumerate() {
-                    program.row(&[(1 + 3 * side + j, -weight * unit)], weight * origin);
+                for j in 0..dimensions {
+                    program.row(&[(firsts[side] + j, -weight * unit)], weight * origins[side][j]);
                 }
             }
             program.cone_since(start, SupportedConeT::SecondOrderConeT);
@@ -212,8 +225,12 @@ impl Program {
             .map_err(|error| ConicError::Refused(error.to_string()))?;
         solver.solve();
         let solution = &solver.solution;
+        let mut step = Vector3::zeros();
+        for (coordinate, value) in step.iter_mut().zip(&solution.x[self.point]) {
+            *coordinate = value * self.unit;
+        }
         Ok(Answer {
-            step: Vector3::new(solution.x[4], solution.x[5], solution.x[6]) * self.unit,
+            step,
             head: solution.obj_val,
             dual: solution.obj_val_dual,
             pull: solution.z[self.box_rows].iter().sum::<f64>() + solution.r_dual,

@@ -73,10 +73,8 @@ pub unsafe extern "C" fn pp_contact_detect(
         // SAFETY: NULL or exclusively ours for the call.
         let memory = unsafe { memory.as_mut() };
         let mut remembered = memory.as_ref().map(|m| Memory::from_raw(m.state));
-        let contact = detect(a, &pose_a, b, &pose_b, &settings, remembered.as_mut()).map_err(|error| match error {
-            DetectError::Settings(_) => PP_BAD_SETTING,
-            DetectError::Failed { .. } => PP_SOLVER_FAILED,
-        })?;
+        let contact =
+            detect(a, &pose_a, b, &pose_b, &settings, remembered.as_mut()).map_err(|error| detect_status(&error))?;
         if let (Some(memory), Some(remembered)) = (memory, remembered) {
             memory.state = remembered.into_raw();
         }
@@ -144,7 +142,7 @@ fn settings_to(settings: &Settings) -> pp_settings {
     }
 }
 
-fn settings_from(settings: &pp_settings) -> Result<Settings, pp_status> {
+pub(super) fn settings_from(settings: &pp_settings) -> Result<Settings, pp_status> {
     if settings.solve_separated > 1 || settings.reserved != 0 {
         return Err(PP_BAD_SETTING);
     }
@@ -168,10 +166,7 @@ fn settings_from(settings: &pp_settings) -> Result<Settings, pp_status> {
 
 fn contact_to(contact: &Contact) -> pp_contact {
     pp_contact {
-        kind: match contact.kind {
-            Kind::Separated => PP_SEPARATED,
-            Kind::Overlapping => PP_OVERLAPPING,
-        },
+        kind: kind_code(contact.kind),
         formulation: formulation_code(contact.formulation),
         back_end: back_end_code(contact.back_end),
         flags: contact.flags.bits(),
@@ -181,6 +176,7 @@ fn contact_to(contact: &Contact) -> pp_contact {
         s_b: contact.s_b,
         weight: contact.weight,
         gap: contact.gap,
+        point_bound: contact.point_bound,
         overlap: contact.overlap,
         normal: contact.normal.into(),
         point: contact.point.into(),
@@ -191,14 +187,28 @@ fn contact_to(contact: &Contact) -> pp_contact {
     }
 }
 
-fn formulation_code(formulation: Formulation) -> u32 {
+pub(super) fn detect_status(error: &DetectError) -> pp_status {
+    match error {
+        DetectError::Settings(_) => PP_BAD_SETTING,
+        DetectError::Failed { .. } => PP_SOLVER_FAILED,
+    }
+}
+
+pub(super) fn kind_code(kind: Kind) -> i32 {
+    match kind {
+        Kind::Separated => PP_SEPARATED,
+        Kind::Overlapping => PP_OVERLAPPING,
+    }
+}
+
+pub(super) fn formulation_code(formulation: Formulation) -> u32 {
     match formulation {
         Formulation::Midway => PP_MIDWAY,
         Formulation::Closest => PP_CLOSEST,
     }
 }
 
-fn back_end_code(back_end: BackEnd) -> u32 {
+pub(super) fn back_end_code(back_end: BackEnd) -> u32 {
     match back_end {
         BackEnd::Fast => PP_FAST,
         BackEnd::Conic => PP_CONIC,

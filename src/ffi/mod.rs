@@ -6,10 +6,12 @@
 mod contact;
 mod fence;
 mod particle;
+mod planar;
 mod status;
 mod types;
 
 pub use contact::*;
 pub use particle::*;
+pub use planar::*;
 pub use status::*;
 pub use types::*;

@@ -255,16 +255,16 @@ fn finite(v: &[f64; 3]) -> Result<Vector3<f64>, pp_status> {
     if v.iter().all(|c| c.is_finite()) { Ok(Vector3::from(*v)) } else { Err(PP_BAD_POINT) }
 }
 
-fn particle_status(error: &ParticleError) -> pp_status {
+pub(super) fn particle_status(error: &ParticleError) -> pp_status {
     match error {
-        ParticleError::PlaneNotFinite { .. } => PP_PLANE_NOT_FINITE,
-        ParticleError::ZeroNormal { .. } => PP_PLANE_ZERO_NORMAL,
+        ParticleError::PlaneNotFinite { .. } | ParticleError::LineNotFinite { .. } => PP_PLANE_NOT_FINITE,
+        ParticleError::ZeroNormal { .. } | ParticleError::ZeroLineNormal { .. } => PP_PLANE_ZERO_NORMAL,
         ParticleError::Sphericity(_) => PP_BAD_SPHERICITY,
         ParticleError::RoundingRadius(_) => PP_BAD_ROUNDING_RADIUS,
         ParticleError::ShadowRadius(_) => PP_BAD_SHADOW_RADIUS,
-        ParticleError::CentreOutside { .. } => PP_CENTRE_OUTSIDE,
-        ParticleError::Unbounded => PP_UNBOUNDED,
-        ParticleError::TooManyPlanes(_) => PP_TOO_MANY_PLANES,
+        ParticleError::CentreOutside { .. } | ParticleError::CentreOutsideLines { .. } => PP_CENTRE_OUTSIDE,
+        ParticleError::Unbounded | ParticleError::OpenLines => PP_UNBOUNDED,
+        ParticleError::TooManyPlanes(_) | ParticleError::TooManyLines(_) => PP_TOO_MANY_PLANES,
     }
 }
 
@@ -272,7 +272,7 @@ fn particle_status(error: &ParticleError) -> pp_status {
 ///
 /// # Safety
 /// `message` is NULL or valid for writing `size` bytes.
-unsafe fn write_message(text: &str, message: *mut c_char, size: usize) {
+pub(super) unsafe fn write_message(text: &str, message: *mut c_char, size: usize) {
     if message.is_null() || size == 0 {
         return;
     }

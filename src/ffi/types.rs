@@ -105,6 +105,8 @@ pub struct pp_contact {
     pub weight: f64,
     /// Proved bound on the error of s, from this answer's own numbers: |s - s*| <= gap.
     pub gap: f64,
+    /// Bound on the distance of the point (closest: of each of P1 and P2) to the exact optimum, length.
+    pub point_bound: f64,
     /// Overlap (YADE: penetrationDepth), length, > 0 when overlapping; NaN when separated.
     pub overlap: f64,
     /// Unit contact normal, from A to B (positive force on B pushes it along +normal), from the gradients
