@@ -13,6 +13,8 @@ pub(crate) struct Body<'a> {
     rotation: Matrix3<f64>,
     /// Centre in the solver frame.
     centre: Vector3<f64>,
+    /// Sum of the lengths, other than the point's own, that a distance to a plane is made from.
+    lengths: f64,
     /// Weight of the shadow sphere that the solver uses: the particle's own, or the regularised one.
     sphere_weight: f64,
 }
@@ -24,11 +26,17 @@ const ROUNDING: f64 = 4.0;
 /// Most planes that one model may drop at a point.
 const MOST_DROPPED: usize = 8;
 
-/// Which planes a quadratic counts, beyond those that are clearly on.
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Counted {
-    /// Planes count from this distance before they switch on: where a step was stopped by a plane, the
-    /// next model must know it.
+/// A point as a body sees it, and which planes its quadratic there counts beyond those that are clearly on.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Local {
+    /// The point in the particle's own frame.
+    y: Vector3<f64>,
+    /// Bound on the rounding of a distance to a plane here: a sum of terms as long as the point, the centre
+    /// and the offsets, each known to a few units in the last place.
+    pub blur: f64,
+    /// Planes count from this distance before they switch on: at least the blur, since a stiff plane carries
+    /// its share with a depth below rounding; more where a step was stopped by a plane, so that the next
+    /// model knows it.
     early: f64,
     /// Planes within that distance that were found to pull instead of push: they do not count.
     dropped: [u32; MOST_DROPPED],
@@ -52,10 +60,11 @@ pub(crate) enum Planes {
 impl<'a> Body<'a> {
     /// Both bodies of a pair; k below `least_sphericity` is raised to it (see `Settings`).
     pub fn both(pair: &Pair<'a>, least_sphericity: f64) -> (Self, Self) {
-        let body = |particle: &'a Particle, rotation, centre| Self {
+        let body = |particle: &'a Particle, rotation, centre: Vector3<f64>| Self {
             particle,
             rotation,
             centre,
+            lengths: 2.0 * centre.norm() + particle.bounds.longest_offset,
             sphere_weight: particle.sphere_weight.max(least_sphericity / particle.bounding_radius().powi(2)),
         };
         (body(pair.a, pair.rotation, pair.centre), body(pair.b, Matrix3::identity(), Vector3::zeros()))
@@ -70,19 +79,20 @@ impl<'a> Body<'a> {
         self.centre
     }
 
-    /// (Regularised) S at x with derivatives in the axes of `frame` (columns: axes in the solver frame).
-    ///
-    /// A plane counts wherever rounding could hide that it is on: a stiff plane carries its share with a
-    /// depth below rounding.
-    pub fn at(&self, x: &Vector3<f64>, frame: Option<&Matrix3<f64>>, counted: &Counted) -> Quadratic {
+    /// The point x as this body sees it, with planes counting from `early` before they switch on.
+    pub fn locate(&self, x: &Vector3<f64>, early: f64) -> Local {
+        let blur = ROUNDING * f64::EPSILON * (x.norm() + self.lengths);
+        Local { y: self.local(x), blur, early: early.max(blur), dropped: [0; MOST_DROPPED], count: 0 }
+    }
+
+    /// (Regularised) S with derivatives in the axes of `frame` (columns: axes in the solver frame).
+    pub fn at(&self, local: &Local, frame: Option<&Matrix3<f64>>) -> Quadratic {
         let rotation = match frame {
             Some(axes) => axes.tr_mul(&self.rotation),
             None => self.rotation,
         };
-        let blur = self.blur(x);
-        let early = counted.early.max(blur);
-        potential::in_frame(self.particle, self.sphere_weight, &rotation, &self.local(x), early, |i, excess| {
-            counted.includes(i, excess, blur)
+        potential::in_frame(self.particle, self.sphere_weight, &rotation, &local.y, local.early, |i, excess| {
+            local.counts(i, excess)
         })
     }
 
@@ -91,25 +101,24 @@ impl<'a> Body<'a> {
         potential::on_line(self.particle, self.sphere_weight, &self.local(x), &self.rotation.tr_mul(e))
     }
 
-    /// Checks the planes of the quadratic at x after the step v.
+    /// Checks the planes of the quadratic after the step v.
     ///
     /// The quadratic with depth n·x − d + n·v ≥ 0 for each of its planes is a lower bound of S everywhere:
     /// ⟨t⟩² ≥ 2λt − λ² for every λ ≥ 0. The sign is judged in the model's own arithmetic, to which the rounding
     /// of n·x − d is but a shift of the plane.
-    pub fn check(&self, x: &Vector3<f64>, v: &Vector3<f64>, counted: &mut Counted) -> Planes {
-        let (y, e) = (self.local(x), self.rotation.tr_mul(v));
-        let blur = self.blur(x);
+    pub fn check(&self, local: &mut Local, v: &Vector3<f64>) -> Planes {
+        let (y, blur, e) = (local.y, local.blur, self.rotation.tr_mul(v));
         let p = self.particle;
         let mut worst: Option<(usize, f64)> = None;
         let mut met = false;
         // Planes of the quadratic are near y, planes that are met near y + e: no other is near either.
-        let far = counted.early.max(blur).max(p.bounds.longest_normal * e.norm());
+        let far = local.early.max(p.bounds.longest_normal * e.norm());
         for run in p.leaves.near(&y, far) {
             for (i, [a, b, c], d) in p.run(run) {
                 let excess = a * y.x + b * y.y + c * y.z - d;
                 let terms = [a * e.x, b * e.y, c * e.z];
                 let depth = excess + (terms[0] + terms[1] + terms[2]);
-                if !counted.includes(i, excess, blur) {
+                if !local.counts(i, excess) {
                     met |= depth > blur;
                     continue;
                 }
@@ -129,41 +138,29 @@ impl<'a> Body<'a> {
         match worst {
             None if met => Planes::Met,
             None => Planes::Exact,
-            Some((i, _)) if counted.drop(i) => Planes::Dropped,
+            Some((i, _)) if local.drop(i) => Planes::Dropped,
             Some(_) => Planes::Pulling,
         }
     }
 
-    /// Calls `visit` with the (solver frame) normal, the weight and n·x − d of each plane of the quadratic at x.
-    pub fn rows(&self, x: &Vector3<f64>, counted: &Counted, mut visit: impl FnMut(Vector3<f64>, f64, f64)) {
-        let y = self.local(x);
-        let blur = self.blur(x);
-        for run in self.particle.leaves.near(&y, counted.early.max(blur)) {
+    /// Calls `visit` with the (solver frame) normal, the weight and n·x − d of each plane of the quadratic.
+    pub fn rows(&self, local: &Local, mut visit: impl FnMut(Vector3<f64>, f64, f64)) {
+        let y = &local.y;
+        for run in self.particle.leaves.near(y, local.early) {
             for (i, [a, b, c], d) in self.particle.run(run) {
                 let excess = a * y.x + b * y.y + c * y.z - d;
-                if counted.includes(i, excess, blur) {
+                if local.counts(i, excess) {
                     visit(self.rotation * Vector3::new(a, b, c), self.particle.plane_weight, excess);
                 }
             }
         }
     }
 
-    /// Bound on the rounding of a distance to a plane at x: a sum of terms as long as the point, the centre
-    /// and the offsets, each known to a few units in the last place.
-    pub fn blur(&self, x: &Vector3<f64>) -> f64 {
-        ROUNDING * f64::EPSILON * (x.norm() + 2.0 * self.centre.norm() + self.particle.bounds.longest_offset)
-    }
-
-    /// Bound on the rounding of S at x, given the quadratic there.
-    pub fn rounding(&self, x: &Vector3<f64>, q: &Quadratic) -> f64 {
-        let blur = self.blur(x);
+    /// Bound on the rounding of S, given the quadratic.
+    pub fn rounding(&self, local: &Local, q: &Quadratic) -> f64 {
+        let blur = local.blur;
         let planes = (q.pull + q.gradient.norm()) * blur + self.particle.plane_weight * blur * blur;
         planes + ROUNDING * f64::EPSILON * q.value
-    }
-
-    /// Lower bound of [`Self::rounding`] where S has the given gradient.
-    pub fn least_rounding(&self, x: &Vector3<f64>, gradient: &Vector3<f64>) -> f64 {
-        self.blur(x) * gradient.norm()
     }
 
     /// Largest curvature that one plane can give S.
@@ -188,14 +185,14 @@ impl<'a> Body<'a> {
     }
 }
 
-impl Counted {
-    /// Counts planes from the distance `early` before they switch on.
-    pub fn from(early: f64) -> Self {
-        Self { early, ..Self::default() }
+impl Local {
+    /// Lower bound of [`Body::rounding`] where S has the given gradient.
+    pub fn least_rounding(&self, gradient: &Vector3<f64>) -> f64 {
+        self.blur * gradient.norm()
     }
 
-    fn includes(&self, i: usize, excess: f64, blur: f64) -> bool {
-        excess > blur || (excess > -self.early.max(blur) && !self.dropped[..self.count].contains(&(i as u32)))
+    fn counts(&self, i: usize, excess: f64) -> bool {
+        excess > self.blur || (excess > -self.early && !self.dropped[..self.count].contains(&(i as u32)))
     }
 
     /// Whether there was room to drop one more.

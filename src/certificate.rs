@@ -6,7 +6,7 @@
 //! distances to the planes carry an error proportional to the lengths they are made from, times the
 //! pull 2(1−k)/r² Σ⟨·⟩ of the planes; that product is the condition number of S, and it is added.
 
-use crate::body::{Body, Counted, Planes};
+use crate::body::{Body, Planes};
 use crate::frame;
 use crate::model::{self, Response, Target};
 use crate::spine::{self, Ending, Outcome};
@@ -56,8 +56,9 @@ pub(crate) fn distance(outcome: &Outcome, a: &Body, b: &Body, target: Target) ->
     let mut sum = 0.0;
     for (i, (body, weight)) in [(a, weights.0), (b, weights.1)].into_iter().enumerate() {
         // A plane that moves in by its rounding raises S by 2wp and turns the slope by 2wn times that.
-        let blur = body.blur(&outcome.x);
-        body.rows(&expansion.x, &expansion.counted[i], |n, w, excess| {
+        let local = &expansion.locals[i];
+        let blur = local.blur;
+        body.rows(local, |n, w, excess| {
             let depth = (excess + n.dot(&step)).max(0.0);
             let mismatch = target.mismatch_of(i, 2.0 * w * depth);
             sum += blur * response.distance(&expansion.to_axes(&(2.0 * weight * w * n)), mismatch);
@@ -76,10 +77,10 @@ const TURN: f64 = 4.0;
 /// Two dual bounds are tried: the quadratic model's where its multipliers are admissible, and the
 /// linear one, φ(x) − |∇φ|·D, for any optimum within a distance D of x.
 pub(crate) fn judge(x: &Vector3<f64>, lambda: f64, s: f64, a: &Body, b: &Body, target: Target) -> Outcome {
-    let mut counted = [Counted::default(); 2];
-    let (q_a, q_b) = (a.at(x, None, &counted[0]), b.at(x, None, &counted[1]));
+    let mut locals = [a.locate(x, 0.0), b.locate(x, 0.0)];
+    let (q_a, q_b) = (a.at(&locals[0], None), b.at(&locals[1], None));
     let upper = target.merit(q_a.value, q_b.value, lambda);
-    let rounding = target.dual_weighted(a.rounding(x, &q_a), b.rounding(x, &q_b), lambda);
+    let rounding = target.dual_weighted(a.rounding(&locals[0], &q_a), b.rounding(&locals[1], &q_b), lambda);
     let weights = target.weights(lambda);
     let level = upper.max(1.0);
     let reach = (x - a.centre()).norm() + a.particle.reach(level).min(b.particle.reach(level) + a.centre().norm());
@@ -88,13 +89,13 @@ pub(crate) fn judge(x: &Vector3<f64>, lambda: f64, s: f64, a: &Body, b: &Body, t
     let mut lower = linear;
     // Planes that only seem to be on are dropped one by one, as in the solver.
     loop {
-        let axes = frame::aligned([a, b], weights, x, &counted);
-        let (q_a, q_b) = (a.at(x, Some(&axes), &counted[0]), b.at(x, Some(&axes), &counted[1]));
+        let axes = frame::aligned([a, b], weights, &locals);
+        let (q_a, q_b) = (a.at(&locals[0], Some(&axes)), b.at(&locals[1], Some(&axes)));
         let Some(model) = model::solve(&q_a, &q_b, spine::softest(a, b), target, lambda, f64::EPSILON * upper) else {
             break;
         };
         let step = axes * model.step;
-        match [a.check(x, &step, &mut counted[0]), b.check(x, &step, &mut counted[1])] {
+        match [a.check(&mut locals[0], &step), b.check(&mut locals[1], &step)] {
             [Planes::Exact | Planes::Met, Planes::Exact | Planes::Met] => {
                 lower = lower.max(model.lower - model.doubt);
                 break;

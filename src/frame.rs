@@ -5,26 +5,21 @@
 //! remainder, q₃ = q₁ × q₂ the Hessian is graded, and elimination in this order keeps each
 //! direction's own relative precision.
 
-use crate::body::{Body, Counted};
+use crate::body::{Body, Local};
 use nalgebra::{Matrix3, Vector3};
 
 /// Square of the sine below which what is left of a normal is rounding.
 const PARALLEL: f64 = 1e-30;
 
 /// Orthonormal axes (columns), stiffest first, from the planes of both quadratics with weights (a, b).
-pub(crate) fn aligned(
-    bodies: [&Body; 2],
-    weights: (f64, f64),
-    x: &Vector3<f64>,
-    counted: &[Counted; 2],
-) -> Matrix3<f64> {
-    let bodies = [(bodies[0], &counted[0], weights.0), (bodies[1], &counted[1], weights.1)];
-    let Some(first) = stiffest(bodies, x, |n| n).try_normalize(0.0) else {
+pub(crate) fn aligned(bodies: [&Body; 2], weights: (f64, f64), locals: &[Local; 2]) -> Matrix3<f64> {
+    let bodies = [(bodies[0], &locals[0], weights.0), (bodies[1], &locals[1], weights.1)];
+    let Some(first) = stiffest(bodies, |n| n).try_normalize(0.0) else {
         return Matrix3::identity();
     };
     // Twice is enough (Kahan): the second pass removes what rounding left of the first axis.
     let across = |n: Vector3<f64>| n - n.dot(&first) * first;
-    let second = stiffest(bodies, x, |n| across(across(n)))
+    let second = stiffest(bodies, |n| across(across(n)))
         .try_normalize(0.0)
         .and_then(|v| across(v).try_normalize(0.5))
         .unwrap_or_else(|| any_across(&first));
@@ -32,14 +27,10 @@ pub(crate) fn aligned(
 }
 
 /// The remainder of an active normal that carries the largest curvature.
-fn stiffest(
-    bodies: [(&Body, &Counted, f64); 2],
-    x: &Vector3<f64>,
-    remainder: impl Fn(Vector3<f64>) -> Vector3<f64>,
-) -> Vector3<f64> {
+fn stiffest(bodies: [(&Body, &Local, f64); 2], remainder: impl Fn(Vector3<f64>) -> Vector3<f64>) -> Vector3<f64> {
     let (mut best, mut most) = (Vector3::zeros(), 0.0);
-    for (body, counted, scale) in bodies {
-        body.rows(x, counted, |n, weight, _| {
+    for (body, local, scale) in bodies {
+        body.rows(local, |n, weight, _| {
             let rest = remainder(n);
             let stiffness = scale * weight * rest.norm_squared();
             if stiffness > most && rest.norm_squared() > PARALLEL * n.norm_squared() {

@@ -111,6 +111,9 @@ const FARTHEST: f64 = 1e6;
 /// out is its square.
 const EXTRAPOLATED: f64 = 1e-8;
 
+/// Relative mismatch below which a search that no longer gains is at the end of its digits.
+const STALLING: f64 = 1e-6;
+
 /// Solves the pair of quadratics from the guess λ. `None` when a factorisation breaks down.
 ///
 /// `soft` are the least curvatures of A and B in any direction (their spheres'), `enough` is a mismatch of the
@@ -126,6 +129,7 @@ pub(crate) fn solve(
     let (h_a, h_b) = (Symmetric::of(&q_a.hessian), Symmetric::of(&q_b.hessian));
     let mut lambda = guess.clamp(LAMBDA_RANGE.0, LAMBDA_RANGE.1);
     let (mut low, mut high) = (lambda / FARTHEST, lambda * FARTHEST);
+    let mut last_mismatch = f64::INFINITY;
     for search in 1..=MOST_SEARCHES {
         let (a, b) = target.weights(lambda);
         let least = a * soft.0 + b * soft.1;
@@ -140,7 +144,11 @@ pub(crate) fn solve(
         if !(s_a.is_finite() && s_b.is_finite()) {
             return None;
         }
-        let settled = mismatch.abs() <= 4.0 * f64::EPSILON * growing.max(falling);
+        // To rounding; or Newton, which should square the mismatch, does not even halve it any more.
+        let larger = growing.max(falling);
+        let stalled = mismatch.abs() <= STALLING * larger && mismatch.abs() > 0.5 * last_mismatch;
+        let settled = mismatch.abs() <= 4.0 * f64::EPSILON * larger || stalled;
+        last_mismatch = mismatch.abs();
         let optimum = |step: Vector3<f64>, lambda, (s_a, s_b): (f64, f64), settled| {
             let length = step.norm();
             let size = |q: &Quadratic, h: &Symmetric| q.expansion + length * (q.gradient.norm() + length * h.size());

@@ -5,7 +5,7 @@
 //! lower bound meet, and the answer is proved. A step that overshoots (a plane switched on behind x) is
 //! shortened by an exact search along it.
 
-use crate::body::{Body, Counted, Planes};
+use crate::body::{Body, Local, Planes};
 use crate::frame;
 use crate::line;
 use crate::model::{self, Target};
@@ -67,7 +67,7 @@ pub(crate) struct Expansion {
     pub x: Vector3<f64>,
     /// Axes of the quadratics (columns, in the solver's frame), if not the solver's own.
     axes: Option<Matrix3<f64>>,
-    pub counted: [Counted; 2],
+    pub locals: [Local; 2],
     pub q_a: Quadratic,
     pub q_b: Quadratic,
 }
@@ -136,19 +136,19 @@ pub(crate) fn cold_start(pair: &Pair, a: &Body, b: &Body) -> Start {
 }
 
 impl Expansion {
-    fn at(
+    fn of(
         bodies: [&Body; 2],
         x: Vector3<f64>,
+        locals: [Local; 2],
         weights: (f64, f64),
-        counted: [Counted; 2],
         factorisation: Factorisation,
     ) -> Self {
         let axes = match factorisation {
             Factorisation::Plain => None,
-            Factorisation::Aligned => Some(frame::aligned(bodies, weights, &x, &counted)),
+            Factorisation::Aligned => Some(frame::aligned(bodies, weights, &locals)),
         };
-        let [q_a, q_b] = [0, 1].map(|i| bodies[i].at(&x, axes.as_ref(), &counted[i]));
-        Self { x, axes, counted, q_a, q_b }
+        let [q_a, q_b] = [0, 1].map(|i| bodies[i].at(&locals[i], axes.as_ref()));
+        Self { x, axes, locals, q_a, q_b }
     }
 
     /// A direction of the solver's frame in the axes of the quadratics.
@@ -162,13 +162,13 @@ impl Expansion {
 
     /// Bounds on the rounding of S_A and S_B.
     fn rounding(&self, a: &Body, b: &Body) -> (f64, f64) {
-        (a.rounding(&self.x, &self.q_a), b.rounding(&self.x, &self.q_b))
+        (a.rounding(&self.locals[0], &self.q_a), b.rounding(&self.locals[1], &self.q_b))
     }
 
     /// What `step` does to the planes of both quadratics.
-    fn check(&self, a: &Body, b: &Body, step: &Vector3<f64>, counted: &mut [Counted; 2]) -> Planes {
-        let [of_a, of_b] = counted;
-        a.check(&self.x, step, of_a).max(b.check(&self.x, step, of_b))
+    fn check(a: &Body, b: &Body, step: &Vector3<f64>, locals: &mut [Local; 2]) -> Planes {
+        let [of_a, of_b] = locals;
+        a.check(of_a, step).max(b.check(of_b, step))
     }
 
     fn merit(&self, target: Target, lambda: f64) -> f64 {
@@ -188,8 +188,9 @@ pub(crate) fn solve(
     let target = goal.target;
     let reach = a.particle.bounding_radius().min(b.particle.bounding_radius());
     let mut lambda = start.lambda;
-    let expand = |x, lambda, counted| Expansion::at([a, b], x, target.weights(lambda), counted, factorisation);
-    let mut here = left.unwrap_or_else(|| expand(start.x, lambda, [Counted::default(); 2]));
+    let expand = |x, lambda, locals| Expansion::of([a, b], x, locals, target.weights(lambda), factorisation);
+    let locate = |x: &Vector3<f64>, early| [a.locate(x, early), b.locate(x, early)];
+    let mut here = left.unwrap_or_else(|| expand(start.x, lambda, locate(&start.x, 0.0)));
     let mut thorough = start.near;
     let mut previous: Option<Attempt> = None;
     let (mut proved, mut arriving) = (None::<Outcome>, 0);
@@ -203,8 +204,8 @@ pub(crate) fn solve(
             let rounding = target.merit_rounding(of_a, of_b, attempt.lambda);
             if merit > attempt.merit - 1e-4 * attempt.promised + rounding || !merit.is_finite() {
                 let descent = line::descend(a, b, target, attempt.lambda, &attempt.from, &attempt.step, (0.5, 1.0));
-                let counted = Counted::from(descent.ahead * attempt.step.norm());
-                here = expand(attempt.from + descent.alpha * attempt.step, lambda, [counted; 2]);
+                let x = attempt.from + descent.alpha * attempt.step;
+                here = expand(x, lambda, locate(&x, descent.ahead * attempt.step.norm()));
                 iterations += 1;
                 thorough = true;
             }
@@ -220,17 +221,17 @@ pub(crate) fn solve(
         let optimum = |guess, enough| model::solve(&here.q_a, &here.q_b, softest(a, b), target, guess, enough);
         let Some(mut model) = optimum(lambda, if thorough { best } else { rough }) else { break };
         let mut step = here.to_solver(model.step);
-        let mut counted = here.counted;
-        let mut planes = here.check(a, b, &step, &mut counted);
+        let mut locals = here.locals;
+        let mut planes = Expansion::check(a, b, &step, &mut locals);
         if planes == Planes::Exact && !model.settled {
             // The right planes: now the exact optimum of their quadratics.
             let Some(settled) = optimum(model.lambda, best) else { break };
             (model, step) = (settled, here.to_solver(settled.step));
-            planes = here.check(a, b, &step, &mut counted);
+            planes = Expansion::check(a, b, &step, &mut locals);
         }
         lambda = model.lambda;
         if planes == Planes::Dropped {
-            here = expand(here.x, lambda, counted);
+            here = expand(here.x, lambda, locals);
             iterations += 1;
             (previous, thorough) = (None, false);
             continue;
@@ -259,8 +260,8 @@ pub(crate) fn solve(
             outcome.ending = if precise { Ending::Converged } else { Ending::RoundingLimited };
             // What rounding leaves at the optimum itself: no other point of expansion will do much better.
             let least = target.dual_weighted(
-                a.least_rounding(&here.x, &outcome.gradients[0]),
-                b.least_rounding(&here.x, &outcome.gradients[1]),
+                here.locals[0].least_rounding(&outcome.gradients[0]),
+                here.locals[1].least_rounding(&outcome.gradients[1]),
                 lambda,
             );
             let sharp = gap <= AS_SHARP * least || step.norm() <= SHORT * reach;
@@ -279,7 +280,8 @@ pub(crate) fn solve(
         let promised = (upper - model.lower).max(0.0);
         previous = Some(Attempt { from: here.x, step, lambda, merit: upper, promised });
         thorough = false;
-        here = expand(here.x + step, lambda, [Counted::default(); 2]);
+        let x = here.x + step;
+        here = expand(x, lambda, locate(&x, 0.0));
         iterations += 1;
     }
     match proved {
