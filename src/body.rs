@@ -143,6 +143,18 @@ impl<'a> Body<'a> {
         }
     }
 
+    /// Carries over which planes were dropped, from a point whose step was stopped at once, to the same point again:
+    /// all but those that stopped it. Without it the planes that rightly went would come back each time.
+    pub fn carry_dropped(&self, from: &Local, step: &Vector3<f64>, to: &mut Local) {
+        let reached = from.y + self.rotation.tr_mul(step);
+        for &i in &from.dropped[..from.count] {
+            let place = i as usize;
+            if self.particle.normal(place).dot(&reached) - self.particle.d[place] <= from.blur {
+                to.drop(place);
+            }
+        }
+    }
+
     /// Calls `visit` with the (solver frame) normal, the weight and n·x − d of each plane of the quadratic.
     pub fn rows(&self, local: &Local, mut visit: impl FnMut(Vector3<f64>, f64, f64)) {
         let y = &local.y;

@@ -205,7 +205,12 @@ pub(crate) fn solve(
             if merit > attempt.merit - 1e-4 * attempt.promised + rounding || !merit.is_finite() {
                 let descent = line::descend(a, b, target, attempt.lambda, &attempt.from, &attempt.step, (0.5, 1.0));
                 let x = attempt.from + descent.alpha * attempt.step;
-                here = expand(x, lambda, locate(&x, descent.ahead * attempt.step.norm()));
+                let mut locals = locate(&x, descent.ahead * attempt.step.norm());
+                if (x - attempt.from).norm() <= attempt.locals[0].blur.max(attempt.locals[1].blur) {
+                    a.carry_dropped(&attempt.locals[0], &attempt.step, &mut locals[0]);
+                    b.carry_dropped(&attempt.locals[1], &attempt.step, &mut locals[1]);
+                }
+                here = expand(x, lambda, locals);
                 iterations += 1;
                 thorough = true;
             }
@@ -278,7 +283,7 @@ pub(crate) fn solve(
             break;
         }
         let promised = (upper - model.lower).max(0.0);
-        previous = Some(Attempt { from: here.x, step, lambda, merit: upper, promised });
+        previous = Some(Attempt { from: here.x, locals: here.locals, step, lambda, merit: upper, promised });
         thorough = false;
         let x = here.x + step;
         here = expand(x, lambda, locate(&x, 0.0));
@@ -305,6 +310,7 @@ pub(crate) fn solve(
 #[derive(Clone, Copy)]
 struct Attempt {
     from: Vector3<f64>,
+    locals: [Local; 2],
     step: Vector3<f64>,
     lambda: f64,
     merit: f64,

@@ -170,8 +170,8 @@ impl Program {
             }
             if particle.sphere_weight > 0.0 {
                 let weight = particle.sphere_weight.sqrt() / scales[side];
-                for j in 0..dimensions {
-                    program.row(&[(firsts[side] + j, -weight * unit)], weight * origins[side][j]);
+                for (j, origin) in origins[side].iter().take(dimensions).enumerate() {
+                    program.row(&[(firsts[side] + j, -weight * unit)], weight * origin);
                 }
             }
             program.cone_since(start, SupportedConeT::SecondOrderConeT);
