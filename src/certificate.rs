@@ -63,7 +63,7 @@ pub(crate) fn distance(outcome: &Outcome, a: &Body, b: &Body, target: Target) ->
             let mismatch = target.mismatch_of(i, 2.0 * w * depth);
             sum += blur * response.distance(&expansion.to_axes(&(2.0 * weight * w * n)), mismatch);
         });
-        sum += weight * gradients[i].norm() * TURN * f64::EPSILON * response.per_slope() + blur;
+        sum += weight * gradients[i].norm() * TURN * f64::EPSILON * response.per_slope(body.particle.dimensions) + blur;
     }
     // Carried along from the point of expansion, and rounded at the end.
     sum + TURN * f64::EPSILON * (step.norm() + outcome.x.norm())
@@ -91,7 +91,7 @@ pub(crate) fn judge(x: &Vector3<f64>, lambda: f64, s: f64, a: &Body, b: &Body, t
     loop {
         let axes = frame::aligned([a, b], weights, &locals);
         let (q_a, q_b) = (a.at(&locals[0], Some(&axes)), b.at(&locals[1], Some(&axes)));
-        let Some(model) = model::solve(&q_a, &q_b, spine::softest(a, b), target, lambda, f64::EPSILON * upper) else {
+        let Some(model) = model::solve(&q_a, &q_b, spine::softest(a, b), target, lambda, 0.0) else {
             break;
         };
         let step = axes * model.step;

@@ -4,7 +4,7 @@ use crate::body::Body;
 use crate::certificate::{self, Certified};
 use crate::conic::{self, ConicError, Role};
 use crate::contact::{Contact, Flags, Kind, LocalContact};
-use crate::memory::Memory;
+use crate::memory::{Memory, Remembered};
 use crate::model::Target;
 use crate::pair::Pair;
 use crate::particle::Particle;
@@ -44,15 +44,20 @@ pub fn detect(
 ) -> Result<Contact, DetectError> {
     settings.validate()?;
     let pair = Pair::new(a, pose_a, b, pose_b);
-    if !settings.solve_separated && reject::proves_separation(&pair) {
-        return Ok(Contact::separated(settings.formulation, 1.0));
+    let last = memory.as_deref().and_then(|m| m.last);
+    if !settings.solve_separated {
+        let overlapped = last.is_some_and(|last| last.overlapping);
+        if if overlapped { reject::balls_apart(&pair) } else { reject::proves_separation(&pair) } {
+            return Ok(Contact::separated(settings.formulation, 1.0));
+        }
     }
-    let mut search = Search::new(&pair, settings, memory.as_deref().copied());
+    let mut search = Search::new(&pair, settings, last);
     let midway = search.solve(Target::Midway, search.start, None)?;
-    if let Some(memory) = memory {
-        memory.last = Some((midway.x, midway.lambda));
-    }
     let scale = search.certify(&midway, Target::Midway);
+    if let Some(memory) = memory {
+        let overlapping = midway.ending != Ending::Separated && scale.s < 1.0;
+        memory.last = Some(Remembered { x: midway.x, lambda: midway.lambda, overlapping });
+    }
     if midway.ending == Ending::Separated {
         let mut contact = Contact::separated(settings.formulation, scale.s.max(1.0));
         (contact.iterations, contact.back_end) = (search.iterations, search.answered);
@@ -75,9 +80,9 @@ struct Search<'a> {
 }
 
 impl<'a> Search<'a> {
-    fn new(pair: &'a Pair<'a>, settings: &'a Settings, memory: Option<Memory>) -> Self {
+    fn new(pair: &'a Pair<'a>, settings: &'a Settings, last: Option<Remembered>) -> Self {
         let (body_a, body_b) = Body::both(pair, settings.flat_regularisation);
-        let start = memory.and_then(|m| m.last).map(|(x, lambda)| Start { x, lambda, near: true });
+        let start = last.map(|last| Start { x: last.x, lambda: last.lambda, near: true });
         let mut flags = Flags::default();
         if start.is_some() && settings.back_end == BackEnd::Fast {
             flags.insert(Flags::WARM);

@@ -43,5 +43,7 @@ fn stiffest(bodies: [(&Body, &Local, f64); 2], remainder: impl Fn(Vector3<f64>) 
 
 /// A unit vector at right angles to a unit vector.
 fn any_across(n: &Vector3<f64>) -> Vector3<f64> {
-    n.cross(&Vector3::ith(n.iamin(), 1.0)).normalize()
+    // Of equally good axes the last: across a normal in the plane z = 0 that gives another one in it.
+    let axis = (0..3).rev().min_by(|&i, &j| n[i].abs().total_cmp(&n[j].abs())).unwrap_or(2);
+    n.cross(&Vector3::ith(axis, 1.0)).normalize()
 }

@@ -7,9 +7,18 @@ use nalgebra::Vector3;
 /// It is a hint only: any content, even of another pair, leaves the answer within its gap.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Memory {
-    /// Solution point of midway in the local frame of B, and the ratio of weights λ = u/(1−u); `None`
-    /// when nothing is known.
-    pub(crate) last: Option<(Vector3<f64>, f64)>,
+    pub(crate) last: Option<Remembered>,
+}
+
+/// The solution of midway.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Remembered {
+    /// P3 in the local frame of B.
+    pub x: Vector3<f64>,
+    /// Ratio of weights λ = u/(1−u).
+    pub lambda: f64,
+    /// Whether the particles overlapped: if so, cheap proofs of separation are hardly worth a try.
+    pub overlapping: bool,
 }
 
 impl Memory {
@@ -18,16 +27,19 @@ impl Memory {
 
     /// From the eight numbers of the C interface; whatever is not a filled memory is an empty one.
     pub fn from_raw(state: [f64; 8]) -> Self {
-        let [tag, x, y, z, lambda, ..] = state;
+        let [tag, x, y, z, lambda, overlapping, ..] = state;
         let usable =
             tag == Self::FILLED && [x, y, z].iter().all(|v| v.is_finite()) && lambda > 0.0 && lambda.is_finite();
-        Self { last: usable.then(|| (Vector3::new(x, y, z), lambda)) }
+        let remembered = || Remembered { x: Vector3::new(x, y, z), lambda, overlapping: overlapping == 1.0 };
+        Self { last: usable.then(remembered) }
     }
 
     /// To the eight numbers of the C interface.
     pub fn into_raw(self) -> [f64; 8] {
         match self.last {
-            Some((x, lambda)) => [Self::FILLED, x.x, x.y, x.z, lambda, 0.0, 0.0, 0.0],
+            Some(Remembered { x, lambda, overlapping }) => {
+                [Self::FILLED, x.x, x.y, x.z, lambda, if overlapping { 1.0 } else { 0.0 }, 0.0, 0.0]
+            }
             None => [0.0; 8],
         }
     }

@@ -117,7 +117,7 @@ const STALLING: f64 = 1e-6;
 /// Solves the pair of quadratics from the guess λ. `None` when a factorisation breaks down.
 ///
 /// `soft` are the least curvatures of A and B in any direction (their spheres'), `enough` is a mismatch of the
-/// two sides below which the search may stop.
+/// two sides below which the search may stop; 0 for as good as rounding allows.
 pub(crate) fn solve(
     q_a: &Quadratic,
     q_b: &Quadratic,
@@ -260,9 +260,9 @@ impl Response {
         (free + self.along * ((mismatch - self.along.dot(slope)) / self.stiffness)).norm()
     }
 
-    /// Bound on the move per unit of slope, in whatever direction.
-    pub fn per_slope(&self) -> f64 {
-        self.factor.inverse_trace()
+    /// Bound on the move per unit of slope, in whatever direction (in the plane: of its first two axes).
+    pub fn per_slope(&self, dimensions: usize) -> f64 {
+        (0..dimensions).map(|axis| self.factor.solve(&Vector3::ith(axis, 1.0)).norm()).sum()
     }
 }
 
@@ -331,13 +331,6 @@ impl Factor {
             l21,
             inverse_d: [i0, i1, i2],
         })
-    }
-
-    /// Trace of the inverse: bounds its norm.
-    fn inverse_trace(&self) -> f64 {
-        let [i0, i1, i2] = self.inverse_d;
-        let m20 = self.l10 * self.l21 - self.l20;
-        i0 + i1 * (1.0 + self.l10 * self.l10) + i2 * (1.0 + self.l21 * self.l21 + m20 * m20)
     }
 
     fn solve(&self, r: &Vector3<f64>) -> Vector3<f64> {

@@ -7,14 +7,18 @@ use nalgebra::{Matrix3, Vector3};
 /// Rounding of the sums below, relative to the lengths in them; thirty times what they can lose.
 const MARGIN: f64 = 1e-14;
 
-/// Whether a cheap test proves that the particles share no point.
+/// Whether two balls that hold the particles prove that they share no point.
+pub fn balls_apart(pair: &Pair) -> bool {
+    pair.centre.norm() * (1.0 - MARGIN) > pair.a.bounding_radius() + pair.b.bounding_radius()
+}
+
+/// Whether a cheap test, by balls or by faces, proves that the particles share no point.
 pub fn proves_separation(pair: &Pair) -> bool {
     let (a, b) = (pair.a, pair.b);
-    let distance = pair.centre.norm();
-    // Two balls hold the particles.
-    if distance * (1.0 - MARGIN) > a.bounding_radius() + b.bounding_radius() {
+    if balls_apart(pair) {
         return true;
     }
+    let distance = pair.centre.norm();
     let b_in_a = pair.in_a(&Vector3::zeros());
     beyond_a_face(a, &b_in_a, b, &pair.rotation, distance)
         || beyond_a_face(b, &pair.centre, a, &pair.rotation.transpose(), distance)

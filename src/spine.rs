@@ -220,17 +220,16 @@ pub(crate) fn solve(
             break;
         }
         // Early on a rough λ will do; near the end, and after a step that failed, nothing but the best.
-        let best = 2.0 * f64::EPSILON * upper.max(f64::MIN_POSITIVE);
         let behind = if target == Target::Midway { upper - lower } else { 0.0 };
-        let rough = (1e-2 * target.mismatch(&here.q_a, &here.q_b).max(behind)).min(1e-2 * upper).max(best);
+        let rough = (1e-2 * target.mismatch(&here.q_a, &here.q_b).max(behind)).min(1e-2 * upper);
         let optimum = |guess, enough| model::solve(&here.q_a, &here.q_b, softest(a, b), target, guess, enough);
-        let Some(mut model) = optimum(lambda, if thorough { best } else { rough }) else { break };
+        let Some(mut model) = optimum(lambda, if thorough { 0.0 } else { rough }) else { break };
         let mut step = here.to_solver(model.step);
         let mut locals = here.locals;
         let mut planes = Expansion::check(a, b, &step, &mut locals);
         if planes == Planes::Exact && !model.settled {
             // The right planes: now the exact optimum of their quadratics.
-            let Some(settled) = optimum(model.lambda, best) else { break };
+            let Some(settled) = optimum(model.lambda, 0.0) else { break };
             (model, step) = (settled, here.to_solver(settled.step));
             planes = Expansion::check(a, b, &step, &mut locals);
         }

@@ -8,9 +8,6 @@ use nalgebra::Vector3;
 /// so that this is reached only by rounding.
 const MOST_STEPS: usize = 100;
 
-/// Relative length of a last Newton step whose square is below rounding.
-const CLOSE: f64 = 1e-9;
-
 /// Distance τ ≥ 0 with S(from + τ·direction) = 1, for a local point and a local unit direction.
 ///
 /// `from` should be inside (S ≤ 1); from a point outside by rounding the answer is a small negative
@@ -35,9 +32,10 @@ pub fn distance(particle: &Particle, from: &Vector3<f64>, direction: &Vector3<f6
             return None;
         }
         let newton = tau - line.value / line.slope;
-        // Close to the root a Newton step is exact to the square of its length; and no step means anything
-        // below the rounding of a point on the ray.
-        if line.slope > 0.0 && (newton - tau).abs() <= (CLOSE * newton.abs()).max(rounding) {
+        // A Newton step misses by ½·curvature·step²/slope; below the rounding of a point on the ray neither the
+        // step nor what it misses means anything.
+        let step = newton - tau;
+        if line.slope > 0.0 && (step.abs() <= rounding || 0.5 * line.curvature * step * step <= rounding * line.slope) {
             return Some(newton);
         }
         if line.value < 0.0 {

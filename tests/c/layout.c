@@ -22,7 +22,7 @@ void test_layout(void) {
     CHECK(sizeof(pp_memory) == 64);
     CHECK(offsetof(pp_memory, state) == 0);
 
-    CHECK(sizeof(pp_contact) == 208);
+    CHECK(sizeof(pp_contact) == 216);
     CHECK(offsetof(pp_contact, kind) == 0);
     CHECK(offsetof(pp_contact, formulation) == 4);
     CHECK(offsetof(pp_contact, back_end) == 8);
@@ -33,13 +33,14 @@ void test_layout(void) {
     CHECK(offsetof(pp_contact, s_b) == 32);
     CHECK(offsetof(pp_contact, weight) == 40);
     CHECK(offsetof(pp_contact, gap) == 48);
-    CHECK(offsetof(pp_contact, overlap) == 56);
-    CHECK(offsetof(pp_contact, normal) == 64);
-    CHECK(offsetof(pp_contact, point) == 88);
-    CHECK(offsetof(pp_contact, branch_a) == 112);
-    CHECK(offsetof(pp_contact, branch_b) == 136);
-    CHECK(offsetof(pp_contact, point_on_a) == 160);
-    CHECK(offsetof(pp_contact, point_on_b) == 184);
+    CHECK(offsetof(pp_contact, point_bound) == 56);
+    CHECK(offsetof(pp_contact, overlap) == 64);
+    CHECK(offsetof(pp_contact, normal) == 72);
+    CHECK(offsetof(pp_contact, point) == 96);
+    CHECK(offsetof(pp_contact, branch_a) == 120);
+    CHECK(offsetof(pp_contact, branch_b) == 144);
+    CHECK(offsetof(pp_contact, point_on_a) == 168);
+    CHECK(offsetof(pp_contact, point_on_b) == 192);
 
     CHECK(sizeof(pp_mass_properties) == 80);
     CHECK(offsetof(pp_mass_properties, volume) == 0);

@@ -19,5 +19,6 @@ int main(void) {
     test_memory();
     test_symmetry();
     test_threads();
+    test_planar();
     return check_report();
 }

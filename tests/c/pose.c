@@ -12,7 +12,7 @@ static pp_pose other = {.position = {0.5, 0.25, 0.125}, .orientation = {0.8, 0.4
 
 /* One call per pose argument of the interface. Each checks that a refusal writes nothing, and
  * copies what an accepted pose gives to `answer`. */
-enum { ANSWER = 256 };
+enum { ANSWER = sizeof(pp_contact) + sizeof(pp_memory) };
 typedef pp_status (*pose_call)(const pp_pose *pose, unsigned char answer[ANSWER]);
 
 static void deliver(pp_status status, const void *output, size_t size, unsigned char *answer) {

@@ -14,5 +14,6 @@ void test_area(void);
 void test_memory(void);
 void test_symmetry(void);
 void test_threads(void);
+void test_planar(void);
 
 #endif

@@ -1,0 +1,389 @@
+/* Particles of the plane: the same interface with two coordinates, against closed forms. */
+#include "answer.h"
+#include "bodies.h"
+#include "check.h"
+#include "tests.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { SIDES = 4 };
+static const double not_finite[] = {NAN, INFINITY, -INFINITY};
+
+static void layout_is_as_written_down(void) {
+    CHECK(sizeof(pp_pose_2d) == 24);
+    CHECK(offsetof(pp_pose_2d, position) == 0);
+    CHECK(offsetof(pp_pose_2d, angle) == 16);
+
+    CHECK(sizeof(pp_contact_2d) == 168);
+    CHECK(offsetof(pp_contact_2d, kind) == 0);
+    CHECK(offsetof(pp_contact_2d, formulation) == 4);
+    CHECK(offsetof(pp_contact_2d, back_end) == 8);
+    CHECK(offsetof(pp_contact_2d, flags) == 12);
+    CHECK(offsetof(pp_contact_2d, iterations) == 16);
+    CHECK(offsetof(pp_contact_2d, reserved) == 20);
+    CHECK(offsetof(pp_contact_2d, s) == 24);
+    CHECK(offsetof(pp_contact_2d, s_b) == 32);
+    CHECK(offsetof(pp_contact_2d, weight) == 40);
+    CHECK(offsetof(pp_contact_2d, gap) == 48);
+    CHECK(offsetof(pp_contact_2d, point_bound) == 56);
+    CHECK(offsetof(pp_contact_2d, overlap) == 64);
+    CHECK(offsetof(pp_contact_2d, normal) == 72);
+    CHECK(offsetof(pp_contact_2d, point) == 88);
+    CHECK(offsetof(pp_contact_2d, branch_a) == 104);
+    CHECK(offsetof(pp_contact_2d, branch_b) == 120);
+    CHECK(offsetof(pp_contact_2d, point_on_a) == 136);
+    CHECK(offsetof(pp_contact_2d, point_on_b) == 152);
+}
+
+/* Four lines x, y = +-core. */
+static void square_lines(double core, double lines[3 * SIDES]) {
+    for (int i = 0; i < SIDES; i++) {
+        for (int j = 0; j < 2; j++) lines[3 * i + j] = j == i / 2 ? (i % 2 == 0 ? 1.0 : -1.0) : 0.0;
+        lines[3 * i + 2] = core;
+    }
+}
+
+static pp_particle_2d *new_polygon(const double *lines, size_t count, double r, double k, double shadow_radius) {
+    pp_particle_2d *particle = NULL;
+    CHECK_STATUS(pp_particle_new_2d(lines, count, r, k, shadow_radius, &particle, NULL, 0), PP_OK);
+    return particle;
+}
+
+static pp_particle_2d *new_square(double core, double r, double k, double shadow_radius) {
+    double lines[3 * SIDES];
+    square_lines(core, lines);
+    return new_polygon(lines, SIDES, r, k, shadow_radius);
+}
+
+static pp_particle_2d *new_circle(double radius) {
+    return new_polygon(NULL, 0, 0.0, 1.0, radius);
+}
+
+static void check_near2(const double got[2], double x, double y, double tolerance) {
+    CHECK_NEAR(got[0], x, tolerance);
+    CHECK_NEAR(got[1], y, tolerance);
+}
+
+/* A square that is accepted; each refusal spoils one thing in it. */
+typedef struct {
+    double lines[3 * SIDES];
+    size_t count;
+    double r, k, shadow_radius;
+} recipe;
+
+static recipe good_recipe(void) {
+    recipe square = {.count = SIDES, .r = 0.5, .k = 0.3, .shadow_radius = 2.0};
+    square_lines(1.0, square.lines);
+    return square;
+}
+
+/* The message names the value, and speaks of lines. */
+static void check_refused(const recipe *spoilt, pp_status expected, const char *named) {
+    pp_particle_2d *particle;
+    char message[PP_MESSAGE_SIZE];
+    FILL(particle);
+    FILL(message);
+    CHECK_STATUS(pp_particle_new_2d(spoilt->lines, spoilt->count, spoilt->r, spoilt->k, spoilt->shadow_radius,
+                                    &particle, message, sizeof message),
+                 expected);
+    CHECK_UNTOUCHED(particle);
+    bool ends = memchr(message, 0, sizeof message) != NULL;
+    CHECK(ends);
+    if (!ends) return;
+    CHECK(strstr(message, "plane") == NULL);
+    if (strstr(message, named) == NULL) CHECK_TEXT(message, named); /* fails, and shows both */
+}
+
+static void lines_are_checked(void) {
+    for (int value = 0; value < 3; value++) {
+        for (int column = 0; column < 3; column++) {
+            recipe spoilt = good_recipe();
+            spoilt.lines[3 * 2 + column] = not_finite[value];
+            check_case("column %d = %g", column, not_finite[value]);
+            check_refused(&spoilt, PP_PLANE_NOT_FINITE, "line 2");
+        }
+    }
+    check_case(NULL);
+    recipe spoilt = good_recipe();
+    spoilt.lines[3 * 3 + 1] = -0.0;
+    check_refused(&spoilt, PP_PLANE_ZERO_NORMAL, "line 3");
+    spoilt = good_recipe();
+    spoilt.k = 1.5;
+    check_refused(&spoilt, PP_BAD_SPHERICITY, "k=1.5");
+    spoilt = good_recipe();
+    spoilt.r = 0.0;
+    check_refused(&spoilt, PP_BAD_ROUNDING_RADIUS, "r=0");
+    spoilt = good_recipe();
+    spoilt.shadow_radius = -2.0;
+    check_refused(&spoilt, PP_BAD_SHADOW_RADIUS, "R=-2");
+    spoilt = good_recipe();
+    spoilt.lines[3 * 1 + 2] = -0.7;
+    check_refused(&spoilt, PP_CENTRE_OUTSIDE, "line 1");
+    for (size_t count = 0; count < SIDES; count++) {
+        recipe open = good_recipe();
+        open.count = count;
+        open.k = 0.0;
+        check_case("%zu lines of a square", count);
+        check_refused(&open, PP_UNBOUNDED, "the lines do not enclose an area");
+        pp_particle_free_2d(new_polygon(open.lines, count, open.r, 0.3, open.shadow_radius)); /* the circle closes it */
+    }
+    check_case(NULL);
+}
+
+static void lines_are_limited_and_null_refused(void) {
+    size_t most = PP_MAX_PLANES;
+    double *lines = calloc(3 * (most + 1), sizeof *lines);
+    pp_particle_2d *particle;
+    char message[PP_MESSAGE_SIZE] = "";
+    CHECK(lines != NULL);
+    if (lines == NULL) return;
+    FILL(particle);
+    CHECK_STATUS(pp_particle_new_2d(lines, most + 1, 0.5, 0.3, 2.0, &particle, message, sizeof message),
+                 PP_TOO_MANY_PLANES);
+    CHECK(strstr(message, "65537 lines") != NULL);
+    CHECK_STATUS(pp_particle_new_2d(lines, SIZE_MAX, 0.5, 0.3, 2.0, &particle, NULL, 0), PP_TOO_MANY_PLANES);
+    CHECK_STATUS(pp_particle_new_2d(lines, most, 0.5, 0.3, 2.0, &particle, NULL, 0), PP_PLANE_ZERO_NORMAL);
+    CHECK_STATUS(pp_particle_new_2d(NULL, SIDES, 0.5, 0.3, 2.0, &particle, message, sizeof message), PP_NULL_POINTER);
+    CHECK(strstr(message, "lines and out") != NULL);
+    CHECK_UNTOUCHED(particle);
+    CHECK_STATUS(pp_particle_new_2d(NULL, 0, 0.0, 1.0, 2.0, NULL, message, sizeof message), PP_NULL_POINTER);
+    pp_particle_free_2d(NULL);
+    free(lines);
+}
+
+/* S of a square by hand: line x = 1 is passed by 0.25, half of r. */
+static void potential_and_radius(void) {
+    const double core = 1.0, r = 0.5, k = 0.3, shadow_radius = 2.0;
+    pp_particle_2d *square = new_square(core, r, k, shadow_radius);
+    const pp_pose_2d pose = {.position = {3, 4}, .angle = PI / 2}; /* local x is world y */
+    const double point[2] = {3 - 0.5, 4 + 1.25};
+    double f, gradient[2], radius;
+    CHECK_STATUS(pp_particle_potential_2d(square, &pose, point, &f, gradient), PP_OK);
+    double m = k / (shadow_radius * shadow_radius);
+    CHECK_NEAR(f, (1 - k) * 0.25 + m * (0.5 * 0.5 + 1.25 * 1.25) - 1, 1e-14);
+    check_near2(gradient, -2 * m * 0.5, 2 * (1 - k) * 0.25 / (r * r) + 2 * m * 1.25, 1e-14);
+    double alone;
+    CHECK_STATUS(pp_particle_potential_2d(square, &pose, point, &alone, NULL), PP_OK);
+    CHECK(alone == f);
+
+    FILL(f);
+    FILL(gradient);
+    CHECK_STATUS(pp_particle_potential_2d(NULL, &pose, point, &f, gradient), PP_NULL_POINTER);
+    CHECK_STATUS(pp_particle_potential_2d(square, NULL, point, &f, gradient), PP_NULL_POINTER);
+    CHECK_STATUS(pp_particle_potential_2d(square, &pose, NULL, &f, gradient), PP_NULL_POINTER);
+    CHECK_STATUS(pp_particle_potential_2d(square, &pose, point, NULL, gradient), PP_NULL_POINTER);
+    for (int value = 0; value < 3; value++) {
+        for (int j = 0; j < 2; j++) {
+            double bad[2] = {0, 0};
+            bad[j] = not_finite[value];
+            CHECK_STATUS(pp_particle_potential_2d(square, &pose, bad, &f, gradient), PP_BAD_POINT);
+        }
+    }
+    CHECK_UNTOUCHED(f);
+    CHECK_UNTOUCHED(gradient);
+
+    CHECK_STATUS(pp_particle_bounding_radius_2d(square, &radius), PP_OK);
+    /* Beyond the middle of a side (d + r at most), within the corners of the lines moved out by r/sqrt(1-k). */
+    CHECK(radius > core && radius < 1.001 * sqrt(2.0) * (core + r / sqrt(1 - k)));
+    FILL(radius);
+    CHECK_STATUS(pp_particle_bounding_radius_2d(NULL, &radius), PP_NULL_POINTER);
+    CHECK_UNTOUCHED(radius);
+    CHECK_STATUS(pp_particle_bounding_radius_2d(square, NULL), PP_NULL_POINTER);
+    pp_particle_free_2d(square);
+}
+
+static double length_of(const pp_particle_2d *a, const pp_pose_2d *pose_a, const pp_particle_2d *b,
+                        const pp_pose_2d *pose_b, const pp_contact_2d *contact) {
+    double length = NAN;
+    CHECK_STATUS(pp_contact_length_2d(a, pose_a, b, pose_b, contact, &length), PP_OK);
+    return length;
+}
+
+static void circles(void) {
+    const double radius_a = 1.0, radius_b = 2.0, normal[2] = {0.6, -0.8};
+    pp_particle_2d *a = new_circle(radius_a), *b = new_circle(radius_b);
+    const pp_pose_2d pose_a = {.position = {-1, 2}, .angle = 3.0};
+    const double parts[] = {0.9, 0.999, 1.001, 1.5};
+    for (size_t i = 0; i < sizeof parts / sizeof parts[0]; i++) {
+        for (int w = 0; w < WAYS; w++) {
+            double distance = parts[i] * (radius_a + radius_b);
+            pp_pose_2d pose_b = {.angle = -40.0};
+            for (int j = 0; j < 2; j++) pose_b.position[j] = pose_a.position[j] + distance * normal[j];
+            pp_settings settings = settings_for(&ways[w]);
+            accuracy allowed = accuracy_of(settings.back_end, radius_a + radius_b);
+            pp_contact_2d contact;
+            check_case("circles at %g of touching, %s", parts[i], ways[w].name);
+            if (!CHECK_STATUS(pp_contact_detect_2d(a, &pose_a, b, &pose_b, &settings, NULL, &contact), PP_OK)) continue;
+            bool midway = settings.formulation == PP_MIDWAY;
+            double s = midway ? parts[i] : (distance - radius_b) / radius_a;
+            double from_a = midway ? parts[i] * radius_a : (radius_a + distance - radius_b) / 2;
+            CHECK(contact.reserved == 0 && contact.formulation == settings.formulation);
+            CHECK(contact.back_end == settings.back_end && contact.flags == 0);
+            CHECK(contact.kind == (s < 1 ? PP_OVERLAPPING : PP_SEPARATED));
+            CHECK_NEAR(contact.s, s, contact.gap + 1e-14);
+            CHECK(contact.gap <= allowed.s * fmax(1.0, s));
+            if (midway) CHECK_NEAR(contact.weight, radius_b / (radius_a + radius_b), allowed.direction);
+            check_near2(contact.normal, normal[0], normal[1], allowed.direction);
+            if (midway || s < 1) check_near2(contact.branch_a, from_a * normal[0], from_a * normal[1], allowed.length);
+            for (int j = 0; j < 2; j++) {
+                CHECK_NEAR(contact.branch_a[j], contact.point[j] - pose_a.position[j], 1e-14);
+                CHECK_NEAR(contact.branch_b[j], contact.point[j] - pose_b.position[j], 1e-14);
+            }
+            double length = length_of(a, &pose_a, b, &pose_b, &contact);
+            if (s >= 1) {
+                CHECK(isnan(contact.overlap) && isnan(contact.point_on_a[0]) && isnan(contact.point_on_b[1]));
+                CHECK(length == 0);
+                continue;
+            }
+            CHECK_NEAR(contact.overlap, radius_a + radius_b - distance, allowed.length);
+            double on_b = distance - radius_b;
+            check_near2(contact.point_on_a, pose_a.position[0] + radius_a * normal[0],
+                        pose_a.position[1] + radius_a * normal[1], allowed.length);
+            check_near2(contact.point_on_b, pose_a.position[0] + on_b * normal[0],
+                        pose_a.position[1] + on_b * normal[1], allowed.length);
+            if (midway) {
+                /* The smaller circle's chord; square roots halve the digits. */
+                CHECK_NEAR(length, 2 * radius_a * sqrt(1 - s * s), 100 * allowed.length);
+            } else {
+                CHECK_NEAR(contact.s_b, (distance - radius_a) / radius_b, allowed.s);
+            }
+        }
+    }
+    check_case(NULL);
+    pp_particle_free_2d(a);
+    pp_particle_free_2d(b);
+}
+
+/* With k = 0, squares side on side: s from the depth of the sides, the point at the centre of the patch. */
+static void stacked_squares(void) {
+    const double core = 1.0, r = 0.25, shift = 0.5, s = 0.5;
+    pp_particle_2d *square = new_square(core, r, 0.0, 0.0);
+    double height = 2 * (core + s * r);
+    const pp_pose_2d pose_a = {.position = {5, 6}}, pose_b = {.position = {5 + shift, 6 + height}};
+    for (int w = 0; w < WAYS; w++) {
+        pp_settings settings = settings_for(&ways[w]);
+        if (settings.formulation != PP_MIDWAY) continue;
+        accuracy allowed = accuracy_of(settings.back_end, 1.0);
+        pp_contact_2d contact;
+        check_case("stacked squares, %s", ways[w].name);
+        if (!CHECK_STATUS(pp_contact_detect_2d(square, &pose_a, square, &pose_b, &settings, NULL, &contact), PP_OK)) continue;
+        CHECK_NEAR(contact.s, s, contact.gap + 1e-14);
+        check_near2(contact.normal, 0, 1, allowed.direction);
+        CHECK_NEAR(contact.overlap, 2 * (core + r) - height, allowed.length);
+        CHECK_NEAR(contact.point[1], 6 + height / 2, allowed.length);
+        if (settings.back_end == PP_FAST) CHECK_NEAR(contact.point[0], 5 + shift / 2, 1e-9);
+        double rim = r * sqrt(1 - s * s);
+        CHECK_NEAR(length_of(square, &pose_a, square, &pose_b, &contact), 2 * (core + rim) - shift, 10 * allowed.length);
+    }
+    check_case(NULL);
+    pp_particle_free_2d(square);
+}
+
+/* What pp_contact_detect_2d and pp_contact_length_2d refuse; nothing is written then. */
+static void bad_input_is_refused(void) {
+    pp_particle_2d *circle = new_circle(1.0);
+    const pp_pose_2d home = {.angle = 1.0}, beside = {.position = {1.5, 0}};
+    pp_contact_2d good, contact;
+    pp_memory memory;
+    double length;
+    CHECK_STATUS(pp_contact_detect_2d(circle, &home, circle, &beside, NULL, NULL, &good), PP_OK);
+    FILL(contact);
+    FILL(memory);
+    FILL(length);
+#define DETECT(a, pose_a, b, pose_b) pp_contact_detect_2d(a, pose_a, b, pose_b, NULL, &memory, &contact)
+#define LENGTH(a, pose_a, b, pose_b) pp_contact_length_2d(a, pose_a, b, pose_b, &good, &length)
+    CHECK_STATUS(DETECT(NULL, &home, circle, &beside), PP_NULL_POINTER);
+    CHECK_STATUS(DETECT(circle, NULL, circle, &beside), PP_NULL_POINTER);
+    CHECK_STATUS(DETECT(circle, &home, NULL, &beside), PP_NULL_POINTER);
+    CHECK_STATUS(DETECT(circle, &home, circle, NULL), PP_NULL_POINTER);
+    CHECK_STATUS(pp_contact_detect_2d(circle, &home, circle, &beside, NULL, &memory, NULL), PP_NULL_POINTER);
+    CHECK_STATUS(LENGTH(NULL, &home, circle, &beside), PP_NULL_POINTER);
+    CHECK_STATUS(LENGTH(circle, NULL, circle, &beside), PP_NULL_POINTER);
+    CHECK_STATUS(LENGTH(circle, &home, NULL, &beside), PP_NULL_POINTER);
+    CHECK_STATUS(LENGTH(circle, &home, circle, NULL), PP_NULL_POINTER);
+    CHECK_STATUS(pp_contact_length_2d(circle, &home, circle, &beside, NULL, &length), PP_NULL_POINTER);
+    CHECK_STATUS(pp_contact_length_2d(circle, &home, circle, &beside, &good, NULL), PP_NULL_POINTER);
+    for (int value = 0; value < 3; value++) {
+        const double origin[2] = {0, 0};
+        double f;
+        FILL(f);
+        for (int j = 0; j < 3; j++) {
+            pp_pose_2d bad = home;
+            if (j < 2) {
+                bad.position[j] = not_finite[value];
+            } else {
+                bad.angle = not_finite[value];
+            }
+            pp_status expected = j < 2 ? PP_BAD_POSITION : PP_BAD_ORIENTATION;
+            check_case("pose, number %d = %g", j, not_finite[value]);
+            CHECK_STATUS(DETECT(circle, &bad, circle, &beside), expected);
+            CHECK_STATUS(DETECT(circle, &home, circle, &bad), expected);
+            CHECK_STATUS(LENGTH(circle, &bad, circle, &beside), expected);
+            CHECK_STATUS(LENGTH(circle, &home, circle, &bad), expected);
+            CHECK_STATUS(pp_particle_potential_2d(circle, &bad, origin, &f, NULL), expected);
+        }
+        CHECK_UNTOUCHED(f);
+        for (int j = 0; j < 2; j++) {
+            pp_contact_2d spoilt[3] = {good, good, good};
+            spoilt[0].normal[j] = spoilt[1].branch_a[j] = spoilt[2].branch_b[j] = not_finite[value];
+            for (int field = 0; field < 3; field++) {
+                check_case("field %d, component %d = %g", field, j, not_finite[value]);
+                CHECK_STATUS(pp_contact_length_2d(circle, &home, circle, &beside, &spoilt[field], &length), PP_BAD_POINT);
+            }
+        }
+    }
+    check_case("a contact that was not filled");
+    const pp_contact_2d empty = {0};
+    CHECK_STATUS(pp_contact_length_2d(circle, &home, circle, &beside, &empty, &length), PP_BAD_POINT);
+    check_case("settings");
+    pp_settings spoilt = default_settings();
+    spoilt.formulation = 2;
+    CHECK_STATUS(pp_contact_detect_2d(circle, &home, circle, &beside, &spoilt, &memory, &contact), PP_UNKNOWN_FORMULATION);
+    spoilt = default_settings();
+    spoilt.gap_tolerance = NAN;
+    CHECK_STATUS(pp_contact_detect_2d(circle, &home, circle, &beside, &spoilt, &memory, &contact), PP_BAD_SETTING);
+    check_case("overflow");
+    const pp_pose_2d west = {.position = {-1.7e308, 0}}, east = {.position = {1.7e308, 0}};
+    CHECK_STATUS(DETECT(circle, &west, circle, &east), PP_SOLVER_FAILED);
+    check_case(NULL);
+#undef DETECT
+#undef LENGTH
+    CHECK_UNTOUCHED(contact);
+    CHECK_UNTOUCHED(memory);
+    CHECK_UNTOUCHED(length);
+    pp_particle_free_2d(circle);
+}
+
+static void memory_and_rejection(void) {
+    pp_particle_2d *square = new_square(1.0, 0.5, 0.3, 2.0);
+    const pp_pose_2d home = {.angle = 0.3}, beside = {.position = {2.4, 0.4}, .angle = -0.2}, far = {.position = {30, 0}};
+    pp_memory memory = {{0}};
+    pp_contact_2d cold, warm;
+    CHECK_STATUS(pp_contact_detect_2d(square, &home, square, &beside, NULL, &memory, &cold), PP_OK);
+    CHECK_STATUS(pp_contact_detect_2d(square, &home, square, &beside, NULL, &memory, &warm), PP_OK);
+    CHECK(cold.kind == PP_OVERLAPPING && warm.kind == PP_OVERLAPPING);
+    CHECK((cold.flags & PP_FLAG_WARM) == 0 && (warm.flags & PP_FLAG_WARM) != 0);
+    CHECK_NEAR(warm.s, cold.s, warm.gap + cold.gap);
+    check_near2(warm.point, cold.point[0], cold.point[1], 1e-9);
+
+    pp_contact_2d apart;
+    CHECK_STATUS(pp_contact_detect_2d(square, &home, square, &far, NULL, NULL, &apart), PP_OK);
+    CHECK(apart.kind == PP_SEPARATED && (apart.flags & PP_FLAG_REJECTED) && apart.s >= 1);
+    CHECK(isnan(apart.weight) && isnan(apart.point_bound) && isnan(apart.normal[0]) && isnan(apart.point[1]) && isnan(apart.branch_a[0]));
+    pp_particle_free_2d(square);
+}
+
+void test_planar(void) {
+    layout_is_as_written_down();
+    lines_are_checked();
+    lines_are_limited_and_null_refused();
+    potential_and_radius();
+    circles();
+    stacked_squares();
+    bad_input_is_refused();
+    memory_and_rejection();
+}
