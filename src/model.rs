@@ -111,6 +111,9 @@ const FARTHEST: f64 = 1e6;
 /// out is its square.
 const EXTRAPOLATED: f64 = 1e-8;
 
+/// Relative mismatch above which logarithms of the sides are taken.
+const LOGARITHMIC: f64 = 0.02;
+
 /// Relative mismatch below which a search that no longer gains is at the end of its digits.
 const STALLING: f64 = 1e-6;
 
@@ -172,7 +175,7 @@ pub(crate) fn solve(
         let rate = rate_growing - rate_falling;
         // Far off, the logarithms of both sides are nearly linear in ln λ; near the root, the sides are.
         let smaller = growing.min(falling);
-        let change = if mismatch.abs() > 0.5 * growing.max(falling) && smaller > 0.0 {
+        let change = if mismatch.abs() > LOGARITHMIC * larger && smaller > 0.0 {
             (falling / growing).ln() / (rate_growing / growing - rate_falling / falling)
         } else {
             -mismatch / rate
