@@ -8,6 +8,8 @@ if [ ! -d "$package/potential_particles" ]; then
     exit 1
 fi
 export PYTHONPATH=$package${PYTHONPATH:+:$PYTHONPATH}
+# Threads of YADE that wait should not keep the cores from those that work.
+export OMP_WAIT_POLICY=${OMP_WAIT_POLICY:-passive}
 # In the place of this shell, so that Ctrl-C and the exit code are the script's own. Debian's YADE by
 # its full name: the plugin fits no other that may come first on PATH.
 exec /usr/bin/yade -x -n "$@"
