@@ -106,11 +106,13 @@ impl<'a> Body<'a> {
     /// The quadratic with depth n·x − d + n·v ≥ 0 for each of its planes is a lower bound of S everywhere:
     /// ⟨t⟩² ≥ 2λt − λ² for every λ ≥ 0. The sign is judged in the model's own arithmetic, to which the rounding
     /// of n·x − d is but a shift of the plane.
-    pub fn check(&self, local: &mut Local, v: &Vector3<f64>) -> Planes {
+    ///
+    /// Also returned: the slope, 1/length, by which planes of doubtful sign may pull after all.
+    pub fn check(&self, local: &mut Local, v: &Vector3<f64>) -> (Planes, f64) {
         let (y, blur, e) = (local.y, local.blur, self.rotation.tr_mul(v));
         let p = self.particle;
         let mut worst: Option<(usize, f64)> = None;
-        let mut met = false;
+        let (mut met, mut doubtful) = (false, 0.0);
         // Planes of the quadratic are near y, planes that are met near y + e: no other is near either.
         let far = local.early.max(p.bounds.longest_normal * e.norm());
         for run in p.leaves.near(&y, far) {
@@ -123,11 +125,13 @@ impl<'a> Body<'a> {
                     continue;
                 }
                 let size = excess.abs() + terms[0].abs() + terms[1].abs() + terms[2].abs();
-                if depth >= -8.0 * f64::EPSILON * size {
+                let doubt = 8.0 * f64::EPSILON * size;
+                if depth >= -doubt {
+                    doubtful += if depth < doubt { doubt } else { 0.0 };
                     continue;
                 }
                 if excess > blur {
-                    return Planes::Pulling;
+                    return (Planes::Pulling, f64::INFINITY);
                 }
                 if worst.is_none_or(|(_, most)| depth < most) {
                     worst = Some((i, depth));
@@ -135,12 +139,13 @@ impl<'a> Body<'a> {
             }
         }
         // One at a time: without the worst, the others may push again.
-        match worst {
+        let planes = match worst {
             None if met => Planes::Met,
             None => Planes::Exact,
             Some((i, _)) if local.drop(i) => Planes::Dropped,
             Some(_) => Planes::Pulling,
-        }
+        };
+        (planes, self.plane_curvature() * p.bounds.longest_normal * doubtful)
     }
 
     /// Carries over which planes were dropped, from a point whose step was stopped at once, to the same point again:

@@ -95,9 +95,14 @@ pub(crate) fn judge(x: &Vector3<f64>, lambda: f64, s: f64, a: &Body, b: &Body, t
             break;
         };
         let step = axes * model.step;
-        match [a.check(&mut locals[0], &step), b.check(&mut locals[1], &step)] {
+        let [(planes_a, slope_a), (planes_b, slope_b)] =
+            [a.check(&mut locals[0], &step), b.check(&mut locals[1], &step)];
+        let slope = weights.0 * slope_a + weights.1 * slope_b;
+        let (soft_a, soft_b) = spine::softest(a, b);
+        let pulled = slope * slope / (weights.0 * soft_a + weights.1 * soft_b);
+        match [planes_a, planes_b] {
             [Planes::Exact | Planes::Met, Planes::Exact | Planes::Met] => {
-                lower = lower.max(model.lower - model.doubt);
+                lower = lower.max(model.lower - 2.0 * model.doubt - pulled);
                 break;
             }
             verdict if verdict.contains(&Planes::Pulling) => break,

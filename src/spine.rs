@@ -166,9 +166,14 @@ impl Expansion {
     }
 
     /// What `step` does to the planes of both quadratics.
-    fn check(a: &Body, b: &Body, step: &Vector3<f64>, locals: &mut [Local; 2]) -> Planes {
+    ///
+    /// Also returned: how far the model's value may lie above a lower bound, should planes of doubtful sign pull.
+    fn check(a: &Body, b: &Body, step: &Vector3<f64>, locals: &mut [Local; 2], weights: (f64, f64)) -> (Planes, f64) {
         let [of_a, of_b] = locals;
-        a.check(of_a, step).max(b.check(of_b, step))
+        let ((planes_a, slope_a), (planes_b, slope_b)) = (a.check(of_a, step), b.check(of_b, step));
+        let slope = weights.0 * slope_a + weights.1 * slope_b;
+        let (soft_a, soft_b) = softest(a, b);
+        (planes_a.max(planes_b), slope * slope / (weights.0 * soft_a + weights.1 * soft_b))
     }
 
     fn merit(&self, target: Target, lambda: f64) -> f64 {
@@ -226,12 +231,12 @@ pub(crate) fn solve(
         let Some(mut model) = optimum(lambda, if thorough { 0.0 } else { rough }) else { break };
         let mut step = here.to_solver(model.step);
         let mut locals = here.locals;
-        let mut planes = Expansion::check(a, b, &step, &mut locals);
+        let (mut planes, mut pulled) = Expansion::check(a, b, &step, &mut locals, target.weights(model.lambda));
         if planes == Planes::Exact && !model.settled {
             // The right planes: now the exact optimum of their quadratics.
             let Some(settled) = optimum(model.lambda, 0.0) else { break };
             (model, step) = (settled, here.to_solver(settled.step));
-            planes = Expansion::check(a, b, &step, &mut locals);
+            (planes, pulled) = Expansion::check(a, b, &step, &mut locals, target.weights(model.lambda));
         }
         lambda = model.lambda;
         if planes == Planes::Dropped {
@@ -249,7 +254,8 @@ pub(crate) fn solve(
             estimate: model.lower,
             lower: model.lower,
             upper: if planes == Planes::Exact { model.upper } else { upper },
-            rounding: model.doubt + target.dual_weighted(of_a, of_b, lambda),
+            // (x + y)² ≤ 2x² + 2y² for the two slopes in doubt.
+            rounding: 2.0 * model.doubt + pulled + target.dual_weighted(of_a, of_b, lambda),
             iterations,
             ending: Ending::Stuck,
             expansion: Some(here),
