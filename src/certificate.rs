@@ -102,7 +102,8 @@ pub(crate) fn judge(x: &Vector3<f64>, lambda: f64, s: f64, a: &Body, b: &Body, t
         let pulled = slope * slope / (weights.0 * soft_a + weights.1 * soft_b);
         match [planes_a, planes_b] {
             [Planes::Exact | Planes::Met, Planes::Exact | Planes::Met] => {
-                lower = lower.max(model.lower - 2.0 * model.doubt - pulled);
+                let expanded = target.dual_weighted(model.rounding.0, model.rounding.1, lambda);
+                lower = lower.max(model.lower - 2.0 * model.doubt - pulled - expanded);
                 break;
             }
             verdict if verdict.contains(&Planes::Pulling) => break,

@@ -92,9 +92,12 @@ pub(crate) struct Optimum {
     pub upper: f64,
     /// Whether λ is as good as rounding allows.
     pub settled: bool,
-    /// How far `lower` may lie above the model's minimum: what a step that is not solved exactly hides, and
-    /// the rounding of the expansion over the length of the step.
+    /// How far `lower` may lie above the model's minimum, because the step is not solved exactly.
     pub doubt: f64,
+    /// Rounding of S_A and S_B over the length of the step.
+    pub rounding: (f64, f64),
+    /// How fast the sides part with ln λ.
+    pub rate: f64,
 }
 
 /// Most searches for λ; quadratic convergence needs a handful.
@@ -154,12 +157,17 @@ pub(crate) fn solve(
         last_mismatch = mismatch.abs();
         let optimum = |step: Vector3<f64>, lambda, (s_a, s_b): (f64, f64), settled| {
             let length = step.norm();
-            let size = |q: &Quadratic, h: &Symmetric| q.expansion + length * (q.gradient.norm() + length * h.size());
+            let rounding = |q: &Quadratic, h: &Symmetric| {
+                2.0 * f64::EPSILON * (q.expansion + length * (q.gradient.norm() + length * h.size()))
+            };
+            let rounding = (rounding(q_a, &h_a), rounding(q_b, &h_b));
             // With curvature of at least `least`, a remaining slope can hide this much.
-            let hidden = 0.5 * (a * g_a + b * g_b).norm_squared() / least;
-            let doubt = hidden + 2.0 * f64::EPSILON * (a * size(q_a, &h_a) + b * size(q_b, &h_b));
+            let doubt = 0.5 * (a * g_a + b * g_b).norm_squared() / least;
+            let drift = factor.solve(&(a * b / (a + b) * (g_a - g_b)));
+            let (rate_growing, rate_falling) = target.rates(g_a.dot(&drift), g_b.dot(&drift));
+            let rate = rate_growing - rate_falling;
             let (lower, upper) = (target.dual(s_a, s_b, lambda), target.merit(s_a, s_b, lambda));
-            Some(Optimum { step, gradients: [g_a, g_b], lambda, lower, upper, settled, doubt })
+            Some(Optimum { step, gradients: [g_a, g_b], lambda, lower, upper, settled, doubt, rounding, rate })
         };
         if mismatch.abs() <= enough || settled || search == MOST_SEARCHES {
             return optimum(step, lambda, (s_a, s_b), settled);

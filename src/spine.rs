@@ -8,7 +8,7 @@
 use crate::body::{Body, Local, Planes};
 use crate::frame;
 use crate::line;
-use crate::model::{self, Target};
+use crate::model::{self, Optimum, Target};
 use crate::pair::Pair;
 use crate::potential::Quadratic;
 use nalgebra::{Matrix3, Vector3};
@@ -255,7 +255,7 @@ pub(crate) fn solve(
             lower: model.lower,
             upper: if planes == Planes::Exact { model.upper } else { upper },
             // (x + y)² ≤ 2x² + 2y² for the two slopes in doubt.
-            rounding: 2.0 * model.doubt + pulled + target.dual_weighted(of_a, of_b, lambda),
+            rounding: 2.0 * model.doubt + pulled + rounding(target, &model, of_a, of_b),
             iterations,
             ending: Ending::Stuck,
             expansion: Some(here),
@@ -309,6 +309,18 @@ pub(crate) fn solve(
             expansion: None,
         },
     }
+}
+
+/// Bound on the effect of rounding on the optimum, from bounds on that of S_A and S_B at the expansion.
+///
+/// An error in S_A or S_B moves the optimum by its weight, while the weights stay what they are; where the
+/// error itself decides about the weights, by no more than the whole of it.
+fn rounding(target: Target, model: &Optimum, of_a: f64, of_b: f64) -> f64 {
+    let (of_a, of_b) = (of_a + model.rounding.0, of_b + model.rounding.1);
+    let weighted = target.dual_weighted(of_a, of_b, model.lambda);
+    let whole = target.merit_rounding(of_a, of_b, model.lambda);
+    let swing = target.mismatch_of(0, of_a).max(target.mismatch_of(1, of_b)) / model.rate.abs();
+    if swing < 0.25 { weighted * (1.0 + 4.0 * swing) } else { whole.max(weighted) }
 }
 
 /// A step that was tried, to be shortened if it made things worse.
