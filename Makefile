@@ -11,7 +11,7 @@ Contact detection between potential particles.
   make library  the library alone: target/release/libpotential_particles.so
   make header   write include/potential_particles.h anew from src/ffi
   make lint     formatting and warnings
-  make bench    benchmarks
+  make bench    run time, each target beside what was measured, and run time against error; results in out/bench
   make clean    remove everything built (results in out/ stay)
 
 Variables, as in "make demo STEPS=1000 BODIES=50":
@@ -86,9 +86,13 @@ lint:
 	@if cargo clippy --version >/dev/null 2>&1; then cargo clippy --all-targets -- -D warnings; \
 	else echo 'skipped: clippy is not installed (rustup component add clippy)'; fi
 
+# Without YADE its functor is left out, and the table says so.
 bench:
-	$(call heading,Benchmarks)
-	@cargo bench
+	$(call heading,Stages)
+	@cargo bench --bench stages
+	$(call heading,Run time against error)
+	@cargo bench --bench work_precision
+	@/usr/bin/python3 benches/plot.py
 
 clean:
 	@cargo clean

@@ -1,0 +1,134 @@
+//! criterion benchmarks of each stage of a contact call.
+//!
+//! Every benchmark walks over its pairs, so that a call never repeats the one before.
+
+#[path = "../scene/mod.rs"]
+mod scene;
+
+use criterion::{Criterion, criterion_group, criterion_main};
+use nalgebra::Vector3;
+use potential_particles::area::Section;
+use potential_particles::pair::Pair;
+use potential_particles::{Contact, Formulation, Memory, Settings, detect, reject, surface};
+use scene::random::Random;
+use scene::touching::{self, Touching};
+use scene::{polyhedra, pyramids};
+use std::hint::black_box;
+use std::time::Duration;
+
+/// Pairs of each benchmark.
+const PAIRS: usize = 500;
+/// Fewer pairs where one has up to 2,000 planes.
+const POLYHEDRA: usize = 50;
+/// Relative tolerance of a contact area as the examples use it.
+const AREA_TOLERANCE: f64 = 1e-3;
+
+/// Measures `call` on one pair after the other.
+fn walk<T>(c: &mut Criterion, group: &str, name: &str, pairs: &[Touching], call: impl Fn(&Touching) -> T) {
+    let mut next = 0;
+    c.benchmark_group(group).bench_function(name, |bencher| {
+        bencher.iter(|| {
+            next = (next + 1) % pairs.len();
+            call(black_box(&pairs[next]))
+        });
+    });
+}
+
+fn contact(pair: &Touching, formulation: Formulation) -> Contact {
+    let settings = Settings { formulation, ..Settings::default() };
+    detect(&pair.a, &pair.pose_a, &pair.b, &pair.pose_b, &settings, None).expect("a contact of ordinary bodies")
+}
+
+fn warm(pair: &Touching, formulation: Formulation) -> Contact {
+    let settings = Settings { formulation, ..Settings::default() };
+    let mut memory: Memory = pair.memory(formulation);
+    detect(&pair.a, &pair.pose_a, &pair.b, &pair.moved_b, &settings, Some(&mut memory))
+        .expect("a contact of ordinary bodies")
+}
+
+fn solve(c: &mut Criterion) {
+    for shape @ (r, k) in pyramids::ROUNDED.into_iter().chain([pyramids::SHARP]) {
+        let mut random = Random::seeded(20_090_101);
+        let pairs = touching::pairs(&pyramids::pyramid(r, k), PAIRS, &mut random);
+        let group = format!("pyramids r={r} k={k}");
+        for (name, formulation) in [("midway", Formulation::Midway), ("closest", Formulation::Closest)] {
+            walk(c, &group, &format!("{name} cold"), &pairs, |pair| contact(pair, formulation));
+            walk(c, &group, &format!("{name} warm"), &pairs, |pair| warm(pair, formulation));
+        }
+        if shape == pyramids::ROUNDED[1] {
+            walk(c, "evaluate", "plain, the unit", &pairs, Touching::evaluate);
+            walk(c, "evaluate", "potential::local", &pairs, Touching::evaluate_by_library);
+            rejects(c, &pairs, &mut random);
+            describe(c, &pairs);
+        }
+    }
+}
+
+fn rejects(c: &mut Criterion, pairs: &[Touching], random: &mut Random) {
+    let by_spheres: Vec<Touching> = pairs.iter().map(|pair| pair.pushed(3.0, random)).collect();
+    let by_faces: Vec<Touching> = pairs.iter().filter_map(|pair| pair.beyond_a_face(random)).collect();
+    let apart = touching::barely_apart(pairs, random);
+    for (name, pairs) in [("test by spheres", &by_spheres), ("test by a face", &by_faces)] {
+        walk(c, "reject", name, pairs, |pair| {
+            let pair = Pair::new(&pair.a, &pair.pose_a, &pair.b, &pair.pose_b);
+            reject::proves_separation(&pair)
+        });
+    }
+    walk(c, "reject", "call, by spheres", &by_spheres, |pair| contact(pair, Formulation::Midway));
+    walk(c, "reject", "call, by a face", &by_faces, |pair| contact(pair, Formulation::Midway));
+    walk(c, "reject", "call, apart, cold", &apart, |pair| contact(pair, Formulation::Midway));
+    walk(c, "reject", "call, by memory", &apart, |pair| warm(pair, Formulation::Midway));
+}
+
+/// What follows the solution: surface points along the normal, and the area.
+fn describe(c: &mut Criterion, pairs: &[Touching]) {
+    let contacts: Vec<Contact> = pairs.iter().map(|pair| contact(pair, Formulation::Midway)).collect();
+    let mut next = 0;
+    c.benchmark_group("geometry").bench_function("both surface points", |bencher| {
+        bencher.iter(|| {
+            next = (next + 1) % pairs.len();
+            let (pair, contact) = (black_box(&pairs[next]), &contacts[next]);
+            let along = |rotation: &nalgebra::Matrix3<f64>, v: Vector3<f64>| rotation.tr_mul(&v);
+            let (pose_a, pose_b) = (&pair.pose_a.rotation, &pair.pose_b.rotation);
+            [
+                surface::distance(&pair.a, &along(pose_a, contact.branch_a), &along(pose_a, contact.normal)),
+                surface::distance(&pair.b, &along(pose_b, contact.branch_b), &along(pose_b, -contact.normal)),
+            ]
+        });
+    });
+    c.benchmark_group("geometry").bench_function("contact area", |bencher| {
+        bencher.iter(|| {
+            next = (next + 1) % pairs.len();
+            let (pair, contact) = (black_box(&pairs[next]), &contacts[next]);
+            let Contact { branch_a, branch_b, normal, .. } = *contact;
+            let section = Section { branch_a, branch_b, normal };
+            section.area(&pair.a, &pair.pose_a, &pair.b, &pair.pose_b, AREA_TOLERANCE)
+        });
+    });
+}
+
+fn plane_counts(c: &mut Criterion) {
+    for planes in polyhedra::PLANE_COUNTS {
+        let mut random = Random::seeded(planes as u64);
+        let pairs: Vec<Touching> = (0..POLYHEDRA)
+            .map(|_| {
+                let [a, b] = [0; 2].map(|_| polyhedra::ball(planes, &mut random));
+                Touching::new(&a, &b, &mut random)
+            })
+            .collect();
+        let group = format!("{planes} + {planes} planes");
+        walk(c, &group, "evaluate", &pairs, Touching::evaluate_by_library);
+        walk(c, &group, "midway cold", &pairs, |pair| contact(pair, Formulation::Midway));
+        walk(c, &group, "midway warm", &pairs, |pair| warm(pair, Formulation::Midway));
+    }
+}
+
+criterion_group! {
+    name = stages;
+    config = Criterion::default()
+        .warm_up_time(Duration::from_millis(200))
+        .measurement_time(Duration::from_millis(1000))
+        .sample_size(50);
+    targets = solve, plane_counts
+}
+criterion_main!(stages);

@@ -1,0 +1,176 @@
+//! The answer for one pair, as it is written.
+
+use crate::arguments::{self, Arguments};
+use crate::input::Input;
+use nalgebra::Vector3;
+use potential_particles::conic::{self, Role};
+use potential_particles::pair::Pair;
+use potential_particles::{BackEnd, Contact, Flags, Formulation, Kind, Settings, detect};
+use serde::Serialize;
+
+/// One line of output. Vectors in world axes, points relative to the position of B.
+#[derive(Serialize)]
+pub struct Answer {
+    line: usize,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    midway: Option<Midway>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    closest: Option<Closest>,
+}
+
+#[derive(Serialize)]
+struct Midway {
+    kind: &'static str,
+    /// t, the larger of s_A and s_B at the point.
+    s: f64,
+    /// Weight of B: (1−u)∇S_A + u∇S_B = 0.
+    u: f64,
+    point: [f64; 3],
+    /// From A to B.
+    normal: [f64; 3],
+    overlap: f64,
+    point_on_a: [f64; 3],
+    point_on_b: [f64; 3],
+    /// Bound on the error of s.
+    gap: f64,
+    /// Bound on the distance of the point from the optimum.
+    bound: f64,
+    iterations: u32,
+    path: &'static str,
+}
+
+/// A half whose constraint is slack has no closest point: its s and point are null.
+#[derive(Serialize)]
+struct Closest {
+    kind: &'static str,
+    /// s_A at P2.
+    s_a: f64,
+    /// s_B at P1.
+    s_b: f64,
+    /// On A.
+    p1: [f64; 3],
+    /// On B.
+    p2: [f64; 3],
+    /// |P1 − P2| of overlapping particles.
+    overlap: f64,
+    slack: Slack,
+    /// Bound on the errors of s_a and s_b.
+    gap: f64,
+}
+
+/// Whose s ≤ 1 does not bind: "a" leaves P1 without meaning, "b" leaves P2.
+#[derive(Serialize)]
+struct Slack {
+    a: bool,
+    b: bool,
+}
+
+impl Answer {
+    pub fn new(line: usize, input: &Input, arguments: &Arguments) -> Result<Self, String> {
+        let wanted = arguments.formulation;
+        let back_end = match arguments.back_end {
+            arguments::BackEnd::Fast => BackEnd::Fast,
+            arguments::BackEnd::Conic => BackEnd::Conic,
+        };
+        let midway = (wanted != arguments::Formulation::Closest).then(|| midway(input, back_end)).transpose()?;
+        let closest = (wanted != arguments::Formulation::Midway).then(|| closest(input, back_end)).transpose()?;
+        Ok(Self { line, midway, closest })
+    }
+}
+
+fn solve(input: &Input, settings: Settings) -> Result<Contact, String> {
+    // A warm start would make an answer depend on the line before.
+    let settings = Settings { solve_separated: true, ..settings };
+    detect(&input.a, &input.pose_a, &input.b, &input.pose_b, &settings, None).map_err(|error| error.to_string())
+}
+
+fn midway(input: &Input, back_end: BackEnd) -> Result<Midway, String> {
+    let contact = solve(input, Settings { formulation: Formulation::Midway, back_end, ..Settings::default() })?;
+    // B is at the origin: points of the world are relative to it.
+    Ok(Midway {
+        kind: kind(&contact),
+        s: contact.s,
+        u: contact.weight,
+        point: contact.point.into(),
+        normal: contact.normal.into(),
+        overlap: contact.overlap,
+        point_on_a: contact.point_on_a.into(),
+        point_on_b: contact.point_on_b.into(),
+        gap: contact.gap,
+        bound: contact.point_bound,
+        iterations: contact.iterations,
+        path: path(&contact),
+    })
+}
+
+fn closest(input: &Input, back_end: BackEnd) -> Result<Closest, String> {
+    // With all weight on one of them, the contact point is that closest point, of separated particles as well.
+    let weighted = |weight_on_a| {
+        solve(input, Settings { formulation: Formulation::Closest, back_end, weight_on_a, ..Settings::default() })
+    };
+    let on_b = weighted(0.0)?;
+    if on_b.flags.contains(Flags::SLACK) {
+        return slack(input, &on_b);
+    }
+    let on_a = weighted(1.0)?;
+    Ok(Closest {
+        kind: kind(&on_b),
+        s_a: on_b.s,
+        s_b: on_b.s_b,
+        p1: on_a.point.into(),
+        p2: on_b.point.into(),
+        overlap: on_b.overlap,
+        slack: Slack { a: false, b: false },
+        gap: on_b.gap,
+    })
+}
+
+/// The half that still has an answer, if there is one, by its cone program; it comes without a gap.
+fn slack(input: &Input, contact: &Contact) -> Result<Closest, String> {
+    let pair = Pair::new(&input.a, &input.pose_a, &input.b, &input.pose_b);
+    let half = |constrained: Role| -> Result<Option<(f64, Vector3<f64>)>, String> {
+        let centre_inside = match constrained {
+            Role::A => pair.a.potential(&pair.in_a(&Vector3::zeros())) < 0.0,
+            Role::B => pair.b.potential(&pair.centre) < 0.0,
+        };
+        if centre_inside {
+            return Ok(None);
+        }
+        let solution = conic::closest(&pair, constrained).map_err(|error| error.to_string())?;
+        // Where the core of one particle with k = 0 reaches into the other, s is 0 on a whole region.
+        Ok((solution.s > LEAST_SCALE).then(|| (solution.s, input.pose_b.rotate(&solution.x))))
+    };
+    let (on_a, on_b) = (half(Role::A)?, half(Role::B)?);
+    let nothing = (f64::NAN, Vector3::repeat(f64::NAN));
+    let ((s_b, p1), (s_a, p2)) = (on_a.unwrap_or(nothing), on_b.unwrap_or(nothing));
+    Ok(Closest {
+        kind: kind(contact),
+        s_a,
+        s_b,
+        p1: p1.into(),
+        p2: p2.into(),
+        overlap: f64::NAN,
+        slack: Slack { a: on_a.is_none(), b: on_b.is_none() },
+        gap: f64::NAN,
+    })
+}
+
+/// Below what the cone program resolves, s is as good as 0.
+const LEAST_SCALE: f64 = 1e-8;
+
+fn kind(contact: &Contact) -> &'static str {
+    match contact.kind {
+        Kind::Separated => "separated",
+        Kind::Overlapping => "overlapping",
+    }
+}
+
+/// Which rung of the ladder answered.
+fn path(contact: &Contact) -> &'static str {
+    match contact.back_end {
+        BackEnd::Conic => "conic",
+        BackEnd::Fast if contact.flags.contains(Flags::SAFER) => "fast safer",
+        BackEnd::Fast if contact.flags.contains(Flags::WARM) => "fast warm",
+        BackEnd::Fast => "fast cold",
+    }
+}

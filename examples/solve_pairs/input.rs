@@ -1,0 +1,76 @@
+//! One line of input, read and checked.
+
+use nalgebra::Vector3;
+use potential_particles::{Particle, Plane, Pose};
+use serde::Deserialize;
+
+/// Two particles and where they are.
+pub struct Input {
+    pub a: Particle,
+    pub b: Particle,
+    /// Relative to the position of B, which is the origin.
+    pub pose_a: Pose,
+    pub pose_b: Pose,
+}
+
+#[derive(Deserialize)]
+#[serde(expecting = "an object {A, B, a, b}")]
+struct Line {
+    #[serde(rename = "A")]
+    shape_a: Shape,
+    #[serde(rename = "B")]
+    shape_b: Shape,
+    a: Place,
+    b: Place,
+}
+
+#[derive(Deserialize)]
+#[serde(expecting = "a particle {n, d, r, k, R}")]
+struct Shape {
+    n: Vec<[f64; 3]>,
+    d: Vec<f64>,
+    r: f64,
+    k: f64,
+    #[serde(rename = "R")]
+    shadow_radius: f64,
+}
+
+#[derive(Deserialize)]
+#[serde(expecting = "a place {pos, q}")]
+struct Place {
+    pos: [f64; 3],
+    q: [f64; 4],
+}
+
+/// Reads a pair, and moves it so that B is at the origin.
+///
+/// The library itself takes the difference of the two positions before anything else, so that its answer is the
+/// same to the last bit; and around the origin no digit of a point is lost to a position of 10⁷.
+pub fn pair(text: &[u8]) -> Result<Input, String> {
+    let line: Line = serde_json::from_slice(text).map_err(|error| {
+        // The parser counts lines within this one.
+        error.to_string().replace("at line 1 column", "at column")
+    })?;
+    let (a, b) = (line.shape_a.particle("A")?, line.shape_b.particle("B")?);
+    let (mut pose_a, mut pose_b) = (line.a.pose("a")?, line.b.pose("b")?);
+    pose_a.position -= pose_b.position;
+    pose_b.position = Vector3::zeros();
+    Ok(Input { a, b, pose_a, pose_b })
+}
+
+impl Shape {
+    fn particle(&self, name: &str) -> Result<Particle, String> {
+        if self.n.len() != self.d.len() {
+            return Err(format!("{name}: {} normals n, but {} offsets d", self.n.len(), self.d.len()));
+        }
+        let plane = |(normal, &offset): (&[f64; 3], &f64)| Plane { normal: Vector3::from(*normal), offset };
+        let planes: Vec<Plane> = self.n.iter().zip(&self.d).map(plane).collect();
+        Particle::new(&planes, self.r, self.k, self.shadow_radius).map_err(|error| format!("{name}: {error}"))
+    }
+}
+
+impl Place {
+    fn pose(&self, name: &str) -> Result<Pose, String> {
+        Pose::new(self.pos, self.q).map_err(|error| format!("{name}: {error}"))
+    }
+}
