@@ -118,7 +118,7 @@ const EXTRAPOLATED: f64 = 1e-8;
 const LOGARITHMIC: f64 = 0.02;
 
 /// Relative mismatch below which a search that no longer gains is at the end of its digits.
-const STALLING: f64 = 1e-6;
+const STALLING: f64 = 1e-9;
 
 /// Solves the pair of quadratics from the guess λ. `None` when a factorisation breaks down.
 ///
@@ -155,7 +155,7 @@ pub(crate) fn solve(
         let stalled = mismatch.abs() <= STALLING * larger && mismatch.abs() > 0.5 * last_mismatch;
         let settled = mismatch.abs() <= 4.0 * f64::EPSILON * larger || stalled;
         last_mismatch = mismatch.abs();
-        let optimum = |step: Vector3<f64>, lambda, (s_a, s_b): (f64, f64), settled| {
+        let optimum = |step: Vector3<f64>, lambda, (s_a, s_b): (f64, f64), gradients, settled| {
             let length = step.norm();
             let rounding = |q: &Quadratic, h: &Symmetric| {
                 2.0 * f64::EPSILON * (q.expansion + length * (q.gradient.norm() + length * h.size()))
@@ -167,10 +167,10 @@ pub(crate) fn solve(
             let (rate_growing, rate_falling) = target.rates(g_a.dot(&drift), g_b.dot(&drift));
             let rate = rate_growing - rate_falling;
             let (lower, upper) = (target.dual(s_a, s_b, lambda), target.merit(s_a, s_b, lambda));
-            Some(Optimum { step, gradients: [g_a, g_b], lambda, lower, upper, settled, doubt, rounding, rate })
+            Some(Optimum { step, gradients, lambda, lower, upper, settled, doubt, rounding, rate })
         };
         if mismatch.abs() <= enough || settled || search == MOST_SEARCHES {
-            return optimum(step, lambda, (s_a, s_b), settled);
+            return optimum(step, lambda, (s_a, s_b), [g_a, g_b], settled);
         }
         if mismatch > 0.0 {
             high = lambda
@@ -190,7 +190,8 @@ pub(crate) fn solve(
         };
         if change.abs() <= EXTRAPOLATED && mismatch.abs() <= EXTRAPOLATED * growing.max(falling) {
             let sides = (s_a + change * g_a.dot(&drift), s_b + change * g_b.dot(&drift));
-            return optimum(step + change * drift, lambda * (1.0 + change), sides, true);
+            let gradients = [g_a + change * h_a.times(&drift), g_b + change * h_b.times(&drift)];
+            return optimum(step + change * drift, lambda * (1.0 + change), sides, gradients, true);
         }
         let mut next =
             if change.abs() < 0.1 { lambda * (1.0 + change) } else { lambda * change.clamp(-60.0, 60.0).exp() };
@@ -199,7 +200,7 @@ pub(crate) fn solve(
         }
         if next == lambda {
             // No λ does better.
-            return optimum(step, lambda, (s_a, s_b), true);
+            return optimum(step, lambda, (s_a, s_b), [g_a, g_b], true);
         }
         lambda = next;
     }
