@@ -101,6 +101,15 @@
 // The gap is above the tolerance asked for: rounding allows no better. It is still a bound.
 #define PP_FLAG_ROUNDING_LIMITED 64
 
+// Rejected by balls: two that hold the particles do not meet.
+#define PP_FLAG_BY_SPHERES 128
+
+// Rejected by a face: one particle lies beyond a face of the other.
+#define PP_FLAG_BY_FACE 256
+
+// Rejected from memory: what separated the pair at the last call still does.
+#define PP_FLAG_BY_MEMORY 512
+
 // A validated particle. Created by `pp_particle_new`, released by `pp_particle_free`; immutable,
 // so that bodies and threads may share one.
 typedef struct pp_particle pp_particle;

@@ -11,6 +11,8 @@ pub(crate) struct Body<'a> {
     pub particle: &'a Particle,
     /// Local to solver frame.
     rotation: Matrix3<f64>,
+    /// Whether that is more than the identity: the axes of B are the solver's own.
+    turned: bool,
     /// Centre in the solver frame.
     centre: Vector3<f64>,
     /// Sum of the lengths, other than the point's own, that a distance to a plane is made from.
@@ -39,8 +41,18 @@ pub(crate) struct Local {
     /// model knows it.
     early: f64,
     /// Planes within that distance that were found to pull instead of push: they do not count.
-    dropped: [u32; MOST_DROPPED],
-    count: usize,
+    dropped: [u16; MOST_DROPPED],
+    count: u8,
+}
+
+/// What a step does to the planes of a quadratic.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Verdict {
+    pub planes: Planes,
+    /// The plane to be dropped before the model is solved again.
+    pub drop: Option<usize>,
+    /// Slope, 1/length, by which planes of doubtful sign may pull after all.
+    pub slope: f64,
 }
 
 /// What a step does to the planes of a model, from best to worst.
@@ -51,7 +63,7 @@ pub(crate) enum Planes {
     Exact,
     /// All still push, but another is met on the way: the quadratic is a lower bound only.
     Met,
-    /// Some that had hardly switched on pull; they were dropped, and the model should be solved again.
+    /// One that had hardly switched on pulls; without it, the model should be solved again.
     Dropped,
     /// Some that are clearly on at the point pull after the step: the point has to move first.
     Pulling,
@@ -60,19 +72,27 @@ pub(crate) enum Planes {
 impl<'a> Body<'a> {
     /// Both bodies of a pair; k below `least_sphericity` is raised to it (see `Settings`).
     pub fn both(pair: &Pair<'a>, least_sphericity: f64) -> (Self, Self) {
-        let body = |particle: &'a Particle, rotation, centre: Vector3<f64>| Self {
+        let body = |particle: &'a Particle, rotation, turned, centre: Vector3<f64>| Self {
             particle,
             rotation,
+            turned,
             centre,
             lengths: 2.0 * centre.norm() + particle.bounds.longest_offset,
             sphere_weight: particle.sphere_weight.max(least_sphericity / particle.bounding_radius().powi(2)),
         };
-        (body(pair.a, pair.rotation, pair.centre), body(pair.b, Matrix3::identity(), Vector3::zeros()))
+        (body(pair.a, pair.rotation, true, pair.centre), body(pair.b, Matrix3::identity(), false, Vector3::zeros()))
     }
 
     /// Solver frame to local frame.
+    #[inline]
     pub fn local(&self, x: &Vector3<f64>) -> Vector3<f64> {
-        self.rotation.tr_mul(&(x - self.centre))
+        if self.turned { self.rotation.tr_mul(&(x - self.centre)) } else { *x }
+    }
+
+    /// A direction of the solver frame in the local frame.
+    #[inline]
+    fn turn(&self, v: &Vector3<f64>) -> Vector3<f64> {
+        if self.turned { self.rotation.tr_mul(v) } else { *v }
     }
 
     pub fn centre(&self) -> Vector3<f64> {
@@ -85,20 +105,28 @@ impl<'a> Body<'a> {
         Local { y: self.local(x), blur, early: early.max(blur), dropped: [0; MOST_DROPPED], count: 0 }
     }
 
-    /// (Regularised) S with derivatives in the axes of `frame` (columns: axes in the solver frame).
+    /// (Regularised) S with derivatives in the axes of `frame` (columns: axes in the solver frame), or of the solver
+    /// frame itself.
+    #[inline]
     pub fn at(&self, local: &Local, frame: Option<&Matrix3<f64>>) -> Quadratic {
-        let rotation = match frame {
-            Some(axes) => axes.tr_mul(&self.rotation),
-            None => self.rotation,
-        };
-        potential::in_frame(self.particle, self.sphere_weight, &rotation, &local.y, local.early, |i, excess| {
-            local.counts(i, excess)
-        })
+        let turned = |rotation: Matrix3<f64>| self.quadratic(local, |n| rotation * n);
+        match frame {
+            Some(axes) if self.turned => turned(axes.tr_mul(&self.rotation)),
+            Some(axes) => turned(axes.transpose()),
+            None if self.turned => turned(self.rotation),
+            None => self.quadratic(local, |n| n),
+        }
+    }
+
+    #[inline]
+    fn quadratic(&self, local: &Local, turn: impl Fn(Vector3<f64>) -> Vector3<f64>) -> Quadratic {
+        let counts = |i, excess| local.counts(i, excess);
+        potential::turned(self.particle, self.sphere_weight, turn, &local.y, local.early, counts)
     }
 
     /// (Regularised) S at x along the direction e.
     pub fn on_line(&self, x: &Vector3<f64>, e: &Vector3<f64>) -> OnLine {
-        potential::on_line(self.particle, self.sphere_weight, &self.local(x), &self.rotation.tr_mul(e))
+        potential::on_line(self.particle, self.sphere_weight, &self.local(x), &self.turn(e))
     }
 
     /// Checks the planes of the quadratic after the step v.
@@ -107,54 +135,53 @@ impl<'a> Body<'a> {
     /// ⟨t⟩² ≥ 2λt − λ² for every λ ≥ 0. The sign is judged in the model's own arithmetic, to which the rounding
     /// of n·x − d is but a shift of the plane.
     ///
-    /// Also returned: the slope, 1/length, by which planes of doubtful sign may pull after all.
-    pub fn check(&self, local: &mut Local, v: &Vector3<f64>) -> (Planes, f64) {
-        let (y, blur, e) = (local.y, local.blur, self.rotation.tr_mul(v));
+    #[inline]
+    pub fn check(&self, local: &Local, v: &Vector3<f64>) -> Verdict {
+        let (y, blur, e) = (local.y, local.blur, self.turn(v));
         let p = self.particle;
         let mut worst: Option<(usize, f64)> = None;
-        let (mut met, mut doubtful) = (false, 0.0);
+        let (mut met, mut pulling, mut doubtful) = (false, false, 0.0);
         // Planes of the quadratic are near y, planes that are met near y + e: no other is near either.
-        let far = local.early.max(p.bounds.longest_normal * e.norm());
-        for run in p.leaves.near(&y, far) {
-            for (i, [a, b, c], d) in p.run(run) {
-                let excess = a * y.x + b * y.y + c * y.z - d;
-                let terms = [a * e.x, b * e.y, c * e.z];
-                let depth = excess + (terms[0] + terms[1] + terms[2]);
-                if !local.counts(i, excess) {
-                    met |= depth > blur;
-                    continue;
-                }
-                let size = excess.abs() + terms[0].abs() + terms[1].abs() + terms[2].abs();
-                let doubt = 8.0 * f64::EPSILON * size;
-                if depth >= -doubt {
-                    doubtful += if depth < doubt { doubt } else { 0.0 };
-                    continue;
-                }
-                if excess > blur {
-                    return (Planes::Pulling, f64::INFINITY);
-                }
-                if worst.is_none_or(|(_, most)| depth < most) {
-                    worst = Some((i, depth));
-                }
+        let far = if p.leaves.single() { 0.0 } else { local.early.max(p.bounds.longest_normal * e.norm()) };
+        p.visit_near(&y, far, |i, n, excess| {
+            let terms = n.component_mul(&e);
+            let depth = excess + (terms.x + terms.y + terms.z);
+            if !local.counts(i, excess) {
+                met |= depth > blur;
+                return;
             }
+            let size = excess.abs() + terms.x.abs() + terms.y.abs() + terms.z.abs();
+            let doubt = 8.0 * f64::EPSILON * size;
+            if depth >= doubt {
+            } else if depth >= -doubt {
+                doubtful += doubt;
+            } else if excess > blur {
+                pulling = true;
+            } else if worst.is_none_or(|(_, most)| depth < most) {
+                worst = Some((i, depth));
+            }
+        });
+        if pulling {
+            return Verdict { planes: Planes::Pulling, drop: None, slope: f64::INFINITY };
         }
         // One at a time: without the worst, the others may push again.
-        let planes = match worst {
+        let drop = worst.map(|(i, _)| i);
+        let planes = match drop {
             None if met => Planes::Met,
             None => Planes::Exact,
-            Some((i, _)) if local.drop(i) => Planes::Dropped,
+            Some(_) if usize::from(local.count) < MOST_DROPPED => Planes::Dropped,
             Some(_) => Planes::Pulling,
         };
-        (planes, self.plane_curvature() * p.bounds.longest_normal * doubtful)
+        Verdict { planes, drop, slope: self.plane_curvature() * p.bounds.longest_normal * doubtful }
     }
 
     /// Carries over which planes were dropped, from a point whose step was stopped at once, to the same point again:
     /// all but those that stopped it. Without it the planes that rightly went would come back each time.
     pub fn carry_dropped(&self, from: &Local, step: &Vector3<f64>, to: &mut Local) {
-        let reached = from.y + self.rotation.tr_mul(step);
-        for &i in &from.dropped[..from.count] {
-            let place = i as usize;
-            if self.particle.normal(place).dot(&reached) - self.particle.d[place] <= from.blur {
+        let reached = from.y + self.turn(step);
+        for &i in &from.dropped[..usize::from(from.count)] {
+            let place = usize::from(i);
+            if self.particle.normal(place).dot(&reached) - self.particle.offset(place) <= from.blur {
                 to.drop(place);
             }
         }
@@ -163,14 +190,11 @@ impl<'a> Body<'a> {
     /// Calls `visit` with the (solver frame) normal, the weight and n·x − d of each plane of the quadratic.
     pub fn rows(&self, local: &Local, mut visit: impl FnMut(Vector3<f64>, f64, f64)) {
         let y = &local.y;
-        for run in self.particle.leaves.near(y, local.early) {
-            for (i, [a, b, c], d) in self.particle.run(run) {
-                let excess = a * y.x + b * y.y + c * y.z - d;
-                if local.counts(i, excess) {
-                    visit(self.rotation * Vector3::new(a, b, c), self.particle.plane_weight, excess);
-                }
+        self.particle.visit_near(y, local.early, |i, n, excess| {
+            if local.counts(i, excess) {
+                visit(if self.turned { self.rotation * n } else { n }, self.particle.plane_weight, excess);
             }
-        }
+        });
     }
 
     /// Bound on the rounding of S, given the quadratic.
@@ -208,17 +232,21 @@ impl Local {
         self.blur * gradient.norm()
     }
 
+    #[inline]
     fn counts(&self, i: usize, excess: f64) -> bool {
-        excess > self.blur || (excess > -self.early && !self.dropped[..self.count].contains(&(i as u32)))
+        excess > self.blur || (excess > -self.early && !self.dropped().contains(&(i as u16)))
     }
 
-    /// Whether there was room to drop one more.
-    fn drop(&mut self, i: usize) -> bool {
-        let room = self.count < MOST_DROPPED;
-        if room {
-            self.dropped[self.count] = i as u32;
+    fn dropped(&self) -> &[u16] {
+        &self.dropped[..usize::from(self.count)]
+    }
+
+    /// From now on plane i does not count until it is clearly on; without effect when too many are dropped already.
+    pub fn drop(&mut self, i: usize) {
+        if let Some(place) = self.dropped.get_mut(usize::from(self.count)) {
+            // Places fit: a particle has no more planes (`MAX_PLANES`).
+            *place = i as u16;
             self.count += 1;
         }
-        room
     }
 }

@@ -38,7 +38,7 @@ impl Bounds {
         let face_reach = if particle.is_sphere() { f64::INFINITY } else { (1.0 / particle.plane_weight).sqrt() };
         let sphere_reach = (1.0 / particle.sphere_weight).sqrt();
         // f ≤ 0 implies n_i·x ≤ d_i + r/√(1−k) and |x| ≤ R/√k.
-        let face = |i: usize| (particle.normal(i), particle.d[i] + face_reach);
+        let face = |i: usize| (particle.normal(i), particle.offset(i) + face_reach);
         let all_faces = || (0..particle.plane_count()).map(face).collect::<Vec<_>>();
         let half = match sphere_reach {
             reach if reach.is_finite() => reach,
@@ -51,7 +51,7 @@ impl Bounds {
         (radius.is_finite() && radius > 0.0).then(|| Self {
             radius,
             corners: corners.into_iter().map(|c| c * MARGIN).collect(),
-            longest_offset: particle.d.iter().fold(0.0, |longest: f64, d| longest.max(d.abs())),
+            longest_offset: (0..particle.plane_count()).map(|i| particle.offset(i).abs()).fold(0.0, f64::max),
             longest_normal: (0..particle.plane_count()).map(|i| particle.normal(i).norm()).fold(0.0, f64::max),
             face_reach,
             s_origin: crate::potential::value(particle, &Vector3::zeros()).sqrt(),

@@ -8,8 +8,9 @@
 
 use crate::body::{Body, Planes};
 use crate::frame;
-use crate::model::{self, Response, Target};
-use crate::spine::{self, Ending, Outcome};
+use crate::model::Model;
+use crate::spine::{self, Ending, Expansion, Outcome};
+use crate::target::Target;
 use nalgebra::Vector3;
 
 /// Bound on |s − s*| for s = √(true S estimate), see [`scale`].
@@ -41,29 +42,28 @@ pub(crate) fn scale(outcome: &Outcome, a: &Body, b: &Body, target: Target) -> Ce
 /// rounding, each body's force a·∇S_A by the rounding of its direction. The answer of the optimum to each is
 /// a linear problem that is solved already, and the lengths are added. Elsewhere strong convexity bounds it:
 /// ½·curvature·distance² ≤ upper − lower.
-pub(crate) fn distance(outcome: &Outcome, a: &Body, b: &Body, target: Target) -> f64 {
+pub(crate) fn distance(outcome: &Outcome, expansion: Option<&Expansion>, a: &Body, b: &Body, target: Target) -> f64 {
     let weights = target.weights(outcome.lambda);
-    let soft = spine::softest(a, b);
-    let convexity = || {
+    let (Some(response), Some(expansion)) = (&outcome.response, expansion) else {
+        let soft = spine::softest(a, b);
         let excess = (outcome.upper - outcome.lower).max(0.0) + outcome.rounding;
-        (2.0 * excess / (weights.0 * soft.0 + weights.1 * soft.1)).sqrt()
+        return (2.0 * excess / (weights.0 * soft.0 + weights.1 * soft.1)).sqrt();
     };
-    let Some(expansion) = outcome.expansion.filter(|_| outcome.ending != Ending::Stuck) else { return convexity() };
-    let gradients = outcome.gradients.map(|g| expansion.to_axes(&g));
-    let (q_a, q_b) = (&expansion.q_a, &expansion.q_b);
-    let Some(response) = Response::of(q_a, q_b, soft, target, outcome.lambda, &gradients) else { return convexity() };
+    let (alpha, beta) = target.turning();
     let step = outcome.x - expansion.x;
-    let mut sum = 0.0;
-    for (i, (body, weight)) in [(a, weights.0), (b, weights.1)].into_iter().enumerate() {
+    let mut sum = response.unsolved();
+    for (i, (body, weight, rate)) in [(a, weights.0, alpha), (b, weights.1, beta)].into_iter().enumerate() {
         // A plane that moves in by its rounding raises S by 2wp and turns the slope by 2wn times that.
         let local = &expansion.locals[i];
-        let blur = local.blur;
+        let mut moved = 0.0;
         body.rows(local, |n, w, excess| {
             let depth = (excess + n.dot(&step)).max(0.0);
-            let mismatch = target.mismatch_of(i, 2.0 * w * depth);
-            sum += blur * response.distance(&expansion.to_axes(&(2.0 * weight * w * n)), mismatch);
+            moved += response.distance(&(2.0 * weight * w * expansion.to_axes(&n)), rate * 2.0 * w * depth);
         });
-        sum += weight * gradients[i].norm() * TURN * f64::EPSILON * response.per_slope(body.particle.dimensions) + blur;
+        // The force, rounded at either end of the step.
+        let force = weight * (outcome.gradients[i].norm() + [&expansion.q_a, &expansion.q_b][i].gradient.norm());
+        let turn = TURN * f64::EPSILON * response.per_slope(body.particle.dimensions);
+        sum += local.blur * (1.0 + moved) + force * turn;
     }
     // Carried along from the point of expansion, and rounded at the end.
     sum + TURN * f64::EPSILON * (step.norm() + outcome.x.norm())
@@ -91,23 +91,29 @@ pub(crate) fn judge(x: &Vector3<f64>, lambda: f64, s: f64, a: &Body, b: &Body, t
     loop {
         let axes = frame::aligned([a, b], weights, &locals);
         let (q_a, q_b) = (a.at(&locals[0], Some(&axes)), b.at(&locals[1], Some(&axes)));
-        let Some(model) = model::solve(&q_a, &q_b, spine::softest(a, b), target, lambda, 0.0) else {
+        let soft = spine::softest(a, b);
+        let Some(optimum) = Model::new(&q_a, &q_b, soft, target).solve(lambda, 0.0) else {
             break;
         };
-        let step = axes * model.step;
-        let [(planes_a, slope_a), (planes_b, slope_b)] =
-            [a.check(&mut locals[0], &step), b.check(&mut locals[1], &step)];
-        let slope = weights.0 * slope_a + weights.1 * slope_b;
-        let (soft_a, soft_b) = spine::softest(a, b);
-        let pulled = slope * slope / (weights.0 * soft_a + weights.1 * soft_b);
-        match [planes_a, planes_b] {
-            [Planes::Exact | Planes::Met, Planes::Exact | Planes::Met] => {
-                let expanded = target.dual_weighted(model.rounding.0, model.rounding.1, lambda);
-                lower = lower.max(model.lower - 2.0 * model.doubt - pulled - expanded);
+        let step = axes * optimum.step;
+        let verdicts = [a.check(&locals[0], &step), b.check(&locals[1], &step)];
+        match verdicts[0].planes.max(verdicts[1].planes) {
+            Planes::Exact | Planes::Met => {
+                let slope = weights.0 * verdicts[0].slope + weights.1 * verdicts[1].slope;
+                let pulled = slope * slope / (weights.0 * soft.0 + weights.1 * soft.1);
+                let expanded = target.dual_weighted(optimum.rounding(&q_a), optimum.rounding(&q_b), lambda);
+                let dual = target.dual(optimum.values.0, optimum.values.1, optimum.lambda);
+                lower = lower.max(dual - 2.0 * optimum.doubt(target, soft) - pulled - expanded);
                 break;
             }
-            verdict if verdict.contains(&Planes::Pulling) => break,
-            _ => {}
+            Planes::Pulling => break,
+            Planes::Dropped => {
+                for (local, verdict) in locals.iter_mut().zip(&verdicts) {
+                    if let Some(i) = verdict.drop {
+                        local.drop(i);
+                    }
+                }
+            }
         }
     }
     let gradients = [q_a.gradient, q_b.gradient];
@@ -121,6 +127,6 @@ pub(crate) fn judge(x: &Vector3<f64>, lambda: f64, s: f64, a: &Body, b: &Body, t
         rounding,
         iterations: 0,
         ending: Ending::Converged,
-        expansion: None,
+        response: None,
     }
 }

@@ -35,6 +35,13 @@ impl Flags {
     /// The gap exceeds the tolerance, because rounding allows no better.
     pub const ROUNDING_LIMITED: Self = Self(64);
 
+    /// Rejected: two balls that hold the particles do not meet.
+    pub const BY_SPHERES: Self = Self(128);
+    /// Rejected: one particle lies beyond a face of the other.
+    pub const BY_FACE: Self = Self(256);
+    /// Rejected: what separated the pair at the last call still does.
+    pub const BY_MEMORY: Self = Self(512);
+
     /// The bits, as in the C interface.
     pub const fn bits(self) -> u32 {
         self.0
@@ -43,6 +50,11 @@ impl Flags {
     /// Whether all bits of `other` are set.
     pub const fn contains(self, other: Self) -> bool {
         self.0 & other.0 == other.0
+    }
+
+    /// The bits of both.
+    pub(crate) const fn with(self, other: Self) -> Self {
+        Self(self.0 | other.0)
     }
 
     pub(crate) fn insert(&mut self, other: Self) {
@@ -61,7 +73,7 @@ pub struct Contact {
     pub back_end: BackEnd,
     /// What else is to be known.
     pub flags: Flags,
-    /// Evaluations (fast) or interior-point iterations (conic).
+    /// Pairs of quadratics solved (fast) or interior-point iterations (conic).
     pub iterations: u32,
     /// Midway: t. Closest: s_A at P2. Rejected: a proved lower bound, ≥ 1.
     pub s: f64,

@@ -1,17 +1,16 @@
 //! The whole of contact detection: reject, solve, prove, describe.
 
-use crate::body::Body;
-use crate::certificate::{self, Certified};
-use crate::conic::{self, ConicError, Role};
+use crate::certificate::Certified;
 use crate::contact::{Contact, Flags, Kind, LocalContact};
 use crate::memory::{Memory, Remembered};
-use crate::model::Target;
 use crate::pair::Pair;
 use crate::particle::Particle;
 use crate::pose::Pose;
 use crate::reject;
+use crate::search::{Answer, Search};
 use crate::settings::{BackEnd, Formulation, Settings, SettingsError};
-use crate::spine::{self, Ending, Expansion, Factorisation, Goal, Outcome, Start};
+use crate::spine::{Ending, Start};
+use crate::target::Target;
 use thiserror::Error;
 
 /// Why there is no answer.
@@ -26,6 +25,12 @@ pub enum DetectError {
         /// What stopped the last solver.
         conic: String,
     },
+}
+
+impl From<crate::conic::ConicError> for DetectError {
+    fn from(error: crate::conic::ConicError) -> Self {
+        Self::Failed { conic: error.to_string() }
+    }
 }
 
 /// Contact of A at `pose_a` with B at `pose_b`.
@@ -44,174 +49,86 @@ pub fn detect(
 ) -> Result<Contact, DetectError> {
     settings.validate()?;
     let pair = Pair::new(a, pose_a, b, pose_b);
-    let last = memory.as_deref().and_then(|m| m.last);
-    if !settings.solve_separated {
-        let overlapped = last.is_some_and(|last| last.overlapping);
-        if if overlapped { reject::balls_apart(&pair) } else { reject::proves_separation(&pair) } {
-            return Ok(Contact::separated(settings.formulation, 1.0));
-        }
+    let last = memory.as_deref().and_then(|memory| memory.last);
+    if !settings.solve_separated
+        && let Some(proof) = rejected(&pair, last)
+    {
+        return Ok(Contact { flags: proof, ..Contact::separated(settings.formulation, 1.0) });
     }
-    let mut search = Search::new(&pair, settings, last);
-    let midway = search.solve(Target::Midway, search.start, None)?;
+    let mut search = Search::new(&pair, settings);
+    let start = last.map(|last| Start { x: last.x, lambda: last.lambda, near: true });
+    if start.is_some() && settings.back_end == BackEnd::Fast {
+        search.flags.insert(Flags::WARM);
+    }
+    let mut midway = None;
+    search.midway(start, &mut midway)?;
+    let Some(midway) = midway else { unreachable!("an answer or an error") };
     let scale = search.certify(&midway, Target::Midway);
+    let separated = midway.outcome.ending == Ending::Separated;
     if let Some(memory) = memory {
-        let overlapping = midway.ending != Ending::Separated && scale.s < 1.0;
-        memory.last = Some(Remembered { x: midway.x, lambda: midway.lambda, overlapping });
+        let overlapping = !separated && scale.s < 1.0;
+        memory.last = Some(Remembered { x: midway.outcome.x, lambda: midway.outcome.lambda, overlapping });
     }
-    if midway.ending == Ending::Separated {
+    if separated {
         let mut contact = Contact::separated(settings.formulation, scale.s.max(1.0));
+        contact.flags.insert(search.flags);
         (contact.iterations, contact.back_end) = (search.iterations, search.answered);
         return Ok(contact);
     }
-    let kind = if scale.s < 1.0 { Kind::Overlapping } else { Kind::Separated };
-    search.describe(kind, &midway, scale, pose_a, pose_b)
+    let mut contact = Contact::separated(settings.formulation, scale.s);
+    contact.kind = if scale.s < 1.0 { Kind::Overlapping } else { Kind::Separated };
+    let local = describe(&mut search, settings, &pair, &midway, scale, &mut contact)?;
+    contact.flags = search.flags;
+    (contact.iterations, contact.back_end) = (search.iterations, search.answered);
+    contact.place(&local, &pair, pose_a, pose_b);
+    Ok(contact)
 }
 
-/// One call: the pair, what is asked, and what it has cost so far.
-struct Search<'a> {
-    pair: &'a Pair<'a>,
-    body_a: Body<'a>,
-    body_b: Body<'a>,
-    settings: &'a Settings,
-    start: Option<Start>,
-    iterations: u32,
-    flags: Flags,
-    answered: BackEnd,
+/// Whether a cheap proof of separation succeeds, and which one.
+fn rejected(pair: &Pair, last: Option<Remembered>) -> Option<Flags> {
+    let proofs = match last {
+        // Of a pair that overlapped, only the cheapest proof is worth a try.
+        Some(Remembered { overlapping: true, .. }) => reject::balls_apart(pair).then_some(Flags::BY_SPHERES),
+        Some(last) if reject::still_apart(pair, &last.x) => Some(Flags::BY_MEMORY),
+        _ => reject::proof_of_separation(pair),
+    };
+    proofs.map(|proof| proof.with(Flags::REJECTED))
 }
 
-impl<'a> Search<'a> {
-    fn new(pair: &'a Pair<'a>, settings: &'a Settings, last: Option<Remembered>) -> Self {
-        let (body_a, body_b) = Body::both(pair, settings.flat_regularisation);
-        let start = last.map(|last| Start { x: last.x, lambda: last.lambda, near: true });
-        let mut flags = Flags::default();
-        if start.is_some() && settings.back_end == BackEnd::Fast {
-            flags.insert(Flags::WARM);
+/// The geometry that the settings ask for, from the solution of midway; what else is known goes into `contact`.
+fn describe(
+    search: &mut Search,
+    settings: &Settings,
+    pair: &Pair,
+    midway: &Answer,
+    scale: Certified,
+    contact: &mut Contact,
+) -> Result<LocalContact, DetectError> {
+    let overlapping = contact.kind == Kind::Overlapping;
+    if settings.formulation == Formulation::Closest {
+        let (mut p1, mut p2) = (None, None);
+        let of_a = search.constrained(Target::OnB, Some(midway), &mut p2)?;
+        let of_b = if of_a.is_some() { search.constrained(Target::OnA, Some(midway), &mut p1)? } else { None };
+        if let (Some(of_a), Some(of_b), Some(p1), Some(p2)) = (of_a, of_b, &p1, &p2) {
+            (contact.s, contact.s_b) = (of_a.s, of_b.s);
+            contact.gap = of_a.gap.max(of_b.gap);
+            contact.point_bound = search.bound(p2, Target::OnB).max(search.bound(p1, Target::OnA));
+            contact.weight = share(p2.outcome.lambda);
+            let gradients = [p1.outcome.gradients[0], p2.outcome.gradients[1]];
+            let points = [&p1.outcome.x, &p2.outcome.x];
+            return Ok(LocalContact::closest(pair, points, &gradients, settings.weight_on_a, overlapping));
         }
-        Self { pair, body_a, body_b, settings, start, iterations: 0, flags, answered: settings.back_end }
+        search.flags.insert(Flags::SLACK);
+        contact.formulation = Formulation::Midway;
     }
+    contact.gap = scale.gap;
+    contact.weight = share(midway.outcome.lambda);
+    contact.point_bound = search.bound(midway, Target::Midway);
+    LocalContact::midway(pair, &midway.outcome.x, &midway.outcome.gradients, overlapping)
+        .ok_or_else(|| DetectError::Failed { conic: "the surface was not found along the normal".into() })
+}
 
-    /// The ladder: from the start at hand, cold, with the safer factorisation, and by the cone program.
-    fn solve(
-        &mut self,
-        target: Target,
-        start: Option<Start>,
-        mut left: Option<Expansion>,
-    ) -> Result<Outcome, DetectError> {
-        if self.settings.back_end == BackEnd::Fast {
-            let usual = spine::factorisation(&self.body_a, &self.body_b);
-            let mut rungs = [start.map(|s| (Some(s), usual)), Some((None, usual)), None];
-            if usual == Factorisation::Plain {
-                rungs[2] = Some((None, Factorisation::Aligned));
-            }
-            for (start, factorisation) in rungs.into_iter().flatten() {
-                let start = start.unwrap_or_else(|| spine::cold_start(self.pair, &self.body_a, &self.body_b));
-                let outcome =
-                    spine::solve(&self.body_a, &self.body_b, &self.goal(target), start, left.take(), factorisation);
-                self.iterations += outcome.iterations;
-                if outcome.ending != Ending::Stuck {
-                    if factorisation != usual {
-                        self.flags.insert(Flags::SAFER);
-                    }
-                    if outcome.ending == Ending::RoundingLimited {
-                        self.flags.insert(Flags::ROUNDING_LIMITED);
-                    }
-                    return Ok(outcome);
-                }
-            }
-            self.flags.insert(Flags::FELL_BACK);
-        }
-        self.answered = BackEnd::Conic;
-        self.conic(target).map_err(|error| DetectError::Failed { conic: error.to_string() })
-    }
-
-    fn conic(&mut self, target: Target) -> Result<Outcome, ConicError> {
-        let solution = match target {
-            Target::Midway => conic::midway(self.pair)?,
-            Target::OnB => conic::closest(self.pair, Role::B)?,
-            Target::OnA => conic::closest(self.pair, Role::A)?,
-        };
-        self.iterations += solution.iterations;
-        let u = solution.weight;
-        let outcome = certificate::judge(&solution.x, u / (1.0 - u), solution.s, &self.body_a, &self.body_b, target);
-        Ok(Outcome { iterations: solution.iterations, ..outcome })
-    }
-
-    fn goal(&self, target: Target) -> Goal {
-        Goal {
-            target,
-            tolerance: self.settings.gap_tolerance,
-            stop_when_separated: target == Target::Midway && !self.settings.solve_separated,
-        }
-    }
-
-    fn bound(&self, outcome: &Outcome, target: Target) -> f64 {
-        certificate::distance(outcome, &self.body_a, &self.body_b, target)
-    }
-
-    fn certify(&self, outcome: &Outcome, target: Target) -> Certified {
-        certificate::scale(outcome, &self.body_a, &self.body_b, target)
-    }
-
-    /// One of the two problems of closest, or `None` where its constraint is slack: the optimum is then the
-    /// minimum of the other particle, for k > 0 its centre, for k = 0 anywhere in its core, and no contact
-    /// point. Midway has no such case.
-    fn constrained(&mut self, target: Target, midway: &Outcome) -> Result<Option<(Outcome, Certified)>, DetectError> {
-        let centre_inside = match target {
-            Target::OnB => self.pair.b.potential(&self.pair.centre) < 0.0,
-            _ => self.pair.a.potential(&self.body_a.local(&self.body_b.centre())) < 0.0,
-        };
-        if centre_inside {
-            return Ok(None);
-        }
-        // It lies near midway on the same curve, mostly on the same planes.
-        let start = Start { x: midway.x, lambda: midway.lambda, near: true };
-        let outcome = self.solve(target, Some(start), midway.expansion)?;
-        let scale = self.certify(&outcome, target);
-        // A scale that cannot be told from 0 belongs to a core.
-        Ok((scale.s > scale.gap).then_some((outcome, scale)))
-    }
-
-    /// The geometry that the settings ask for, from the solution of midway.
-    fn describe(
-        mut self,
-        kind: Kind,
-        midway: &Outcome,
-        scale: Certified,
-        pose_a: &Pose,
-        pose_b: &Pose,
-    ) -> Result<Contact, DetectError> {
-        let overlapping = kind == Kind::Overlapping;
-        let mut contact = Contact { kind, ..Contact::separated(self.settings.formulation, scale.s) };
-        contact.gap = scale.gap;
-        contact.weight = midway.lambda / (1.0 + midway.lambda);
-        let mut local = None;
-        if self.settings.formulation == Formulation::Closest {
-            let on_b = self.constrained(Target::OnB, midway)?;
-            let on_a = if on_b.is_some() { self.constrained(Target::OnA, midway)? } else { None };
-            if let (Some((on_b, of_a)), Some((on_a, of_b))) = (on_b, on_a) {
-                (contact.s, contact.s_b) = (of_a.s, of_b.s);
-                contact.gap = of_a.gap.max(of_b.gap);
-                contact.point_bound = self.bound(&on_b, Target::OnB).max(self.bound(&on_a, Target::OnA));
-                contact.weight = on_b.lambda / (1.0 + on_b.lambda);
-                let gradients = [on_a.gradients[0], on_b.gradients[1]];
-                let weight = self.settings.weight_on_a;
-                local = Some(LocalContact::closest(self.pair, [&on_a.x, &on_b.x], &gradients, weight, overlapping));
-            } else {
-                self.flags.insert(Flags::SLACK);
-                contact.formulation = Formulation::Midway;
-            }
-        }
-        if local.is_none() {
-            contact.point_bound = self.bound(midway, Target::Midway);
-        }
-        let local = match local {
-            Some(local) => local,
-            None => LocalContact::midway(self.pair, &midway.x, &midway.gradients, overlapping)
-                .ok_or_else(|| DetectError::Failed { conic: "the surface was not found along the normal".into() })?,
-        };
-        contact.flags = self.flags;
-        (contact.iterations, contact.back_end) = (self.iterations, self.answered);
-        contact.place(&local, self.pair, pose_a, pose_b);
-        Ok(contact)
-    }
+/// The weight u of B from the ratio λ = u/(1−u).
+fn share(lambda: f64) -> f64 {
+    lambda / (1.0 + lambda)
 }

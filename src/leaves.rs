@@ -32,21 +32,25 @@ impl Leaves {
         (Self(leaves.into()), order.into())
     }
 
+    /// Whether there is but one group: it is cheaper to go through than to judge.
+    pub fn single(&self) -> bool {
+        self.0.len() <= 1
+    }
+
     /// Runs of planes that may have n·y − d > −`early`; no others have.
     pub fn near(&self, y: &Vector3<f64>, early: f64) -> impl Iterator<Item = Range<usize>> + '_ {
-        // A single group is cheaper to go through than to judge.
-        let single = self.0.len() <= 1;
         // The margin covers the rounding of the bound itself.
-        let (y, length) = (*y, if single { f64::INFINITY } else { y.norm() * (1.0 + 1e-14) });
+        let (y, length) = (*y, if self.single() { f64::INFINITY } else { y.norm() * (1.0 + 1e-14) });
         self.0.iter().filter(move |leaf| leaf.bound(&y, length) > -early).map(|leaf| leaf.planes.clone())
     }
+
     /// The largest of the numbers that `largest_of` gives for runs of planes, each with n·y − d; runs that cannot
     /// hold a larger one than is known already are left out.
     pub fn largest(&self, y: &Vector3<f64>, mut largest_of: impl FnMut(Range<usize>) -> (f64, usize)) -> (f64, usize) {
         let length = y.norm() * (1.0 + 1e-14);
         let mut largest = (f64::NEG_INFINITY, 0);
         for leaf in &self.0 {
-            if self.0.len() == 1 || leaf.bound(y, length) > largest.0 {
+            if self.single() || leaf.bound(y, length) > largest.0 {
                 let found = largest_of(leaf.planes.clone());
                 if found.0 > largest.0 {
                     largest = found;

@@ -14,13 +14,14 @@
 //! | [`settings`], [`memory`] | how to solve, and what a pair remembers |
 //! | [`pair`], `body` | two particles in one frame |
 //! | [`reject`] | cheap proofs of separation |
+//! | [`symmetric`], `target` | small matrices, and which point of two bodies is wanted |
 //! | `model` | two quadratics solved exactly: midway and both closest points on one curve |
 //! | `frame`, `line`, `spine` | the fast solver: Newton on that model, safe axes, safe steps |
 //! | `certificate` | how far an answer can be from the optimum |
 //! | [`conic`] | the paper's second-order cone programs through clarabel: the reference |
 //! | [`contact`] | point, normal, overlap from a solution |
 //! | [`area`] | the contact area, when asked for |
-//! | [`detect`] | the whole, on one screen |
+//! | `search`, [`detect`] | the ladder of solvers, and the whole on one screen |
 //! | [`planar`] | the same for particles of the plane |
 //! | [`ffi`] | the C interface |
 
@@ -45,9 +46,12 @@ pub mod planar;
 pub mod pose;
 pub mod potential;
 pub mod reject;
+mod search;
 pub mod settings;
 mod spine;
 pub mod surface;
+pub mod symmetric;
+mod target;
 
 pub use contact::{Contact, Flags, Kind};
 pub use detect::{DetectError, detect};

@@ -4,8 +4,8 @@
 //! merit is the larger of two sums of them.
 
 use crate::body::Body;
-use crate::model::{PRICE, Target};
 use crate::potential::OnLine;
+use crate::target::{PRICE, Target};
 use nalgebra::Vector3;
 
 /// Most trial points of one search; each costs less than an evaluation with Hessians.

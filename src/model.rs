@@ -1,82 +1,37 @@
 //! The two quadratics at a point, solved exactly: one step of the fast solver.
 //!
-//! For weights a, b ≥ 0 let v(λ), λ = b/a, minimise a·q_A + b·q_B. The curve v(λ) runs from the minimum of
-//! A (λ → 0) to that of B (λ → ∞); along it q_A grows and q_B falls. Midway is its point with q_A = q_B,
-//! the two closest points are those with q_B = 1 and q_A = 1: one search in one variable serves all three.
+//! For weights a, b ≥ 0 let v minimise a·q_A + b·q_B, that is H v = −g with H = a H_A + b H_B, g = a g_A + b g_B. As
+//! the weight θ of the target changes, v runs along a curve from the minimum of one particle to that of the other;
+//! the wanted point is where the mismatch m(θ) = c − (α q_A + β q_B) is zero, with α, β the rates of a, b and
+//! c = 0 for midway, 1 for the two closest points. One search in one variable serves all three.
+//!
+//! One factorisation of H gives the curve's whole Taylor series: with D = α H_A + β H_B and w₀ = α g_A + β g_B at v₀,
+//!
+//! ```text
+//! v(δ) = Σ δⁿ v_n,   v_n = −H⁻¹ w_{n−1},   w_n = D v_n,   m_n = −(n+1)/2 · v_i·w_j  for any i + j = n, i ≥ 1
+//! ```
+//!
+//! so that v₁ and v₂ give m to the fourth order, and each search multiplies the number of right digits by five.
 
 use crate::potential::Quadratic;
-use nalgebra::{Matrix3, Vector3};
+use crate::symmetric::{Factor, Symmetric};
+use crate::target::Target;
+use nalgebra::Vector3;
 
-/// Which point of the curve is wanted.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Target {
-    /// S_A = S_B: minimise the larger (paper eq. 44).
-    Midway,
-    /// S_B = 1: the point P2 on B closest to A, minimising S_A (paper eqs 9, 34).
-    OnB,
-    /// S_A = 1: the point P1 on A closest to B, minimising S_B.
-    OnA,
+/// The pair of quadratics and the target: what stays the same while λ is searched.
+pub(crate) struct Model<'a> {
+    q_a: &'a Quadratic,
+    q_b: &'a Quadratic,
+    /// Least curvatures of A and B in any direction (their spheres').
+    soft: (f64, f64),
+    target: Target,
+    /// D.
+    turning: Symmetric,
+    /// Rounding of the mismatch that comes from the values at the point of expansion.
+    noise: f64,
 }
 
-impl Target {
-    /// Weights (a, b) at λ.
-    pub fn weights(self, lambda: f64) -> (f64, f64) {
-        match self {
-            Self::Midway => (1.0 / (1.0 + lambda), lambda / (1.0 + lambda)),
-            Self::OnB => (1.0, lambda),
-            Self::OnA => (1.0 / lambda, 1.0),
-        }
-    }
-
-    /// The quantity being minimised, given both potentials: S_A, S_B or the larger. Infeasibility of the
-    /// constraint counts with a price above its multiplier (exact penalty).
-    pub fn merit(self, s_a: f64, s_b: f64, lambda: f64) -> f64 {
-        match self {
-            Self::Midway => s_a.max(s_b),
-            Self::OnB => s_a + PRICE * lambda * (s_b - 1.0).max(0.0),
-            Self::OnA => s_b + PRICE / lambda * (s_a - 1.0).max(0.0),
-        }
-    }
-
-    /// Value of the dual function: a lower bound of the optimum for every λ.
-    pub fn dual(self, s_a: f64, s_b: f64, lambda: f64) -> f64 {
-        let (a, b) = self.weights(lambda);
-        match self {
-            Self::Midway => a * s_a + b * s_b,
-            Self::OnB => s_a + b * (s_b - 1.0),
-            Self::OnA => a * (s_a - 1.0) + s_b,
-        }
-    }
-
-    /// Bound on the error of the dual value, from bounds on those of S_A and S_B.
-    pub fn dual_weighted(self, error_a: f64, error_b: f64, lambda: f64) -> f64 {
-        let (a, b) = self.weights(lambda);
-        a * error_a + b * error_b
-    }
-
-    /// Bound on the error of the merit, from bounds on those of S_A and S_B.
-    pub fn merit_rounding(self, error_a: f64, error_b: f64, lambda: f64) -> f64 {
-        match self {
-            Self::Midway => error_a.max(error_b),
-            Self::OnB => error_a + PRICE * lambda * error_b,
-            Self::OnA => error_b + PRICE / lambda * error_a,
-        }
-    }
-
-    /// The two numbers that are equal at the wanted point; the first grows with λ.
-    fn sides(self, q_a: f64, q_b: f64) -> (f64, f64) {
-        match self {
-            Self::Midway => (q_a, q_b),
-            Self::OnB => (1.0, q_b),
-            Self::OnA => (q_a, 1.0),
-        }
-    }
-}
-
-/// Price of infeasibility in units of the multiplier; anything above 1 makes the penalty exact.
-pub(crate) const PRICE: f64 = 2.0;
-
-/// Optimum of the two quadratics.
+/// Optimum of the two quadratics for a weight ratio λ.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Optimum {
     /// Step from the point of expansion.
@@ -84,23 +39,21 @@ pub(crate) struct Optimum {
     /// ∇S_A and ∇S_B there: a·g_A + b·g_B = 0. Where a stiff plane is on by less than rounding, only the
     /// model knows them.
     pub gradients: [Vector3<f64>; 2],
+    /// q_A and q_B there.
+    pub values: (f64, f64),
     /// Weight ratio λ = b/a.
     pub lambda: f64,
-    /// Dual value of the model: a lower bound of the whole problem while no active plane turns negative.
-    pub lower: f64,
-    /// Merit of the quadratics there.
-    pub upper: f64,
     /// Whether λ is as good as rounding allows.
     pub settled: bool,
-    /// How far `lower` may lie above the model's minimum, because the step is not solved exactly.
-    pub doubt: f64,
-    /// Rounding of S_A and S_B over the length of the step.
-    pub rounding: (f64, f64),
-    /// How fast the sides part with ln λ.
-    pub rate: f64,
+    /// Of H; at λ itself if `exact`, else very near.
+    factor: Factor,
+    exact: bool,
+    /// dv/dθ and dm/dθ.
+    along: Vector3<f64>,
+    rate: f64,
 }
 
-/// Most searches for λ; quadratic convergence needs a handful.
+/// Most searches for λ; a handful is enough where rounding does not interfere.
 const MOST_SEARCHES: usize = 40;
 
 /// λ stays in this range: beyond it one particle's weight is lost in rounding altogether.
@@ -110,248 +63,246 @@ const LAMBDA_RANGE: (f64, f64) = (1e-30, 1e30);
 /// reach the target at all.
 const FARTHEST: f64 = 1e6;
 
-/// A last change of ln λ, and mismatch of the sides, below this is carried over by derivatives: what is left
-/// out is its square.
-const EXTRAPOLATED: f64 = 1e-8;
+/// Largest share of the higher terms of the series in the first one at which the series is used at all: what is left
+/// out then is some 1e-3 of the mismatch.
+const NEAR: f64 = 0.1;
 
-/// Relative mismatch above which logarithms of the sides are taken.
-const LOGARITHMIC: f64 = 0.02;
+/// The same share at which what is left out, its fourth power, is below rounding.
+const VERY_NEAR: f64 = 3e-4;
+
+/// Slope relative to either force that is but rounding.
+const BALANCED: f64 = 16.0 * f64::EPSILON;
 
 /// Relative mismatch below which a search that no longer gains is at the end of its digits.
 const STALLING: f64 = 1e-9;
 
-/// Solves the pair of quadratics from the guess λ. `None` when a factorisation breaks down.
-///
-/// `soft` are the least curvatures of A and B in any direction (their spheres'), `enough` is a mismatch of the
-/// two sides below which the search may stop; 0 for as good as rounding allows.
-pub(crate) fn solve(
-    q_a: &Quadratic,
-    q_b: &Quadratic,
-    soft: (f64, f64),
-    target: Target,
-    guess: f64,
-    enough: f64,
-) -> Option<Optimum> {
-    let (h_a, h_b) = (Symmetric::of(&q_a.hessian), Symmetric::of(&q_b.hessian));
-    let mut lambda = guess.clamp(LAMBDA_RANGE.0, LAMBDA_RANGE.1);
-    let (mut low, mut high) = (lambda / FARTHEST, lambda * FARTHEST);
-    let mut last_mismatch = f64::INFINITY;
-    for search in 1..=MOST_SEARCHES {
-        let (a, b) = target.weights(lambda);
-        let least = a * soft.0 + b * soft.1;
-        let factor = Factor::of(&h_a.weighted(a, &h_b, b), least)?;
-        let step = -factor.solve(&(a * q_a.gradient + b * q_b.gradient));
-        let (bend_a, bend_b) = (h_a.times(&step), h_b.times(&step));
-        let s_a = q_a.expansion + step.dot(&(q_a.gradient + 0.5 * bend_a));
-        let s_b = q_b.expansion + step.dot(&(q_b.gradient + 0.5 * bend_b));
-        let (g_a, g_b) = (q_a.gradient + bend_a, q_b.gradient + bend_b);
-        let (growing, falling) = target.sides(s_a, s_b);
-        let mismatch = growing - falling;
-        if !(s_a.is_finite() && s_b.is_finite()) {
-            return None;
-        }
-        // To rounding; or Newton, which should square the mismatch, does not even halve it any more.
-        let larger = growing.max(falling);
-        let stalled = mismatch.abs() <= STALLING * larger && mismatch.abs() > 0.5 * last_mismatch;
-        let settled = mismatch.abs() <= 4.0 * f64::EPSILON * larger || stalled;
-        last_mismatch = mismatch.abs();
-        let optimum = |step: Vector3<f64>, lambda, (s_a, s_b): (f64, f64), gradients, settled| {
-            let length = step.norm();
-            let rounding = |q: &Quadratic, h: &Symmetric| {
-                2.0 * f64::EPSILON * (q.expansion + length * (q.gradient.norm() + length * h.size()))
+impl<'a> Model<'a> {
+    #[inline]
+    pub fn new(q_a: &'a Quadratic, q_b: &'a Quadratic, soft: (f64, f64), target: Target) -> Self {
+        let (alpha, beta) = target.turning();
+        let turning = q_a.hessian.weighted(alpha, &q_b.hessian, beta);
+        let (of_a, of_b) = target.changes(q_a.expansion, q_b.expansion);
+        Self { q_a, q_b, soft, target, turning, noise: 2.0 * f64::EPSILON * (of_a + of_b) }
+    }
+
+    /// Searches λ from a guess until the mismatch of the two sides is `enough`; 0 for as good as rounding allows.
+    /// `None` when a factorisation breaks down.
+    #[inline]
+    pub fn solve(&self, guess: f64, enough: f64) -> Option<Optimum> {
+        self.search(self.at(guess.clamp(LAMBDA_RANGE.0, LAMBDA_RANGE.1))?, enough)
+    }
+
+    /// Goes on from an optimum that was not settled.
+    #[inline]
+    pub fn settle(&self, rough: Optimum) -> Option<Optimum> {
+        let first = if rough.exact { rough } else { self.at(rough.lambda)? };
+        self.search(first, 0.0)
+    }
+
+    /// The optimum at a given λ.
+    #[inline]
+    fn at(&self, lambda: f64) -> Option<Optimum> {
+        let (a, b) = self.target.weights(lambda);
+        let h = self.q_a.hessian.weighted(a, &self.q_b.hessian, b);
+        let factor = Factor::of(&h, a * self.soft.0 + b * self.soft.1)?;
+        let step = -factor.solve(&(a * self.q_a.gradient + b * self.q_b.gradient));
+        let found = self.after(step, lambda, factor);
+        let (alpha, beta) = self.target.turning();
+        let w0 = alpha * found.gradients[0] + beta * found.gradients[1];
+        let along = -factor.solve(&w0);
+        Some(Optimum { along, rate: -w0.dot(&along), exact: true, ..found })
+    }
+
+    /// The quadratics after a step.
+    #[inline]
+    fn after(&self, step: Vector3<f64>, lambda: f64, factor: Factor) -> Optimum {
+        let gradients = [self.q_a, self.q_b].map(|q| q.gradient + q.hessian.times(&step));
+        let value = |q: &Quadratic, g: &Vector3<f64>| q.expansion + 0.5 * step.dot(&(q.gradient + g));
+        let values = (value(self.q_a, &gradients[0]), value(self.q_b, &gradients[1]));
+        let along = Vector3::zeros();
+        Optimum { step, gradients, values, lambda, settled: false, factor, exact: false, along, rate: 0.0 }
+    }
+
+    #[inline]
+    fn search(&self, first: Optimum, enough: f64) -> Option<Optimum> {
+        let mut found = first;
+        let (mut low, mut high) = (found.lambda / FARTHEST, found.lambda * FARTHEST);
+        let mut last = f64::INFINITY;
+        for _ in 0..MOST_SEARCHES {
+            let (growing, falling) = self.target.sides(found.values.0, found.values.1);
+            let (difference, larger) = (growing - falling, growing.max(falling));
+            if !difference.is_finite() {
+                return None;
+            }
+            // To rounding; or the search, which should do far better, does not even halve it any more.
+            let noise = self.noise + 4.0 * f64::EPSILON * larger;
+            let stalled = difference.abs() <= STALLING * larger && difference.abs() > 0.5 * last;
+            found.settled = difference.abs() <= noise || stalled;
+            if found.settled || difference.abs() <= enough {
+                return Some(found);
+            }
+            last = difference.abs();
+            if difference > 0.0 {
+                high = found.lambda;
+            } else {
+                low = found.lambda;
+            }
+            let weights = self.target.weights(found.lambda);
+            let next = match self.series(&found, difference, weights) {
+                Some(series) if series.share <= VERY_NEAR || (series.share <= NEAR && enough > 0.0) => {
+                    let further = self.along(&found, &series);
+                    let left = self.target.mismatch(further.values.0, further.values.1);
+                    let settled = series.share <= VERY_NEAR && left <= noise && self.is_balanced(&further);
+                    if settled || left <= enough {
+                        return Some(Optimum { settled, ..further });
+                    }
+                    series.lambda
+                }
+                Some(series) if series.share <= NEAR => series.lambda,
+                _ => self.far(&found, weights, growing, falling),
             };
-            let rounding = (rounding(q_a, &h_a), rounding(q_b, &h_b));
-            // With curvature of at least `least`, a remaining slope can hide this much.
-            let doubt = 0.5 * (a * g_a + b * g_b).norm_squared() / least;
-            let drift = factor.solve(&(a * b / (a + b) * (g_a - g_b)));
-            let (rate_growing, rate_falling) = target.rates(g_a.dot(&drift), g_b.dot(&drift));
-            let rate = rate_growing - rate_falling;
-            let (lower, upper) = (target.dual(s_a, s_b, lambda), target.merit(s_a, s_b, lambda));
-            Some(Optimum { step, gradients, lambda, lower, upper, settled, doubt, rounding, rate })
-        };
-        if mismatch.abs() <= enough || settled || search == MOST_SEARCHES {
-            return optimum(step, lambda, (s_a, s_b), [g_a, g_b], settled);
+            let next = if low < next && next < high { next } else { (low * high).sqrt() };
+            if next == found.lambda {
+                // No λ does better.
+                return Some(Optimum { settled: true, ..found });
+            }
+            found = self.at(next)?;
         }
-        if mismatch > 0.0 {
-            high = lambda
-        } else {
-            low = lambda
-        }
-        // d step / d ln λ, from a g_A + b g_B = 0 along the curve.
-        let drift = factor.solve(&(a * b / (a + b) * (g_a - g_b)));
-        let (rate_growing, rate_falling) = target.rates(g_a.dot(&drift), g_b.dot(&drift));
-        let rate = rate_growing - rate_falling;
-        // Far off, the logarithms of both sides are nearly linear in ln λ; near the root, the sides are.
-        let smaller = growing.min(falling);
-        let change = if mismatch.abs() > LOGARITHMIC * larger && smaller > 0.0 {
+        Some(found)
+    }
+
+    /// Root of m(δ) to the fourth order, by reversion of the series; `None` where it would move a weight by more
+    /// than half.
+    #[inline]
+    fn series(&self, found: &Optimum, difference: f64, (a, b): (f64, f64)) -> Option<Series> {
+        let (v1, inverse) = (&found.along, 1.0 / found.rate);
+        let w1 = self.turning.times(v1);
+        let v2 = -found.factor.solve(&w1);
+        let w2 = self.turning.times(&v2);
+        let (m2, m3, m4) = (-1.5 * v1.dot(&w1), -2.0 * v2.dot(&w1), -2.5 * v2.dot(&w2));
+        // m and the difference of the sides are the same number, but for the sign where λ falls as θ grows.
+        let mismatch = if self.target == Target::OnA { -difference } else { difference };
+        let y = -mismatch * inverse;
+        let (c2, c3, c4) = (m2 * inverse * y, m3 * inverse * y * y, m4 * inverse * y * y * y);
+        let delta = y * (1.0 - c2 + (2.0 * c2 * c2 - c3) + (5.0 * c2 * (c3 - c2 * c2) - c4));
+        let (alpha, beta) = self.target.turning();
+        let stays = (alpha * delta).abs() <= 0.5 * a && (beta * delta).abs() <= 0.5 * b;
+        let lambda = (b + beta * delta) / (a + alpha * delta);
+        stays.then_some(Series { delta, lambda, v2, w2, share: c2.abs() + c3.abs() + c4.abs() })
+    }
+
+    /// The optimum at the end of a series, without another factorisation.
+    #[inline]
+    fn along(&self, found: &Optimum, series: &Series) -> Optimum {
+        let v3 = -found.factor.solve(&series.w2);
+        let delta = series.delta;
+        let step = found.step + delta * (found.along + delta * (series.v2 + delta * v3));
+        Optimum { along: found.along, rate: found.rate, ..self.after(step, series.lambda, found.factor) }
+    }
+
+    /// Whether the slope a·g_A + b·g_B is zero to rounding. In a pair that is alike on both sides the terms of the mismatch
+    /// cancel and say nothing about those of the curve.
+    #[inline]
+    fn is_balanced(&self, found: &Optimum) -> bool {
+        let (a, _) = self.target.weights(found.lambda);
+        let force = a * a * (self.q_a.gradient.norm_squared() + found.gradients[0].norm_squared());
+        found.slope(self.target).norm_squared() <= BALANCED * BALANCED * force
+    }
+
+    /// The next λ where the series is of no use: far off, the logarithms of both sides are nearly linear in ln λ.
+    #[cold]
+    fn far(&self, found: &Optimum, weights: (f64, f64), growing: f64, falling: f64) -> f64 {
+        let per_logarithm = self.target.per_logarithm(weights);
+        let [rate_a, rate_b] = found.gradients.map(|g| per_logarithm * g.dot(&found.along));
+        let (rate_growing, rate_falling) = self.target.changes(rate_a, rate_b);
+        let change = if growing.min(falling) > 0.0 {
             (falling / growing).ln() / (rate_growing / growing - rate_falling / falling)
         } else {
-            -mismatch / rate
+            (falling - growing) / (rate_growing - rate_falling)
         };
-        if change.abs() <= EXTRAPOLATED && mismatch.abs() <= EXTRAPOLATED * growing.max(falling) {
-            let sides = (s_a + change * g_a.dot(&drift), s_b + change * g_b.dot(&drift));
-            let gradients = [g_a + change * h_a.times(&drift), g_b + change * h_b.times(&drift)];
-            return optimum(step + change * drift, lambda * (1.0 + change), sides, gradients, true);
-        }
-        let mut next =
-            if change.abs() < 0.1 { lambda * (1.0 + change) } else { lambda * change.clamp(-60.0, 60.0).exp() };
-        if !(low < next && next < high) {
-            next = (low * high).sqrt();
-        }
-        if next == lambda {
-            // No λ does better.
-            return optimum(step, lambda, (s_a, s_b), [g_a, g_b], true);
-        }
-        lambda = next;
+        found.lambda * change.clamp(-60.0, 60.0).exp()
     }
-    None
 }
 
-impl Target {
-    /// How far the two numbers are from being equal at the point of expansion.
-    pub fn mismatch(self, q_a: &Quadratic, q_b: &Quadratic) -> f64 {
-        let (growing, falling) = self.sides(q_a.expansion, q_b.expansion);
-        (growing - falling).abs()
+/// The way to the root along the series of the curve.
+struct Series {
+    /// Change of θ.
+    delta: f64,
+    /// λ after it.
+    lambda: f64,
+    v2: Vector3<f64>,
+    w2: Vector3<f64>,
+    /// Share of the higher terms in the first.
+    share: f64,
+}
+
+impl Optimum {
+    /// How far the dual value may lie above the model's minimum, because the step is not solved exactly: with
+    /// a curvature of at least `soft`, a remaining slope can hide this much.
+    pub fn doubt(&self, target: Target, soft: (f64, f64)) -> f64 {
+        let (a, b) = target.weights(self.lambda);
+        0.5 * self.slope(target).norm_squared() / (a * soft.0 + b * soft.1)
     }
 
-    /// What a change of S_A (0) or S_B (1) does to the difference of the two numbers.
-    pub fn mismatch_of(self, body: usize, change: f64) -> f64 {
-        match (self, body) {
-            (Self::OnB, 0) | (Self::OnA, 1) => 0.0,
-            _ => change,
-        }
+    /// a·g_A + b·g_B: zero but for rounding.
+    fn slope(&self, target: Target) -> Vector3<f64> {
+        let (a, b) = target.weights(self.lambda);
+        a * self.gradients[0] + b * self.gradients[1]
     }
 
-    fn rates(self, rate_a: f64, rate_b: f64) -> (f64, f64) {
-        match self {
-            Self::Midway => (rate_a, rate_b),
-            Self::OnB => (0.0, rate_b),
-            Self::OnA => (rate_a, 0.0),
-        }
+    /// Bound on the rounding of S of one body over the length of the step.
+    pub fn rounding(&self, q: &Quadratic) -> f64 {
+        let length = self.step.norm();
+        2.0 * f64::EPSILON * (q.expansion + length * (q.gradient.norm() + length * q.hessian.trace()))
+    }
+
+    /// How fast the sides part with ln λ.
+    pub fn rate(&self, target: Target) -> f64 {
+        self.rate * target.per_logarithm(target.weights(self.lambda))
+    }
+
+    /// How the optimum answers to small changes of the data.
+    pub fn response(&self, target: Target) -> Option<Response> {
+        (self.rate > 0.0).then(|| Response {
+            inverse: self.factor.inverse(),
+            along: self.along,
+            rate: self.rate,
+            slope: self.slope(target),
+        })
     }
 }
 
 /// How the optimum answers to small changes of the data: the derivative of the conditions
-/// a·g_A + b·g_B = 0 and "both sides are equal".
+/// a·g_A + b·g_B = 0 and m = 0.
+#[derive(Clone, Copy, Debug)]
 pub(crate) struct Response {
-    factor: Factor,
-    /// H⁻¹h, with h the gradient of the difference of the sides.
+    /// H⁻¹.
+    inverse: Symmetric,
+    /// dv/dθ = −H⁻¹w.
     along: Vector3<f64>,
-    /// hᵀH⁻¹h.
-    stiffness: f64,
+    /// dm/dθ = wᵀH⁻¹w.
+    rate: f64,
+    /// What is left of a·g_A + b·g_B.
+    slope: Vector3<f64>,
 }
 
 impl Response {
-    /// `gradients` are those at the optimum, in the axes of the quadratics.
-    pub fn of(
-        q_a: &Quadratic,
-        q_b: &Quadratic,
-        soft: (f64, f64),
-        target: Target,
-        lambda: f64,
-        gradients: &[Vector3<f64>; 2],
-    ) -> Option<Self> {
-        let (a, b) = target.weights(lambda);
-        let (h_a, h_b) = (Symmetric::of(&q_a.hessian), Symmetric::of(&q_b.hessian));
-        let factor = Factor::of(&h_a.weighted(a, &h_b, b), a * soft.0 + b * soft.1)?;
-        let [g_a, g_b] = gradients;
-        let h = match target {
-            Target::Midway => g_b - g_a,
-            Target::OnB => *g_b,
-            Target::OnA => -g_a,
-        };
-        let along = factor.solve(&h);
-        let stiffness = h.dot(&along);
-        (stiffness > 0.0).then_some(Self { factor, along, stiffness })
+    /// Length of the move of the optimum when the slope a·g_A + b·g_B changes by `slope` and α·q_A + β·q_B by
+    /// `value`.
+    #[inline]
+    pub fn distance(&self, slope: &Vector3<f64>, value: f64) -> f64 {
+        // H dv + w dθ = −slope and w·dv = −value.
+        let turned = (value + self.along.dot(slope)) / self.rate;
+        (self.along * turned - self.inverse.times(slope)).norm()
     }
 
-    /// Length of the move of the optimum when the slope a·g_A + b·g_B changes by `slope` and the difference of
-    /// the sides by `mismatch`.
-    pub fn distance(&self, slope: &Vector3<f64>, mismatch: f64) -> f64 {
-        let free = self.factor.solve(slope);
-        (free + self.along * ((mismatch - self.along.dot(slope)) / self.stiffness)).norm()
+    /// The move that would take away what is left of the slope.
+    pub fn unsolved(&self) -> f64 {
+        self.distance(&self.slope, 0.0)
     }
 
     /// Bound on the move per unit of slope, in whatever direction (in the plane: of its first two axes).
     pub fn per_slope(&self, dimensions: usize) -> f64 {
-        (0..dimensions).map(|axis| self.factor.solve(&Vector3::ith(axis, 1.0)).norm()).sum()
-    }
-}
-
-/// A symmetric 3×3 matrix by its lower half.
-#[derive(Clone, Copy)]
-struct Symmetric {
-    xx: f64,
-    yx: f64,
-    zx: f64,
-    yy: f64,
-    zy: f64,
-    zz: f64,
-}
-
-impl Symmetric {
-    fn of(m: &Matrix3<f64>) -> Self {
-        Self { xx: m.m11, yx: m.m21, zx: m.m31, yy: m.m22, zy: m.m32, zz: m.m33 }
-    }
-
-    fn weighted(&self, a: f64, other: &Self, b: f64) -> Self {
-        Self {
-            xx: a * self.xx + b * other.xx,
-            yx: a * self.yx + b * other.yx,
-            zx: a * self.zx + b * other.zx,
-            yy: a * self.yy + b * other.yy,
-            zy: a * self.zy + b * other.zy,
-            zz: a * self.zz + b * other.zz,
-        }
-    }
-
-    fn times(&self, v: &Vector3<f64>) -> Vector3<f64> {
-        Vector3::new(
-            self.xx * v.x + self.yx * v.y + self.zx * v.z,
-            self.yx * v.x + self.yy * v.y + self.zy * v.z,
-            self.zx * v.x + self.zy * v.y + self.zz * v.z,
-        )
-    }
-
-    /// The trace: for a positive semidefinite matrix a bound of its norm.
-    fn size(&self) -> f64 {
-        self.xx + self.yy + self.zz
-    }
-}
-
-/// L D Lᵀ of a symmetric positive definite 3×3 matrix, eliminated in the given order of axes: stiffest
-/// first keeps the softest direction to full relative precision.
-struct Factor {
-    l10: f64,
-    l20: f64,
-    l21: f64,
-    inverse_d: [f64; 3],
-}
-
-impl Factor {
-    /// `least` bounds the eigenvalues from below, and so every pivot: rounding may not take it further.
-    fn of(h: &Symmetric, least: f64) -> Option<Self> {
-        let i0 = 1.0 / h.xx.max(least);
-        let (l10, l20) = (h.yx * i0, h.zx * i0);
-        let i1 = 1.0 / (h.yy - l10 * h.yx).max(least);
-        let c21 = h.zy - l20 * h.yx;
-        let l21 = c21 * i1;
-        let i2 = 1.0 / (h.zz - l20 * h.zx - l21 * c21).max(least);
-        (least > 0.0 && i0.is_finite() && i1.is_finite() && i2.is_finite()).then_some(Self {
-            l10,
-            l20,
-            l21,
-            inverse_d: [i0, i1, i2],
-        })
-    }
-
-    fn solve(&self, r: &Vector3<f64>) -> Vector3<f64> {
-        let y0 = r.x;
-        let y1 = r.y - self.l10 * y0;
-        let y2 = r.z - self.l20 * y0 - self.l21 * y1;
-        let z = y2 * self.inverse_d[2];
-        let y = y1 * self.inverse_d[1] - self.l21 * z;
-        let x = y0 * self.inverse_d[0] - self.l10 * y - self.l20 * z;
-        Vector3::new(x, y, z)
+        (0..dimensions).map(|axis| self.inverse.times(&Vector3::ith(axis, 1.0)).norm()).sum()
     }
 }

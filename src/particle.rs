@@ -90,11 +90,8 @@ impl ParticleError {
 /// A validated potential particle, immutable; share it freely between threads and bodies.
 #[derive(Clone, Debug)]
 pub struct Particle {
-    /// Plane coefficients, one array each, in the order of `leaves`: the evaluation streams through them.
-    pub(crate) a: Box<[f64]>,
-    pub(crate) b: Box<[f64]>,
-    pub(crate) c: Box<[f64]>,
-    pub(crate) d: Box<[f64]>,
+    /// (a, b, c, d) of each plane, in the order of `leaves`: the evaluation streams through them.
+    rows: Box<[[f64; 4]]>,
     /// Coordinates that count: 3, or 2 where only the cut at z = 0 is meant ([`crate::planar`]).
     pub(crate) dimensions: usize,
     rounding_radius: f64,
@@ -155,10 +152,7 @@ impl Particle {
         }
         let (leaves, order) = Leaves::of(planes);
         let mut particle = Self {
-            a: order.iter().map(|&i| planes[i].normal.x).collect(),
-            b: order.iter().map(|&i| planes[i].normal.y).collect(),
-            c: order.iter().map(|&i| planes[i].normal.z).collect(),
-            d: order.iter().map(|&i| planes[i].offset).collect(),
+            rows: order.iter().map(|&i| row(&planes[i])).collect(),
             dimensions,
             rounding_radius: r,
             sphericity: k,
@@ -199,21 +193,21 @@ impl Particle {
 
     /// ∇²f(x), local frame, 1/length². Where a plane is just switching on, the side without it.
     pub fn hessian(&self, x: &Vector3<f64>) -> nalgebra::Matrix3<f64> {
-        potential::local(self, x).hessian
+        potential::local(self, x).hessian.matrix()
     }
 
     /// Planes as given.
     pub fn planes(&self) -> impl ExactSizeIterator<Item = Plane> {
-        let mut planes = vec![Plane { normal: Vector3::zeros(), offset: 0.0 }; self.a.len()];
+        let mut planes = vec![Plane { normal: Vector3::zeros(), offset: 0.0 }; self.rows.len()];
         for (place, &given) in self.order.iter().enumerate() {
-            planes[given] = Plane { normal: self.normal(place), offset: self.d[place] };
+            planes[given] = Plane { normal: self.normal(place), offset: self.offset(place) };
         }
         planes.into_iter()
     }
 
     /// Number of planes.
     pub fn plane_count(&self) -> usize {
-        self.a.len()
+        self.rows.len()
     }
 
     /// Rounding radius r, length.
@@ -241,19 +235,55 @@ impl Particle {
         &self.bounds.corners
     }
 
-    /// Place, normal and offset of each plane of a run.
+    /// Calls `visit` with place, normal n and excess n·y − d of each plane that may have an excess above −`early`; no
+    /// others have.
+    #[inline(always)]
+    pub(crate) fn visit_near(&self, y: &Vector3<f64>, early: f64, mut visit: impl FnMut(usize, Vector3<f64>, f64)) {
+        let mut each = |i, [a, b, c, d]: &[f64; 4]| visit(i, Vector3::new(*a, *b, *c), a * y.x + b * y.y + c * y.z - d);
+        if self.leaves.single() {
+            for (i, row) in self.rows.iter().enumerate() {
+                each(i, row);
+            }
+        } else {
+            for run in self.leaves.near(y, early) {
+                for (i, row) in run.clone().zip(&self.rows[run]) {
+                    each(i, row);
+                }
+            }
+        }
+    }
+
+    /// The largest n·y − d, and the place of its plane; −∞ when there are no planes.
     #[inline]
-    pub(crate) fn run(&self, run: std::ops::Range<usize>) -> impl Iterator<Item = (usize, [f64; 3], f64)> + '_ {
-        let (a, b, c, d) = (&self.a[run.clone()], &self.b[run.clone()], &self.c[run.clone()], &self.d[run.clone()]);
-        run.zip(a.iter().zip(b).zip(c).zip(d)).map(|(i, (((&a, &b), &c), &d))| (i, [a, b, c], d))
+    pub(crate) fn farthest_excess(&self, y: &Vector3<f64>) -> (f64, usize) {
+        let largest_of = |run: std::ops::Range<usize>| {
+            let mut largest = (f64::NEG_INFINITY, 0);
+            for (i, [a, b, c, d]) in run.clone().zip(&self.rows[run]) {
+                let excess = a * y.x + b * y.y + c * y.z - d;
+                if excess > largest.0 {
+                    largest = (excess, i);
+                }
+            }
+            largest
+        };
+        self.leaves.largest(y, largest_of)
     }
 
     pub(crate) fn normal(&self, i: usize) -> Vector3<f64> {
-        Vector3::new(self.a[i], self.b[i], self.c[i])
+        let [a, b, c, _] = self.rows[i];
+        Vector3::new(a, b, c)
+    }
+
+    pub(crate) fn offset(&self, i: usize) -> f64 {
+        self.rows[i][3]
     }
 
     /// S counts the planes only for k < 1, the sphere only for k > 0: one place says so.
     pub(crate) fn is_sphere(&self) -> bool {
-        self.plane_weight == 0.0 || self.a.is_empty()
+        self.plane_weight == 0.0 || self.rows.is_empty()
     }
+}
+
+fn row(plane: &Plane) -> [f64; 4] {
+    [plane.normal.x, plane.normal.y, plane.normal.z, plane.offset]
 }

@@ -4,7 +4,8 @@
 //! that value, gradient and Hessian at a point describe it exactly until a plane switches.
 
 use crate::particle::Particle;
-use nalgebra::{Matrix3, Vector3};
+use crate::symmetric::Symmetric;
+use nalgebra::Vector3;
 
 /// S near a point: S(x + h) = expansion + gradient·h + ½ hᵀ·hessian·h while the planes that are counted as
 /// active have n·(x + h) ≥ d, and no others.
@@ -17,10 +18,23 @@ pub struct Quadratic {
     /// ∇S(x), 1/length.
     pub gradient: Vector3<f64>,
     /// ∇²S(x), 1/length²; where a plane is just switching on, the side without it.
-    pub hessian: Matrix3<f64>,
+    pub hessian: Symmetric,
     /// 2(1-k)/r² · Σ ⟨n_i·x − d_i⟩: how fast S changes when every plane moves in by one unit of
     /// length. Times the rounding of a plane's distance it bounds the rounding of S.
     pub pull: f64,
+}
+
+/// S and ∇S at a point.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Tangent {
+    /// S.
+    pub value: f64,
+    /// ∇S, 1/length.
+    pub gradient: Vector3<f64>,
+    /// As in [`Quadratic`].
+    pub pull: f64,
+    /// 2(1-k)/r² · Σ |n_i| over the active planes: how far ∇S moves when every plane moves in by one unit of length.
+    pub stiffness: f64,
 }
 
 /// S on a line: value, slope and curvature at one point of it.
@@ -37,91 +51,87 @@ pub struct OnLine {
 /// S(y).
 pub fn value(particle: &Particle, y: &Vector3<f64>) -> f64 {
     let mut sum = 0.0;
-    for run in particle.leaves.near(y, 0.0) {
-        for (_, [a, b, c], d) in particle.run(run) {
-            let excess = (a * y.x + b * y.y + c * y.z - d).max(0.0);
-            sum += excess * excess;
-        }
-    }
+    particle.visit_near(y, 0.0, |_, _, excess| sum += excess.max(0.0) * excess.max(0.0));
     particle.plane_weight * sum + particle.sphere_weight * y.norm_squared()
 }
 
 /// S, ∇S, ∇²S at y, local frame.
 pub fn local(particle: &Particle, y: &Vector3<f64>) -> Quadratic {
-    in_frame(particle, particle.sphere_weight, &Matrix3::identity(), y, 0.0, |_, excess| excess > 0.0)
+    turned(particle, particle.sphere_weight, |n| n, y, 0.0, |_, excess| excess > 0.0)
 }
 
-/// S, ∇S, ∇²S at the local point y, with derivatives in the frame that `rotation` leads to (local to
-/// frame), and with a weight of the shadow sphere that may differ from the particle's own. `counts` says of a
+/// S, ∇S, ∇²S at the local point y, with derivatives in the frame that `turn` takes local directions to, and
+/// with a weight of the shadow sphere that may differ from the particle's own. `counts` says of a
 /// plane and its n·y − d whether it belongs to the quadratic; none below −`early` does.
 ///
-/// Each active normal is rotated before it is squared, not the finished Hessian: in a frame aligned
+/// Each active normal is turned before it is squared, not the finished Hessian: in a frame aligned
 /// with a face the stiff and the soft direction then stay apart to full relative precision.
-pub fn in_frame(
+#[inline]
+pub(crate) fn turned(
     particle: &Particle,
     sphere_weight: f64,
-    rotation: &Matrix3<f64>,
+    turn: impl Fn(Vector3<f64>) -> Vector3<f64>,
     y: &Vector3<f64>,
     early: f64,
     counts: impl Fn(usize, f64) -> bool,
 ) -> Quadratic {
     let (mut square, mut not_yet, mut linear) = (0.0, 0.0, 0.0);
     let mut g = Vector3::zeros();
-    let (mut xx, mut yy, mut zz, mut xy, mut yz, mut zx) = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
-    for run in particle.leaves.near(y, early) {
-        for (i, [a, b, c], d) in particle.run(run) {
-            let excess = a * y.x + b * y.y + c * y.z - d;
-            if counts(i, excess) {
-                let n = rotation * Vector3::new(a, b, c);
-                let reached = excess.max(0.0);
-                square += reached * reached;
-                not_yet += (excess - reached) * (excess - reached);
-                linear += reached;
-                g += excess * n;
-                xx += n.x * n.x;
-                yy += n.y * n.y;
-                zz += n.z * n.z;
-                xy += n.x * n.y;
-                yz += n.y * n.z;
-                zx += n.z * n.x;
-            }
+    let mut squares = Symmetric::default();
+    particle.visit_near(y, early, |i, n, excess| {
+        if counts(i, excess) {
+            let n = turn(n);
+            let reached = excess.max(0.0);
+            square += reached * reached;
+            not_yet += (excess - reached) * (excess - reached);
+            linear += reached;
+            g += excess * n;
+            squares.add_square(&n);
         }
-    }
+    });
     let (w2, m2) = (2.0 * particle.plane_weight, 2.0 * sphere_weight);
     let value = particle.plane_weight * square + sphere_weight * y.norm_squared();
     Quadratic {
         value,
         expansion: value + particle.plane_weight * not_yet,
-        gradient: w2 * g + m2 * (rotation * y),
-        hessian: Matrix3::new(
-            w2 * xx + m2,
-            w2 * xy,
-            w2 * zx, //
-            w2 * xy,
-            w2 * yy + m2,
-            w2 * yz, //
-            w2 * zx,
-            w2 * yz,
-            w2 * zz + m2,
-        ),
+        gradient: w2 * g + m2 * turn(*y),
+        hessian: squares.scaled(w2, m2),
         pull: w2 * linear,
+    }
+}
+
+/// S, ∇S at y, local frame.
+pub(crate) fn tangent(particle: &Particle, y: &Vector3<f64>) -> Tangent {
+    let (mut square, mut linear, mut count) = (0.0, 0.0, 0.0);
+    let mut g = Vector3::zeros();
+    particle.visit_near(y, 0.0, |_, n, excess| {
+        if excess > 0.0 {
+            square += excess * excess;
+            linear += excess;
+            count += 1.0;
+            g += excess * n;
+        }
+    });
+    let (w, m) = (particle.plane_weight, particle.sphere_weight);
+    Tangent {
+        value: w * square + m * y.norm_squared(),
+        gradient: 2.0 * (w * g + m * y),
+        pull: 2.0 * w * linear,
+        stiffness: 2.0 * w * count * particle.bounds.longest_normal,
     }
 }
 
 /// S, slope and curvature at y along the local direction `e` (any length; it sets the unit of α).
 pub fn on_line(particle: &Particle, sphere_weight: f64, y: &Vector3<f64>, e: &Vector3<f64>) -> OnLine {
     let (mut square, mut mixed, mut steep) = (0.0, 0.0, 0.0);
-    for run in particle.leaves.near(y, 0.0) {
-        for (_, [a, b, c], d) in particle.run(run) {
-            let excess = a * y.x + b * y.y + c * y.z - d;
-            let active = if excess > 0.0 { 1.0 } else { 0.0 };
-            let excess = excess * active;
-            let rate = a * e.x + b * e.y + c * e.z;
+    particle.visit_near(y, 0.0, |_, n, excess| {
+        if excess > 0.0 {
+            let rate = n.dot(e);
             square += excess * excess;
             mixed += excess * rate;
-            steep += active * rate * rate;
+            steep += rate * rate;
         }
-    }
+    });
     let (w, m) = (particle.plane_weight, sphere_weight);
     OnLine {
         value: w * square + m * y.norm_squared(),

@@ -5,12 +5,13 @@
 //! lower bound meet, and the answer is proved. A step that overshoots (a plane switched on behind x) is
 //! shortened by an exact search along it.
 
-use crate::body::{Body, Local, Planes};
+use crate::body::{Body, Local, Planes, Verdict};
 use crate::frame;
 use crate::line;
-use crate::model::{self, Optimum, Target};
+use crate::model::{Model, Optimum, Response};
 use crate::pair::Pair;
 use crate::potential::Quadratic;
+use crate::target::Target;
 use nalgebra::{Matrix3, Vector3};
 
 /// How the quadratics are factored.
@@ -37,6 +38,10 @@ const AS_SHARP: f64 = 8.0;
 
 /// Relative gap above which a proof is not taken for good at once.
 const SHARP: f64 = 1e-2;
+
+/// Share of what is still to be gained to which λ is searched, early on and after a step that failed.
+const ROUGH: f64 = 1e-2;
+const FINE: f64 = 1e-4;
 
 /// Iterations granted to sharpen what is proved already.
 const MOST_TO_ARRIVE: u32 = 5;
@@ -89,8 +94,15 @@ pub(crate) struct Outcome {
     pub rounding: f64,
     pub iterations: u32,
     pub ending: Ending,
-    /// The quadratics whose optimum this is.
-    pub expansion: Option<Expansion>,
+    /// How the optimum answers to changes of its data, where it is that of known quadratics.
+    pub response: Option<Response>,
+}
+
+impl Outcome {
+    /// Bound on the error of the optimal S.
+    fn gap(&self) -> f64 {
+        self.upper - self.lower + self.rounding
+    }
 }
 
 /// Why the solver stopped.
@@ -136,6 +148,13 @@ pub(crate) fn cold_start(pair: &Pair, a: &Body, b: &Body) -> Start {
 }
 
 impl Expansion {
+    /// At a point, with planes counting from their own blur.
+    pub fn at(bodies: [&Body; 2], start: &Start, target: Target, factorisation: Factorisation) -> Self {
+        let locals = bodies.map(|body| body.locate(&start.x, 0.0));
+        Self::of(bodies, start.x, locals, target.weights(start.lambda), factorisation)
+    }
+
+    #[inline]
     fn of(
         bodies: [&Body; 2],
         x: Vector3<f64>,
@@ -147,7 +166,8 @@ impl Expansion {
             Factorisation::Plain => None,
             Factorisation::Aligned => Some(frame::aligned(bodies, weights, &locals)),
         };
-        let [q_a, q_b] = [0, 1].map(|i| bodies[i].at(&locals[i], axes.as_ref()));
+        let q_a = bodies[0].at(&locals[0], axes.as_ref());
+        let q_b = bodies[1].at(&locals[1], axes.as_ref());
         Self { x, axes, locals, q_a, q_b }
     }
 
@@ -156,8 +176,12 @@ impl Expansion {
         self.axes.map_or(*v, |axes| axes.tr_mul(v))
     }
 
-    fn to_solver(&self, v: Vector3<f64>) -> Vector3<f64> {
-        self.axes.map_or(v, |axes| axes * v)
+    #[inline]
+    fn to_solver(&self, v: &Vector3<f64>) -> Vector3<f64> {
+        match &self.axes {
+            Some(axes) => axes * v,
+            None => *v,
+        }
     }
 
     /// Bounds on the rounding of S_A and S_B.
@@ -165,58 +189,103 @@ impl Expansion {
         (a.rounding(&self.locals[0], &self.q_a), b.rounding(&self.locals[1], &self.q_b))
     }
 
-    /// What `step` does to the planes of both quadratics.
-    ///
-    /// Also returned: how far the model's value may lie above a lower bound, should planes of doubtful sign pull.
-    fn check(a: &Body, b: &Body, step: &Vector3<f64>, locals: &mut [Local; 2], weights: (f64, f64)) -> (Planes, f64) {
-        let [of_a, of_b] = locals;
-        let ((planes_a, slope_a), (planes_b, slope_b)) = (a.check(of_a, step), b.check(of_b, step));
-        let slope = weights.0 * slope_a + weights.1 * slope_b;
-        let (soft_a, soft_b) = softest(a, b);
-        (planes_a.max(planes_b), slope * slope / (weights.0 * soft_a + weights.1 * soft_b))
-    }
-
     fn merit(&self, target: Target, lambda: f64) -> f64 {
         target.merit(self.q_a.value, self.q_b.value, lambda)
     }
+
+    /// The model's optimum here, and what its step does to the planes of A and of B.
+    ///
+    /// λ is good to `enough` where another plane is met or one pulls, and to rounding where the planes are right.
+    #[inline]
+    fn optimum(&self, bodies: [&Body; 2], target: Target, guess: f64, enough: f64) -> Option<Step> {
+        let model = Model::new(&self.q_a, &self.q_b, softest(bodies[0], bodies[1]), target);
+        let step = self.step(bodies, model.solve(guess, enough)?);
+        if step.planes == Planes::Exact && !step.optimum.settled {
+            return Some(self.step(bodies, model.settle(step.optimum)?));
+        }
+        Some(step)
+    }
+
+    #[inline]
+    fn step(&self, [a, b]: [&Body; 2], optimum: Optimum) -> Step {
+        let v = self.to_solver(&optimum.step);
+        let verdicts = [a.check(&self.locals[0], &v), b.check(&self.locals[1], &v)];
+        Step { optimum, v, verdicts, planes: verdicts[0].planes.max(verdicts[1].planes) }
+    }
+
+    /// The optimum that a step leads to, with its bounds.
+    fn outcome(&self, bodies: [&Body; 2], target: Target, step: &Step) -> Outcome {
+        let (optimum, soft, lambda) = (&step.optimum, softest(bodies[0], bodies[1]), step.optimum.lambda);
+        let (s_a, s_b) = optimum.values;
+        let lower = target.dual(s_a, s_b, lambda);
+        let upper = match step.planes {
+            Planes::Exact => target.merit(s_a, s_b, lambda),
+            _ => self.merit(target, lambda),
+        };
+        // Planes of doubtful sign may pull: the model's value may lie above a lower bound by this.
+        let weights = target.weights(lambda);
+        let slope = weights.0 * step.verdicts[0].slope + weights.1 * step.verdicts[1].slope;
+        let pulled = slope * slope / (weights.0 * soft.0 + weights.1 * soft.1);
+        // (x + y)² ≤ 2x² + 2y² for the two slopes in doubt.
+        let doubt = 2.0 * optimum.doubt(target, soft) + pulled;
+        let (of_a, of_b) = self.rounding(bodies[0], bodies[1]);
+        Outcome {
+            x: self.x + step.v,
+            lambda,
+            gradients: optimum.gradients.map(|g| self.to_solver(&g)),
+            estimate: lower,
+            lower,
+            upper,
+            rounding: doubt
+                + rounding(target, optimum, of_a + optimum.rounding(&self.q_a), of_b + optimum.rounding(&self.q_b)),
+            iterations: 0,
+            ending: Ending::Stuck,
+            response: optimum.response(target),
+        }
+    }
 }
 
-/// Solves for the goal from a start, or from quadratics that another problem of the same pair has left.
+/// A step to the optimum of the quadratics at a point.
+struct Step {
+    optimum: Optimum,
+    /// The step in the solver's frame.
+    v: Vector3<f64>,
+    verdicts: [Verdict; 2],
+    /// The worse of the two.
+    planes: Planes,
+}
+
+/// Solves for the goal, beginning with the quadratics in `here`; those of the answer are left there.
 pub(crate) fn solve(
     a: &Body,
     b: &Body,
     goal: &Goal,
-    start: Start,
-    left: Option<Expansion>,
+    start: &Start,
     factorisation: Factorisation,
+    here: &mut Expansion,
 ) -> Outcome {
-    let target = goal.target;
+    let (bodies, target) = ([a, b], goal.target);
     let reach = a.particle.bounding_radius().min(b.particle.bounding_radius());
+    // What the regularisation itself leaves open.
+    let flat = a.most_surplus(1.0).max(b.most_surplus(1.0));
     let mut lambda = start.lambda;
-    let expand = |x, lambda, locals| Expansion::of([a, b], x, locals, target.weights(lambda), factorisation);
-    let locate = |x: &Vector3<f64>, early| [a.locate(x, early), b.locate(x, early)];
-    let mut here = left.unwrap_or_else(|| expand(start.x, lambda, locate(&start.x, 0.0)));
     let mut thorough = start.near;
     let mut previous: Option<Attempt> = None;
-    let (mut proved, mut arriving) = (None::<Outcome>, 0);
+    let (mut proved, mut arriving) = (None::<(Outcome, Expansion)>, 0);
     let mut lower = f64::NEG_INFINITY;
-    let mut iterations = u32::from(left.is_none());
+    let mut iterations = 0;
     while iterations < MOST_ITERATIONS {
-        if let Some(attempt) = previous.filter(|_| !thorough) {
+        iterations += 1;
+        if let Some(attempt) = previous.as_ref().filter(|_| !thorough) {
             let merit = here.merit(target, attempt.lambda);
+            let enough = attempt.merit - 1e-4 * attempt.promised;
             // Two values of S cannot be told apart below their rounding.
-            let (of_a, of_b) = here.rounding(a, b);
-            let rounding = target.merit_rounding(of_a, of_b, attempt.lambda);
-            if merit > attempt.merit - 1e-4 * attempt.promised + rounding || !merit.is_finite() {
-                let descent = line::descend(a, b, target, attempt.lambda, &attempt.from, &attempt.step, (0.5, 1.0));
-                let x = attempt.from + descent.alpha * attempt.step;
-                let mut locals = locate(&x, descent.ahead * attempt.step.norm());
-                if (x - attempt.from).norm() <= attempt.locals[0].blur.max(attempt.locals[1].blur) {
-                    a.carry_dropped(&attempt.locals[0], &attempt.step, &mut locals[0]);
-                    b.carry_dropped(&attempt.locals[1], &attempt.step, &mut locals[1]);
-                }
-                here = expand(x, lambda, locals);
-                iterations += 1;
+            let rounding = || {
+                let (of_a, of_b) = here.rounding(a, b);
+                target.merit_rounding(of_a, of_b, attempt.lambda)
+            };
+            if !(merit <= enough || merit <= enough + rounding()) {
+                attempt.shorten(bodies, target, lambda, factorisation, here);
                 thorough = true;
             }
         }
@@ -224,78 +293,82 @@ pub(crate) fn solve(
         if !upper.is_finite() {
             break;
         }
-        // Early on a rough λ will do; near the end, and after a step that failed, nothing but the best.
+        // Where the planes are likely right, at once the best λ; else a rough one will do, but for a better one after
+        // a step that failed.
+        let share = match () {
+            () if start.near && iterations == 1 => 0.0,
+            () if thorough => FINE,
+            () => ROUGH,
+        };
         let behind = if target == Target::Midway { upper - lower } else { 0.0 };
-        let rough = (1e-2 * target.mismatch(&here.q_a, &here.q_b).max(behind)).min(1e-2 * upper);
-        let optimum = |guess, enough| model::solve(&here.q_a, &here.q_b, softest(a, b), target, guess, enough);
-        let Some(mut model) = optimum(lambda, if thorough { 0.0 } else { rough }) else { break };
-        let mut step = here.to_solver(model.step);
-        let mut locals = here.locals;
-        let (mut planes, mut pulled) = Expansion::check(a, b, &step, &mut locals, target.weights(model.lambda));
-        if planes == Planes::Exact && !model.settled {
-            // The right planes: now the exact optimum of their quadratics.
-            let Some(settled) = optimum(model.lambda, 0.0) else { break };
-            (model, step) = (settled, here.to_solver(settled.step));
-            (planes, pulled) = Expansion::check(a, b, &step, &mut locals, target.weights(model.lambda));
-        }
-        lambda = model.lambda;
-        if planes == Planes::Dropped {
-            here = expand(here.x, lambda, locals);
-            iterations += 1;
+        let mismatch = target.mismatch(here.q_a.expansion, here.q_b.expansion);
+        let enough = share * mismatch.max(behind).min(upper);
+        let Some(step) = here.optimum(bodies, target, lambda, enough) else { break };
+        lambda = step.optimum.lambda;
+        if step.planes == Planes::Dropped {
+            for (local, verdict) in here.locals.iter_mut().zip(&step.verdicts) {
+                if let Some(i) = verdict.drop {
+                    local.drop(i);
+                }
+            }
+            *here = Expansion::of(bodies, here.x, here.locals, target.weights(lambda), factorisation);
             (previous, thorough) = (None, false);
             continue;
         }
         let upper = here.merit(target, lambda);
-        let (of_a, of_b) = here.rounding(a, b);
-        let mut outcome = Outcome {
-            x: here.x + step,
-            lambda,
-            gradients: model.gradients.map(|g| here.to_solver(g)),
-            estimate: model.lower,
-            lower: model.lower,
-            upper: if planes == Planes::Exact { model.upper } else { upper },
-            // (x + y)² ≤ 2x² + 2y² for the two slopes in doubt.
-            rounding: 2.0 * model.doubt + pulled + rounding(target, &model, of_a, of_b),
-            iterations,
-            ending: Ending::Stuck,
-            expansion: Some(here),
-        };
-        lower = model.lower;
-        if goal.stop_when_separated && planes != Planes::Pulling && lower - outcome.rounding > 1.0 {
-            return Outcome { ending: Ending::Separated, ..outcome };
+        lower = target.dual(step.optimum.values.0, step.optimum.values.1, lambda);
+        if goal.stop_when_separated && lower > 1.0 && step.planes != Planes::Pulling {
+            let outcome = here.outcome(bodies, target, &step);
+            if lower - outcome.rounding > 1.0 {
+                return Outcome { ending: Ending::Separated, iterations, ..outcome };
+            }
         }
-        if planes == Planes::Exact && model.settled {
-            let gap = outcome.upper - outcome.lower + outcome.rounding;
+        if step.planes == Planes::Exact && step.optimum.settled {
+            let mut outcome = here.outcome(bodies, target, &step);
+            outcome.iterations = iterations;
+            let gap = outcome.gap();
             let precise = gap <= goal.tolerance * outcome.upper;
             outcome.ending = if precise { Ending::Converged } else { Ending::RoundingLimited };
+            if precise {
+                return outcome;
+            }
             // What rounding leaves at the optimum itself: no other point of expansion will do much better.
             let least = target.dual_weighted(
                 here.locals[0].least_rounding(&outcome.gradients[0]),
                 here.locals[1].least_rounding(&outcome.gradients[1]),
                 lambda,
             );
-            let sharp = gap <= AS_SHARP * least || step.norm() <= SHORT * reach;
-            if precise || (sharp && gap <= SHARP * outcome.upper) {
+            let sharp = gap <= AS_SHARP * least || step.v.norm() <= SHORT * reach;
+            if sharp && gap <= SHARP * outcome.upper {
                 return outcome;
             }
             // Proved, but over a long step; the same from nearby is sharper.
-            if proved.is_none_or(|old| outcome.rounding < old.rounding) {
-                proved = Some(outcome);
+            if proved.as_ref().is_none_or(|(old, _)| outcome.gap() < old.gap()) {
+                proved = Some((outcome, *here));
+            }
+        } else if flat > 0.0 && step.planes == Planes::Met && upper - lower <= flat {
+            // Inside both cores nothing but the regularisation tells one point from another.
+            let outcome = here.outcome(bodies, target, &step);
+            if proved.as_ref().is_none_or(|(old, _)| outcome.gap() < old.gap()) {
+                let ending = Ending::RoundingLimited;
+                proved = Some((Outcome { x: here.x, ending, response: None, ..outcome }, *here));
             }
         }
         arriving += u32::from(proved.is_some());
         if arriving > MOST_TO_ARRIVE {
             break;
         }
-        let promised = (upper - model.lower).max(0.0);
-        previous = Some(Attempt { from: here.x, locals: here.locals, step, lambda, merit: upper, promised });
+        let promised = (upper - lower).max(0.0);
+        let x = here.x + step.v;
+        previous = Some(Attempt { from: here.x, locals: here.locals, step: step.v, lambda, merit: upper, promised });
         thorough = false;
-        let x = here.x + step;
-        here = expand(x, lambda, locate(&x, 0.0));
-        iterations += 1;
+        *here = Expansion::of(bodies, x, [a.locate(&x, 0.0), b.locate(&x, 0.0)], target.weights(lambda), factorisation);
     }
     match proved {
-        Some(proved) => Outcome { iterations, ..proved },
+        Some((outcome, expansion)) => {
+            *here = expansion;
+            Outcome { iterations, ..outcome }
+        }
         None => Outcome {
             x: here.x,
             lambda,
@@ -306,21 +379,21 @@ pub(crate) fn solve(
             rounding: f64::INFINITY,
             iterations,
             ending: Ending::Stuck,
-            expansion: None,
+            response: None,
         },
     }
 }
 
-/// Bound on the effect of rounding on the optimum, from bounds on that of S_A and S_B at the expansion.
+/// Bound on the effect of rounding on the optimum, from bounds on that of S_A and S_B.
 ///
 /// An error in S_A or S_B moves the optimum by its weight, while the weights stay what they are; where the
 /// error itself decides about the weights, by no more than the whole of it.
-fn rounding(target: Target, model: &Optimum, of_a: f64, of_b: f64) -> f64 {
-    let (of_a, of_b) = (of_a + model.rounding.0, of_b + model.rounding.1);
-    let weighted = target.dual_weighted(of_a, of_b, model.lambda);
-    let whole = target.merit_rounding(of_a, of_b, model.lambda);
-    let swing = target.mismatch_of(0, of_a).max(target.mismatch_of(1, of_b)) / model.rate.abs();
-    if swing < 0.25 { weighted * (1.0 + 4.0 * swing) } else { whole.max(weighted) }
+fn rounding(target: Target, optimum: &Optimum, of_a: f64, of_b: f64) -> f64 {
+    let lambda = optimum.lambda;
+    let weighted = target.dual_weighted(of_a, of_b, lambda);
+    let (change_a, change_b) = target.changes(of_a, of_b);
+    let swing = change_a.max(change_b) / optimum.rate(target).abs();
+    if swing < 0.25 { weighted * (1.0 + 4.0 * swing) } else { target.merit_rounding(of_a, of_b, lambda).max(weighted) }
 }
 
 /// A step that was tried, to be shortened if it made things worse.
@@ -332,4 +405,28 @@ struct Attempt {
     lambda: f64,
     merit: f64,
     promised: f64,
+}
+
+impl Attempt {
+    /// Expands at the best point along the step instead.
+    #[cold]
+    fn shorten(
+        &self,
+        bodies: [&Body; 2],
+        target: Target,
+        lambda: f64,
+        factorisation: Factorisation,
+        here: &mut Expansion,
+    ) {
+        let [a, b] = bodies;
+        let descent = line::descend(a, b, target, self.lambda, &self.from, &self.step, (0.5, 1.0));
+        let x = self.from + descent.alpha * self.step;
+        let early = descent.ahead * self.step.norm();
+        let mut locals = [a.locate(&x, early), b.locate(&x, early)];
+        if (x - self.from).norm() <= self.locals[0].blur.max(self.locals[1].blur) {
+            a.carry_dropped(&self.locals[0], &self.step, &mut locals[0]);
+            b.carry_dropped(&self.locals[1], &self.step, &mut locals[1]);
+        }
+        *here = Expansion::of(bodies, x, locals, target.weights(lambda), factorisation);
+    }
 }

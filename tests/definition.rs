@@ -172,7 +172,7 @@ proptest! {
             let outward = at_a.rotate(&a.gradient(&at_a.to_local(&contact.point))).normalize();
             prop_assert!((contact.normal - outward).norm() < 1e-10, "{:e}", (contact.normal - outward).norm());
         }
-        prop_assert!(contact.gap * (contact.s + contact.gap) < 1e-7 * contact.s.max(1.0).powi(2), "s {} gap {}", contact.s, contact.gap);
+        prop_assert!(contact.gap * (contact.s + contact.gap) < 1e-7 * contact.s.max(1.0).powi(2), "{contact:?}");
     }
 
     #[test]

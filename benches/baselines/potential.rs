@@ -23,7 +23,7 @@ pub trait Potential {
 impl Potential for &Particle {
     fn at(&self, y: &Vector3<f64>) -> Expansion {
         let q = potential::local(self, y);
-        Expansion { f: q.value - 1.0, gradient: q.gradient, hessian: q.hessian }
+        Expansion { f: q.value - 1.0, gradient: q.gradient, hessian: q.hessian.matrix() }
     }
 
     fn length(&self) -> f64 {

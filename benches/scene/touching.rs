@@ -85,7 +85,7 @@ impl Touching {
 
     /// Whether a cheap test proves the separation.
     pub fn is_rejected(&self) -> bool {
-        reject::proves_separation(&Pair::new(&self.a, &self.pose_a, &self.b, &self.pose_b))
+        reject::proof_of_separation(&Pair::new(&self.a, &self.pose_a, &self.b, &self.pose_b)).is_some()
     }
 
     fn placed(a: Particle, b: Particle, pose_a: Pose, pose_b: Pose, random: &mut Random) -> Self {

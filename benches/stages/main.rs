@@ -71,7 +71,7 @@ fn rejects(c: &mut Criterion, pairs: &[Touching], random: &mut Random) {
     for (name, pairs) in [("test by spheres", &by_spheres), ("test by a face", &by_faces)] {
         walk(c, "reject", name, pairs, |pair| {
             let pair = Pair::new(&pair.a, &pair.pose_a, &pair.b, &pair.pose_b);
-            reject::proves_separation(&pair)
+            reject::proof_of_separation(&pair)
         });
     }
     walk(c, "reject", "call, by spheres", &by_spheres, |pair| contact(pair, Formulation::Midway));

@@ -134,7 +134,7 @@ impl Program {
             for i in 0..planes {
                 let n = particle.normal(i);
                 let norm = n.norm();
-                let slack = particle.d[i] - n.dot(&origins[side]);
+                let slack = particle.offset(i) - n.dot(&origins[side]);
                 if slack > norm * reach {
                     continue;
                 }

@@ -31,6 +31,12 @@ pub const PP_FLAG_SAFER: u32 = 16;
 pub const PP_FLAG_FELL_BACK: u32 = 32;
 /// The gap is above the tolerance asked for: rounding allows no better. It is still a bound.
 pub const PP_FLAG_ROUNDING_LIMITED: u32 = 64;
+/// Rejected by balls: two that hold the particles do not meet.
+pub const PP_FLAG_BY_SPHERES: u32 = 128;
+/// Rejected by a face: one particle lies beyond a face of the other.
+pub const PP_FLAG_BY_FACE: u32 = 256;
+/// Rejected from memory: what separated the pair at the last call still does.
+pub const PP_FLAG_BY_MEMORY: u32 = 512;
 
 /// Where a body is: world = rotation(orientation) * local + position.
 #[repr(C)]
