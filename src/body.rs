@@ -25,6 +25,9 @@ pub(crate) struct Body<'a> {
 /// solutions, whose worst error stays ten times below.
 const ROUNDING: f64 = 4.0;
 
+/// Rounding of a depth, relative to the terms of its sum.
+const DOUBT: f64 = 8.0 * f64::EPSILON;
+
 /// Most planes that one model may drop at a point.
 const MOST_DROPPED: usize = 8;
 
@@ -143,6 +146,8 @@ impl<'a> Body<'a> {
         let (mut met, mut pulling, mut doubtful) = (false, false, 0.0);
         // Planes of the quadratic are near y, planes that are met near y + e: no other is near either.
         let far = if p.leaves.single() { 0.0 } else { local.early.max(p.bounds.longest_normal * e.norm()) };
+        // The rounding of no depth exceeds this and that of the excess.
+        let doubt = DOUBT * p.bounds.longest_normal * (e.x.abs() + e.y.abs() + e.z.abs());
         p.visit_near(&y, far, |i, n, excess| {
             let terms = n.component_mul(&e);
             let depth = excess + (terms.x + terms.y + terms.z);
@@ -150,11 +155,13 @@ impl<'a> Body<'a> {
                 met |= depth > blur;
                 return;
             }
+            if depth >= doubt + DOUBT * excess.abs() {
+                return;
+            }
             let size = excess.abs() + terms.x.abs() + terms.y.abs() + terms.z.abs();
-            let doubt = 8.0 * f64::EPSILON * size;
-            if depth >= doubt {
-            } else if depth >= -doubt {
-                doubtful += doubt;
+            let doubt = DOUBT * size;
+            if depth >= -doubt {
+                doubtful += if depth < doubt { doubt } else { 0.0 };
             } else if excess > blur {
                 pulling = true;
             } else if worst.is_none_or(|(_, most)| depth < most) {
@@ -187,12 +194,13 @@ impl<'a> Body<'a> {
         }
     }
 
-    /// Calls `visit` with the (solver frame) normal, the weight and n·x − d of each plane of the quadratic.
-    pub fn rows(&self, local: &Local, mut visit: impl FnMut(Vector3<f64>, f64, f64)) {
+    /// Calls `visit` with the (solver frame) normal and n·x − d of each plane of the quadratic.
+    #[inline]
+    pub fn rows(&self, local: &Local, mut visit: impl FnMut(Vector3<f64>, f64)) {
         let y = &local.y;
         self.particle.visit_near(y, local.early, |i, n, excess| {
             if local.counts(i, excess) {
-                visit(if self.turned { self.rotation * n } else { n }, self.particle.plane_weight, excess);
+                visit(if self.turned { self.rotation * n } else { n }, excess);
             }
         });
     }
@@ -202,6 +210,11 @@ impl<'a> Body<'a> {
         let blur = local.blur;
         let planes = (q.pull + q.gradient.norm()) * blur + self.particle.plane_weight * blur * blur;
         planes + ROUNDING * f64::EPSILON * q.value
+    }
+
+    /// Weights of the planes and of the shadow sphere in (regularised) S.
+    pub fn weights(&self) -> (f64, f64) {
+        (self.particle.plane_weight, self.sphere_weight)
     }
 
     /// Largest curvature that one plane can give S.

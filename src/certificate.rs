@@ -42,28 +42,23 @@ pub(crate) fn scale(outcome: &Outcome, a: &Body, b: &Body, target: Target) -> Ce
 /// rounding, each body's force a·∇S_A by the rounding of its direction. The answer of the optimum to each is
 /// a linear problem that is solved already, and the lengths are added. Elsewhere strong convexity bounds it:
 /// ½·curvature·distance² ≤ upper − lower.
-pub(crate) fn distance(outcome: &Outcome, expansion: Option<&Expansion>, a: &Body, b: &Body, target: Target) -> f64 {
+pub(crate) fn distance(outcome: &Outcome, expansion: &Expansion, a: &Body, b: &Body, target: Target) -> f64 {
     let weights = target.weights(outcome.lambda);
-    let (Some(response), Some(expansion)) = (&outcome.response, expansion) else {
+    let Some(response) = &outcome.response else {
         let soft = spine::softest(a, b);
         let excess = (outcome.upper - outcome.lower).max(0.0) + outcome.rounding;
         return (2.0 * excess / (weights.0 * soft.0 + weights.1 * soft.1)).sqrt();
     };
-    let (alpha, beta) = target.turning();
     let step = outcome.x - expansion.x;
+    let turn = TURN * f64::EPSILON * response.per_slope(a.particle.dimensions);
     let mut sum = response.unsolved();
-    for (i, (body, weight, rate)) in [(a, weights.0, alpha), (b, weights.1, beta)].into_iter().enumerate() {
-        // A plane that moves in by its rounding raises S by 2wp and turns the slope by 2wn times that.
-        let local = &expansion.locals[i];
-        let mut moved = 0.0;
-        body.rows(local, |n, w, excess| {
-            let depth = (excess + n.dot(&step)).max(0.0);
-            moved += response.distance(&(2.0 * weight * w * expansion.to_axes(&n)), rate * 2.0 * w * depth);
-        });
+    for (i, (body, q, weight)) in
+        [(a, &expansion.q_a, weights.0), (b, &expansion.q_b, weights.1)].into_iter().enumerate()
+    {
+        let planes = response.to_planes(i, q, target, outcome.lambda, body.weights());
         // The force, rounded at either end of the step.
-        let force = weight * (outcome.gradients[i].norm() + [&expansion.q_a, &expansion.q_b][i].gradient.norm());
-        let turn = TURN * f64::EPSILON * response.per_slope(body.particle.dimensions);
-        sum += local.blur * (1.0 + moved) + force * turn;
+        let force = weight * (outcome.gradients[i].norm() + q.gradient.norm());
+        sum += expansion.locals[i].blur * (1.0 + planes) + force * turn;
     }
     // Carried along from the point of expansion, and rounded at the end.
     sum + TURN * f64::EPSILON * (step.norm() + outcome.x.norm())

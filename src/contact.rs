@@ -3,6 +3,7 @@
 use crate::pair::Pair;
 use crate::pose::Pose;
 use crate::settings::{BackEnd, Formulation};
+use crate::spine::Outcome;
 use crate::surface;
 use nalgebra::Vector3;
 
@@ -113,11 +114,24 @@ pub(crate) struct LocalContact {
 
 impl LocalContact {
     /// Midway: normal from both unit gradients at P3, surface points along it from there.
-    pub fn midway(pair: &Pair, x: &Vector3<f64>, gradients: &[Vector3<f64>; 2], overlapping: bool) -> Option<Self> {
+    ///
+    /// `curvatures` gives the second derivatives of S_A and S_B along the normal: on the quadratics at P3 the surface
+    /// is a square root away.
+    pub fn midway(
+        pair: &Pair,
+        outcome: &Outcome,
+        curvatures: impl Fn(&Vector3<f64>) -> [f64; 2],
+        overlapping: bool,
+    ) -> Option<Self> {
+        let (x, gradients) = (&outcome.x, &outcome.gradients);
         let (normal, normal_by_centres) = normal(pair, gradients);
         let surface = if overlapping {
-            let to_a = surface::distance(pair.a, &pair.in_a(x), &pair.rotation.tr_mul(&normal))?;
-            let to_b = surface::distance(pair.b, x, &-normal)?;
+            let bend = curvatures(&normal);
+            let missing = outcome.estimate - 1.0;
+            let guess_a = surface::root_of_piece(missing, gradients[0].dot(&normal), bend[0]);
+            let guess_b = surface::root_of_piece(missing, -gradients[1].dot(&normal), bend[1]);
+            let to_a = surface::distance_near(pair.a, &pair.in_a(x), &pair.rotation.tr_mul(&normal), guess_a)?;
+            let to_b = surface::distance_near(pair.b, x, &-normal, guess_b)?;
             Some((x + to_a * normal, x - to_b * normal, to_a + to_b))
         } else {
             None

@@ -60,9 +60,7 @@ pub fn detect(
     if start.is_some() && settings.back_end == BackEnd::Fast {
         search.flags.insert(Flags::WARM);
     }
-    let mut midway = None;
-    search.midway(start, &mut midway)?;
-    let Some(midway) = midway else { unreachable!("an answer or an error") };
+    let midway = search.midway(start)?;
     let scale = search.certify(&midway, Target::Midway);
     let separated = midway.outcome.ending == Ending::Separated;
     if let Some(memory) = memory {
@@ -106,10 +104,9 @@ fn describe(
 ) -> Result<LocalContact, DetectError> {
     let overlapping = contact.kind == Kind::Overlapping;
     if settings.formulation == Formulation::Closest {
-        let (mut p1, mut p2) = (None, None);
-        let of_a = search.constrained(Target::OnB, Some(midway), &mut p2)?;
-        let of_b = if of_a.is_some() { search.constrained(Target::OnA, Some(midway), &mut p1)? } else { None };
-        if let (Some(of_a), Some(of_b), Some(p1), Some(p2)) = (of_a, of_b, &p1, &p2) {
+        let p2 = search.constrained(Target::OnB, Some(midway))?;
+        let p1 = if p2.is_some() { search.constrained(Target::OnA, Some(midway))? } else { None };
+        if let (Some((p2, of_a)), Some((p1, of_b))) = (&p2, &p1) {
             (contact.s, contact.s_b) = (of_a.s, of_b.s);
             contact.gap = of_a.gap.max(of_b.gap);
             contact.point_bound = search.bound(p2, Target::OnB).max(search.bound(p1, Target::OnA));
@@ -124,7 +121,7 @@ fn describe(
     contact.gap = scale.gap;
     contact.weight = share(midway.outcome.lambda);
     contact.point_bound = search.bound(midway, Target::Midway);
-    LocalContact::midway(pair, &midway.outcome.x, &midway.outcome.gradients, overlapping)
+    LocalContact::midway(pair, &midway.outcome, |n| midway.expansion.curvatures(n), overlapping)
         .ok_or_else(|| DetectError::Failed { conic: "the surface was not found along the normal".into() })
 }
 

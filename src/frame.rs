@@ -30,9 +30,10 @@ pub(crate) fn aligned(bodies: [&Body; 2], weights: (f64, f64), locals: &[Local; 
 fn stiffest(bodies: [(&Body, &Local, f64); 2], remainder: impl Fn(Vector3<f64>) -> Vector3<f64>) -> Vector3<f64> {
     let (mut best, mut most) = (Vector3::zeros(), 0.0);
     for (body, local, scale) in bodies {
-        body.rows(local, |n, weight, _| {
+        let weight = scale * body.plane_curvature();
+        body.rows(local, |n, _| {
             let rest = remainder(n);
-            let stiffness = scale * weight * rest.norm_squared();
+            let stiffness = weight * rest.norm_squared();
             if stiffness > most && rest.norm_squared() > PARALLEL * n.norm_squared() {
                 (best, most) = (rest, stiffness);
             }

@@ -268,6 +268,7 @@ impl Optimum {
             along: self.along,
             rate: self.rate,
             slope: self.slope(target),
+            values: self.values.into(),
         })
     }
 }
@@ -284,25 +285,55 @@ pub(crate) struct Response {
     rate: f64,
     /// What is left of a·g_A + b·g_B.
     slope: Vector3<f64>,
+    /// q_A and q_B.
+    values: [f64; 2],
 }
 
 impl Response {
-    /// Length of the move of the optimum when the slope a·g_A + b·g_B changes by `slope` and α·q_A + β·q_B by
-    /// `value`.
-    #[inline]
-    pub fn distance(&self, slope: &Vector3<f64>, value: f64) -> f64 {
-        // H dv + w dθ = −slope and w·dv = −value.
-        let turned = (value + self.along.dot(slope)) / self.rate;
-        (self.along * turned - self.inverse.times(slope)).norm()
+    /// The move that would take away what is left of the slope: M·slope, with
+    ///
+    /// ```text
+    /// M = (along ⊗ along)/rate − H⁻¹
+    /// ```
+    pub fn unsolved(&self) -> f64 {
+        self.of_slope().times(&self.slope).norm()
     }
 
-    /// The move that would take away what is left of the slope.
-    pub fn unsolved(&self) -> f64 {
-        self.distance(&self.slope, 0.0)
+    fn of_slope(&self) -> Symmetric {
+        let mut squares = Symmetric::default();
+        squares.add_square(&self.along);
+        squares.weighted(1.0 / self.rate, &self.inverse, -1.0)
+    }
+
+    /// Bound on the moves, summed, when each plane of A (0) or B (1) moves by one unit of length.
+    ///
+    /// A plane with depth p turns the slope by 2wn and raises S by 2wp, and the optimum answers with
+    /// 2w·(a·M n + along·α·p/rate). By Cauchy's inequality Σ|M n| ≤ √(m·tr(M N M)), with N = Σ n nᵀ from the Hessian,
+    /// and Σp ≤ √(m·S/w), so that no plane is looked at again.
+    pub fn to_planes(&self, body: usize, q: &Quadratic, target: Target, lambda: f64, weights: (f64, f64)) -> f64 {
+        let (plane_weight, sphere_weight) = weights;
+        if plane_weight == 0.0 || q.count == 0 {
+            return 0.0;
+        }
+        let ((a, b), (alpha, beta)) = (target.weights(lambda), target.turning());
+        let (weight, rate) = if body == 0 { (a, alpha) } else { (b, beta) };
+        let (m, n) = (self.of_slope(), q.hessian.scaled(1.0, -2.0 * sphere_weight));
+        // 2w·tr(M N M).
+        let first = m.times(&Vector3::new(m.xx, m.yx, m.zx));
+        let second = m.times(&Vector3::new(m.yx, m.yy, m.zy));
+        let third = m.times(&Vector3::new(m.zx, m.zy, m.zz)).z;
+        let spread =
+            first.x * n.xx + second.y * n.yy + third * n.zz + 2.0 * (first.y * n.yx + first.z * n.zx + second.z * n.zy);
+        let count = f64::from(q.count);
+        let turned = weight * (2.0 * plane_weight * count * spread.max(0.0)).sqrt();
+        let raised = rate.abs() / self.rate * self.along.norm() * (count * plane_weight * self.values[body]).sqrt();
+        turned + 2.0 * raised
     }
 
     /// Bound on the move per unit of slope, in whatever direction (in the plane: of its first two axes).
     pub fn per_slope(&self, dimensions: usize) -> f64 {
-        (0..dimensions).map(|axis| self.inverse.times(&Vector3::ith(axis, 1.0)).norm()).sum()
+        let g = &self.inverse;
+        let columns = [(g.xx, g.yx, g.zx), (g.yx, g.yy, g.zy), (g.zx, g.zy, g.zz)];
+        columns[..dimensions].iter().map(|(x, y, z)| (x * x + y * y + z * z).sqrt()).sum()
     }
 }

@@ -22,6 +22,8 @@ pub struct Quadratic {
     /// 2(1-k)/r² · Σ ⟨n_i·x − d_i⟩: how fast S changes when every plane moves in by one unit of
     /// length. Times the rounding of a plane's distance it bounds the rounding of S.
     pub pull: f64,
+    /// Planes that are counted.
+    pub count: u32,
 }
 
 /// S and ∇S at a point.
@@ -75,7 +77,7 @@ pub(crate) fn turned(
     early: f64,
     counts: impl Fn(usize, f64) -> bool,
 ) -> Quadratic {
-    let (mut square, mut not_yet, mut linear) = (0.0, 0.0, 0.0);
+    let (mut square, mut not_yet, mut linear, mut count) = (0.0, 0.0, 0.0, 0);
     let mut g = Vector3::zeros();
     let mut squares = Symmetric::default();
     particle.visit_near(y, early, |i, n, excess| {
@@ -85,6 +87,7 @@ pub(crate) fn turned(
             square += reached * reached;
             not_yet += (excess - reached) * (excess - reached);
             linear += reached;
+            count += 1;
             g += excess * n;
             squares.add_square(&n);
         }
@@ -97,6 +100,7 @@ pub(crate) fn turned(
         gradient: w2 * g + m2 * turn(*y),
         hessian: squares.scaled(w2, m2),
         pull: w2 * linear,
+        count,
     }
 }
 

@@ -20,10 +20,10 @@ pub(crate) struct Search<'a> {
     pub answered: BackEnd,
 }
 
-/// An answer, with the quadratics that it is the optimum of; `None` where the cone program gave it.
+/// An answer, with the quadratics that it is the optimum of, or at its point where the cone program gave it.
 pub(crate) struct Answer {
     pub outcome: Outcome,
-    pub expansion: Option<Expansion>,
+    pub expansion: Expansion,
 }
 
 impl Answer {
@@ -39,9 +39,10 @@ impl<'a> Search<'a> {
         Self { pair, body_a, body_b, settings, iterations: 0, flags: Flags::default(), answered: settings.back_end }
     }
 
-    /// Midway, from a start if there is one. Into a place of the caller's, since the answer is large.
-    pub fn midway(&mut self, start: Option<Start>, into: &mut Option<Answer>) -> Result<(), ConicError> {
-        self.solve(Target::Midway, start, None, into)
+    /// Midway, from a start if there is one.
+    #[inline]
+    pub fn midway(&mut self, start: Option<Start>) -> Result<Answer, ConicError> {
+        self.solve(Target::Midway, start, None)
     }
 
     /// One of the two problems of closest, or `None` where its constraint is slack: the optimum is then the
@@ -53,8 +54,7 @@ impl<'a> Search<'a> {
         &mut self,
         target: Target,
         midway: Option<&Answer>,
-        into: &mut Option<Answer>,
-    ) -> Result<Option<Certified>, ConicError> {
+    ) -> Result<Option<(Answer, Certified)>, ConicError> {
         let centre_inside = match target {
             Target::OnB => self.pair.b.potential(&self.pair.centre) < 0.0,
             _ => self.pair.a.potential(&self.body_a.local(&self.body_b.centre())) < 0.0,
@@ -62,11 +62,10 @@ impl<'a> Search<'a> {
         if centre_inside {
             return Ok(None);
         }
-        let expansion = midway.and_then(|midway| midway.expansion.as_ref());
-        self.solve(target, midway.map(Answer::start), expansion, into)?;
-        let scale = into.as_ref().map(|answer| self.certify(answer, target));
+        let answer = self.solve(target, midway.map(Answer::start), midway.map(|midway| &midway.expansion))?;
+        let scale = self.certify(&answer, target);
         // A scale that cannot be told from 0 belongs to a core.
-        Ok(scale.filter(|scale| scale.s > scale.gap))
+        Ok((scale.s > scale.gap).then_some((answer, scale)))
     }
 
     /// The scale s of an answer, and the bound on its error.
@@ -76,50 +75,58 @@ impl<'a> Search<'a> {
 
     /// Bound on the distance from the point of an answer to the optimum.
     pub fn bound(&self, answer: &Answer, target: Target) -> f64 {
-        certificate::distance(&answer.outcome, answer.expansion.as_ref(), &self.body_a, &self.body_b, target)
+        certificate::distance(&answer.outcome, &answer.expansion, &self.body_a, &self.body_b, target)
     }
 
     /// The ladder: from the start at hand, cold, with the safer factorisation, and by the cone program.
-    fn solve(
-        &mut self,
-        target: Target,
-        start: Option<Start>,
-        left: Option<&Expansion>,
-        into: &mut Option<Answer>,
-    ) -> Result<(), ConicError> {
+    #[inline]
+    fn solve(&mut self, target: Target, start: Option<Start>, left: Option<&Expansion>) -> Result<Answer, ConicError> {
+        let usual = spine::factorisation(&self.body_a, &self.body_b);
         if self.settings.back_end == BackEnd::Fast {
-            let usual = spine::factorisation(&self.body_a, &self.body_b);
-            if let Some(start) = start
-                && self.attempt(target, &start, left, usual, into)
-            {
-                return Ok(());
+            let first = start.unwrap_or_else(|| spine::cold_start(self.pair, &self.body_a, &self.body_b));
+            let mut answer = self.rung(target, &first, left, usual);
+            if answer.outcome.ending == Ending::Stuck {
+                self.further(target, start.is_some(), usual, &mut answer);
             }
-            let cold = spine::cold_start(self.pair, &self.body_a, &self.body_b);
-            if self.attempt(target, &cold, None, usual, into) {
-                return Ok(());
-            }
-            if usual == Factorisation::Plain && self.attempt(target, &cold, None, Factorisation::Aligned, into) {
-                self.flags.insert(Flags::SAFER);
-                return Ok(());
+            if answer.outcome.ending != Ending::Stuck {
+                if answer.outcome.ending == Ending::RoundingLimited {
+                    self.flags.insert(Flags::ROUNDING_LIMITED);
+                }
+                return Ok(answer);
             }
             self.flags.insert(Flags::FELL_BACK);
         }
         self.answered = BackEnd::Conic;
-        *into = Some(Answer { outcome: self.conic(target)?, expansion: None });
-        Ok(())
+        let outcome = self.conic(target)?;
+        let start = Start { x: outcome.x, lambda: outcome.lambda, near: true };
+        Ok(Answer { outcome, expansion: Expansion::at([&self.body_a, &self.body_b], &start, target, usual) })
     }
 
-    /// One rung of the ladder; whether it has led to an answer.
-    fn attempt(
+    /// The rungs after the first.
+    #[cold]
+    fn further(&mut self, target: Target, warm: bool, usual: Factorisation, answer: &mut Answer) {
+        let cold = spine::cold_start(self.pair, &self.body_a, &self.body_b);
+        if warm {
+            *answer = self.rung(target, &cold, None, usual);
+        }
+        if answer.outcome.ending == Ending::Stuck && usual == Factorisation::Plain {
+            *answer = self.rung(target, &cold, None, Factorisation::Aligned);
+            if answer.outcome.ending != Ending::Stuck {
+                self.flags.insert(Flags::SAFER);
+            }
+        }
+    }
+
+    #[inline]
+    fn rung(
         &mut self,
         target: Target,
         start: &Start,
         left: Option<&Expansion>,
         factorisation: Factorisation,
-        into: &mut Option<Answer>,
-    ) -> bool {
+    ) -> Answer {
         let bodies = [&self.body_a, &self.body_b];
-        let mut here = match left {
+        let mut expansion = match left {
             Some(expansion) => *expansion,
             None => Expansion::at(bodies, start, target, factorisation),
         };
@@ -128,18 +135,12 @@ impl<'a> Search<'a> {
             tolerance: self.settings.gap_tolerance,
             stop_when_separated: target == Target::Midway && !self.settings.solve_separated,
         };
-        let outcome = spine::solve(bodies[0], bodies[1], &goal, start, factorisation, &mut here);
+        let outcome = spine::solve(bodies[0], bodies[1], &goal, start, factorisation, &mut expansion);
         self.iterations += outcome.iterations;
-        if outcome.ending == Ending::RoundingLimited {
-            self.flags.insert(Flags::ROUNDING_LIMITED);
-        }
-        let found = outcome.ending != Ending::Stuck;
-        if found {
-            *into = Some(Answer { outcome, expansion: Some(here) });
-        }
-        found
+        Answer { outcome, expansion }
     }
 
+    #[cold]
     fn conic(&mut self, target: Target) -> Result<Outcome, ConicError> {
         let solution = match target {
             Target::Midway => conic::midway(self.pair)?,

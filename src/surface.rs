@@ -14,6 +14,17 @@ const MOST_STEPS: usize = 100;
 /// number, from further outside `None`. Also `None` when the ray never leaves (not a particle) or
 /// something is not finite.
 pub fn distance(particle: &Particle, from: &Vector3<f64>, direction: &Vector3<f64>) -> Option<f64> {
+    distance_near(particle, from, direction, 0.0)
+}
+
+/// The same, with a guess of the distance to begin at; a right one saves half of the work.
+#[inline]
+pub(crate) fn distance_near(
+    particle: &Particle,
+    from: &Vector3<f64>,
+    direction: &Vector3<f64>,
+    guess: f64,
+) -> Option<f64> {
     let at = |tau: f64| {
         let mut line = potential::on_line(particle, particle.sphere_weight, &(from + tau * direction), direction);
         line.value -= 1.0;
@@ -24,7 +35,7 @@ pub fn distance(particle: &Particle, from: &Vector3<f64>, direction: &Vector3<f6
     // outside, which, S being convex, never jumps.
     let (mut inside, mut outside) = (f64::NEG_INFINITY, f64::INFINITY);
     let mut newton_from_outside = f64::NAN;
-    let mut tau = 0.0;
+    let mut tau = if guess.is_finite() { guess } else { 0.0 };
     let rounding = 2.0 * f64::EPSILON * (from.norm() + particle.bounds.longest_offset);
     for _ in 0..MOST_STEPS {
         let line = at(tau);
@@ -67,7 +78,8 @@ pub fn distance(particle: &Particle, from: &Vector3<f64>, direction: &Vector3<f6
 
 /// Root right of the stationary point of v + s·δ + ½c·δ² (s > 0), without cancellation; the Newton step
 /// when the quadratic has no root (its piece ends before the surface).
-fn root_of_piece(v: f64, s: f64, c: f64) -> f64 {
+#[inline]
+pub(crate) fn root_of_piece(v: f64, s: f64, c: f64) -> f64 {
     let discriminant = s * s - 2.0 * c * v;
     if discriminant >= 0.0 { -2.0 * v / (s + discriminant.sqrt()) } else { -v / s }
 }
