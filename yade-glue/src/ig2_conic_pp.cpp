@@ -4,6 +4,7 @@
 #include "../abi/knksphys.hpp"
 #include "../abi/scgeom.hpp"
 
+#include "answer_path.hpp"
 #include "conic_potential_particle.hpp"
 #include "ig2_conic_pp.hpp"
 #include "particle_store.hpp"
@@ -74,6 +75,7 @@ struct Ig2_ConicPP_ConicPP_ScGeom::Pair {
     const Vector3r& shift2;
     const bool force;
     const boost::shared_ptr<Interaction>& interaction;
+    Counters::Row& counts;
     // Both functors have run before: the pair has a history, which must not be dropped.
     const bool real;
     const pp_pose pose1;
@@ -123,7 +125,8 @@ bool Ig2_ConicPP_ConicPP_ScGeom::go(const boost::shared_ptr<Shape>& cm1, const b
                                     const State& state1, const State& state2, const Vector3r& shift2,
                                     const bool& force, const boost::shared_ptr<Interaction>& interaction)
 {
-    const Stopwatch stopwatch(counters, settings.measureTime);
+    Counters::Row& counts = counters.ofThisThread();
+    const Stopwatch stopwatch(counts, settings.measureTime);
     // The dispatcher calls with what get2DFunctorType1/2 say, or shapes derived from it.
     Pair pair { static_cast<const PotentialParticle&>(*cm1),
                 static_cast<const PotentialParticle&>(*cm2),
@@ -132,12 +135,13 @@ bool Ig2_ConicPP_ConicPP_ScGeom::go(const boost::shared_ptr<Shape>& cm1, const b
                 shift2,
                 force,
                 interaction,
+                counts,
                 interaction->hasGeomAndPhys(),
                 poseOf(state1, Vector3r::Zero()),
                 poseOf(state2, shift2) };
     if (pair.shape1.isBoundary && pair.shape2.isBoundary)
         return false;
-    counters.add(Count::calls);
+    counts.add(Count::calls);
     try {
         pair.particle1 = particleOf(cm1, pair.shape1);
         pair.particle2 = particleOf(cm2, pair.shape2);
@@ -178,11 +182,13 @@ bool Ig2_ConicPP_ConicPP_ScGeom::contact(Pair& pair)
         fail(pair, pp_status_message(status));
         return keep(pair);
     }
-    counters.add(found.flags & PP_FLAG_REJECTED ? Count::rejected : Count::solved);
+    const double radii = pair.particle1->boundingRadius() + pair.particle2->boundingRadius();
+    pair.counts.add(pathOf(found, pair.branch().norm(), radii));
     if (found.flags & PP_FLAG_FELL_BACK)
-        counters.add(Count::fellBack);
+        pair.counts.add(Count::fellBack);
 
     if (found.kind == PP_OVERLAPPING) {
+        pair.counts.add(Count::overlapping);
         fill(pair, found);
         return true;
     }
@@ -214,7 +220,7 @@ pp_status Ig2_ConicPP_ConicPP_ScGeom::detect(Pair& pair, pp_contact& found)
     slow.back_end = PP_CONIC;
     if (pp_contact_detect(a, &pair.pose1, b, &pair.pose2, &slow, nullptr, &found) != PP_OK)
         return status;
-    counters.add(Count::fellBack);
+    pair.counts.add(Count::fellBack);
     return PP_OK;
 }
 
@@ -246,7 +252,9 @@ void Ig2_ConicPP_ConicPP_ScGeom::fill(Pair& pair, pp_contact& found)
 
 void Ig2_ConicPP_ConicPP_ScGeom::fillPhysics(Pair& pair, const pp_contact& found)
 {
-    // In the first step of a contact there is none yet: the area then stays 0 for that step.
+    // In the first step of a contact YADE calls this functor before the one that makes the physics:
+    // the area of that step stays 0, as with YADE's own functor. Physics of another kind have no
+    // place for an area, which is then not computed at all.
     auto* const phys = dynamic_cast<yade::KnKsPhys*>(pair.interaction->phys.get());
     if (!phys)
         return;
@@ -270,17 +278,19 @@ void Ig2_ConicPP_ConicPP_ScGeom::fillPhysics(Pair& pair, const pp_contact& found
         };
         phys->jointLength = reach(across) + reach(-across);
         phys->contactArea = settings.unitWidth2D * phys->jointLength;
+        pair.counts.add(Count::areas);
     } else {
         double area;
         requireOk(pp_contact_area(pair.particle1->handle(), &pair.pose1, pair.particle2->handle(), &pair.pose2, &found,
                                   settings.areaTolerance, &area));
         phys->contactArea = area;
+        pair.counts.add(Count::areas);
     }
 }
 
 void Ig2_ConicPP_ConicPP_ScGeom::fail(const Pair& pair, const std::string& why) noexcept
 {
-    counters.add(Count::failures);
+    pair.counts.add(Count::failures);
     try {
         failures.add({ pair.interaction->id1, pair.interaction->id2, pair.pose1, pair.pose2, why });
     } catch (...) {
