@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "counters.hpp"
 
+#include <algorithm>
 #include <mutex>
 #include <vector>
 
@@ -72,6 +73,14 @@ std::uint64_t Counters::total(Count what) const
     for (std::size_t i = 0; i < rowCount; ++i)
         sum += rows[i].cells[static_cast<std::size_t>(what)].load(std::memory_order_relaxed);
     return sum;
+}
+
+std::uint64_t Counters::largest(Count what) const
+{
+    std::uint64_t most = 0;
+    for (std::size_t i = 0; i < rowCount; ++i)
+        most = std::max(most, rows[i].cells[static_cast<std::size_t>(what)].load(std::memory_order_relaxed));
+    return most;
 }
 
 void Counters::reset()

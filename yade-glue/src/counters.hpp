@@ -56,6 +56,8 @@ public:
 
     Row& ofThisThread();
     std::uint64_t total(Count what) const;
+    // Of the thread with the most: since threads may follow each other, of its row.
+    std::uint64_t largest(Count what) const;
     // Between steps only: a count that is under way may survive it.
     void reset();
 

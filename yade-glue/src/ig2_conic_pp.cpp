@@ -33,12 +33,23 @@ namespace {
     // gap is not computed.
     constexpr double apart = -1.0;
 
-    std::shared_ptr<const Particle> particleOf(const boost::shared_ptr<Shape>& shape, const PotentialParticle& pp)
+    // The particle behind a shape; `keeper` owns it when the shape itself does not.
+    const Particle* particleOf(const boost::shared_ptr<Shape>& shape, const PotentialParticle& pp,
+                               std::shared_ptr<const Particle>& keeper)
     {
         if (typeid(pp) == typeid(ConicPotentialParticle))
-            if (auto particle = static_cast<const ConicPotentialParticle&>(pp).particle())
+            if (const Particle* particle = static_cast<const ConicPotentialParticle&>(pp).particle())
                 return particle;
-        return ParticleStore::instance().find(shape, pp);
+        keeper = ParticleStore::instance().find(shape, pp);
+        return keeper.get();
+    }
+
+    // dynamic_cast takes its time; nearly always the object is of one known class.
+    template <class Usual, class Wanted, class Object> Wanted* castTo(Object* object)
+    {
+        if (object && typeid(*object) == typeid(Usual))
+            return static_cast<Usual*>(object);
+        return dynamic_cast<Wanted*>(object);
     }
 
     bool isUnit(const Vector3r& vector) { return std::abs(vector.squaredNorm() - 1) < 1e-6; }
@@ -81,8 +92,10 @@ struct Ig2_ConicPP_ConicPP_ScGeom::Pair {
     const pp_pose pose1;
     const pp_pose pose2;
 
-    std::shared_ptr<const Particle> particle1 = nullptr;
-    std::shared_ptr<const Particle> particle2 = nullptr;
+    const Particle* particle1 = nullptr;
+    const Particle* particle2 = nullptr;
+    std::shared_ptr<const Particle> keeper1 = nullptr;
+    std::shared_ptr<const Particle> keeper2 = nullptr;
     ScGeom* geom = nullptr;
     pp_memory* memory = nullptr;
 
@@ -91,7 +104,7 @@ struct Ig2_ConicPP_ConicPP_ScGeom::Pair {
     // Finds or makes the geometry. False when another functor left one that is no ScGeom.
     bool findGeom()
     {
-        geom = dynamic_cast<ScGeom*>(interaction->geom.get());
+        geom = castTo<ScGeomConicPP, ScGeom>(interaction->geom.get());
         if (geom && typeid(*geom) == typeid(ScGeomConicPP)) {
             memory = &static_cast<ScGeomConicPP*>(geom)->memory;
             return true;
@@ -143,8 +156,8 @@ bool Ig2_ConicPP_ConicPP_ScGeom::go(const boost::shared_ptr<Shape>& cm1, const b
         return false;
     counts.add(Count::calls);
     try {
-        pair.particle1 = particleOf(cm1, pair.shape1);
-        pair.particle2 = particleOf(cm2, pair.shape2);
+        pair.particle1 = particleOf(cm1, pair.shape1, pair.keeper1);
+        pair.particle2 = particleOf(cm2, pair.shape2, pair.keeper2);
         return contact(pair);
     } catch (const std::exception& error) {
         fail(pair, error.what());
@@ -169,9 +182,9 @@ bool Ig2_ConicPP_ConicPP_ScGeom::contact(Pair& pair)
         fail(pair, "the interaction holds a geometry that is no ScGeom; it is left as it is");
         return true;
     }
-    for (const auto* particle : { pair.particle1.get(), pair.particle2.get() }) {
+    for (const auto* particle : { pair.particle1, pair.particle2 }) {
         if (!particle->handle()) {
-            fail(pair, (particle == pair.particle1.get() ? "shape of the first body: " : "shape of the second body: ")
+            fail(pair, (particle == pair.particle1 ? "shape of the first body: " : "shape of the second body: ")
                      + particle->refusal());
             return keep(pair);
         }
@@ -255,7 +268,7 @@ void Ig2_ConicPP_ConicPP_ScGeom::fillPhysics(Pair& pair, const pp_contact& found
     // In the first step of a contact YADE calls this functor before the one that makes the physics:
     // the area of that step stays 0, as with YADE's own functor. Physics of another kind have no
     // place for an area, which is then not computed at all.
-    auto* const phys = dynamic_cast<yade::KnKsPhys*>(pair.interaction->phys.get());
+    auto* const phys = castTo<yade::KnKsPhys, yade::KnKsPhys>(pair.interaction->phys.get());
     if (!phys)
         return;
     phys->ptOnP1 = Vector3r(found.point_on_a);

@@ -59,6 +59,7 @@ private:
     std::uint64_t pySolved() const;
     double pySkippedShare() const;
     double pySeconds() const;
+    double pyBusiestSeconds() const;
     void pyResetCounters();
 
     // `settings` as set from Python; `library` is its parsed form. Both change only between steps,

@@ -145,6 +145,8 @@ void Ig2_ConicPP_ConicPP_ScGeom::pyRegisterClass(py::object scope)
                       "Share of the pairs that do not touch which were answered without a solve; NaN if all touch.")
         .add_property("seconds", &Functor::pySeconds,
                       "Time inside this functor, summed over threads, while measureTime was True.")
+        .add_property("busiestSeconds", &Functor::pyBusiestSeconds,
+                      "The same for the thread that spent most: how long the others may have waited for it.")
         .add_property("failureReport", &Functor::pyFailureReport,
                       "First failure of each pair: dicts of ids, poses ((position), (w, x, y, z)) and message.")
         .def("resetCounters", &Functor::pyResetCounters, "Sets all counters to 0 and empties failureReport.");
@@ -207,6 +209,11 @@ double Ig2_ConicPP_ConicPP_ScGeom::pySkippedShare() const
 double Ig2_ConicPP_ConicPP_ScGeom::pySeconds() const
 {
     return 1e-9 * static_cast<double>(counters.total(Count::nanoseconds));
+}
+
+double Ig2_ConicPP_ConicPP_ScGeom::pyBusiestSeconds() const
+{
+    return 1e-9 * static_cast<double>(counters.largest(Count::nanoseconds));
 }
 
 void Ig2_ConicPP_ConicPP_ScGeom::pyResetCounters()
