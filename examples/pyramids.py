@@ -368,4 +368,5 @@ def finish(summary):
         raise SystemExit(130)
 
 
-main()
+if __name__ == "__main__":
+    main()
