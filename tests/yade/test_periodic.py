@@ -12,7 +12,7 @@ def across(functor_, positions, size=4.0):
     O.cell.setBox(Vector3(size, size, size))
     for position in positions:
         add(cube(), position, turned((0, 0, 1), 0.1 * len(O.bodies)))
-    O.run(3, True)
+    run(3)
     return [c for c in O.interactions if c.isReal]
 
 

@@ -22,13 +22,13 @@ def scene():
 
 
 def go_on():
-    O.run(300, True)
+    run(300)
     return state_numbers()
 
 
 for ending in ("yade.gz", "xml", "xml.bz2", "memory"):
     scene()
-    O.run(1500, True)
+    run(1500)
     real = {(c.id1, c.id2) for c in O.interactions if c.isReal}
     check.true(len(real) >= 2, f"{ending}: in contact when saved ({real})")
     memories = {(c.id1, c.id2): c.geom.memory for c in O.interactions if c.isReal}
@@ -57,7 +57,7 @@ for ending in ("yade.gz", "xml", "xml.bz2", "memory"):
 fresh_scene(yade.Ig2_PP_PP_ScGeom(calContactArea=False), dt=1e-9)
 for z in (0, 0.98):
     add(plain(cube_planes(), r=0.05, k=0.05, R=0.9), Vector3(0, 0, z), fixed=True, volume=1, inertia=Vector3(1, 1, 1))
-O.run(2, True)
+run(2)
 depth = O.interactions[0, 1].geom.penetrationDepth
 check.equal(type(O.interactions[0, 1].geom).__name__, "ScGeom", "made by the built-in functor")
 ours = yade.InteractionLoop([yade.Ig2_PP_PP_ScGeom_Conic(calContactArea=False)], [yade.Ip2_FrictMat_FrictMat_KnKsPhys()],
@@ -66,7 +66,7 @@ O.engines = O.engines[:2] + [ours] + O.engines[3:]
 name = os.path.join(folder, "foreign.xml")
 O.save(name)
 O.load(name)
-O.run(3, True)
+run(3)
 contact = O.interactions[0, 1]
 check.true(contact.isReal and type(contact.geom).__name__ == "ScGeom", "a real contact keeps the geometry that it has")
 check.close(contact.geom.penetrationDepth, depth, 1e-5, "and is served")

@@ -67,7 +67,7 @@ heap(contacts)
 highest = max(b.state.pos[2] for b in O.bodies)
 most = 0
 for _ in range(12):
-    O.run(250, True)
+    run(250)
     most = max(most, sum(1 for c in O.interactions if c.isReal))
 moving = [b.state for b in O.bodies][1:]
 check.true(most >= 10, f"contacts at a time: {most}")
@@ -91,7 +91,7 @@ def after_steps(threads):
     O.loadTmp("heap")
     for engine in O.engines:
         engine.ompThreads = threads
-    O.run(100, True)
+    run(100)
     return state_numbers(), functor().calls
 
 
