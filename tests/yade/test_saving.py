@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # O.save and O.load in every format: attributes, the pair's memory, and a run that goes on as if
 # nothing had happened.
+import math
 import os
 import tempfile
 
@@ -52,6 +53,29 @@ for ending in ("yade.gz", "xml", "xml.bz2", "memory"):
     worst = max(abs(x - y) for x, y in zip(found, expected))
     check.true(len(found) == len(expected) and worst < 1e-9, f"{ending}: the run goes on as before, off by {worst:g}")
     check.equal(functor().failures, 0, f"{ending}: failures")
+
+# Two edges that cross without touching: no face and no ball proves that, so that the pair remembers what
+# did; and goes on remembering through a file.
+fresh_scene(yade.Ig2_ConicPP_ConicPP_ScGeom(), dt=1e-9)
+reach = cube().surfaceDistance([(0, 1, 1)])[0]
+add(cube(), Vector3(0, 0, 0), turned((1, 0, 0), math.pi / 4), fixed=True)
+add(cube(), Vector3(0, 0, 2 * reach + 0.002), turned((0, 1, 0), math.pi / 4), fixed=True)
+run(3)
+(pair,) = O.interactions.all()
+check.true(not pair.isReal and pair.geom.memory.strip("0"), f"a pair that does not touch remembers: {pair.geom.memory}")
+remembered, answers = pair.geom.memory, functor().answers
+check.true(answers["proof"] + answers["cold"] > 0, f"it was not skipped at first: {answers}")
+name = os.path.join(folder, "apart.yade.gz")
+O.save(name)
+O.load(name)
+(pair,) = O.interactions.all()
+check.equal((pair.isReal, pair.geom.memory), (False, remembered), "and so after a file")
+# Without memory, as after an interaction was made anew, it is looked at from nothing, with the same result.
+pair.geom.memory = "0" * len(remembered)
+run(2)
+(pair,) = O.interactions.all()
+check.true(not pair.isReal and pair.geom.memory.strip("0"), "memory is made again where there is none")
+check.equal(functor().overlapping, 0, "and the pair stays apart")
 
 # A scene whose contacts are YADE's own ScGeom, as it would be after a change of functor.
 fresh_scene(yade.Ig2_PP_PP_ScGeom(calContactArea=False), dt=1e-9)
