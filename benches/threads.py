@@ -6,7 +6,7 @@
 
 Each pile falls first; its state is then taken further by `yade -j1` and by `yade -j2`, in turns.
 The functor's time is that of the thread that spent most in it; the loop's is YADE's InteractionLoop
-(contacts, physics and law), by the clock on the wall. Of dozens of blocks of steps the fastest counts:
+(contacts, physics and law), by the clock on the wall. Of many short blocks of steps the fastest counts:
 what else the machine does can only add. It needs two cores for itself all the same; the load of the
 last minute is kept with the results, in out/threads/summary.json.
 """

@@ -19,14 +19,8 @@ struct Pair {
 /// Everything in an answer, as bits: NaN is then like NaN, and 0 not like -0.
 fn bits(contact: &Contact) -> Vec<u64> {
     let numbers = [contact.s, contact.s_b, contact.weight, contact.gap, contact.point_bound, contact.overlap];
-    let vectors = [
-        contact.normal,
-        contact.point,
-        contact.branch_a,
-        contact.branch_b,
-        contact.point_on_a,
-        contact.point_on_b,
-    ];
+    let vectors =
+        [contact.normal, contact.point, contact.branch_a, contact.branch_b, contact.point_on_a, contact.point_on_b];
     let counts = [contact.kind as u64, contact.flags.bits().into(), contact.iterations.into()];
     let numbers = numbers.into_iter().chain(vectors.iter().flat_map(|v| [v.x, v.y, v.z])).map(f64::to_bits);
     counts.into_iter().chain(numbers).collect()
@@ -41,7 +35,8 @@ fn answers(pairs: &[Pair], first: usize) -> Vec<Vec<u64>> {
             let settings = Settings { formulation, ..Settings::default() };
             let mut memory = Memory::default();
             for _ in 0..2 {
-                let contact = detect(a, pose_a, b, pose_b, &settings, Some(&mut memory)).expect("a pair with an answer");
+                let contact =
+                    detect(a, pose_a, b, pose_b, &settings, Some(&mut memory)).expect("a pair with an answer");
                 found[index].extend(bits(&contact));
             }
         }
