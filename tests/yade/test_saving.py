@@ -54,7 +54,7 @@ for ending in ("yade.gz", "xml", "xml.bz2", "memory"):
     check.true(len(found) == len(expected) and worst < 1e-9, f"{ending}: the run goes on as before, off by {worst:g}")
     check.equal(functor().failures, 0, f"{ending}: failures")
 
-# Two edges that cross without touching: no face and no ball proves that, so that the pair remembers what
+# Two edges that cross without touching: no face and no sphere proves that, so that the pair remembers what
 # did; and goes on remembering through a file.
 fresh_scene(yade.Ig2_ConicPP_ConicPP_ScGeom(), dt=1e-9)
 reach = cube().surfaceDistance([(0, 1, 1)])[0]

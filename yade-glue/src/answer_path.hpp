@@ -16,23 +16,26 @@ struct AnswerPath {
 };
 
 constexpr AnswerPath answerPaths[] = {
-    { Count::balls, "balls", true }, // apart: so are the balls around them
-    { Count::bounds, "bounds", true }, // apart, by a face, a direction or whatever else needs no solver
+    { Count::spheres, "spheres", true }, // apart: so are the balls around them
+    { Count::face, "face", true }, // apart: one lies beyond a face of the other
+    { Count::memory, "memory", true }, // apart: what separated them in the last step still does
     { Count::proof, "proof", false }, // apart: the solver met a proof on its way
     { Count::warm, "warm", false }, // solved from the remembered point
     { Count::cold, "cold", false }, // solved from nothing
     { Count::conic, "conic", false }, // solved as a cone program
 };
 
-// distance: of the centres; radii: of both bounding balls together.
-inline Count pathOf(const pp_contact& found, double distance, double radii)
+inline Count pathOf(const pp_contact& found)
 {
-    const bool rejected = found.flags & PP_FLAG_REJECTED;
-    if (rejected && found.iterations == 0)
-        return distance > radii ? Count::balls : Count::bounds;
+    if (found.flags & PP_FLAG_BY_SPHERES)
+        return Count::spheres;
+    if (found.flags & PP_FLAG_BY_FACE)
+        return Count::face;
+    if (found.flags & PP_FLAG_BY_MEMORY)
+        return Count::memory;
     if (found.back_end == PP_CONIC)
         return Count::conic;
-    if (rejected)
+    if (found.flags & PP_FLAG_REJECTED)
         return Count::proof;
     return found.flags & PP_FLAG_WARM ? Count::warm : Count::cold;
 }

@@ -14,8 +14,9 @@ namespace potential_particles {
 
 // The first ones, up to `conic`, are the ways in which a pair may be answered (answer_path.hpp).
 enum class Count {
-    balls,
-    bounds,
+    spheres,
+    face,
+    memory,
     proof,
     warm,
     cold,

@@ -195,8 +195,7 @@ bool Ig2_ConicPP_ConicPP_ScGeom::contact(Pair& pair)
         fail(pair, pp_status_message(status));
         return keep(pair);
     }
-    const double radii = pair.particle1->boundingRadius() + pair.particle2->boundingRadius();
-    pair.counts.add(pathOf(found, pair.branch().norm(), radii));
+    pair.counts.add(pathOf(found));
     if (found.flags & PP_FLAG_FELL_BACK)
         pair.counts.add(Count::fellBack);
 

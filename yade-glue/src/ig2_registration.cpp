@@ -136,9 +136,9 @@ void Ig2_ConicPP_ConicPP_ScGeom::pyRegisterClass(py::object scope)
     count("failures", Count::failures, "Failed calls: no answer by any back end, or no valid particle or pose.");
     registered
         .add_property("answers", &Functor::pyAnswers,
-                      "How many pairs were answered in which way, cheapest first: apart by their 'balls', apart by other "
-                      "'bounds' (both without a solve), apart by a 'proof' that the solver met, solved from the "
-                      "remembered point ('warm') or from nothing ('cold'), or by the 'conic' back end.")
+                      "How many pairs were answered in which way: without a solve, apart by bounding 'spheres', by a 'face', "
+                      "or by 'memory' of what separated them before; apart by a 'proof' that the solver met; solved "
+                      "from the remembered point ('warm') or from nothing ('cold'); or by the 'conic' back end.")
         .add_property("rejected", &Functor::pyRejected, "Pairs proved separated without solving to the end.")
         .add_property("solved", &Functor::pySolved, "Pairs solved to the end.")
         .add_property("skippedShare", &Functor::pySkippedShare,
@@ -185,7 +185,8 @@ py::dict Ig2_ConicPP_ConicPP_ScGeom::pyAnswers() const
 
 std::uint64_t Ig2_ConicPP_ConicPP_ScGeom::pyRejected() const
 {
-    return counters.total(Count::balls) + counters.total(Count::bounds) + counters.total(Count::proof);
+    return counters.total(Count::spheres) + counters.total(Count::face) + counters.total(Count::memory)
+        + counters.total(Count::proof);
 }
 
 std::uint64_t Ig2_ConicPP_ConicPP_ScGeom::pySolved() const
