@@ -6,9 +6,9 @@
 
 Each pile falls first; its state is then taken further by `yade -j1` and by `yade -j2`, in turns.
 The functor's time is that of the thread that spent most in it; the loop's is YADE's InteractionLoop
-(contacts, physics and law), by the clock on the wall. Of many short blocks of steps the fastest counts:
-what else the machine does can only add. It needs two cores for itself all the same; the load of the
-last minute is kept with the results, in out/threads/summary.json.
+(contacts, physics and law), by the clock on the wall; a step is the sum of all engines. Of many short
+blocks of steps the fastest counts: what else the machine does can only add. It needs two cores for
+itself all the same; the load of the last minute is kept with the results, in out/threads/summary.json.
 """
 
 import json
@@ -27,7 +27,7 @@ import machine
 PILES = (200, 2000)
 # Until the last ones of the tower have landed.
 STEPS = 7000
-ROUNDS = 3
+ROUNDS = 5
 
 
 def yade(threads, **environment):
