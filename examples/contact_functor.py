@@ -9,6 +9,8 @@ LIBRARY, BUILTIN = "library", "builtin"
 class ContactFunctor:
     """The Ig2 functor, the shape class that it serves, and what it counted."""
 
+    _answers_at_mark = None
+
     def __init__(self, kind):
         if kind == BUILTIN:
             self.plugin = None
@@ -33,8 +35,26 @@ class ContactFunctor:
 
         None where the functor keeps no count.
         """
-        names = ("calls", "solved", "rejected", "fellBack", "failures", "seconds")
+        names = ("calls", "overlapping", "solved", "rejected", "fellBack", "failures", "seconds")
         return {name: getattr(self.functor, name, None) for name in names}
+
+    def mark(self):
+        """From here on counts the answers of `answers_since_mark`."""
+        self._answers_at_mark = self._answers()
+
+    def answers_since_mark(self):
+        """How many pairs were answered in which way since the mark, and how many of them touch.
+
+        None where the functor keeps no count, or when the mark was never reached.
+        """
+        if self._answers_at_mark is None:
+            return None
+        return {name: count - self._answers_at_mark[name] for name, count in self._answers().items()}
+
+    def _answers(self):
+        if not self.plugin:
+            return None
+        return {**self.functor.answers, "overlapping": self.functor.overlapping}
 
     def failure_report(self):
         """The first failure of each pair, as dictionaries with ids, poses and a message."""

@@ -67,6 +67,7 @@ VERLET_DISTANCE = 0.0
 WATCH_STEPS = 20  # between looks at energies and overlaps; an impact lasts about 15 steps
 VIEW_FROM, VIEW_ANGLE = np.array([0.46, -0.84, 0.42]), 0.42  # scene to eye; full height, radians
 FRAMES = 28  # .vtp files after the first
+AT_REST = 0.9  # of the steps: from there on the pile counts as settled
 PAPER_STEPS, PAPER_PICTURES = 14_000, (0, 4_000, 14_000)  # the paper's Fig. 3
 
 
@@ -99,6 +100,7 @@ def main():
         watch_steps=WATCH_STEPS,
         frame_steps=[round(i * steps / FRAMES) for i in range(FRAMES + 1)],
         picture_steps=[round(step * steps / PAPER_STEPS) for step in PAPER_PICTURES],
+        calls={round(AT_REST * steps): contact.mark},
     )
     print(f"{count} pyramids, {steps:,} steps of {TIME_STEP:g} s, contacts by {contact.name}", flush=True)
     interrupted = run.go()
@@ -245,6 +247,7 @@ def summarise(run, contact, pyramid, box, count, steps, interrupted):
         "bodies_outside_walls": int(outside.sum()),
         "failures": contact.counts()["failures"],
         "contact_functor": {"name": contact.name, **contact.counts()},
+        "answers_at_rest": contact.answers_since_mark(),
         "failure_report": contact.failure_report(),
         "engine_seconds": {
             engine.label or type(engine).__name__: engine.execTime / 1e9 for engine in O.engines
@@ -296,6 +299,7 @@ def print_summary(summary, out):
             + f"; {summary['total_seconds']:.1f} s in all",
         ),
         ("contact functor", contact_line(functor)),
+        *[("answers at rest", line) for line in answer_lines(summary["answers_at_rest"])],
         ("contacts", f"{summary['contacts']:,} of {summary['candidate_pairs']:,} candidate pairs"),
         (
             "largest overlap",
@@ -342,6 +346,21 @@ def contact_line(functor):
     )
 
 
+def answer_lines(answers):
+    """How pairs were answered in the last tenth of the run."""
+    if not answers:
+        return
+    paths = {name: count for name, count in answers.items() if name != "overlapping"}
+    total = sum(paths.values())
+    apart = total - answers["overlapping"]
+    skipped = sum(paths[name] for name in ("spheres", "face", "memory"))
+    if not apart:
+        return
+    yield f"{skipped / apart:.1%} of the pairs that do not touch needed no solve; of all pairs: " + (
+        ", ".join(f"{name} {count / total:.1%}" for name, count in paths.items() if count)
+    )
+
+
 def finish(summary):
     """Ends with a failure status when the run proved unsound."""
     if summary["bodies_below_floor"] or summary["bodies_outside_walls"] or summary["failures"]:
@@ -350,4 +369,5 @@ def finish(summary):
         raise SystemExit(130)
 
 
-main()
+if __name__ == "__main__":
+    main()

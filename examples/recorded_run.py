@@ -22,13 +22,17 @@ class State:
 
 
 class RecordedRun:
-    """Steps from 0 to `steps`; looks, frames and pictures fall on steps of their own choosing."""
+    """Steps from 0 to `steps`; looks, frames and pictures fall on steps of their own choosing.
 
-    def __init__(self, steps, watch, series, watch_steps, frame_steps, picture_steps):
+    calls: functions to be called at a step, as {step: function}.
+    """
+
+    def __init__(self, steps, watch, series, watch_steps, frame_steps, picture_steps, calls=None):
         self.steps, self.watch, self.series = steps, watch, series
         self.frame_steps, self.picture_steps = set(frame_steps), set(picture_steps)
+        self.calls = calls or {}
         looks = set(range(0, steps + 1, watch_steps))
-        self.stops = sorted(looks | self.frame_steps | self.picture_steps | {steps})
+        self.stops = sorted(looks | self.frame_steps | self.picture_steps | set(self.calls) | {steps})
         self.states = []  # at the picture steps that were reached
         self.stepping_seconds = 0.0
 
@@ -54,6 +58,8 @@ class RecordedRun:
 
     def _record(self, step):
         self.watch.look()
+        if step in self.calls:
+            self.calls[step]()
         if step in self.picture_steps:
             self.states.append(self._state())
         if step in self.frame_steps:

@@ -1,12 +1,18 @@
-/* Every function and every status of potential_particles.h, as a C caller meets them. */
+/* Every function and every status of potential_particles.h, as a C caller meets them; with the argument
+ * "threads", only what many threads do at once. */
 #include "check.h"
 #include "tests.h"
 
 #include <stdio.h>
+#include <string.h>
 
-int main(void) {
+int main(int count, char **arguments) {
     /* In order with what a library writes to stderr, should it panic. */
     setvbuf(stdout, NULL, _IOLBF, BUFSIZ);
+    if (count > 1 && strcmp(arguments[1], "threads") == 0) {
+        test_threads();
+        return check_report();
+    }
     test_layout();
     test_status();
     test_particle();

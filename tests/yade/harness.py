@@ -2,6 +2,7 @@
 """Checks, and small scenes of potential particles, for the scripts in this folder."""
 import math
 import sys
+import time
 import traceback
 
 import yade
@@ -112,6 +113,16 @@ def fresh_scene(functor, physics=None, law=None, dt=1e-5, damping=0.0, gravity=(
         yade.NewtonIntegrator(damping=damping, exactAsphericalRot=True, gravity=gravity),
     ]
     O.dt = dt
+
+
+def run(steps):
+    """So many steps. O.run(steps, True) would look only every 40 ms whether they are done."""
+    stop = O.iter + steps
+    O.run(steps)
+    while O.running:
+        time.sleep(0.0005)
+    if O.iter != stop:
+        raise RuntimeError(f"YADE stopped at step {O.iter} of {stop}; its message stands above")
 
 
 def functor():

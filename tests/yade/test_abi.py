@@ -48,7 +48,7 @@ check.equal(list(module._glue.differences_of_layout()), [], "no differences of l
 add(cube(), Vector3(0, 0, 0), fixed=True)
 add(cube(), Vector3(0, 0, 0.98), fixed=True)
 module.prepare()
-O.run(2, True)
+run(2)
 check.true(O.interactions[0, 1].isReal, "engines made before the import serve the new shape, the built-in functor included")
 
 # A second copy of the module in the same process finds its names taken.

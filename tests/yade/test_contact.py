@@ -17,7 +17,7 @@ for formulation in ("midway", "closest"):
     before, energy = momentum(), utils.kineticEnergy()
     touched = deepest = 0
     for _ in range(200):
-        O.run(10, True)
+        run(10)
         for contact in O.interactions:
             touched += 1
             deepest = max(deepest, contact.geom.penetrationDepth)
@@ -69,7 +69,7 @@ for first, second, sense in [(0, 1, 1), (1, 0, -1)]:
     check.close(contact.geom.normal.norm(), 1, 1e-12, "a unit normal all the same")
     check.true(sense * contact.geom.normal[2] > 0.9, "that points from 1 to 2")
     check.true(all(math.isfinite(x) for x in contact.geom.contactPoint), "and a finite point")
-    O.run(3, True)
+    run(3)
     check.equal(len([i for i in O.interactions if i.isReal]), 0, "the law ends it")
 
 # A law that keeps contacts that opened, with a zeroed normal: they close again like new ones.
@@ -99,7 +99,7 @@ spin = lambda: sum((b.state.pos.cross(b.state.mass * b.state.vel) + b.state.angM
 spin_before = spin()
 kn = 0
 for _ in range(400):
-    O.run(50, True)
+    run(50)
     kn = max([kn] + [c.phys.kn for c in O.interactions if c.isReal])
     if kn and not any(c.isReal for c in O.interactions):
         break

@@ -13,7 +13,7 @@ contacts = yade.Ig2_ConicPP_ConicPP_ScGeom()
 fresh_scene(contacts, dt=1e-9)
 for z in (0, 0.98, 5):
     add(cube(), Vector3(0, 0, z), fixed=True)
-O.run(2, True)
+run(2)
 contact = O.interactions[0, 1]
 depth, normal, point = contact.geom.penetrationDepth, contact.geom.normal, contact.geom.contactPoint
 check.equal(contacts.failures, 0, "no failure at first")
@@ -49,7 +49,7 @@ check.equal(contacts.failureReport, [], "report emptied")
 # Time is added up when asked.
 check.equal(contacts.seconds, 0.0, "no time is measured unless asked")
 contacts.measureTime = True
-O.run(50, True)
+run(50)
 check.true(contacts.seconds > 0, "time is measured when asked")
 
 # Forced, without a position: YADE gets a geometry and no exception.

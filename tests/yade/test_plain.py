@@ -12,7 +12,7 @@ def contact_of(functor_, shapes, poses):
     fresh_scene(functor_, dt=1e-12)
     for shape, (position, orientation) in zip(shapes, poses):
         add(shape, position, orientation, fixed=True, volume=1.0, inertia=Vector3(1, 1, 1))
-    O.run(2, True)
+    run(2)
     return O.interactions[0, 1]
 
 
@@ -85,7 +85,7 @@ O.bodies[0].shape.d = [d + 0.02 for d in O.bodies[0].shape.d]
 O.step()
 check.close(O.interactions[0, 1].geom.penetrationDepth - before, 0.02, 2e-3, "overlap after a plain shape grew")
 O.bodies[0].shape.r = -1.0
-O.run(3, True)
+run(3)
 report = functor().failureReport
 check.equal((functor().failures, len(report)), (3, 1), "invalid plain shape: counted each time, reported once")
 check.true(report and "first body" in report[0]["message"], f"named in the report: {report}")

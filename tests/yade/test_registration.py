@@ -115,7 +115,7 @@ with tempfile.TemporaryDirectory() as folder:
     recorder = yade.PotentialParticleVTKRecorder(fileName=folder + "/particle", iterPeriod=1, sampleX=20, sampleY=20,
                                                  sampleZ=20, maxDimension=10)
     O.engines = O.engines + [recorder]
-    O.run(3, True)
+    run(3)
     files = [os.path.join(folder, name) for name in os.listdir(folder) if name.endswith(".vtp")]
     check.true(any(os.path.getsize(name) > 2000 for name in files), f"files of the recorder: {os.listdir(folder)}")
 

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # O.save and O.load in every format: attributes, the pair's memory, and a run that goes on as if
 # nothing had happened.
+import math
 import os
 import tempfile
 
@@ -22,13 +23,13 @@ def scene():
 
 
 def go_on():
-    O.run(300, True)
+    run(300)
     return state_numbers()
 
 
 for ending in ("yade.gz", "xml", "xml.bz2", "memory"):
     scene()
-    O.run(1500, True)
+    run(1500)
     real = {(c.id1, c.id2) for c in O.interactions if c.isReal}
     check.true(len(real) >= 2, f"{ending}: in contact when saved ({real})")
     memories = {(c.id1, c.id2): c.geom.memory for c in O.interactions if c.isReal}
@@ -53,11 +54,34 @@ for ending in ("yade.gz", "xml", "xml.bz2", "memory"):
     check.true(len(found) == len(expected) and worst < 1e-9, f"{ending}: the run goes on as before, off by {worst:g}")
     check.equal(functor().failures, 0, f"{ending}: failures")
 
+# Two edges that cross without touching: no face and no sphere proves that, so that the pair remembers what
+# did; and goes on remembering through a file.
+fresh_scene(yade.Ig2_ConicPP_ConicPP_ScGeom(), dt=1e-9)
+reach = cube().surfaceDistance([(0, 1, 1)])[0]
+add(cube(), Vector3(0, 0, 0), turned((1, 0, 0), math.pi / 4), fixed=True)
+add(cube(), Vector3(0, 0, 2 * reach + 0.002), turned((0, 1, 0), math.pi / 4), fixed=True)
+run(3)
+(pair,) = O.interactions.all()
+check.true(not pair.isReal and pair.geom.memory.strip("0"), f"a pair that does not touch remembers: {pair.geom.memory}")
+remembered, answers = pair.geom.memory, functor().answers
+check.true(answers["proof"] + answers["cold"] > 0, f"it was not skipped at first: {answers}")
+name = os.path.join(folder, "apart.yade.gz")
+O.save(name)
+O.load(name)
+(pair,) = O.interactions.all()
+check.equal((pair.isReal, pair.geom.memory), (False, remembered), "and so after a file")
+# Without memory, as after an interaction was made anew, it is looked at from nothing, with the same result.
+pair.geom.memory = "0" * len(remembered)
+run(2)
+(pair,) = O.interactions.all()
+check.true(not pair.isReal and pair.geom.memory.strip("0"), "memory is made again where there is none")
+check.equal(functor().overlapping, 0, "and the pair stays apart")
+
 # A scene whose contacts are YADE's own ScGeom, as it would be after a change of functor.
 fresh_scene(yade.Ig2_PP_PP_ScGeom(calContactArea=False), dt=1e-9)
 for z in (0, 0.98):
     add(plain(cube_planes(), r=0.05, k=0.05, R=0.9), Vector3(0, 0, z), fixed=True, volume=1, inertia=Vector3(1, 1, 1))
-O.run(2, True)
+run(2)
 depth = O.interactions[0, 1].geom.penetrationDepth
 check.equal(type(O.interactions[0, 1].geom).__name__, "ScGeom", "made by the built-in functor")
 ours = yade.InteractionLoop([yade.Ig2_PP_PP_ScGeom_Conic(calContactArea=False)], [yade.Ip2_FrictMat_FrictMat_KnKsPhys()],
@@ -66,7 +90,7 @@ O.engines = O.engines[:2] + [ours] + O.engines[3:]
 name = os.path.join(folder, "foreign.xml")
 O.save(name)
 O.load(name)
-O.run(3, True)
+run(3)
 contact = O.interactions[0, 1]
 check.true(contact.isReal and type(contact.geom).__name__ == "ScGeom", "a real contact keeps the geometry that it has")
 check.close(contact.geom.penetrationDepth, depth, 1e-5, "and is served")

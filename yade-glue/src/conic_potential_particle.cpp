@@ -81,33 +81,31 @@ const int& ConicPotentialParticle::getBaseClassIndex(int depth) const
 
 // --- the particle ---------------------------------------------------------------------------
 
-std::shared_ptr<const Particle> ConicPotentialParticle::particle() const
+const Particle* ConicPotentialParticle::particle() const
 {
-    auto particle = std::atomic_load(&current);
-    if (particle && !particle->definition.roughlyDescribes(*this))
-        particle.reset();
-    return particle;
+    const Particle* particle = published.load(std::memory_order_acquire);
+    return particle && particle->definition.roughlyDescribes(*this) ? particle : nullptr;
 }
 
 const pp_particle* ConicPotentialParticle::require() const
 {
-    const auto particle = std::atomic_load(&current);
-    if (!particle)
+    if (!current)
         throw std::logic_error("ConicPotentialParticle was made without its constructor from Python");
-    return particle->require();
+    return current->require();
 }
 
 void ConicPotentialParticle::settle()
 {
-    const auto before = std::atomic_load(&current);
-    if (!before || !before->definition.describes(*this)) {
+    if (!current || !current->definition.describes(*this)) {
         const auto made = Particle::make(Definition::of(*this));
         if (!made->handle() && !made->pending()) {
             accepted.giveTo(*this);
             throw std::invalid_argument("ConicPotentialParticle: " + made->refusal());
         }
         accepted = made->definition;
-        std::atomic_store(&current, made);
+        replaced[oldest] = std::exchange(current, made);
+        oldest = (oldest + 1) % replaced.size();
+        published.store(made.get(), std::memory_order_release);
     }
     if (automaticBox)
         fillBox();
@@ -115,18 +113,18 @@ void ConicPotentialParticle::settle()
 
 void ConicPotentialParticle::fillBox()
 {
-    const auto particle = std::atomic_load(&current);
-    if (!particle->handle())
+    const pp_particle* particle = current->handle();
+    if (!particle)
         return;
     std::size_t count = 0;
-    const pp_status sized = pp_particle_corners(particle->handle(), nullptr, 0, &count);
+    const pp_status sized = pp_particle_corners(particle, nullptr, 0, &count);
     if (sized != PP_BUFFER_TOO_SMALL)
         requireOk(sized);
     std::vector<Vector3r> corners(count);
     if (count > 0)
-        requireOk(pp_particle_corners(particle->handle(), corners.front().data(), count, &count));
+        requireOk(pp_particle_corners(particle, corners.front().data(), count, &count));
     Vector3r lower, upper;
-    requireOk(pp_particle_box(particle->handle(), &identity, lower.data(), upper.data()));
+    requireOk(pp_particle_box(particle, &identity, lower.data(), upper.data()));
 
     vertices = std::move(corners);
     minAabb = minAabbRotated = -lower;

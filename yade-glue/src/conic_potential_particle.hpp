@@ -9,6 +9,8 @@
 #include <boost/python/list.hpp>
 #include <boost/serialization/access.hpp>
 
+#include <array>
+#include <atomic>
 #include <optional>
 
 namespace potential_particles {
@@ -17,9 +19,9 @@ namespace potential_particles {
 //
 // When the library's particle is made anew: every way by which Python or an archive changes a, b,
 // c, d, r, k, R ends in settle(), because this class replaces those properties of its base by its
-// own. go() therefore finds the particle ready and only compares r, k, R and the numbers of planes
-// (a few loads) against code that writes the base's fields past this class; if those differ it
-// asks the ParticleStore, which compares everything.
+// own. go() therefore finds the particle ready and only compares r, k and R (a few loads) against
+// code that writes the base's fields past this class; if those differ it asks the ParticleStore,
+// which compares everything.
 class ConicPotentialParticle final : public yade::PotentialParticle {
 public:
     ConicPotentialParticle();
@@ -28,7 +30,8 @@ public:
     PP_ABI_INDEX_OVERRIDES
 
     // For the contact functor; any thread. Null when the fields differ from what it was made of.
-    std::shared_ptr<const Particle> particle() const;
+    // No share of ownership, which threads would pass to and fro for every pair: see `replaced`.
+    const Particle* particle() const;
 
     // Makes the particle of the present attributes. An invalid set of attributes is replaced by
     // the last valid one and reported as std::invalid_argument (ValueError in Python).
@@ -56,8 +59,13 @@ private:
     double pyPotential(const yade::Vector3r& point) const;
     boost::python::list pySurfaceDistance(const boost::python::object& directions) const;
 
-    // Read by contact functors while Python may replace it: std::atomic_load and _store only.
     std::shared_ptr<const Particle> current;
+    // What contact functors read while Python may replace it.
+    std::atomic<const Particle*> published { nullptr };
+    // A pair that is being solved while a script changes its shape goes on with the particle that
+    // it found: that one is let go only when the shape has changed so many times more.
+    std::array<std::shared_ptr<const Particle>, 8> replaced;
+    std::size_t oldest = 0;
     Definition accepted;
     // What the group of attributes that is being set says about the box; see callPostLoad().
     bool boxGiven = false;

@@ -4,6 +4,7 @@
 #include "../abi/knksphys.hpp"
 #include "../abi/scgeom.hpp"
 
+#include "answer_path.hpp"
 #include "conic_potential_particle.hpp"
 #include "ig2_conic_pp.hpp"
 #include "particle_store.hpp"
@@ -32,12 +33,23 @@ namespace {
     // gap is not computed.
     constexpr double apart = -1.0;
 
-    std::shared_ptr<const Particle> particleOf(const boost::shared_ptr<Shape>& shape, const PotentialParticle& pp)
+    // The particle behind a shape; `keeper` owns it when the shape itself does not.
+    const Particle* particleOf(const boost::shared_ptr<Shape>& shape, const PotentialParticle& pp,
+                               std::shared_ptr<const Particle>& keeper)
     {
         if (typeid(pp) == typeid(ConicPotentialParticle))
-            if (auto particle = static_cast<const ConicPotentialParticle&>(pp).particle())
+            if (const Particle* particle = static_cast<const ConicPotentialParticle&>(pp).particle())
                 return particle;
-        return ParticleStore::instance().find(shape, pp);
+        keeper = ParticleStore::instance().find(shape, pp);
+        return keeper.get();
+    }
+
+    // dynamic_cast takes its time; nearly always the object is of one known class.
+    template <class Usual, class Wanted, class Object> Wanted* castTo(Object* object)
+    {
+        if (object && typeid(*object) == typeid(Usual))
+            return static_cast<Usual*>(object);
+        return dynamic_cast<Wanted*>(object);
     }
 
     bool isUnit(const Vector3r& vector) { return std::abs(vector.squaredNorm() - 1) < 1e-6; }
@@ -74,13 +86,16 @@ struct Ig2_ConicPP_ConicPP_ScGeom::Pair {
     const Vector3r& shift2;
     const bool force;
     const boost::shared_ptr<Interaction>& interaction;
+    Counters::Row& counts;
     // Both functors have run before: the pair has a history, which must not be dropped.
     const bool real;
     const pp_pose pose1;
     const pp_pose pose2;
 
-    std::shared_ptr<const Particle> particle1 = nullptr;
-    std::shared_ptr<const Particle> particle2 = nullptr;
+    const Particle* particle1 = nullptr;
+    const Particle* particle2 = nullptr;
+    std::shared_ptr<const Particle> keeper1 = nullptr;
+    std::shared_ptr<const Particle> keeper2 = nullptr;
     ScGeom* geom = nullptr;
     pp_memory* memory = nullptr;
 
@@ -89,7 +104,7 @@ struct Ig2_ConicPP_ConicPP_ScGeom::Pair {
     // Finds or makes the geometry. False when another functor left one that is no ScGeom.
     bool findGeom()
     {
-        geom = dynamic_cast<ScGeom*>(interaction->geom.get());
+        geom = castTo<ScGeomConicPP, ScGeom>(interaction->geom.get());
         if (geom && typeid(*geom) == typeid(ScGeomConicPP)) {
             memory = &static_cast<ScGeomConicPP*>(geom)->memory;
             return true;
@@ -123,7 +138,8 @@ bool Ig2_ConicPP_ConicPP_ScGeom::go(const boost::shared_ptr<Shape>& cm1, const b
                                     const State& state1, const State& state2, const Vector3r& shift2,
                                     const bool& force, const boost::shared_ptr<Interaction>& interaction)
 {
-    const Stopwatch stopwatch(counters, settings.measureTime);
+    Counters::Row& counts = counters.ofThisThread();
+    const Stopwatch stopwatch(counts, settings.measureTime);
     // The dispatcher calls with what get2DFunctorType1/2 say, or shapes derived from it.
     Pair pair { static_cast<const PotentialParticle&>(*cm1),
                 static_cast<const PotentialParticle&>(*cm2),
@@ -132,15 +148,16 @@ bool Ig2_ConicPP_ConicPP_ScGeom::go(const boost::shared_ptr<Shape>& cm1, const b
                 shift2,
                 force,
                 interaction,
+                counts,
                 interaction->hasGeomAndPhys(),
                 poseOf(state1, Vector3r::Zero()),
                 poseOf(state2, shift2) };
     if (pair.shape1.isBoundary && pair.shape2.isBoundary)
         return false;
-    counters.add(Count::calls);
+    counts.add(Count::calls);
     try {
-        pair.particle1 = particleOf(cm1, pair.shape1);
-        pair.particle2 = particleOf(cm2, pair.shape2);
+        pair.particle1 = particleOf(cm1, pair.shape1, pair.keeper1);
+        pair.particle2 = particleOf(cm2, pair.shape2, pair.keeper2);
         return contact(pair);
     } catch (const std::exception& error) {
         fail(pair, error.what());
@@ -165,9 +182,9 @@ bool Ig2_ConicPP_ConicPP_ScGeom::contact(Pair& pair)
         fail(pair, "the interaction holds a geometry that is no ScGeom; it is left as it is");
         return true;
     }
-    for (const auto* particle : { pair.particle1.get(), pair.particle2.get() }) {
+    for (const auto* particle : { pair.particle1, pair.particle2 }) {
         if (!particle->handle()) {
-            fail(pair, (particle == pair.particle1.get() ? "shape of the first body: " : "shape of the second body: ")
+            fail(pair, (particle == pair.particle1 ? "shape of the first body: " : "shape of the second body: ")
                      + particle->refusal());
             return keep(pair);
         }
@@ -178,11 +195,12 @@ bool Ig2_ConicPP_ConicPP_ScGeom::contact(Pair& pair)
         fail(pair, pp_status_message(status));
         return keep(pair);
     }
-    counters.add(found.flags & PP_FLAG_REJECTED ? Count::rejected : Count::solved);
+    pair.counts.add(pathOf(found));
     if (found.flags & PP_FLAG_FELL_BACK)
-        counters.add(Count::fellBack);
+        pair.counts.add(Count::fellBack);
 
     if (found.kind == PP_OVERLAPPING) {
+        pair.counts.add(Count::overlapping);
         fill(pair, found);
         return true;
     }
@@ -214,7 +232,7 @@ pp_status Ig2_ConicPP_ConicPP_ScGeom::detect(Pair& pair, pp_contact& found)
     slow.back_end = PP_CONIC;
     if (pp_contact_detect(a, &pair.pose1, b, &pair.pose2, &slow, nullptr, &found) != PP_OK)
         return status;
-    counters.add(Count::fellBack);
+    pair.counts.add(Count::fellBack);
     return PP_OK;
 }
 
@@ -246,8 +264,10 @@ void Ig2_ConicPP_ConicPP_ScGeom::fill(Pair& pair, pp_contact& found)
 
 void Ig2_ConicPP_ConicPP_ScGeom::fillPhysics(Pair& pair, const pp_contact& found)
 {
-    // In the first step of a contact there is none yet: the area then stays 0 for that step.
-    auto* const phys = dynamic_cast<yade::KnKsPhys*>(pair.interaction->phys.get());
+    // In the first step of a contact YADE calls this functor before the one that makes the physics:
+    // the area of that step stays 0, as with YADE's own functor. Physics of another kind have no
+    // place for an area, which is then not computed at all.
+    auto* const phys = castTo<yade::KnKsPhys, yade::KnKsPhys>(pair.interaction->phys.get());
     if (!phys)
         return;
     phys->ptOnP1 = Vector3r(found.point_on_a);
@@ -270,17 +290,19 @@ void Ig2_ConicPP_ConicPP_ScGeom::fillPhysics(Pair& pair, const pp_contact& found
         };
         phys->jointLength = reach(across) + reach(-across);
         phys->contactArea = settings.unitWidth2D * phys->jointLength;
+        pair.counts.add(Count::areas);
     } else {
         double area;
         requireOk(pp_contact_area(pair.particle1->handle(), &pair.pose1, pair.particle2->handle(), &pair.pose2, &found,
                                   settings.areaTolerance, &area));
         phys->contactArea = area;
+        pair.counts.add(Count::areas);
     }
 }
 
 void Ig2_ConicPP_ConicPP_ScGeom::fail(const Pair& pair, const std::string& why) noexcept
 {
-    counters.add(Count::failures);
+    pair.counts.add(Count::failures);
     try {
         failures.add({ pair.interaction->id1, pair.interaction->id2, pair.pose1, pair.pose2, why });
     } catch (...) {

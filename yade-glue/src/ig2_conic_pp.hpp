@@ -9,6 +9,7 @@
 #include "counters.hpp"
 #include "failure_report.hpp"
 
+#include <boost/python/dict.hpp>
 #include <boost/python/list.hpp>
 #include <boost/serialization/access.hpp>
 
@@ -53,7 +54,12 @@ private:
 
     void settle();
     boost::python::list pyFailureReport() const;
+    boost::python::dict pyAnswers() const;
+    std::uint64_t pyRejected() const;
+    std::uint64_t pySolved() const;
+    double pySkippedShare() const;
     double pySeconds() const;
+    double pyBusiestSeconds() const;
     void pyResetCounters();
 
     // `settings` as set from Python; `library` is its parsed form. Both change only between steps,

@@ -3,11 +3,14 @@
 // The contact functors' names, attributes, Python classes and archives.
 #include "archives.hpp"
 
+#include "answer_path.hpp"
 #include "ig2_conic_pp.hpp"
 #include "python_class.hpp"
 
 #include <boost/serialization/base_object.hpp>
 #include <boost/serialization/string.hpp>
+
+#include <limits>
 
 namespace potential_particles {
 
@@ -127,13 +130,23 @@ void Ig2_ConicPP_ConicPP_ScGeom::pyRegisterClass(py::object scope)
                                 attributeDoc);
     };
     count("calls", Count::calls, "Calls so far, pairs of two boundaries excepted.");
-    count("solved", Count::solved, "Pairs solved to the end.");
-    count("rejected", Count::rejected, "Pairs proved separated without solving to the end.");
+    count("overlapping", Count::overlapping, "Pairs found in contact.");
+    count("areas", Count::areas, "Contact areas computed.");
     count("fellBack", Count::fellBack, "Pairs answered by the conic back end because the fast one gave up.");
     count("failures", Count::failures, "Failed calls: no answer by any back end, or no valid particle or pose.");
     registered
+        .add_property("answers", &Functor::pyAnswers,
+                      "How many pairs were answered in which way: without a solve, apart by bounding 'spheres', by a 'face', "
+                      "or by 'memory' of what separated them before; apart by a 'proof' that the solver met; solved "
+                      "from the remembered point ('warm') or from nothing ('cold'); or by the 'conic' back end.")
+        .add_property("rejected", &Functor::pyRejected, "Pairs proved separated without solving to the end.")
+        .add_property("solved", &Functor::pySolved, "Pairs solved to the end.")
+        .add_property("skippedShare", &Functor::pySkippedShare,
+                      "Share of the pairs that do not touch which were answered without a solve; NaN if all touch.")
         .add_property("seconds", &Functor::pySeconds,
                       "Time inside this functor, summed over threads, while measureTime was True.")
+        .add_property("busiestSeconds", &Functor::pyBusiestSeconds,
+                      "The same for the thread that spent most: how long the others may have waited for it.")
         .add_property("failureReport", &Functor::pyFailureReport,
                       "First failure of each pair: dicts of ids, poses ((position), (w, x, y, z)) and message.")
         .def("resetCounters", &Functor::pyResetCounters, "Sets all counters to 0 and empties failureReport.");
@@ -162,9 +175,46 @@ py::list Ig2_ConicPP_ConicPP_ScGeom::pyFailureReport() const
     return report;
 }
 
+py::dict Ig2_ConicPP_ConicPP_ScGeom::pyAnswers() const
+{
+    py::dict answers;
+    for (const AnswerPath& path : answerPaths)
+        answers[path.name] = counters.total(path.count);
+    return answers;
+}
+
+std::uint64_t Ig2_ConicPP_ConicPP_ScGeom::pyRejected() const
+{
+    return counters.total(Count::spheres) + counters.total(Count::face) + counters.total(Count::memory)
+        + counters.total(Count::proof);
+}
+
+std::uint64_t Ig2_ConicPP_ConicPP_ScGeom::pySolved() const
+{
+    return counters.total(Count::warm) + counters.total(Count::cold) + counters.total(Count::conic);
+}
+
+double Ig2_ConicPP_ConicPP_ScGeom::pySkippedShare() const
+{
+    std::uint64_t answered = 0, skipped = 0;
+    for (const AnswerPath& path : answerPaths) {
+        const std::uint64_t number = counters.total(path.count);
+        answered += number;
+        skipped += path.withoutSolve ? number : 0;
+    }
+    const std::uint64_t apart = answered - counters.total(Count::overlapping);
+    return apart > 0 ? static_cast<double>(skipped) / static_cast<double>(apart)
+                     : std::numeric_limits<double>::quiet_NaN();
+}
+
 double Ig2_ConicPP_ConicPP_ScGeom::pySeconds() const
 {
     return 1e-9 * static_cast<double>(counters.total(Count::nanoseconds));
+}
+
+double Ig2_ConicPP_ConicPP_ScGeom::pyBusiestSeconds() const
+{
+    return 1e-9 * static_cast<double>(counters.largest(Count::nanoseconds));
 }
 
 void Ig2_ConicPP_ConicPP_ScGeom::pyResetCounters()

@@ -45,14 +45,13 @@ void Definition::giveTo(yade::PotentialParticle& shape) const
 
 bool Definition::describes(const yade::PotentialParticle& shape) const
 {
-    return sameBits(r, shape.r) && sameBits(k, shape.k) && sameBits(R, shape.R) && sameBits(a, shape.a)
+    return roughlyDescribes(shape) && sameBits(a, shape.a)
         && sameBits(b, shape.b) && sameBits(c, shape.c) && sameBits(d, shape.d);
 }
 
 bool Definition::roughlyDescribes(const yade::PotentialParticle& shape) const
 {
-    return sameBits(r, shape.r) && sameBits(k, shape.k) && sameBits(R, shape.R) && a.size() == shape.a.size()
-        && b.size() == shape.b.size() && c.size() == shape.c.size() && d.size() == shape.d.size();
+    return sameBits(r, shape.r) && sameBits(k, shape.k) && sameBits(R, shape.R);
 }
 
 bool Definition::listsAgree() const

@@ -23,7 +23,7 @@ struct Definition {
 
     // Bit for bit, so that a NaN equals itself.
     bool describes(const yade::PotentialParticle& shape) const;
-    // The same without reading the coefficients: r, k, R and the number of planes.
+    // r, k and R alone.
     bool roughlyDescribes(const yade::PotentialParticle& shape) const;
     bool listsAgree() const;
 };

@@ -13,13 +13,11 @@ Then these classes stand beside YADE's own:
                                  place of Ig2_PP_PP_ScGeom
     ScGeomConicPP                the ScGeom that they fill
 
-Before a run with several threads, call potential_particles.prepare() once O.engines and O.bodies
-are filled, and after O.load: see there.
-
 The plugin is made for one build of YADE, Debian's 2023.02a on amd64. Anything else is refused with
 AbiError, which lists what differs; nothing is registered then.
 """
 import builtins
+import functools
 import sys
 
 __version__ = "0.1.0"
@@ -100,15 +98,14 @@ def _register(yade, glue):
 
 
 def _dispatchers(yade):
-    """Of the present scene: (dispatchers of bounds, dispatchers of geometry)."""
-    bounds, geometry = [], []
+    """Of the present scene: (dispatchers of bounds, of geometry, of physics)."""
+    kinds = (yade.wrapper.BoundDispatcher, yade.wrapper.IGeomDispatcher, yade.wrapper.IPhysDispatcher)
+    found = [], [], []
     for engine in yade.wrapper.Omega().engines:
-        for holder in (engine, getattr(engine, "boundDispatcher", None), getattr(engine, "geomDispatcher", None)):
-            if isinstance(holder, yade.wrapper.BoundDispatcher):
-                bounds.append(holder)
-            elif isinstance(holder, yade.wrapper.IGeomDispatcher):
-                geometry.append(holder)
-    return bounds, geometry
+        holders = [engine] + [getattr(engine, name, None) for name in ("boundDispatcher", "geomDispatcher", "physDispatcher")]
+        for kind, group in zip(kinds, found):
+            group.extend(holder for holder in holders if isinstance(holder, kind))
+    return found
 
 
 def _resize_dispatchers(yade):
@@ -119,21 +116,49 @@ def _resize_dispatchers(yade):
 
 
 def prepare():
-    """Looks up, once and in one thread, every functor that the scene will need.
+    """Looks up, in one thread, every functor that the scene will need.
 
-    YADE copies a functor that serves a derived shape (as PotentialParticle2AABB serves
+    YADE copies a functor that serves a derived class (as PotentialParticle2AABB serves
     ConicPotentialParticle) into its table at the first look-up, without a lock, within its parallel
-    loops. With one thread nothing can go wrong; with several, call this before the first step.
+    loops: threads that do so at once may damage the table. O.run and O.step call this by themselves
+    when YADE has several threads. Only a script that calls an engine by hand has to do it itself.
     """
     import yade
-    bounds, geometry = _dispatchers(yade)
-    shapes = {type(body.shape): body.shape for body in yade.wrapper.Omega().bodies if body.shape is not None}
-    for shape in shapes.values():
-        for dispatcher in bounds:
-            dispatcher.dispFunctor(shape)
-        for other in shapes.values():
-            for dispatcher in geometry:
-                dispatcher.dispFunctor(shape, other)
+    scene = yade.wrapper.Omega()
+    bounds, geometry, physics = _dispatchers(yade)
+    shapes = list({type(body.shape): body.shape for body in scene.bodies if body.shape is not None}.values())
+    _look_up(bounds, geometry, shapes)
+    materials = list({type(material): material for material in scene.materials}.values())
+    _look_up([], physics, materials)
+
+
+def _look_up(single, double, arguments):
+    for one in arguments:
+        for dispatcher in single:
+            dispatcher.dispFunctor(one)
+        for other in arguments:
+            for dispatcher in double:
+                dispatcher.dispFunctor(one, other)
+
+
+def _prepare_ours(yade):
+    """prepare() for our shapes alone, which takes the same few microseconds in a scene of any size."""
+    bounds, geometry, _ = _dispatchers(yade)
+    _look_up(bounds, geometry, [yade.wrapper.ConicPotentialParticle(), yade.wrapper.PotentialParticle()])
+
+
+def _prepare_before_steps(yade):
+    """O.run and O.step, as they are, but for the look-up of our functors before them."""
+    def preparing(method):
+        @functools.wraps(method)
+        def prepared(self, *arguments, **keywords):
+            if self.numThreads > 1 and not self.running:
+                _prepare_ours(yade)
+            return method(self, *arguments, **keywords)
+        return prepared
+
+    omega = yade.wrapper.Omega
+    omega.run, omega.step = preparing(omega.run), preparing(omega.step)
 
 
 def library_version():
@@ -151,6 +176,7 @@ def _load():
         raise AbiError(differences)
     _register(yade, glue)
     _resize_dispatchers(yade)
+    _prepare_before_steps(yade)
     return glue
 
 

@@ -1,0 +1,58 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# The functor says in which way it answered each pair; a pair apart is answered without a solve from its
+# second step on.
+import math
+
+import potential_particles
+import yade
+from harness import *
+
+check = Checks()
+PATHS = ["spheres", "face", "memory", "proof", "warm", "cold", "conic"]
+
+
+def answers(position, orientation=Quaternion.Identity, steps=3, **keywords):
+    """Of a cube at the origin with another one, in so many steps in which nothing moves."""
+    fresh_scene(yade.Ig2_ConicPP_ConicPP_ScGeom(**keywords), dt=1e-9)
+    add(cube(), Vector3.Zero, turned((1, 0, 0), math.pi / 4), fixed=True)
+    add(cube(), position, orientation, fixed=True)
+    # The pair is called whatever the boxes say: spheres cannot be apart where boxes are tight.
+    O.engines[1].verletDist = 0.5
+    run(steps)
+    found = functor().answers
+    check.equal(list(found), PATHS, "names, cheapest first")
+    check.equal(sum(found.values()), functor().calls, "every call is one answer")
+    check.equal(functor().rejected, sum(found[name] for name in PATHS[:4]), "rejected")
+    check.equal(functor().solved, sum(found[name] for name in PATHS[4:]), "solved")
+    return {name: count for name, count in found.items() if count}, functor().skippedShare, functor().overlapping
+
+
+edge = cube().surfaceDistance([(0, 1, 1)])[0]
+crossed = turned((0, 1, 0), math.pi / 4)  # the lowest edge of one lies across the highest of the other
+check.equal(answers(Vector3(0, 0, 2 * cube().boundingRadius + 0.01)), ({"spheres": 3}, 1.0, 0), "far apart")
+check.equal(answers(Vector3(0, 0.9, 0.9)), ({"face": 3}, 1.0, 0), "face to face")
+found, share, touching = answers(Vector3(0, 0, 2 * edge + 0.002), crossed, steps=20)
+check.equal((found.get("proof", 0) + found.get("cold", 0), found.get("memory"), touching), (1, 19, 0),
+            f"edges that cross: {found}")
+check.close(share, 0.95, 1e-12, "share of those without a solve")
+found, share, touching = answers(Vector3(0, 0, 2 * edge - 0.002), crossed)
+check.equal((found, touching), ({"warm": 2, "cold": 1}, 3), "edges that touch")
+check.true(math.isnan(share), "nobody is apart")
+found, _, touching = answers(Vector3(0, 0, 2 * edge - 0.002), crossed, backEnd="conic")
+check.equal((found, touching), ({"conic": 3}, 3), "by the conic back end")
+
+# A pair that comes near and goes again: memory is left and taken up as it moves.
+fresh_scene(yade.Ig2_ConicPP_ConicPP_ScGeom(), dt=1e-9)
+add(cube(), Vector3.Zero, turned((1, 0, 0), math.pi / 4), fixed=True)
+add(cube(), Vector3(0, 0, 3), crossed, fixed=True)
+for step in range(800):
+    O.bodies[1].state.pos = Vector3(0.1, 0.02, 2 * edge + 0.02 * math.cos(step / 80) + 0.005)
+    O.bodies[1].state.ori = crossed * turned((1, 2, 3), 0.05 * math.sin(step / 124))
+    O.step()
+found = functor().answers
+check.true(functor().overlapping > 20 and functor().skippedShare > 0.5,
+           f"to and fro: {functor().skippedShare:.3f} of those apart without a solve; {found}")
+functor().resetCounters()
+check.equal(sum(functor().answers.values()), 0, "reset")
+
+check.finish()

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The ways in which a pair may be answered, cheapest first.
+#pragma once
+
+#include "counters.hpp"
+
+#include <potential_particles.h>
+
+namespace potential_particles {
+
+struct AnswerPath {
+    Count count;
+    const char* name; // in Python
+    bool withoutSolve; // no solver was started
+};
+
+constexpr AnswerPath answerPaths[] = {
+    { Count::spheres, "spheres", true }, // apart: so are the balls around them
+    { Count::face, "face", true }, // apart: one lies beyond a face of the other
+    { Count::memory, "memory", true }, // apart: what separated them in the last step still does
+    { Count::proof, "proof", false }, // apart: the solver met a proof on its way
+    { Count::warm, "warm", false }, // solved from the remembered point
+    { Count::cold, "cold", false }, // solved from nothing
+    { Count::conic, "conic", false }, // solved as a cone program
+};
+
+inline Count pathOf(const pp_contact& found)
+{
+    if (found.flags & PP_FLAG_BY_SPHERES)
+        return Count::spheres;
+    if (found.flags & PP_FLAG_BY_FACE)
+        return Count::face;
+    if (found.flags & PP_FLAG_BY_MEMORY)
+        return Count::memory;
+    if (found.back_end == PP_CONIC)
+        return Count::conic;
+    if (found.flags & PP_FLAG_REJECTED)
+        return Count::proof;
+    return found.flags & PP_FLAG_WARM ? Count::warm : Count::cold;
+}
+
+} // namespace potential_particles
