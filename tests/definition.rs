@@ -261,3 +261,24 @@ proptest! {
         }
     }
 }
+
+#[test]
+fn raised_regularisation_loses_no_contact() {
+    let cube = cuboid([0.5; 3], 0.05, 0.0, 1.0);
+    let at_a = pose([0.0; 3], [1.0, 0.0, 0.0, 0.0]);
+    for flat_regularisation in [1e-13, 1e-5, 1e-4, 1e-3, 1e-2] {
+        for exponent in -8..=-3 {
+            for (aside, tilt) in [(0.0, 0.0), (0.3, 0.0), (0.2, 1e-4)] {
+                let overlap = 10f64.powi(exponent);
+                let settings = Settings { flat_regularisation, ..Settings::default() };
+                let at_b = pose([aside, 0.1, 1.0 - overlap], [1.0, tilt, 0.0, 0.0]);
+                let case = format!("regularisation {flat_regularisation}, overlap {overlap}, aside {aside}, tilt {tilt}");
+                let contact = detect(&cube, &at_a, &cube, &at_b, &settings, None).expect(&case);
+                if tilt == 0.0 {
+                    assert_eq!(contact.kind, Kind::Overlapping, "{case}: {contact:?}");
+                    assert!((contact.overlap - overlap).abs() <= 1e-3 * overlap, "{case}: {}", contact.overlap);
+                }
+            }
+        }
+    }
+}
