@@ -6,6 +6,8 @@ Contact detection between potential particles.
   make demo     set up, build, and let 200 pyramids fall in YADE; results in out/pyramids
   make test     set up, build, and run every test
 
+  make wedge    a wedge on two joints: at which friction angle does it slide? results in out/wedge
+
   make setup    install what is missing from Debian 12 (YADE, compilers, Boost, Eigen, ...)
   make build    the library and the YADE plugin
   make library  the library alone: target/release/libpotential_particles.so
@@ -19,7 +21,8 @@ Variables, as in "make demo STEPS=1000 BODIES=50":
   STEPS=14000       demo: number of time steps
   BODIES=200        demo: number of pyramids
   FUNCTOR=library   demo: who finds the contacts: library, or builtin for YADE's own functor
-  OUTPUT=out/pyramids  demo: where the results go
+  CASES=all         wedge: all, or short for two of them
+  OUTPUT=DIR        demo, wedge: where the results go (out/pyramids, out/wedge)
   THREADS=1         demo: threads of YADE
   VERBOSE=1         test: show the output of every stage, not only of those that fail
   CARGO_TARGET_DIR  where cargo builds (default: target)
@@ -40,7 +43,7 @@ export PATH := $(PATH):$(HOME)/.cargo/bin
 
 heading = @printf '== %s\n' '$(1)'
 
-.PHONY: help demo test setup build library glue header lint bench clean
+.PHONY: help demo wedge test setup build library glue header lint bench clean
 .DEFAULT_GOAL := help
 # The steps of one goal build on each other in the order in which they are named.
 .NOTPARALLEL:
@@ -72,6 +75,12 @@ demo: export OUTPUT := $(OUTPUT)
 demo: glue
 	$(call heading,Falling pyramids)
 	@scripts/yade.sh -j$(THREADS) examples/pyramids.py
+
+wedge: export CASES := $(CASES)
+wedge: export OUTPUT := $(OUTPUT)
+wedge: glue
+	$(call heading,Sliding wedge)
+	@scripts/yade.sh -j$(THREADS) examples/wedge.py
 
 test:
 	@scripts/test.sh

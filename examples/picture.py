@@ -20,13 +20,21 @@ SUN_SHARE, SKY_SHARE = 0.62, 0.50  # of the light; their sum may exceed 1 where 
 
 @dataclass
 class Bodies:
-    """Particles to draw: all of one shape."""
+    """Particles to draw: all of one shape, or each of its own (then `surface` and `radius` are lists)."""
 
     surface: object  # PotentialSurface
     radius: float  # of a ball about the centre that holds it
     positions: np.ndarray  # (n, 3)
     rotations: np.ndarray  # (n, 3, 3), local to world
     colours: np.ndarray  # (n, 3), 0 to 1
+
+    def surface_of(self, index):
+        """The surface of one body."""
+        return self.surface[index] if isinstance(self.surface, list) else self.surface
+
+    def radii(self):
+        """Of all bodies, (n,)."""
+        return np.broadcast_to(self.radius, len(self.positions))
 
 
 @dataclass
@@ -111,10 +119,10 @@ def _trace_camera(bodies, view, rays):
     who = np.full((rows, columns), NOTHING)
     axes = view.axes()
     half = np.tan(0.5 * view.angle)
-    for index, position in enumerate(bodies.positions):
+    for index, (position, radius) in enumerate(zip(bodies.positions, bodies.radii())):
         x, y, depth = axes @ (position - view.eye)
         # The ball's outline seen in perspective, a little generous.
-        reach = bodies.radius / (depth - bodies.radius) * 1.05
+        reach = radius / (depth - radius) * 1.05
         scale = 0.5 * rows / half
         left, right = (0.5 * columns + scale * (x / depth + side * reach) for side in (-1, 1))
         top, bottom = (0.5 * rows - scale * (y / depth + side * reach) for side in (1, -1))
@@ -135,12 +143,12 @@ def _hit(bodies, index, origins, rays, tolerance):
     o = np.broadcast_to((origins - bodies.positions[index]) @ turn, rays.shape)
     v = rays @ turn
     vv, ov = (v * v).sum(-1), (o * v).sum(-1)
-    square = ov**2 - vv * ((o * o).sum(-1) - bodies.radius**2)
+    square = ov**2 - vv * ((o * o).sum(-1) - bodies.radii()[index] ** 2)
     found = np.full(rays.shape[:-1], np.inf)
     near = square > 0.0
     entry = (-ov[near] - np.sqrt(square[near])) / vv[near]
     start = o[near] + entry[:, None] * v[near]
-    more = bodies.surface.first_hit(start, v[near], tolerance)
+    more = bodies.surface_of(index).first_hit(start, v[near], tolerance)
     found[near] = np.where(np.isnan(more), np.inf, entry + more)
     return found
 
@@ -161,7 +169,7 @@ def _surface_points(bodies, floor, view, rays, way, who):
     for index, turn in enumerate(bodies.rotations):
         pixels = order[starts[index] : starts[index + 1]]
         local = (flat_points[pixels] - bodies.positions[index]) @ turn
-        normals.reshape(-1, 3)[pixels] = bodies.surface.outward(local) @ turn.T
+        normals.reshape(-1, 3)[pixels] = bodies.surface_of(index).outward(local) @ turn.T
         colours.reshape(-1, 3)[pixels] = bodies.colours[index]
     return points, normals, colours
 
@@ -204,14 +212,15 @@ def _lit(bodies, direction, points, normals, pixels):
     side = _unit(np.cross(direction, [0.0, 1.0, 0.1]))
     axes = np.stack([side, np.cross(direction, side)])
     centres = bodies.positions @ axes.T
-    low, high = centres.min(0) - bodies.radius, centres.max(0) + bodies.radius
+    radii = bodies.radii()
+    low, high = (centres - radii[:, None]).min(0), (centres + radii[:, None]).max(0)
     step = (high - low).max() / pixels
-    far = 2.0 * (np.abs(bodies.positions).max() + bodies.radius)
+    far = 2.0 * (np.abs(bodies.positions).max() + radii.max())
     count = np.ceil((high - low) / step).astype(int) + 2
     nearest = np.full(count[::-1], np.inf)
-    for index, centre in enumerate(centres):
-        first = np.maximum(((centre - bodies.radius - low) / step).astype(int), 0)
-        last = np.minimum(((centre + bodies.radius - low) / step).astype(int) + 2, count)
+    for index, (centre, radius) in enumerate(zip(centres, radii)):
+        first = np.maximum(((centre - radius - low) / step).astype(int), 0)
+        last = np.minimum(((centre + radius - low) / step).astype(int) + 2, count)
         x, y = (low[i] + step * (np.arange(first[i], last[i]) + 0.5) for i in (0, 1))
         origins = x[None, :, None] * axes[0] + y[:, None, None] * axes[1] + far * direction
         window = (slice(first[1], last[1]), slice(first[0], last[0]))

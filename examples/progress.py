@@ -11,10 +11,10 @@ LINE_PERCENT = 10  # in a file or a pipe, one line per so many percent
 
 
 class Progress:
-    """Counts from 0 to `total` steps."""
+    """Counts from 0 to `total` steps, or whatever else the `unit` is."""
 
-    def __init__(self, total, stream=None, clock=time.monotonic):
-        self.total, self.stream, self.clock = total, stream or sys.stdout, clock
+    def __init__(self, total, stream=None, clock=time.monotonic, unit="step"):
+        self.total, self.stream, self.clock, self.unit = total, stream or sys.stdout, clock, unit
         self.on_terminal = self.stream.isatty()
         self.history = [(clock(), 0)]
         self._drawn_at, self._next_percent = -1e9, LINE_PERCENT
@@ -51,7 +51,8 @@ class Progress:
         rate = (step - before) / (now - then) if now > then else 0.0
         left = clock_text((self.total - step) / rate) if rate > 0.0 else "?"
         percent = 100 * step // self.total
-        return f"{percent:3d}%  step {step:,} of {self.total:,}  {rate:,.0f} steps/s  {left} left"
+        speed = f"{rate:,.0f}" if rate >= 10.0 else f"{rate:.1f}"
+        return f"{percent:3d}%  {self.unit} {step:,} of {self.total:,}  {speed} {self.unit}s/s  {left} left"
 
 
 def clock_text(seconds):

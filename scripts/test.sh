@@ -78,6 +78,7 @@ for threads in 1 2; do
 done
 
 stage suite "Short demo" scripts/short_demo.sh
+stage suite "Short wedge" scripts/short_wedge.sh
 
 printf '\n%d passed, %d failed\n' "$passed" "$failed"
 [ "$failed" -eq 0 ]
