@@ -19,12 +19,10 @@ struct Trial {
 }
 
 /// Looks for the minimum over α in (0, most) of the merit at `from + α·direction`, from `start` on.
-///
 pub(crate) fn descend(
     a: &Body,
     b: &Body,
-    target: Target,
-    lambda: f64,
+    merit: Merit,
     from: &Vector3<f64>,
     direction: &Vector3<f64>,
     (start, most): (f64, f64),
@@ -35,7 +33,7 @@ pub(crate) fn descend(
     for _ in 0..MOST_TRIALS {
         let x = from + alpha * direction;
         let (on_a, on_b) = (a.on_line(&x, direction), b.on_line(&x, direction));
-        let pieces = pieces(target, lambda, on_a, on_b);
+        let pieces = merit.pieces(on_a, on_b);
         let trial = Trial { merit: pieces[0].value.max(pieces[1].value), pieces };
         let step = trial.minimise_pieces();
         let close = step.abs() <= CLOSE * alpha.abs();
@@ -76,20 +74,29 @@ pub(crate) struct Descent {
     pub slope_b: f64,
 }
 
-/// The two functions whose larger one is the merit.
-fn pieces(target: Target, lambda: f64, a: OnLine, b: OnLine) -> [OnLine; 2] {
-    let priced = |free: OnLine, bound: OnLine, price: f64| {
-        let sum = OnLine {
-            value: free.value + price * (bound.value - 1.0),
-            slope: free.slope + price * bound.slope,
-            curvature: free.curvature + price * bound.curvature,
+/// What is to become small along the line.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Merit {
+    /// The merit of a target at λ.
+    Of(Target, f64),
+    /// a·S_A + b·S_B.
+    Sum(f64, f64),
+}
+
+impl Merit {
+    /// The two functions whose larger one is the merit.
+    fn pieces(self, a: OnLine, b: OnLine) -> [OnLine; 2] {
+        let sum = |p: OnLine, weight_p: f64, q: OnLine, weight_q: f64, less: f64| OnLine {
+            value: weight_p * p.value + weight_q * (q.value - less),
+            slope: weight_p * p.slope + weight_q * q.slope,
+            curvature: weight_p * p.curvature + weight_q * q.curvature,
         };
-        [free, sum]
-    };
-    match target {
-        Target::Midway => [a, b],
-        Target::OnB => priced(a, b, PRICE * lambda),
-        Target::OnA => priced(b, a, PRICE / lambda),
+        match self {
+            Self::Of(Target::Midway, _) => [a, b],
+            Self::Of(Target::OnB, lambda) => [a, sum(a, 1.0, b, PRICE * lambda, 1.0)],
+            Self::Of(Target::OnA, lambda) => [b, sum(b, 1.0, a, PRICE / lambda, 1.0)],
+            Self::Sum(weight_a, weight_b) => [sum(a, weight_a, b, weight_b, 0.0); 2],
+        }
     }
 }
 

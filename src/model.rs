@@ -101,7 +101,7 @@ impl<'a> Model<'a> {
 
     /// The optimum at a given λ.
     #[inline]
-    fn at(&self, lambda: f64) -> Option<Optimum> {
+    pub fn at(&self, lambda: f64) -> Option<Optimum> {
         let (a, b) = self.target.weights(lambda);
         let h = self.q_a.hessian.weighted(a, &self.q_b.hessian, b);
         let factor = Factor::of(&h, a * self.soft.0 + b * self.soft.1)?;
@@ -126,7 +126,8 @@ impl<'a> Model<'a> {
     #[inline]
     fn search(&self, first: Optimum, enough: f64) -> Option<Optimum> {
         let mut found = first;
-        let (mut low, mut high) = (found.lambda / FARTHEST, found.lambda * FARTHEST);
+        let (nearest, farthest) = (found.lambda / FARTHEST, found.lambda * FARTHEST);
+        let (mut low, mut high) = (nearest, farthest);
         let mut last = f64::INFINITY;
         for _ in 0..MOST_SEARCHES {
             let (growing, falling) = self.target.sides(found.values.0, found.values.1);
@@ -161,10 +162,19 @@ impl<'a> Model<'a> {
                 Some(series) if series.share <= NEAR => series.lambda,
                 _ => self.far(&found, weights, growing, falling),
             };
-            let next = if low < next && next < high { next } else { (low * high).sqrt() };
+            // Beyond what is known of the curve: to its end, and no further.
+            let next = if next >= high && high == farthest {
+                farthest
+            } else if next <= low && low == nearest {
+                nearest
+            } else if low < next && next < high {
+                next
+            } else {
+                (low * high).sqrt()
+            };
             if next == found.lambda {
-                // No λ does better.
-                return Some(Optimum { settled: true, ..found });
+                // No λ does better. At an end of the range there may be a better one, for other quadratics.
+                return Some(Optimum { settled: next != nearest && next != farthest, ..found });
             }
             found = self.at(next)?;
         }

@@ -4,6 +4,7 @@ use crate::body::Body;
 use crate::certificate::{self, Certified};
 use crate::conic::{self, ConicError, Role};
 use crate::contact::Flags;
+use crate::dual;
 use crate::pair::Pair;
 use crate::settings::{BackEnd, Settings};
 use crate::spine::{self, Ending, Expansion, Factorisation, Goal, Outcome, Start};
@@ -102,15 +103,20 @@ impl<'a> Search<'a> {
         Ok(Answer { outcome, expansion: Expansion::at([&self.body_a, &self.body_b], &start, target, usual) })
     }
 
-    /// The rungs after the first.
+    /// The rungs after the first: cold, and with the safer axes from the end of the safe way to λ.
     #[cold]
     fn further(&mut self, target: Target, warm: bool, usual: Factorisation, answer: &mut Answer) {
         let cold = spine::cold_start(self.pair, &self.body_a, &self.body_b);
         if warm {
             *answer = self.rung(target, &cold, None, usual);
         }
-        if answer.outcome.ending == Ending::Stuck && usual == Factorisation::Plain {
-            *answer = self.rung(target, &cold, None, Factorisation::Aligned);
+        if answer.outcome.ending == Ending::Stuck {
+            let bodies = [&self.body_a, &self.body_b];
+            let (start, models) = dual::start(bodies, target, &cold, Factorisation::Aligned);
+            self.iterations += models;
+            if let Some(start) = start {
+                *answer = self.rung(target, &start, None, Factorisation::Aligned);
+            }
             if answer.outcome.ending != Ending::Stuck {
                 self.flags.insert(Flags::SAFER);
             }

@@ -7,7 +7,7 @@
 
 use crate::body::{Body, Local, Planes, Verdict};
 use crate::frame;
-use crate::line;
+use crate::line::{self, Merit};
 use crate::model::{Model, Optimum, Response};
 use crate::pair::Pair;
 use crate::potential::Quadratic;
@@ -42,6 +42,9 @@ const SHARP: f64 = 1e-2;
 /// Share of what is still to be gained to which λ is searched, early on and after a step that failed.
 const ROUGH: f64 = 1e-2;
 const FINE: f64 = 1e-4;
+
+/// Steps in a row that may come to nothing.
+const MOST_STOPS: u32 = 3;
 
 /// Iterations granted to sharpen what is proved already.
 const MOST_TO_ARRIVE: u32 = 5;
@@ -140,7 +143,7 @@ pub(crate) fn cold_start(pair: &Pair, a: &Body, b: &Body) -> Start {
         return Start { x: Vector3::zeros(), lambda: 1.0, near: false };
     }
     let line::Descent { alpha, slope_a, slope_b, .. } =
-        line::descend(a, b, Target::Midway, 1.0, &from, &direction, (guess, 1.0));
+        line::descend(a, b, Merit::Of(Target::Midway, 1.0), &from, &direction, (guess, 1.0));
     // (1−u) S_A' + u S_B' = 0 on the line.
     let lambda = -slope_a / slope_b;
     let lambda = if lambda > 0.0 && lambda.is_finite() { lambda } else { 1.0 };
@@ -212,6 +215,22 @@ impl Expansion {
         Some(step)
     }
 
+    /// The same for a fixed λ.
+    pub fn weighted(&self, bodies: [&Body; 2], target: Target, lambda: f64) -> Option<Step> {
+        let model = Model::new(&self.q_a, &self.q_b, softest(bodies[0], bodies[1]), target);
+        Some(self.step(bodies, model.at(lambda)?))
+    }
+
+    /// Drops the planes that a step says.
+    pub fn drop(&mut self, bodies: [&Body; 2], step: &Step, target: Target, lambda: f64, factorisation: Factorisation) {
+        for (local, verdict) in self.locals.iter_mut().zip(&step.verdicts) {
+            if let Some(i) = verdict.drop {
+                local.drop(i);
+            }
+        }
+        *self = Self::of(bodies, self.x, self.locals, target.weights(lambda), factorisation);
+    }
+
     #[inline]
     fn step(&self, [a, b]: [&Body; 2], optimum: Optimum) -> Step {
         let v = self.to_solver(&optimum.step);
@@ -252,13 +271,13 @@ impl Expansion {
 }
 
 /// A step to the optimum of the quadratics at a point.
-struct Step {
-    optimum: Optimum,
+pub(crate) struct Step {
+    pub optimum: Optimum,
     /// The step in the solver's frame.
-    v: Vector3<f64>,
+    pub v: Vector3<f64>,
     verdicts: [Verdict; 2],
     /// The worse of the two.
-    planes: Planes,
+    pub planes: Planes,
 }
 
 /// Solves for the goal, beginning with the quadratics in `here`; those of the answer are left there.
@@ -277,7 +296,7 @@ pub(crate) fn solve(
     let mut lambda = start.lambda;
     let mut thorough = start.near;
     let mut previous: Option<Attempt> = None;
-    let (mut proved, mut arriving) = (None::<(Outcome, Expansion)>, 0);
+    let (mut proved, mut arriving, mut stopped) = (None::<(Outcome, Expansion)>, 0, 0);
     let mut lower = f64::NEG_INFINITY;
     let mut iterations = 0;
     while iterations < MOST_ITERATIONS {
@@ -291,7 +310,12 @@ pub(crate) fn solve(
                 target.merit_rounding(of_a, of_b, attempt.lambda)
             };
             if !(merit <= enough || merit <= enough + rounding()) {
-                attempt.shorten(bodies, target, lambda, factorisation, here);
+                let moved = attempt.shorten(bodies, target, lambda, factorisation, here);
+                // Stopped at once, again and again: the planes take turns, and λ has to be found otherwise.
+                stopped = if moved { 0 } else { stopped + 1 };
+                if stopped > MOST_STOPS {
+                    break;
+                }
                 thorough = true;
             }
         }
@@ -312,12 +336,7 @@ pub(crate) fn solve(
         let Some(step) = here.optimum(bodies, target, lambda, enough) else { break };
         lambda = step.optimum.lambda;
         if step.planes == Planes::Dropped {
-            for (local, verdict) in here.locals.iter_mut().zip(&step.verdicts) {
-                if let Some(i) = verdict.drop {
-                    local.drop(i);
-                }
-            }
-            *here = Expansion::of(bodies, here.x, here.locals, target.weights(lambda), factorisation);
+            here.drop(bodies, &step, target, lambda, factorisation);
             (previous, thorough) = (None, false);
             continue;
         }
@@ -345,8 +364,10 @@ pub(crate) fn solve(
                 here.locals[1].least_rounding(&outcome.gradients[1]),
                 lambda,
             );
-            let sharp = gap <= AS_SHARP * least || step.v.norm() <= SHORT * reach;
-            if sharp && gap <= SHARP * outcome.upper {
+            let short = step.v.norm() <= SHORT * reach;
+            let sharp = short || gap <= AS_SHARP * least;
+            // Again after a step too short to gain anything: this is what rounding allows, however much it is.
+            if sharp && (gap <= SHARP * outcome.upper || (short && arriving > 1)) {
                 return outcome;
             }
             // Proved, but over a long step; the same from nearby is sharper.
@@ -372,11 +393,13 @@ pub(crate) fn solve(
         *here = Expansion::of(bodies, x, [a.locate(&x, 0.0), b.locate(&x, 0.0)], target.weights(lambda), factorisation);
     }
     match proved {
-        Some((outcome, expansion)) => {
+        // A proof that leaves everything open is none. Where S all but vanishes, deep inside both, what counts is its
+        // gap beside the 1 of the surfaces.
+        Some((outcome, expansion)) if outcome.gap() <= (SHARP * outcome.upper.max(flat)).max(goal.tolerance) => {
             *here = expansion;
             Outcome { iterations, ..outcome }
         }
-        None => Outcome {
+        _ => Outcome {
             x: here.x,
             lambda,
             gradients: [Vector3::zeros(); 2],
@@ -415,7 +438,7 @@ struct Attempt {
 }
 
 impl Attempt {
-    /// Expands at the best point along the step instead.
+    /// Expands at the best point along the step instead; whether that is another point.
     #[cold]
     fn shorten(
         &self,
@@ -424,16 +447,18 @@ impl Attempt {
         lambda: f64,
         factorisation: Factorisation,
         here: &mut Expansion,
-    ) {
+    ) -> bool {
         let [a, b] = bodies;
-        let descent = line::descend(a, b, target, self.lambda, &self.from, &self.step, (0.5, 1.0));
+        let descent = line::descend(a, b, Merit::Of(target, self.lambda), &self.from, &self.step, (0.5, 1.0));
         let x = self.from + descent.alpha * self.step;
         let early = descent.ahead * self.step.norm();
         let mut locals = [a.locate(&x, early), b.locate(&x, early)];
-        if (x - self.from).norm() <= self.locals[0].blur.max(self.locals[1].blur) {
+        let moved = (x - self.from).norm() > self.locals[0].blur.max(self.locals[1].blur);
+        if !moved {
             a.carry_dropped(&self.locals[0], &self.step, &mut locals[0]);
             b.carry_dropped(&self.locals[1], &self.step, &mut locals[1]);
         }
         *here = Expansion::of(bodies, x, locals, target.weights(lambda), factorisation);
+        moved
     }
 }
