@@ -52,18 +52,13 @@ impl Leaves {
         axes: &[Vector3<f64>; 2],
         radius: f64,
     ) -> impl Iterator<Item = Range<usize>> + '_ {
-        let (centre, axes, single) = (*centre, *axes, self.is_single());
+        let (centre, axes, single) = (*centre, *axes, self.single());
         let length = centre.norm() * (1.0 + 1e-14);
         let reaches = move |leaf: &&Leaf| {
             let rate = leaf.middle.dot(&axes[0]).hypot(leaf.middle.dot(&axes[1])) * (1.0 + 1e-14) + leaf.spread;
             single || leaf.bound(&centre, length) + radius * rate >= 0.0
         };
         self.0.iter().filter(reaches).map(|leaf| leaf.planes.clone())
-    }
-
-    /// Whether there is nothing to choose from.
-    pub fn is_single(&self) -> bool {
-        self.0.len() <= 1
     }
 
     /// The largest of the numbers that `largest_of` gives for runs of planes, each with n·y − d; runs that cannot
