@@ -67,6 +67,9 @@ impl Section {
     /// or to 1e-9 if that is more: the only thing for which the tolerance matters. Time is proportional to the arcs
     /// times the planes close to them. Nothing is allocated unless more than 256 planes come close.
     ///
+    /// This was seen to hold down to r = 1e-6 of a particle's least width. Far below, at 1e-9 of the size, a cut may be
+    /// thinner than the rounding of its edges, and about 1 section in 1,000 comes out wrong.
+    ///
     /// `None` when the section holds no finite point or normal, and when the contact point lies outside a particle, by
     /// S > 1 + 1e-6 and more than rounding: what a solver leaves counts as on the surface.
     pub fn area(
