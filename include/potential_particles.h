@@ -361,10 +361,12 @@ pp_status pp_contact_detect(const struct pp_particle *a,
 // normal, makes through the intersection of both particles.
 //
 // contact: an overlapping answer of `pp_contact_detect` for the same particles and poses.
-// relative_tolerance: in [1e-12, 0.1]; 1e-6 is a good choice. area: receives length^2; 0 when
-// separated.
+// relative_tolerance: in [1e-12, 0.1]; 1e-6 is a good choice. The area is exact but for rounding
+// (1e-12 of it, or 2e-16 size/r where that is more) and this is not used, unless rounding forbids;
+// such areas are known to no better than 1e-9. With r near 1e-9 of the size or less, thin sections
+// may be wrong. area: receives length^2; 0 when separated.
 // Errors: `PP_NULL_POINTER`, `PP_BAD_POSITION`, `PP_BAD_ORIENTATION`, `PP_BAD_POINT` (the contact
-// was not filled: no kind, point or normal), `PP_BAD_SETTING`.
+// was not filled: no kind, point or normal; or its point is outside a particle), `PP_BAD_SETTING`.
 //
 // # Safety
 // Pointers are NULL or valid.

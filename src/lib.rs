@@ -21,7 +21,7 @@
 //! | `certificate` | how far an answer can be from the optimum |
 //! | [`conic`] | the paper's second-order cone programs through clarabel: the reference |
 //! | [`contact`] | point, normal, overlap from a solution |
-//! | [`area`] | the contact area, when asked for |
+//! | [`area`] | the contact area, exact, when asked for |
 //! | `search`, [`detect`] | the ladder of solvers, and the whole on one screen |
 //! | [`planar`] | the same for particles of the plane |
 //! | [`ffi`] | the C interface |

@@ -1,5 +1,6 @@
-//! The solvers of the literature, written from its equations, to compare with. Not part of the library.
+//! The solvers of the literature, written from its equations, and a quadrature, to compare with. Not part of the library.
 
+pub mod area;
 pub mod cubic;
 pub mod newton;
 pub mod one_shot;

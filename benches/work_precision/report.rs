@@ -4,7 +4,7 @@ use crate::falls::{Counts, Falls};
 use crate::machine::Machine;
 use crate::scene::pyramids;
 use crate::solvers::{self, BUILT_IN, BUILT_IN_AREA, FAST};
-use crate::speed::{Speed, planes_name, rounded_name};
+use crate::speed::{AREA, AREA_BY_QUADRATURE, AREA_TOLERANCE, Speed, planes_name, rounded_name};
 use crate::sweep::{self, Record, Row};
 use potential_particles::Formulation;
 use serde::Serialize;
@@ -112,6 +112,14 @@ impl Report {
                 shown(target.measured),
                 shown(target.in_turn)
             );
+        }
+        println!("\ncontact area {:18} {:>10} {:>10}  quadrature to {AREA_TOLERANCE:.0e}", "", "ns", "units");
+        for group in &self.speed.groups {
+            let cost = |name| self.speed.cost(&group.shape, name);
+            if let (Some(area), Some(rays)) = (cost(AREA), cost(AREA_BY_QUADRATURE)) {
+                let (area_ns, area_units) = (area.nanoseconds, area.units);
+                println!("{:31} {area_ns:10.0} {area_units:10.0} {:15.0} ns", group.shape, rays.nanoseconds);
+            }
         }
         println!("\nfalls per million calls      safer      conic  rounding-limited     failed");
         for (name, falls) in &self.falls_per_million {

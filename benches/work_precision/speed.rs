@@ -1,7 +1,7 @@
 //! The stated ratios: cost of a call in units of one evaluation, and against the other solvers.
 
 use crate::arguments::Effort;
-use crate::baselines::{Placed, both_halves, one_shot};
+use crate::baselines::{Placed, area, both_halves, one_shot};
 use crate::built_in::{self, BuiltIn};
 use crate::clock::{self, Contestant, median};
 use crate::scene::polyhedra;
@@ -9,6 +9,7 @@ use crate::scene::pyramids::{self, pyramid};
 use crate::scene::random::Random;
 use crate::scene::touching::{self, Touching};
 use indicatif::ProgressBar;
+use potential_particles::area::Section;
 use potential_particles::{Formulation, Memory, Settings, detect};
 use serde::Serialize;
 use std::hint::black_box;
@@ -68,6 +69,13 @@ impl Speed {
     }
 }
 
+/// Names of two costs.
+pub const AREA: &str = "contact area";
+pub const AREA_BY_QUADRATURE: &str = "contact area by quadrature";
+
+/// Relative tolerance of the contact area where one is needed.
+pub const AREA_TOLERANCE: f64 = 1e-6;
+
 pub fn rounded_name((r, k): (f64, f64)) -> String {
     format!("pyramids, r = {r}, k = {k}")
 }
@@ -102,8 +110,14 @@ pub fn measure(effort: &Effort, built_in: &mut BuiltIn, progress: &ProgressBar) 
             .collect();
         let cold = |i: usize| call(&pairs[i], Formulation::Midway);
         let warm = |i: usize| warm_call(&pairs[i], Formulation::Midway);
-        let contestants: [(&str, Contestant); 3] =
-            [("evaluation", &|i| pairs[i].evaluate()), ("midway, cold", &cold), ("midway, warm", &warm)];
+        let sections: Vec<Section> = pairs.iter().map(section).collect();
+        let contestants: [(&str, Contestant); 5] = [
+            ("evaluation", &|i| pairs[i].evaluate()),
+            ("midway, cold", &cold),
+            ("midway, warm", &warm),
+            (AREA, &|i| contact_area(&pairs[i], &sections[i])),
+            (AREA_BY_QUADRATURE, &|i| quadrature(&pairs[i], &sections[i])),
+        ];
         groups.push(group(name, pairs.len(), &contestants, effort, progress));
     }
     Speed { groups, precision, built_in: against }
@@ -121,7 +135,8 @@ fn pyramid_costs(
     let by_memory = touching::barely_apart(pairs, random);
     assert!(!by_faces.is_empty(), "{name}: no pair is rejected by a face while its spheres meet");
     assert!(!by_memory.is_empty(), "{name}: every separated pair is rejected without memory");
-    let contestants: [(&str, Contestant); 11] = [
+    let sections: Vec<Section> = pairs.iter().map(section).collect();
+    let contestants: [(&str, Contestant); 13] = [
         ("evaluation", &|i| pairs[i].evaluate()),
         ("evaluation by potential::local", &|i| pairs[i].evaluate_by_library()),
         ("midway, cold", &|i| call(&pairs[i], Formulation::Midway)),
@@ -133,6 +148,8 @@ fn pyramid_costs(
         ("rejected by memory", &|i| warm_call(&by_memory[i % by_memory.len()], Formulation::Midway)),
         ("clarabel, midway", &|i| clarabel(&pairs[i], Formulation::Midway)),
         ("clarabel, closest", &|i| clarabel(&pairs[i], Formulation::Closest)),
+        (AREA, &|i| contact_area(&pairs[i], &sections[i])),
+        (AREA_BY_QUADRATURE, &|i| quadrature(&pairs[i], &sections[i])),
     ];
     group(name, pairs.len(), &contestants, effort, progress)
 }
@@ -172,6 +189,21 @@ fn warm_call(pair: &Touching, formulation: Formulation) {
     let pair = black_box(pair);
     let mut memory: Memory = pair.memory(formulation);
     let _ = black_box(detect(&pair.a, &pair.pose_a, &pair.b, &pair.moved_b, &settings(formulation), Some(&mut memory)));
+}
+
+fn section(pair: &Touching) -> Section {
+    let contact = detect(&pair.a, &pair.pose_a, &pair.b, &pair.pose_b, &settings(Formulation::Midway), None);
+    let contact = contact.expect("a contact of ordinary bodies");
+    Section { branch_a: contact.branch_a, branch_b: contact.branch_b, normal: contact.normal }
+}
+
+fn contact_area(pair: &Touching, section: &Section) {
+    let (pair, section) = (black_box(pair), black_box(section));
+    let _ = black_box(section.area(&pair.a, &pair.pose_a, &pair.b, &pair.pose_b, AREA_TOLERANCE));
+}
+
+fn quadrature(pair: &Touching, section: &Section) {
+    let _ = black_box(area::by_quadrature(&placed(black_box(pair)), black_box(section), AREA_TOLERANCE));
 }
 
 fn placed(pair: &Touching) -> Placed<'_> {
