@@ -10,6 +10,7 @@ from matplotlib.ticker import MaxNLocator
 
 OURS, THEIRS, FLOOR = "#1f6fb4", "#d95f02", "0.55"
 DOTS_PER_INCH = 130
+MOST_UNBALANCED = 30.0
 
 
 def draw_cases(path, trials, machine):
@@ -28,6 +29,9 @@ def draw_cases(path, trials, machine):
             row[3].semilogy(record.step[1:], _loop_times(record), **style)
             for axis in row[:3]:
                 axis.axvline(builtin.steps, color="0.8", linewidth=0.8, zorder=0)
+        row[0].ticklabel_format(axis="y", useOffset=False)
+        # A contact that has just begun carries no force yet, and would stretch the scale by ten powers.
+        row[2].set_ylim(top=min(row[2].get_ylim()[1], MOST_UNBALANCED))
         row[0].set_ylabel(f"{case.name}\nsprings {'per area' if area else 'fixed'}", fontsize=11)
         row[3].yaxis.tick_right()
         for axis in row:
@@ -60,8 +64,10 @@ def draw_cases(path, trials, machine):
 
 def draw_bounce(path, bounces):
     """Energy after each bounce, a panel for each step length."""
-    figure, axes = plt.subplots(1, len(bounces), figsize=(4.6 * len(bounces), 3.9), squeeze=False)
-    for axis, it in zip(axes[0], bounces):
+    across = min(len(bounces), 2)
+    down = -(-len(bounces) // across)
+    figure, axes = plt.subplots(down, across, figsize=(5.6 * across, 3.9 * down), squeeze=False)
+    for axis, it in zip(axes.flat, bounces):
         for bounce, label, style in (
             (it.exact, "exact springs, same integrator", {"color": FLOOR, "linewidth": 5, "alpha": 0.5}),
             (it.library, f"this library, spin {it.library.spin:.0e} rad/s", {"color": OURS, "linewidth": 1.5}),
@@ -73,13 +79,14 @@ def draw_bounce(path, bounces):
             axis.plot(np.arange(len(change)), change, label=label, **style)
         axis.axhline(0.0, color="0.3", linewidth=0.6)
         title = f"{it.steps_per_contact} steps a contact, springs {'per area' if it.area else 'fixed'}"
-        axis.set_title(title + (",\ncontacts kept" if it.keep else ""), fontsize=10)
+        axis.set_title(title + (", contacts kept" if it.keep else ""), fontsize=10)
         axis.set_xlabel("bounce", fontsize=9)
         axis.ticklabel_format(axis="y", scilimits=(-2, 2))
         axis.tick_params(labelsize=8)
         axis.grid(True, color="0.92", linewidth=0.7)
         axis.legend(fontsize=8)
-    axes[0][0].set_ylabel("relative change of the energy", fontsize=10)
+    for row in axes:
+        row[0].set_ylabel("relative change of the energy", fontsize=10)
     figure.tight_layout()
     _save(figure, path)
 
@@ -87,10 +94,15 @@ def draw_bounce(path, bounces):
 def draw_costs(path, stages, bodies):
     """Stacked bars of a step, on a scale for the library and the floor; the built-in's as a number."""
     figure, axis = plt.subplots(figsize=(8.6, 4.6))
-    parts = (("integrator", "motion", "#8da0cb"), ("collider", "collider", "#66c2a5"), ("law", "law", "#e5c494"), ("functor", "functor", OURS))
+    parts = (
+        ("integrator", "motion", "#8da0cb"),
+        ("collider", "collider", "#66c2a5"),
+        ("law and loop", "law", "#e5c494"),
+        ("functor", "functor", OURS),
+    )
     labelled = set()
     for number, stage in enumerate(stages):
-        for shift, cost, name in ((-0.2, stage.idle, "functor returns at once"), (0.2, stage.library, "this library")):
+        for shift, cost, name in ((-0.2, stage.idle, "functor\nreturns at once"), (0.2, stage.library, "this library")):
             law = 0.0 if cost is stage.idle else cost.law
             values = {"motion": cost.motion, "collider": cost.collider, "law": law, "functor": cost.loop - law}
             bottom = 0.0

@@ -85,9 +85,9 @@ def measure_stages(count, stages, rounds=ROUNDS, progress=None):
             if progress:
                 progress(O.iter)
         O.saveTmp(SLOT)
-        library, clocked, idle = zip(*((_library(contact), _clocked(contact), _idle()) for _ in range(rounds)))
-        library, clocked, idle = (min(costs, key=lambda cost: cost.whole) for costs in (library, clocked, idle))
-        _split_loop(library, clocked)
+        turns = [(_library(contact), _clocked(contact), _idle()) for _ in range(rounds)]
+        library, idle = (min((turn[i] for turn in turns), key=lambda cost: cost.whole) for i in (0, 2))
+        _split_loop(library, [clocked for _, clocked, _ in turns])
         result.append(Stage(name, step, library, _builtin(), idle))
         _back(contact)
     return result
@@ -127,10 +127,11 @@ def _clocked(contact):
 
 
 def _split_loop(library, clocked):
-    """How much of the loop is the functor. Its clock costs time, too: half of that falls into what it reads."""
-    clock = max(clocked.loop - library.loop, 0.0)
-    library.functor = min(max(clocked.functor - 0.5 * clock, 0.0), library.loop)
-    library.pairs = clocked.pairs
+    """How much of the loop is the functor. Its clock takes time as well, half of it outside of what it reads."""
+    clock = max(min(cost.loop for cost in clocked) - library.loop, 0.0)
+    beside = min(cost.loop - cost.functor for cost in clocked) - 0.5 * clock
+    library.functor = library.loop - min(max(beside, 0.0), library.loop)
+    library.pairs = clocked[0].pairs
 
 
 def _builtin():
