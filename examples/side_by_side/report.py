@@ -1,6 +1,9 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
 """The tables on the terminal, and the plain values behind them."""
 
+import contextlib
+import io
+
 from contact_functor import BUILTIN, DROP_IN
 
 
@@ -33,6 +36,7 @@ def stage_row(stage):
         "name": stage.name,
         "step": stage.step,
         "over_floor": stage.over_floor,
+        "free_functor_over_floor": stage.free_functor_over_floor,
         "simulation_ratio": stage.simulation_ratio,
         "functor_ratio": stage.functor_ratio,
         "pairs": stage.library.pairs,
@@ -54,7 +58,17 @@ def _parts(cost, law):
 
 
 def print_report(summary, out):
-    """Everything a person wants to read at the end."""
+    """Everything a person wants to read at the end; the tables also go to a file."""
+    text = io.StringIO()
+    with contextlib.redirect_stdout(text):
+        _print_tables(summary)
+    (out / "tables.txt").write_text(text.getvalue().lstrip("\n"))
+    print(text.getvalue(), end="")
+    print(f"Results: {out}: summary.json, tables.txt, and the pictures side_by_side.png, side_by_side_per_area.png,")
+    print("bounce.png and step_time.png", flush=True)
+
+
+def _print_tables(summary):
     if summary["rows"]:
         _print_cases(summary["rows"])
     if summary["bounces"]:
@@ -66,8 +80,6 @@ def print_report(summary, out):
     if summary["targets"]:
         _print_targets(summary["targets"])
     print(f"\n{summary['seconds']:.0f} s in all. {summary['machine']}, {summary['date'][:10]}")
-    print(f"Results: {out}: summary.json, side_by_side.png, side_by_side_per_area.png, bounce.png, step_time.png")
-    print(flush=True)
 
 
 def _print_cases(rows):
@@ -152,6 +164,8 @@ def _print_stages(pile):
                 + [f"{parts['step'] / floor:,.1f}"]
             )
     _columns(table)
+    free = ", ".join(f"{stage['free_functor_over_floor']:.1f} {stage['name']}" for stage in pile["stages"])
+    print(f"A functor that costs nothing but finds the same contacts would be over the floor by: {free}")
 
 
 def _print_targets(rows):
