@@ -64,8 +64,7 @@ def print_report(summary, out):
         _print_tables(summary)
     (out / "tables.txt").write_text(text.getvalue().lstrip("\n"))
     print(text.getvalue(), end="")
-    print(f"Results: {out}: summary.json, tables.txt, and the pictures side_by_side.png, side_by_side_per_area.png,")
-    print("bounce.png and step_time.png", flush=True)
+    print(f"Results: {out}: {', '.join(sorted(path.name for path in out.iterdir()))}", flush=True)
 
 
 def _print_tables(summary):

@@ -66,6 +66,9 @@ def main():
     plan = Plan(settings.choice("QUICK", "0", ("0", "1"), "choice") == "1")
     out = settings.folder("OUTPUT", HERE.parents[1] / "out" / "side_by_side")
     out.mkdir(parents=True, exist_ok=True)
+    # An interrupted run does not draw all of them, and those of an earlier run would pass for its own.
+    for old in [*out.glob("*.png"), *out.glob("*.txt"), *out.glob("summary.json")]:
+        old.unlink()
     results = {"rows": [], "bounces": [], "stages": [], "known_answers": {}, "free_collision": {}}
     trials, interrupted = [], False
     print("YADE's built-in functor and this library's on the same scenes", flush=True)
