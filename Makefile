@@ -14,6 +14,7 @@ Contact detection between potential particles.
   make header   write include/potential_particles.h anew from src/ffi
   make lint     formatting and warnings
   make bench    run time, each target beside what was measured, and run time against error; results in out/bench
+  make side-by-side  YADE's own contact functor and this one on the same scenes; results in out/side_by_side
   make clean    remove everything built (results in out/ stay)
 
 Variables, as in "make demo STEPS=1000 BODIES=50":
@@ -22,8 +23,9 @@ Variables, as in "make demo STEPS=1000 BODIES=50":
   BODIES=200        demo: number of pyramids
   FUNCTOR=library   demo: who finds the contacts: library, or builtin for YADE's own functor
   CASES=all         wedge: all, or short for two of them
-  OUTPUT=DIR        demo, wedge: where the results go (out/pyramids, out/wedge)
+  OUTPUT=DIR        demo, wedge, side-by-side: where the results go (out/pyramids, out/wedge, out/side_by_side)
   THREADS=1         demo: threads of YADE
+  QUICK=1           side-by-side: a little of everything, in seconds
   VERBOSE=1         test: show the output of every stage, not only of those that fail
   CARGO_TARGET_DIR  where cargo builds (default: target)
 endef
@@ -43,7 +45,7 @@ export PATH := $(PATH):$(HOME)/.cargo/bin
 
 heading = @printf '== %s\n' '$(1)'
 
-.PHONY: help demo wedge test setup build library glue header lint bench clean
+.PHONY: help demo wedge test side-by-side setup build library glue header lint bench clean
 .DEFAULT_GOAL := help
 # The steps of one goal build on each other in the order in which they are named.
 .NOTPARALLEL:
@@ -84,6 +86,11 @@ wedge: glue
 
 test:
 	@scripts/test.sh
+
+side-by-side: export QUICK := $(QUICK)
+side-by-side: glue
+	$(call heading,Side by side)
+	@scripts/yade.sh -j1 examples/side_by_side/run.py
 
 header:
 	@PP_WRITE_HEADER=1 cargo test --quiet --release --test header

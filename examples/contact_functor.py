@@ -3,7 +3,8 @@
 
 from yade import Ig2_PP_PP_ScGeom, PotentialParticle
 
-LIBRARY, BUILTIN = "library", "builtin"
+# The drop-in serves YADE's own shapes with this library.
+LIBRARY, DROP_IN, BUILTIN = "library", "drop-in", "builtin"
 
 
 class ContactFunctor:
@@ -11,15 +12,17 @@ class ContactFunctor:
 
     _answers_at_mark = None
 
-    def __init__(self, kind):
+    def __init__(self, kind, area=False, measure_time=True):
+        """area: whether stiffness is per contact area; measure_time: whether the functor, if it
+        can, adds up its own time, at the price of two looks at the clock in each call."""
+        self.plugin = None if kind == BUILTIN else _plugin()
+        self.shape_class = self.plugin.ConicPotentialParticle if kind == LIBRARY else PotentialParticle
         if kind == BUILTIN:
-            self.plugin = None
-            self.shape_class = PotentialParticle
-            self.functor = Ig2_PP_PP_ScGeom(calContactArea=False)
+            self.functor = Ig2_PP_PP_ScGeom(calContactArea=area)
+        elif kind == DROP_IN:
+            self.functor = self.plugin.Ig2_PP_PP_ScGeom_Conic(calContactArea=area, measureTime=measure_time)
         else:
-            self.plugin = _plugin()
-            self.shape_class = self.plugin.ConicPotentialParticle
-            self.functor = self.plugin.Ig2_ConicPP_ConicPP_ScGeom(calContactArea=False, measureTime=True)
+            self.functor = self.plugin.Ig2_ConicPP_ConicPP_ScGeom(calContactArea=area, measureTime=measure_time)
 
     @property
     def name(self):
