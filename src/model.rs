@@ -77,7 +77,7 @@ const BALANCED: f64 = 16.0 * f64::EPSILON;
 const STALLING: f64 = 1e-9;
 
 impl<'a> Model<'a> {
-    #[inline]
+    #[inline(always)]
     pub fn new(q_a: &'a Quadratic, q_b: &'a Quadratic, soft: (f64, f64), target: Target) -> Self {
         let (alpha, beta) = target.turning();
         let turning = q_a.hessian.weighted(alpha, &q_b.hessian, beta);
@@ -87,20 +87,20 @@ impl<'a> Model<'a> {
 
     /// Searches λ from a guess until the mismatch of the two sides is `enough`; 0 for as good as rounding allows.
     /// `None` when a factorisation breaks down.
-    #[inline]
+    #[inline(always)]
     pub fn solve(&self, guess: f64, enough: f64) -> Option<Optimum> {
         self.search(self.at(guess.clamp(LAMBDA_RANGE.0, LAMBDA_RANGE.1))?, enough)
     }
 
     /// Goes on from an optimum that was not settled.
-    #[inline]
+    #[inline(always)]
     pub fn settle(&self, rough: Optimum) -> Option<Optimum> {
         let first = if rough.exact { rough } else { self.at(rough.lambda)? };
         self.search(first, 0.0)
     }
 
     /// The optimum at a given λ.
-    #[inline]
+    #[inline(always)]
     pub fn at(&self, lambda: f64) -> Option<Optimum> {
         let (a, b) = self.target.weights(lambda);
         let h = self.q_a.hessian.weighted(a, &self.q_b.hessian, b);
@@ -114,7 +114,7 @@ impl<'a> Model<'a> {
     }
 
     /// The quadratics after a step.
-    #[inline]
+    #[inline(always)]
     fn after(&self, step: Vector3<f64>, lambda: f64, factor: Factor) -> Optimum {
         let gradients = [self.q_a, self.q_b].map(|q| q.gradient + q.hessian.times(&step));
         let value = |q: &Quadratic, g: &Vector3<f64>| q.expansion + 0.5 * step.dot(&(q.gradient + g));
@@ -123,7 +123,7 @@ impl<'a> Model<'a> {
         Optimum { step, gradients, values, lambda, settled: false, factor, exact: false, along, rate: 0.0 }
     }
 
-    #[inline]
+    #[inline(always)]
     fn search(&self, first: Optimum, enough: f64) -> Option<Optimum> {
         let mut found = first;
         let (nearest, farthest) = (found.lambda / FARTHEST, found.lambda * FARTHEST);
@@ -183,7 +183,7 @@ impl<'a> Model<'a> {
 
     /// Root of m(δ) to the fourth order, by reversion of the series; `None` where it would move a weight by more
     /// than half.
-    #[inline]
+    #[inline(always)]
     fn series(&self, found: &Optimum, difference: f64, (a, b): (f64, f64)) -> Option<Series> {
         let (v1, inverse) = (&found.along, 1.0 / found.rate);
         let w1 = self.turning.times(v1);
@@ -202,7 +202,7 @@ impl<'a> Model<'a> {
     }
 
     /// The optimum at the end of a series, without another factorisation.
-    #[inline]
+    #[inline(always)]
     fn along(&self, found: &Optimum, series: &Series) -> Optimum {
         let v3 = -found.factor.solve(&series.w2);
         let delta = series.delta;
@@ -212,7 +212,7 @@ impl<'a> Model<'a> {
 
     /// Whether the slope a·g_A + b·g_B is zero to rounding. In a pair that is alike on both sides the terms of the mismatch
     /// cancel and say nothing about those of the curve.
-    #[inline]
+    #[inline(always)]
     fn is_balanced(&self, found: &Optimum) -> bool {
         let (a, _) = self.target.weights(found.lambda);
         let force = a * a * (self.q_a.gradient.norm_squared() + found.gradients[0].norm_squared());

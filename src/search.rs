@@ -41,7 +41,7 @@ impl<'a> Search<'a> {
     }
 
     /// Midway, from a start if there is one.
-    #[inline]
+    #[inline(always)]
     pub fn midway(&mut self, start: Option<Start>) -> Result<Answer, ConicError> {
         self.solve(Target::Midway, start, None)
     }
@@ -80,7 +80,7 @@ impl<'a> Search<'a> {
     }
 
     /// The ladder: from the start at hand, cold, with the safer factorisation, and by the cone program.
-    #[inline]
+    #[inline(always)]
     fn solve(&mut self, target: Target, start: Option<Start>, left: Option<&Expansion>) -> Result<Answer, ConicError> {
         let usual = spine::factorisation(&self.body_a, &self.body_b);
         if self.settings.back_end == BackEnd::Fast {
@@ -123,7 +123,7 @@ impl<'a> Search<'a> {
         }
     }
 
-    #[inline]
+    #[inline(always)]
     fn rung(
         &mut self,
         target: Target,

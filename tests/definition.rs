@@ -272,7 +272,8 @@ fn raised_regularisation_loses_no_contact() {
                 let overlap = 10f64.powi(exponent);
                 let settings = Settings { flat_regularisation, ..Settings::default() };
                 let at_b = pose([aside, 0.1, 1.0 - overlap], [1.0, tilt, 0.0, 0.0]);
-                let case = format!("regularisation {flat_regularisation}, overlap {overlap}, aside {aside}, tilt {tilt}");
+                let case =
+                    format!("regularisation {flat_regularisation}, overlap {overlap}, aside {aside}, tilt {tilt}");
                 let contact = detect(&cube, &at_a, &cube, &at_b, &settings, None).expect(&case);
                 if tilt == 0.0 {
                     assert_eq!(contact.kind, Kind::Overlapping, "{case}: {contact:?}");

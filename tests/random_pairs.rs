@@ -25,7 +25,7 @@ impl Random {
 
     fn normal(&mut self) -> f64 {
         let (a, b) = (self.unit(), self.unit());
-        (-2.0 * (a + 1e-300).ln()).sqrt() * (6.283_185_307 * b).cos()
+        (-2.0 * (a + 1e-300).ln()).sqrt() * (std::f64::consts::TAU * b).cos()
     }
 
     fn between(&mut self, low: f64, high: f64) -> f64 {
