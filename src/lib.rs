@@ -22,7 +22,8 @@
 //! | [`conic`] | the paper's second-order cone programs through clarabel: the reference |
 //! | [`contact`] | point, normal, overlap from a solution |
 //! | [`area`] | the contact area, exact, when asked for |
-//! | `search`, [`detect`] | the ladder of solvers, and the whole on one screen |
+//! | `search`, [`mod@detect`] | the ladder of solvers, and the whole on one screen |
+//! | [`half`] | one closest point alone |
 //! | [`planar`] | the same for particles of the plane |
 //! | [`ffi`] | the C interface |
 
@@ -36,6 +37,7 @@ pub mod detect;
 mod dual;
 pub mod ffi;
 mod frame;
+pub mod half;
 mod leaves;
 mod line;
 mod linear_program;
@@ -57,6 +59,7 @@ mod target;
 
 pub use contact::{Contact, Flags, Kind};
 pub use detect::{DetectError, detect};
+pub use half::{Half, closest_point};
 pub use memory::Memory;
 pub use particle::{Particle, ParticleError, Plane};
 pub use pose::{Pose, PoseError};

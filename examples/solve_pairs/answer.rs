@@ -2,10 +2,8 @@
 
 use crate::arguments::{self, Arguments};
 use crate::input::Input;
-use nalgebra::Vector3;
-use potential_particles::conic::{self, Role};
-use potential_particles::pair::Pair;
-use potential_particles::{BackEnd, Contact, Flags, Formulation, Kind, Settings, detect};
+use potential_particles::conic::Role;
+use potential_particles::{BackEnd, Contact, Flags, Formulation, Half, Kind, Settings, closest_point, detect};
 use serde::Serialize;
 
 /// One line of output. Vectors in world axes, points relative to the position of B.
@@ -110,7 +108,7 @@ fn closest(input: &Input, back_end: BackEnd) -> Result<Closest, String> {
     };
     let on_b = weighted(0.0)?;
     if on_b.flags.contains(Flags::SLACK) {
-        return slack(input, &on_b);
+        return slack(input, &on_b, &Settings { back_end, ..Settings::default() });
     }
     let on_a = weighted(1.0)?;
     Ok(Closest {
@@ -125,38 +123,25 @@ fn closest(input: &Input, back_end: BackEnd) -> Result<Closest, String> {
     })
 }
 
-/// The half that still has an answer, if there is one, by its cone program; it comes without a gap.
-fn slack(input: &Input, contact: &Contact) -> Result<Closest, String> {
-    let pair = Pair::new(&input.a, &input.pose_a, &input.b, &input.pose_b);
-    let half = |constrained: Role| -> Result<Option<(f64, Vector3<f64>)>, String> {
-        let centre_inside = match constrained {
-            Role::A => pair.a.potential(&pair.in_a(&Vector3::zeros())) < 0.0,
-            Role::B => pair.b.potential(&pair.centre) < 0.0,
-        };
-        if centre_inside {
-            return Ok(None);
-        }
-        let solution = conic::closest(&pair, constrained).map_err(|error| error.to_string())?;
-        // Where the core of one particle with k = 0 reaches into the other, s is 0 on a whole region.
-        Ok((solution.s > LEAST_SCALE).then(|| (solution.s, input.pose_b.rotate(&solution.x))))
+/// The point that still has an answer, if there is one.
+fn slack(input: &Input, contact: &Contact, settings: &Settings) -> Result<Closest, String> {
+    let point = |on: Role| {
+        closest_point(&input.a, &input.pose_a, &input.b, &input.pose_b, on, settings).map_err(|error| error.to_string())
     };
-    let (on_a, on_b) = (half(Role::A)?, half(Role::B)?);
-    let nothing = (f64::NAN, Vector3::repeat(f64::NAN));
-    let ((s_b, p1), (s_a, p2)) = (on_a.unwrap_or(nothing), on_b.unwrap_or(nothing));
+    let (p1, p2) = (point(Role::A)?, point(Role::B)?);
+    let of = |half: &Option<Half>| half.map_or((f64::NAN, [f64::NAN; 3]), |half| (half.s, half.branch_b.into()));
+    let ((s_b, on_a), (s_a, on_b)) = (of(&p1), of(&p2));
     Ok(Closest {
         kind: kind(contact),
         s_a,
         s_b,
-        p1: p1.into(),
-        p2: p2.into(),
+        p1: on_a,
+        p2: on_b,
         overlap: f64::NAN,
-        slack: Slack { a: on_a.is_none(), b: on_b.is_none() },
-        gap: f64::NAN,
+        slack: Slack { a: p1.is_none(), b: p2.is_none() },
+        gap: p1.iter().chain(&p2).map(|half| half.gap).fold(f64::NAN, f64::max),
     })
 }
-
-/// Below what the cone program resolves, s is as good as 0.
-const LEAST_SCALE: f64 = 1e-8;
 
 fn kind(contact: &Contact) -> &'static str {
     match contact.kind {
