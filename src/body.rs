@@ -234,8 +234,12 @@ impl<'a> Body<'a> {
 
     /// Upper bound of what the regularisation adds anywhere in {S ≤ `level`}.
     pub fn most_surplus(&self, level: f64) -> f64 {
+        let added = self.sphere_weight - self.particle.sphere_weight;
+        if added == 0.0 {
+            return 0.0;
+        }
         let reach = self.particle.reach(level);
-        (self.sphere_weight - self.particle.sphere_weight) * reach * reach
+        added * reach * reach
     }
 }
 
