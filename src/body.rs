@@ -244,6 +244,9 @@ impl<'a> Body<'a> {
 }
 
 impl Local {
+    pub const BLANK: Self =
+        Self { y: Vector3::new(0.0, 0.0, 0.0), blur: 0.0, early: 0.0, dropped: [0; MOST_DROPPED], count: 0 };
+
     /// Lower bound of [`Body::rounding`] where S has the given gradient.
     pub fn least_rounding(&self, gradient: &Vector3<f64>) -> f64 {
         self.blur * gradient.norm()

@@ -60,7 +60,8 @@ pub fn detect(
     if start.is_some() && settings.back_end == BackEnd::Fast {
         search.flags.insert(Flags::WARM);
     }
-    let midway = search.midway(start)?;
+    let mut midway = Answer::BLANK;
+    search.midway(start, &mut midway)?;
     let scale = search.certify(&midway, Target::Midway);
     let separated = midway.outcome.ending == Ending::Separated;
     if let Some(memory) = memory {
@@ -104,12 +105,13 @@ fn describe(
 ) -> Result<LocalContact, DetectError> {
     let overlapping = contact.kind == Kind::Overlapping;
     if settings.formulation == Formulation::Closest {
-        let p2 = search.constrained(Target::OnB, Some(midway))?;
-        let p1 = if p2.is_some() { search.constrained(Target::OnA, Some(midway))? } else { None };
-        if let (Some((p2, of_a)), Some((p1, of_b))) = (&p2, &p1) {
+        let (mut p1, mut p2) = (Answer::BLANK, Answer::BLANK);
+        let of_a = search.constrained(Target::OnB, Some(midway), &mut p2)?;
+        let of_b = if of_a.is_some() { search.constrained(Target::OnA, Some(midway), &mut p1)? } else { None };
+        if let (Some(of_a), Some(of_b)) = (of_a, of_b) {
             (contact.s, contact.s_b) = (of_a.s, of_b.s);
             contact.gap = of_a.gap.max(of_b.gap);
-            contact.point_bound = search.bound(p2, Target::OnB).max(search.bound(p1, Target::OnA));
+            contact.point_bound = search.bound(&p2, Target::OnB).max(search.bound(&p1, Target::OnA));
             contact.weight = share(p2.outcome.lambda);
             let gradients = [p1.outcome.gradients[0], p2.outcome.gradients[1]];
             let points = [&p1.outcome.x, &p2.outcome.x];

@@ -26,6 +26,17 @@ pub struct Quadratic {
     pub count: u32,
 }
 
+impl Quadratic {
+    pub(crate) const ZERO: Self = Self {
+        value: 0.0,
+        expansion: 0.0,
+        gradient: Vector3::new(0.0, 0.0, 0.0),
+        hessian: Symmetric { xx: 0.0, yx: 0.0, yy: 0.0, zx: 0.0, zy: 0.0, zz: 0.0 },
+        pull: 0.0,
+        count: 0,
+    };
+}
+
 /// S and ∇S at a point.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Tangent {

@@ -22,12 +22,16 @@ pub(crate) struct Search<'a> {
 }
 
 /// An answer, with the quadratics that it is the optimum of, or at its point where the cone program gave it.
+///
+/// It is large: whoever asks provides the place for it.
 pub(crate) struct Answer {
     pub outcome: Outcome,
     pub expansion: Expansion,
 }
 
 impl Answer {
+    pub const BLANK: Self = Self { outcome: Outcome::UNKNOWN, expansion: Expansion::BLANK };
+
     /// Where a neighbouring problem of the same pair may begin.
     fn start(&self) -> Start {
         Start { x: self.outcome.x, lambda: self.outcome.lambda, near: true }
@@ -42,8 +46,8 @@ impl<'a> Search<'a> {
 
     /// Midway, from a start if there is one.
     #[inline(always)]
-    pub fn midway(&mut self, start: Option<Start>) -> Result<Answer, ConicError> {
-        self.solve(Target::Midway, start, None)
+    pub fn midway(&mut self, start: Option<Start>, answer: &mut Answer) -> Result<(), ConicError> {
+        self.solve(Target::Midway, start, None, answer)
     }
 
     /// One of the two problems of closest, or `None` where its constraint is slack: the optimum is then the
@@ -55,7 +59,8 @@ impl<'a> Search<'a> {
         &mut self,
         target: Target,
         midway: Option<&Answer>,
-    ) -> Result<Option<(Answer, Certified)>, ConicError> {
+        answer: &mut Answer,
+    ) -> Result<Option<Certified>, ConicError> {
         let centre_inside = match target {
             Target::OnB => self.pair.b.potential(&self.pair.centre) < 0.0,
             _ => self.pair.a.potential(&self.body_a.local(&self.body_b.centre())) < 0.0,
@@ -63,10 +68,10 @@ impl<'a> Search<'a> {
         if centre_inside {
             return Ok(None);
         }
-        let answer = self.solve(target, midway.map(Answer::start), midway.map(|midway| &midway.expansion))?;
-        let scale = self.certify(&answer, target);
+        self.solve(target, midway.map(Answer::start), midway.map(|midway| &midway.expansion), answer)?;
+        let scale = self.certify(answer, target);
         // A scale that cannot be told from 0 belongs to a core.
-        Ok((scale.s > scale.gap).then_some((answer, scale)))
+        Ok((scale.s > scale.gap).then_some(scale))
     }
 
     /// The scale s of an answer, and the bound on its error.
@@ -81,26 +86,33 @@ impl<'a> Search<'a> {
 
     /// The ladder: from the start at hand, cold, with the safer factorisation, and by the cone program.
     #[inline(always)]
-    fn solve(&mut self, target: Target, start: Option<Start>, left: Option<&Expansion>) -> Result<Answer, ConicError> {
+    fn solve(
+        &mut self,
+        target: Target,
+        start: Option<Start>,
+        left: Option<&Expansion>,
+        answer: &mut Answer,
+    ) -> Result<(), ConicError> {
         let usual = spine::factorisation(&self.body_a, &self.body_b);
         if self.settings.back_end == BackEnd::Fast {
             let first = start.unwrap_or_else(|| spine::cold_start(self.pair, &self.body_a, &self.body_b));
-            let mut answer = self.rung(target, &first, left, usual);
+            self.rung(target, &first, left, usual, answer);
             if answer.outcome.ending == Ending::Stuck {
-                self.further(target, start.is_some(), usual, &mut answer);
+                self.further(target, start.is_some(), usual, answer);
             }
             if answer.outcome.ending != Ending::Stuck {
                 if answer.outcome.ending == Ending::RoundingLimited {
                     self.flags.insert(Flags::ROUNDING_LIMITED);
                 }
-                return Ok(answer);
+                return Ok(());
             }
             self.flags.insert(Flags::FELL_BACK);
         }
         self.answered = BackEnd::Conic;
-        let outcome = self.conic(target)?;
-        let start = Start { x: outcome.x, lambda: outcome.lambda, near: true };
-        Ok(Answer { outcome, expansion: Expansion::at([&self.body_a, &self.body_b], &start, target, usual) })
+        answer.outcome = self.conic(target)?;
+        let start = answer.start();
+        answer.expansion = Expansion::at([&self.body_a, &self.body_b], &start, target, usual);
+        Ok(())
     }
 
     /// The rungs after the first: cold, and with the safer axes from the end of the safe way to λ.
@@ -108,14 +120,14 @@ impl<'a> Search<'a> {
     fn further(&mut self, target: Target, warm: bool, usual: Factorisation, answer: &mut Answer) {
         let cold = spine::cold_start(self.pair, &self.body_a, &self.body_b);
         if warm {
-            *answer = self.rung(target, &cold, None, usual);
+            self.rung(target, &cold, None, usual, answer);
         }
         if answer.outcome.ending == Ending::Stuck {
             let bodies = [&self.body_a, &self.body_b];
             let (start, models) = dual::start(bodies, target, &cold, Factorisation::Aligned);
             self.iterations += models;
             if let Some(start) = start {
-                *answer = self.rung(target, &start, None, Factorisation::Aligned);
+                self.rung(target, &start, None, Factorisation::Aligned, answer);
             }
             if answer.outcome.ending != Ending::Stuck {
                 self.flags.insert(Flags::SAFER);
@@ -130,9 +142,10 @@ impl<'a> Search<'a> {
         start: &Start,
         left: Option<&Expansion>,
         factorisation: Factorisation,
-    ) -> Answer {
+        answer: &mut Answer,
+    ) {
         let bodies = [&self.body_a, &self.body_b];
-        let mut expansion = match left {
+        answer.expansion = match left {
             Some(expansion) => *expansion,
             None => Expansion::at(bodies, start, target, factorisation),
         };
@@ -141,9 +154,8 @@ impl<'a> Search<'a> {
             tolerance: self.settings.gap_tolerance,
             stop_when_separated: target == Target::Midway && !self.settings.solve_separated,
         };
-        let outcome = spine::solve(bodies[0], bodies[1], &goal, start, factorisation, &mut expansion);
-        self.iterations += outcome.iterations;
-        Answer { outcome, expansion }
+        answer.outcome = spine::solve(bodies[0], bodies[1], &goal, start, factorisation, &mut answer.expansion);
+        self.iterations += answer.outcome.iterations;
     }
 
     #[cold]

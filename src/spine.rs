@@ -102,6 +102,20 @@ pub(crate) struct Outcome {
 }
 
 impl Outcome {
+    /// Of a search that has found nothing.
+    pub const UNKNOWN: Self = Self {
+        x: NOWHERE,
+        lambda: 1.0,
+        gradients: [NOWHERE; 2],
+        estimate: f64::NAN,
+        lower: f64::NEG_INFINITY,
+        upper: f64::INFINITY,
+        rounding: f64::INFINITY,
+        iterations: 0,
+        ending: Ending::Stuck,
+        response: None,
+    };
+
     /// Bound on the error of the optimal S.
     fn gap(&self) -> f64 {
         self.upper - self.lower + self.rounding
@@ -150,7 +164,12 @@ pub(crate) fn cold_start(pair: &Pair, a: &Body, b: &Body) -> Start {
     Start { x: from + alpha * direction, lambda, near: false }
 }
 
+const NOWHERE: Vector3<f64> = Vector3::new(0.0, 0.0, 0.0);
+
 impl Expansion {
+    pub const BLANK: Self =
+        Self { x: NOWHERE, axes: None, locals: [Local::BLANK; 2], q_a: Quadratic::ZERO, q_b: Quadratic::ZERO };
+
     /// At a point, with planes counting from their own blur.
     pub fn at(bodies: [&Body; 2], start: &Start, target: Target, factorisation: Factorisation) -> Self {
         let locals = bodies.map(|body| body.locate(&start.x, 0.0));
@@ -399,18 +418,7 @@ pub(crate) fn solve(
             *here = expansion;
             Outcome { iterations, ..outcome }
         }
-        _ => Outcome {
-            x: here.x,
-            lambda,
-            gradients: [Vector3::zeros(); 2],
-            estimate: f64::NAN,
-            lower,
-            upper: f64::INFINITY,
-            rounding: f64::INFINITY,
-            iterations,
-            ending: Ending::Stuck,
-            response: None,
-        },
+        _ => Outcome { x: here.x, lambda, lower, iterations, ..Outcome::UNKNOWN },
     }
 }
 
