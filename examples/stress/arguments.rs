@@ -1,0 +1,39 @@
+//! What the command line says.
+
+use clap::Parser;
+use std::path::PathBuf;
+
+/// Random pairs over everything that can be written down, judged without a known answer; then walks and sweeps.
+///
+/// Ends with exit code 1 if anything failed. Interrupted, it writes what it has.
+#[derive(Parser, Clone)]
+#[command(name = "stress")]
+pub struct Arguments {
+    /// Poses.
+    #[arg(long, default_value_t = 1_000_000)]
+    pub poses: u64,
+    /// The pairs depend on this number and their index only.
+    #[arg(long, default_value_t = 1)]
+    pub seed: u64,
+    /// Index of the first pose.
+    #[arg(long, default_value_t = 0)]
+    pub first: u64,
+    /// Threads; 0: as many as there are cores.
+    #[arg(long, default_value_t = 0)]
+    pub threads: usize,
+    /// Random walks of 1,000 steps; by default one for each 10,000 poses.
+    #[arg(long)]
+    pub walks: Option<u64>,
+    /// Leave the continuity sweeps out.
+    #[arg(long)]
+    pub no_sweeps: bool,
+    /// Only this family of pairs.
+    #[arg(long)]
+    pub family: Option<String>,
+    /// Judge this one pose, say all about it, and write it as a line for solve_pairs.
+    #[arg(long, value_name = "INDEX")]
+    pub replay: Option<u64>,
+    /// Folder of the results.
+    #[arg(long, default_value = "out/stress")]
+    pub output: PathBuf,
+}

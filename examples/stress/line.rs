@@ -1,0 +1,56 @@
+//! A pair as one line of JSON, as solve_pairs reads it: what was found can be solved again anywhere.
+
+use crate::cases::{Case, Place};
+use potential_particles::Particle;
+use serde::{Deserialize, Serialize};
+
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct Shape {
+    n: Vec<[f64; 3]>,
+    d: Vec<f64>,
+    r: f64,
+    k: f64,
+    #[serde(rename = "R")]
+    shadow_radius: f64,
+}
+
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
+pub struct At {
+    pos: [f64; 3],
+    q: [f64; 4],
+}
+
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct Line {
+    /// What went wrong, for the reader; whoever solves it ignores it.
+    pub what: String,
+    #[serde(rename = "A")]
+    a: Shape,
+    #[serde(rename = "B")]
+    b: Shape,
+    #[serde(rename = "a")]
+    at_a: At,
+    #[serde(rename = "b")]
+    at_b: At,
+}
+
+impl Line {
+    pub fn of(case: &Case, what: String) -> Self {
+        Self::placed(&case.shapes.a, &case.at_a, &case.shapes.b, &case.at_b, what)
+    }
+
+    pub fn placed(a: &Particle, at_a: &Place, b: &Particle, at_b: &Place, what: String) -> Self {
+        let at = |place: &Place| At { pos: place.position, q: place.orientation };
+        Self { what, a: shape(a), b: shape(b), at_a: at(at_a), at_b: at(at_b) }
+    }
+}
+
+fn shape(particle: &Particle) -> Shape {
+    Shape {
+        n: particle.planes().map(|p| p.normal.into()).collect(),
+        d: particle.planes().map(|p| p.offset).collect(),
+        r: particle.rounding_radius(),
+        k: particle.sphericity(),
+        shadow_radius: particle.shadow_radius(),
+    }
+}

@@ -1,0 +1,120 @@
+//! Searches for what breaks contact detection: random pairs over everything that can be written down, random walks,
+//! and smooth motions, each answer judged by definition and against a second solution in 32 digits.
+//!
+//!     cargo run --release --example stress -- --poses 1000000 --seed 1
+//!
+//! Ctrl-C ends a run early and keeps its results. docs/reliability.md says what is checked and what was found.
+
+mod arguments;
+mod cases;
+mod clock;
+#[path = "../../benches/scene/evaluation.rs"]
+#[allow(dead_code)]
+mod evaluation;
+mod judge;
+mod line;
+#[path = "../../benches/work_precision/machine.rs"]
+#[allow(dead_code)]
+mod machine;
+mod pairs;
+#[path = "../../benches/scene/random.rs"]
+#[allow(dead_code)]
+mod random;
+mod reference;
+mod replay;
+mod report;
+mod shapes;
+mod sweeps;
+mod tally;
+mod walks;
+mod wide;
+
+use arguments::Arguments;
+use cases::FAMILIES;
+use clap::Parser;
+use indicatif::{ProgressBar, ProgressStyle};
+use report::Findings;
+use std::process::ExitCode;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Instant;
+use tally::Tally;
+
+fn main() -> ExitCode {
+    let arguments = Arguments::parse();
+    if let Some(index) = arguments.replay {
+        return replay::one(arguments.seed, index);
+    }
+    match run(&arguments) {
+        Ok(0) => ExitCode::SUCCESS,
+        Ok(_) => ExitCode::FAILURE,
+        Err(error) => {
+            eprintln!("stress: {error}");
+            ExitCode::from(2)
+        }
+    }
+}
+
+/// The number of failures.
+fn run(arguments: &Arguments) -> Result<u64, String> {
+    let family = match &arguments.family {
+        Some(name) => Some(FAMILIES.iter().position(|family| family.name == name).ok_or_else(|| {
+            let names: Vec<_> = FAMILIES.iter().map(|family| family.name).collect();
+            format!("there is no family '{name}'; there are: {}", names.join("; "))
+        })?),
+        None => None,
+    };
+    let stop = Arc::new(AtomicBool::new(false));
+    let asked = Arc::clone(&stop);
+    ctrlc::set_handler(move || {
+        // A second one ends the program at once.
+        if asked.swap(true, Ordering::Relaxed) {
+            std::process::exit(130);
+        }
+        eprintln!("\nstopping; results are being written");
+    })
+    .map_err(|error| error.to_string())?;
+    // A panic is a finding: it is counted, and needs no trace of its own.
+    std::panic::set_hook(Box::new(|_| ()));
+    let cores = std::thread::available_parallelism().map_or(1, usize::from);
+    let threads = if arguments.threads == 0 { cores } else { arguments.threads };
+    let begin = Instant::now();
+    let evaluation = clock::evaluation();
+
+    let range = pairs::Range { seed: arguments.seed, first: arguments.first, count: arguments.poses, family };
+    let mut tally = Tally::default();
+    let bar = progress("poses", arguments.poses);
+    tally.merge(pairs::run(&range, threads, &stop, &bar));
+    bar.finish_and_clear();
+    let walks = arguments.walks.unwrap_or(arguments.poses / 10_000);
+    let bar = progress("steps of walks", walks * walks::STEPS);
+    tally.merge(walks::run(arguments.seed, walks, threads, &stop, &bar));
+    bar.finish_and_clear();
+    let mut sweeps = Vec::new();
+    if !arguments.no_sweeps && !stop.load(Ordering::Relaxed) {
+        let bar = progress("sweeps", sweeps::COUNT);
+        sweeps = sweeps::all(&mut tally, || bar.inc(1));
+        bar.finish_and_clear();
+    }
+
+    let findings = Findings {
+        seed: arguments.seed,
+        first: arguments.first,
+        wanted: arguments.poses,
+        interrupted: stop.load(Ordering::Relaxed),
+        seconds: begin.elapsed().as_secs_f64(),
+        evaluation,
+        tally,
+        walks,
+        sweeps,
+        machine: machine::Machine::here(None),
+    };
+    findings.write(&arguments.output).map_err(|error| format!("{}: {error}", arguments.output.display()))?;
+    findings.print();
+    Ok(findings.tally.failures())
+}
+
+fn progress(what: &'static str, length: u64) -> ProgressBar {
+    let template = format!("{{bar:40}} {{pos}} of {{len}} {what}  {{eta}} left");
+    ProgressBar::new(length).with_style(ProgressStyle::with_template(&template).expect("a valid template"))
+}

@@ -1,0 +1,110 @@
+//! The second part: random walks, on which each answer from memory must be the one without.
+
+use crate::cases::{Case, FAMILIES, POSES_A_PAIR, Place, Shapes, stream};
+use crate::judge::{FULL, Failure};
+use crate::line::Line;
+use crate::random::Random;
+use crate::tally::{Found, Tally};
+use indicatif::ProgressBar;
+use nalgebra::{Quaternion, UnitQuaternion, Vector3};
+use potential_particles::{Contact, Kind, Memory, Pose, Settings, detect};
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+
+pub const STEPS: u64 = 1000;
+
+/// Walks by several threads; walk w is of family w modulo their number.
+pub fn run(seed: u64, walks: u64, threads: usize, stop: &AtomicBool, progress: &ProgressBar) -> Tally {
+    let total = Mutex::new(Tally::default());
+    let next = AtomicU64::new(0);
+    std::thread::scope(|scope| {
+        for _ in 0..threads {
+            scope.spawn(|| {
+                let mut tally = Tally::default();
+                loop {
+                    let walk = next.fetch_add(1, Ordering::Relaxed);
+                    if walk >= walks || stop.load(Ordering::Relaxed) {
+                        break;
+                    }
+                    one(seed, walk, &mut tally);
+                    progress.inc(STEPS);
+                }
+                total.lock().expect("no thread panics while it holds the sum").merge(tally);
+            });
+        }
+    });
+    total.into_inner().expect("no thread panics while it holds the sum")
+}
+
+/// Walk `walk`: what is found is added to the tally, with the walk for an index.
+pub fn one(seed: u64, walk: u64, tally: &mut Tally) {
+    // Past any pair of the first part, so that the shapes are others.
+    let index =
+        (1 << 40) / POSES_A_PAIR / FAMILIES.len() as u64 * POSES_A_PAIR * FAMILIES.len() as u64 + walk * POSES_A_PAIR;
+    let shapes = Shapes::of(seed, index);
+    let case = Case::of(&shapes, seed, index);
+    let mut random = stream(seed, 5, walk);
+    let (mut full, mut quick) = (Memory::default(), Memory::default());
+    let mut at_b = case.at_b;
+    let small = shapes.a.bounding_radius().min(shapes.b.bounding_radius());
+    let meet = shapes.a.bounding_radius() + shapes.b.bounding_radius();
+    for step in 0..STEPS {
+        let judged = catch_unwind(AssertUnwindSafe(|| compare(&case, &at_b, &mut full, &mut quick)));
+        let wrong = judged.unwrap_or_else(|_| Some((Failure::Panic, "panicked".into())));
+        tally.walk_steps += 1;
+        if let Some((failure, detail)) = wrong {
+            let detail = format!("walk {walk} step {step}: {detail}");
+            let line = Line::placed(&shapes.a, &case.at_a, &shapes.b, &at_b, format!("{failure:?}: {detail}"));
+            tally.find(Found { failure, index: walk, family: case.family(), detail, line: Some(line) });
+        }
+        at_b = walked(&case.at_a, &at_b, small, meet, &mut random);
+    }
+}
+
+/// A small step, now and then a large one; back towards A from too far.
+fn walked(at_a: &Place, at_b: &Place, small: f64, meet: f64, random: &mut Random) -> Place {
+    let size = if random.uniform() < 0.02 { 0.3 } else { 1e-3 };
+    let mut position = Vector3::from(at_b.position) + small * size * random.direction();
+    let away = position - Vector3::from(at_a.position);
+    if away.norm() > 1.05 * meet {
+        position -= 0.2 * away;
+    }
+    let [w, x, y, z] = at_b.orientation;
+    let turn = UnitQuaternion::new(size * random.direction());
+    let q = turn.quaternion() * Quaternion::new(w, x, y, z);
+    let length = q.norm();
+    Place { position: position.into(), orientation: [q.w, q.i, q.j, q.k].map(|c| c / length) }
+}
+
+fn compare(case: &Case, at_b: &Place, full: &mut Memory, quick: &mut Memory) -> Option<(Failure, String)> {
+    let (a, b) = (&case.shapes.a, &case.shapes.b);
+    let (pose_a, pose_b): (Pose, Pose) = (case.at_a.pose(), at_b.pose());
+    let answer = |settings: &Settings, memory: Option<&mut Memory>| {
+        detect(a, &pose_a, b, &pose_b, settings, memory).map_err(|error| error.to_string())
+    };
+    let mut answers = || -> Result<(Contact, Contact, Contact), String> {
+        Ok((answer(&FULL, None)?, answer(&FULL, Some(full))?, answer(&Settings::default(), Some(quick))?))
+    };
+    let (cold, warm, quick) = match answers() {
+        Ok(answers) => answers,
+        Err(error) => return Some((Failure::Error, error)),
+    };
+    let both = cold.gap + warm.gap;
+    if !((cold.s - warm.s).abs() <= both) {
+        return Some((Failure::Warm, format!("s={:e} cold, {:e} warm, gaps {both:e}", cold.s, warm.s)));
+    }
+    let length = (pose_a.position - pose_b.position).norm() + a.bounding_radius() + b.bounding_radius();
+    let off = (cold.branch_b - warm.branch_b).norm();
+    let allowed = cold.point_bound + warm.point_bound + 8.0 * f64::EPSILON * length;
+    let flat = a.sphericity().min(b.sphericity()) < 1e-12;
+    if !flat && !(off <= allowed) {
+        return Some((Failure::Warm, format!("points {off:e} apart, bounds {allowed:e}")));
+    }
+    let decided = (cold.s - 1.0).abs() > cold.gap;
+    if decided && quick.kind != cold.kind {
+        return Some((Failure::Warm, format!("quick {:?} {:?}, cold s={:e}", quick.kind, quick.flags, cold.s)));
+    }
+    let malformed = warm.kind == Kind::Overlapping && !(warm.overlap >= 0.0);
+    malformed.then(|| (Failure::Malformed, format!("overlap {:e}", warm.overlap)))
+}
