@@ -15,6 +15,8 @@ Contact detection between potential particles.
   make lint     formatting and warnings
   make bench    run time, each target beside what was measured, and run time against error; results in out/bench
   make side-by-side  YADE's own contact functor and this one on the same scenes; results in out/side_by_side
+  make stress   a million random pairs, judged without a known answer; results in out/stress
+  make fuzz     fuzz particle creation, detection and the reader of pairs, a minute each; needs libFuzzer's headers (g++)
   make clean    remove everything built (results in out/ stay)
 
 Variables, as in "make demo STEPS=1000 BODIES=50":
@@ -26,6 +28,9 @@ Variables, as in "make demo STEPS=1000 BODIES=50":
   OUTPUT=DIR        demo, wedge, side-by-side: where the results go (out/pyramids, out/wedge, out/side_by_side)
   THREADS=1         demo: threads of YADE
   QUICK=1           side-by-side: a little of everything, in seconds
+  POSES=1000000     stress: number of poses
+  SEED=1            stress: the pairs depend on it
+  FUZZ_SECONDS=60   fuzz: how long each target
   VERBOSE=1         test: show the output of every stage, not only of those that fail
   CARGO_TARGET_DIR  where cargo builds (default: target)
 endef
@@ -45,7 +50,7 @@ export PATH := $(PATH):$(HOME)/.cargo/bin
 
 heading = @printf '== %s\n' '$(1)'
 
-.PHONY: help demo wedge test side-by-side setup build library glue header lint bench clean
+.PHONY: help demo wedge test side-by-side setup build library glue header lint bench stress fuzz clean
 .DEFAULT_GOAL := help
 # The steps of one goal build on each other in the order in which they are named.
 .NOTPARALLEL:
@@ -109,6 +114,20 @@ bench:
 	$(call heading,Run time against error)
 	@cargo bench --bench work_precision
 	@/usr/bin/python3 benches/plot.py
+
+# Fails when a pair fails; the picture is drawn all the same.
+stress: POSES ?= 1000000
+stress: SEED ?= 1
+stress: OUTPUT := $(or $(OUTPUT),out/stress)
+stress:
+	$(call heading,Stress)
+	@status=0; cargo run --quiet --release --example stress -- --poses $(POSES) --seed $(SEED) --output $(OUTPUT) || status=$$?; \
+	/usr/bin/python3 examples/stress/plot.py $(OUTPUT); exit $$status
+
+fuzz: export FUZZ_SECONDS ?= 60
+fuzz:
+	$(call heading,Fuzzing)
+	@fuzz/run.sh
 
 clean:
 	@cargo clean

@@ -39,6 +39,10 @@ impl Line {
         Self::placed(&case.shapes.a, &case.at_a, &case.shapes.b, &case.at_b, what)
     }
 
+    pub fn planes(&self) -> usize {
+        self.a.d.len() + self.b.d.len()
+    }
+
     pub fn placed(a: &Particle, at_a: &Place, b: &Particle, at_b: &Place, what: String) -> Self {
         let at = |place: &Place| At { pos: place.position, q: place.orientation };
         Self { what, a: shape(a), b: shape(b), at_a: at(at_a), at_b: at(at_b) }

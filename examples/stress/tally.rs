@@ -98,6 +98,12 @@ pub struct Found {
     pub line: Option<Line>,
 }
 
+impl Found {
+    fn planes(&self) -> usize {
+        self.line.as_ref().map_or(0, Line::planes)
+    }
+}
+
 #[derive(Clone)]
 pub struct Tally {
     pub pairs: u64,
@@ -185,9 +191,17 @@ impl Tally {
         self.keep(found);
     }
 
+    /// Of many failures of a kind those of few planes, which are easiest to understand.
     fn keep(&mut self, found: Found) {
         if self.found.iter().filter(|each| each.failure == found.failure).count() < KEPT {
             self.found.push(found);
+            return;
+        }
+        let alike = self.found.iter_mut().filter(|each| each.failure == found.failure);
+        if let Some(largest) = alike.max_by_key(|each| each.planes())
+            && largest.planes() > found.planes()
+        {
+            *largest = found;
         }
     }
 

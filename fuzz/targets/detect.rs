@@ -1,0 +1,77 @@
+//! Detection of any two particles at any poses, with any settings and any memory: an error, or an answer that holds
+//! together. How exact it is, the stress test judges.
+
+use super::bytes::Bytes;
+use super::particle;
+use potential_particles::{Contact, Flags, Formulation, Kind, Memory, Particle, Pose, Settings, detect};
+
+pub fn run(data: &[u8]) {
+    let mut bytes = Bytes(data);
+    let (Ok(a), Ok(b)) = (particle::likely(&mut bytes), particle::likely(&mut bytes)) else { return };
+    let (Some(at_a), Some(at_b)) = (pose(&mut bytes), pose(&mut bytes)) else { return };
+    let mut settings = Settings::default();
+    let choices = bytes.byte();
+    if choices & 1 != 0 {
+        settings.formulation = Formulation::Closest;
+    }
+    settings.solve_separated = choices & 2 != 0;
+    if choices & 4 != 0 {
+        settings.gap_tolerance = bytes.number();
+        settings.weight_on_a = bytes.number();
+        settings.flat_regularisation = bytes.number();
+    }
+    let mut state = [0.0; 8];
+    for number in &mut state {
+        *number = if choices & 8 != 0 { bytes.number() } else { 0.0 };
+    }
+    if choices & 16 != 0 {
+        state[0] = 1.0;
+    }
+    let mut memory = Memory::from_raw(state);
+    let first = detect(&a, &at_a, &b, &at_b, &settings, Some(&mut memory));
+    if settings.validate().is_err() {
+        assert!(first.is_err());
+        return;
+    }
+    let Ok(first) = first else { return };
+    whole(&first);
+    // From what it has just remembered, and the other way round.
+    if let Ok(again) = detect(&a, &at_a, &b, &at_b, &settings, Some(&mut memory)) {
+        whole(&again);
+    }
+    if let Ok(swapped) = detect(&b, &at_b, &a, &at_a, &settings, None) {
+        whole(&swapped);
+    }
+    unharmed(&a, &b);
+}
+
+pub fn pose(bytes: &mut Bytes) -> Option<Pose> {
+    let position = if bytes.byte() < 200 { [0; 3].map(|_| 0.25 * bytes.ordinary()) } else { bytes.triple() };
+    let orientation = match bytes.byte() {
+        0..=60 => [1.0, 0.0, 0.0, 0.0],
+        61..=200 => [0; 4].map(|_| bytes.ordinary()),
+        _ => [0; 4].map(|_| bytes.number()),
+    };
+    Pose::new(position, orientation).ok()
+}
+
+/// An answer that holds together.
+pub fn whole(contact: &Contact) {
+    assert!(contact.s >= 0.0, "{contact:?}");
+    let overlapping = contact.kind == Kind::Overlapping;
+    if contact.flags.contains(Flags::REJECTED) {
+        assert!(!overlapping && contact.s >= 1.0, "{contact:?}");
+        return;
+    }
+    assert!(contact.gap >= 0.0, "{contact:?}");
+    assert!((contact.normal.norm() - 1.0).abs() < 1e-12, "{contact:?}");
+    assert!(contact.point.iter().chain(contact.branch_a.iter()).all(|c| c.is_finite()), "{contact:?}");
+    assert_eq!(overlapping, !contact.overlap.is_nan(), "{contact:?}");
+    assert_eq!(overlapping, contact.point_on_a.iter().all(|c| c.is_finite()), "{contact:?}");
+}
+
+fn unharmed(a: &Particle, b: &Particle) {
+    for particle in [a, b] {
+        assert!(particle.potential(&nalgebra::Vector3::zeros()) < 0.0);
+    }
+}

@@ -1,0 +1,8 @@
+//! What is done with arbitrary bytes; shared by the fuzzer and by the replay among the tests.
+
+pub mod bytes;
+pub mod detect;
+#[path = "../../examples/solve_pairs/input.rs"]
+mod input;
+pub mod pairs_file;
+pub mod particle;
