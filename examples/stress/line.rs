@@ -1,7 +1,8 @@
 //! A pair as one line of JSON, as solve_pairs reads it: what was found can be solved again anywhere.
 
-use crate::cases::{Case, Place};
-use potential_particles::Particle;
+use crate::cases::{Case, Place, Shapes};
+use nalgebra::Vector3;
+use potential_particles::{Particle, ParticleError, Plane};
 use serde::{Deserialize, Serialize};
 
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -56,5 +57,25 @@ fn shape(particle: &Particle) -> Shape {
         r: particle.rounding_radius(),
         k: particle.sphericity(),
         shadow_radius: particle.shadow_radius(),
+    }
+}
+
+impl Line {
+    /// The two shapes again, of no family.
+    pub fn shapes(&self) -> Result<Shapes, ParticleError> {
+        Ok(Shapes { a: self.a.particle()?, b: self.b.particle()?, group: 0, family: 0 })
+    }
+
+    /// The places of A and of B.
+    pub fn places(&self) -> [Place; 2] {
+        [self.at_a, self.at_b].map(|at| Place { position: at.pos, orientation: at.q })
+    }
+}
+
+impl Shape {
+    fn particle(&self) -> Result<Particle, ParticleError> {
+        let plane = |(normal, offset): (&[f64; 3], &f64)| Plane { normal: Vector3::from(*normal), offset: *offset };
+        let planes: Vec<Plane> = self.n.iter().zip(&self.d).map(plane).collect();
+        Particle::new(&planes, self.r, self.k, self.shadow_radius)
     }
 }

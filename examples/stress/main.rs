@@ -12,6 +12,7 @@ mod clock;
 #[allow(dead_code)]
 mod evaluation;
 mod judge;
+#[allow(dead_code)]
 mod line;
 #[path = "../../benches/work_precision/machine.rs"]
 #[allow(dead_code)]

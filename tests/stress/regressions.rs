@@ -1,0 +1,169 @@
+//! Every pair that once failed, by cause. Those that still do are ignored, with the reason; take the mark away with
+//! the cause.
+
+use crate::cases::{Case, stream};
+use crate::judge::{Failure, Units, judge};
+use crate::line::Line;
+use nalgebra::Vector3;
+use potential_particles::{Particle, Plane, Pose, Settings, detect};
+
+/// Judges the pair of this name; of failures only those asked for count.
+fn judged(name: &str, kinds: &[Failure]) {
+    let text = include_str!("../data/regressions.jsonl");
+    let line = text
+        .lines()
+        .map(|line| serde_json::from_str::<Line>(line).expect("a pair a line"))
+        .find(|line| line.what == name)
+        .unwrap_or_else(|| panic!("no pair is called {name}"));
+    let shapes = line.shapes().expect("two particles");
+    let [at_a, at_b] = line.places();
+    let case = Case { shapes: &shapes, index: 0, at_a, at_b };
+    // The motions and steps by which it is judged.
+    for seed in 1..=3 {
+        let units = Units::of(&shapes.a, &shapes.b, &mut stream(seed, 3, 0));
+        let verdict = judge(&case, &units, &mut stream(seed, 4, 0));
+        let failures: Vec<_> = verdict.failures.iter().filter(|(failure, _)| kinds.contains(failure)).collect();
+        assert!(failures.is_empty(), "{name}: {failures:?}");
+    }
+}
+
+use Failure::*;
+
+/// Planes of r/size = 6e-8 whose push or pull is below the resolution of their depth let a bound pass for proved
+/// that was not.
+#[test]
+fn planes_below_the_resolution_of_their_depth_count_against_the_bound() {
+    judged("planes_below_the_resolution_of_their_depth_count_against_the_bound", &[BoundOfS, BoundOfPoint, Warm]);
+    judged("the_same_after_a_step", &[BoundOfS, BoundOfPoint, Warm]);
+}
+
+/// The same with k = 1e-10.
+#[test]
+fn planes_below_the_resolution_with_hardly_a_sphere_count_against_the_bound() {
+    judged("planes_below_the_resolution_with_hardly_a_sphere_count_against_the_bound", &[BoundOfS, BoundOfPoint, Warm]);
+    judged("that_after_a_step", &[BoundOfS, BoundOfPoint, Warm]);
+}
+
+/// The small body lies deep in the other; the ray from P3 ended at its start, the overlap is that of one body alone.
+#[test]
+#[ignore = "open: the surface search ends at its start when the guess of the distance is wild"]
+fn a_surface_point_is_on_its_surface_deep_inside_a_sharp_body() {
+    judged("a_surface_point_is_on_its_surface_deep_inside_a_sharp_body", &[OffSurface]);
+}
+
+/// s < 1 by a unit in the last place, and the two distances to the surfaces sum up to less than 0.
+#[test]
+#[ignore = "open: an overlapping pair may have an overlap of -1e-17"]
+fn two_spheres_that_barely_touch_have_no_negative_overlap() {
+    judged("two_spheres_that_barely_touch_have_no_negative_overlap", &[Malformed]);
+}
+
+/// A small body at the corner of a box 500 away from its centre: the rotation of that arm rounds more than the
+/// distances to the planes near the corner.
+#[test]
+#[ignore = "open: the bound of s leaves out the rounding of a long arm"]
+fn the_bound_of_s_counts_a_long_arm_to_a_sharp_corner() {
+    judged("the_bound_of_s_counts_a_long_arm_to_a_sharp_corner", &[BoundOfS]);
+}
+
+/// P1 on a sphere, constrained by λ = 1e-10.
+#[test]
+#[ignore = "open: the bound of P1 and P2 is a few times too small"]
+fn the_bound_of_closest_points_on_a_sphere_counts_their_rounding() {
+    judged("the_bound_of_closest_points_on_a_sphere_counts_their_rounding", &[BoundOfPoint]);
+}
+
+/// s_A = 846: the gap is that of a pair that touches.
+#[test]
+#[ignore = "open: the gap of closest leaves out what s_B = 1 is off"]
+fn the_bound_of_s_of_closest_far_apart_counts_its_rounding() {
+    judged("the_bound_of_s_of_closest_far_apart_counts_its_rounding", &[BoundOfS]);
+}
+
+/// s_A is 6e10 and should be 8e9: solved to the end far apart, it is not the optimum, and its gap says it is.
+#[test]
+#[ignore = "open: closest of sharp bodies far apart stops before the optimum"]
+fn closest_of_sharp_bodies_far_apart_is_the_optimum() {
+    judged("closest_of_sharp_bodies_far_apart_is_the_optimum", &[BoundOfS]);
+}
+
+/// With default settings s is said to be a lower bound; it is an estimate that lies above the optimum by 1e-13.
+#[test]
+#[ignore = "open: s of a separation proved on the way is an estimate, not the bound"]
+fn a_separation_proved_on_the_way_gives_a_lower_bound() {
+    judged("a_separation_proved_on_the_way_gives_a_lower_bound", &[Reject]);
+}
+
+/// The minimiser runs along nearly parallel faces by 6e-4 within rounding, and its bound is 1e-6.
+#[test]
+#[ignore = "open: the bound of the point along nearly parallel faces"]
+fn from_memory_and_without_are_within_their_bounds_on_parallel_faces() {
+    judged("from_memory_and_without_are_within_their_bounds_on_parallel_faces", &[Warm, BoundOfPoint, Swap]);
+}
+
+/// The same in one body's frame and the other's.
+#[test]
+#[ignore = "open: the bound of the point along nearly parallel faces"]
+fn swapped_bodies_are_within_their_bounds_on_parallel_faces() {
+    judged("swapped_bodies_are_within_their_bounds_on_parallel_faces", &[Swap]);
+}
+
+/// A sharp body (r/size = 1e-8) around the centre of a sphere: s is 0 to all digits, and known to 0.05 only.
+#[test]
+#[ignore = "open: the gap is a billion times what rounding explains"]
+fn a_gap_is_as_small_as_rounding_allows_for_a_sharp_body_in_a_sphere() {
+    judged("a_gap_is_as_small_as_rounding_allows_for_a_sharp_body_in_a_sphere", &[LooseBound]);
+}
+
+/// r/size of 1e-10 against 1e-4: midway is answered, closest is not by either solver.
+#[test]
+#[ignore = "open: closest without an answer"]
+fn closest_of_sharp_bodies_has_an_answer() {
+    judged("closest_of_sharp_bodies_has_an_answer", &[Error]);
+}
+
+/// k = 1e-10 and r/size = 1e-8, deep: the point is 0.25 off, its bound says 3e-12, and the normal is at right angles.
+#[test]
+#[ignore = "open: the point of two deep, sharp bodies is not the optimum, and its bound says it is"]
+fn the_normal_of_sharp_bodies_is_known() {
+    judged("the_normal_of_sharp_bodies_is_known", &[BoundOfPoint, Normal]);
+}
+
+/// A plane a billion away changes nothing about two cubes but the accuracy of their surface points, which is taken
+/// relative to the furthest plane. Found by fuzzing.
+#[test]
+#[ignore = "open: the longest offset of all planes is the unit of rounding"]
+fn a_plane_that_is_never_reached_changes_no_answer() {
+    let cube = |far: Option<f64>| {
+        let faces = (0..3).flat_map(|axis| [1.0, -1.0].map(|sign| Vector3::ith(axis, sign)));
+        let mut planes: Vec<Plane> = faces.map(|normal| Plane { normal, offset: 0.45 }).collect();
+        planes.extend(far.map(|offset| Plane { normal: Vector3::new(0.6, 0.0, 0.8), offset }));
+        Particle::new(&planes, 0.05, 0.1, 0.9).expect("a cube")
+    };
+    let (at_a, at_b) = (Pose::at([0.0; 3]).expect("the origin"), Pose::new([0.2, 0.1, 0.93], [1.0, 0.1, 0.2, 0.3]));
+    let at_b = at_b.expect("a pose");
+    let answer = |cube: &Particle| detect(cube, &at_a, cube, &at_b, &Settings::default(), None).expect("an answer");
+    let (without, with) = (answer(&cube(None)), answer(&cube(Some(1e9))));
+    assert!((without.overlap - with.overlap).abs() < 1e-14, "{} and {}", without.overlap, with.overlap);
+    assert!(with.gap < 1e-11, "the gap is {:e}, without the plane {:e}", with.gap, without.gap);
+}
+
+/// A plane with a normal of length 5 and a reach of 1e54 along the axis of the sphere's box: corners are lost to
+/// rounding, and the box leaves the centre of the particle out. Found by fuzzing.
+#[test]
+#[ignore = "open: the corners of a polyhedron much longer than wide"]
+fn a_bounding_box_holds_the_centre_of_a_particle_that_hardly_ends() {
+    let planes = [
+        [1.0, 6.0, 0.0, 0.75],
+        [-1.0, 0.0, 0.0, 0.75],
+        [0.0, 1.0, 0.0, 0.75],
+        [0.0, -1.0, 0.0, 0.0],
+        [0.0, 0.0029296875, 0.0, 0.0],
+        [-4.74609375, -1.4560546875, 0.0, 0.0],
+    ]
+    .map(Plane::from);
+    let particle = Particle::new(&planes, 3.026123046875, 5.489088441883201e-56, 0.69).expect("a particle");
+    let (low, high) = particle.bounding_box(&Pose::at([0.0; 3]).expect("the origin"));
+    let centre = Vector3::<f64>::zeros();
+    assert!((0..3).all(|i| low[i] < centre[i] && high[i] > centre[i]), "box from {low} to {high}");
+}
