@@ -53,8 +53,12 @@ pub unsafe extern "C" fn pp_particle_new(
         let planes: Vec<Plane> = if count == 0 {
             Vec::new()
         } else {
-            // SAFETY: not NULL, and the caller promised 4*count doubles.
-            let rows = unsafe { std::slice::from_raw_parts(borrow(planes)? as *const f64, 4 * count) };
+            if planes.is_null() {
+                return Err(PP_NULL_POINTER);
+            }
+            // SAFETY: not NULL, and the caller promised 4*count doubles. From the pointer itself: one that went
+            // through a reference to the first double would be good for that one only.
+            let rows = unsafe { std::slice::from_raw_parts(planes, 4 * count) };
             rows.as_chunks::<4>().0.iter().map(|&row| Plane::from(row)).collect()
         };
         let particle = Particle::new(&planes, r, k, shadow_radius).map_err(|error| {

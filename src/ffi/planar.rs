@@ -107,8 +107,12 @@ pub unsafe extern "C" fn pp_particle_new_2d(
         let lines: Vec<Line> = if count == 0 {
             Vec::new()
         } else {
-            // SAFETY: not NULL, and the caller promised 3*count doubles.
-            let rows = unsafe { std::slice::from_raw_parts(borrow(lines)? as *const f64, 3 * count) };
+            if lines.is_null() {
+                return Err(PP_NULL_POINTER);
+            }
+            // SAFETY: not NULL, and the caller promised 3*count doubles. From the pointer itself: one that went
+            // through a reference to the first double would be good for that one only.
+            let rows = unsafe { std::slice::from_raw_parts(lines, 3 * count) };
             rows.as_chunks::<3>().0.iter().map(|&row| Line::from(row)).collect()
         };
         let particle = Particle::new(&lines, r, k, shadow_radius).map_err(|error| {
