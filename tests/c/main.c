@@ -23,6 +23,7 @@ int main(int count, char **arguments) {
     test_cube_contact();
     test_area();
     test_memory();
+    test_hostile();
     test_symmetry();
     test_threads();
     test_planar();

@@ -12,6 +12,7 @@ void test_sphere_contact(void);
 void test_cube_contact(void);
 void test_area(void);
 void test_memory(void);
+void test_hostile(void);
 void test_symmetry(void);
 void test_threads(void);
 void test_planar(void);
