@@ -418,7 +418,8 @@ fn flips(
         let outward = local.gradient.f64() / steep;
         // How far the body reaches beyond P3 along the normal: its tangent plane, tilted by what the normal is off.
         let reach = (Wide::ONE - local.value).f64() / steep;
-        apart += reach + (outward - direction).norm() * 2.0 * body.particle.bounding_radius();
+        let farthest = (start - body.centre()).norm() + body.particle.bounding_radius();
+        apart += reach + (outward - direction).norm() * farthest;
     }
     apart += 1e-3 * apart.abs();
     if apart.is_finite() && apart.abs() < 4.0 * scene.length {

@@ -19,7 +19,7 @@ fn judged(name: &str, kinds: &[Failure]) {
     let [at_a, at_b] = line.places();
     let case = Case { shapes: &shapes, index: 0, at_a, at_b };
     // The motions and steps by which it is judged.
-    for seed in 1..=3 {
+    for seed in 1..=50 {
         let units = Units::of(&shapes.a, &shapes.b, &mut stream(seed, 3, 0));
         let verdict = judge(&case, &units, &mut stream(seed, 4, 0));
         let failures: Vec<_> = verdict.failures.iter().filter(|(failure, _)| kinds.contains(failure)).collect();
@@ -64,6 +64,20 @@ fn two_spheres_that_barely_touch_have_no_negative_overlap() {
 #[ignore = "open: the bound of s leaves out the rounding of a long arm"]
 fn the_bound_of_s_counts_a_long_arm_to_a_sharp_corner() {
     judged("the_bound_of_s_counts_a_long_arm_to_a_sharp_corner", &[BoundOfS]);
+}
+
+/// Told separated by 1.3e-11 with a gap far below that, and they overlap by 3.6e-11: the same cause.
+#[test]
+#[ignore = "open: the bound of s leaves out the rounding of a long arm"]
+fn a_kissing_pair_is_on_its_side_of_contact_beyond_the_gap() {
+    judged("a_kissing_pair_is_on_its_side_of_contact_beyond_the_gap", &[WrongSide, BoundOfS]);
+}
+
+/// Two ordinary polyhedra, from memory: s and point are right, point_bound is NaN.
+#[test]
+#[ignore = "open: from some memories the bound of the point is NaN"]
+fn the_bound_of_the_point_is_a_number() {
+    judged("the_bound_of_the_point_is_a_number", &[Malformed, Warm]);
 }
 
 /// P1 on a sphere, constrained by λ = 1e-10.
