@@ -151,6 +151,20 @@ void ConicPotentialParticle::fillBox()
 
 void ConicPotentialParticle::pySetAttr(const std::string& key, const py::object& value)
 {
+    try {
+        setAttribute(key, value);
+    } catch (...) {
+        // One of a group, of which no more will come: what was set before it must not stay behind,
+        // since settle() would never see it.
+        give(accepted);
+        boxGiven = false;
+        automaticBoxGiven.reset();
+        throw;
+    }
+}
+
+void ConicPotentialParticle::setAttribute(const std::string& key, const py::object& value)
+{
     if (key == "planes") {
         pySetPlanes(value);
     } else if (key == "automaticBox") {
@@ -188,11 +202,12 @@ void ConicPotentialParticle::callPostLoad()
 
 py::list ConicPotentialParticle::pyPlanes() const
 {
-    if (!accepted.listsAgree())
-        require();
+    const Definition now = Definition::of(*this);
+    if (!now.listsAgree())
+        Particle::make(now)->require();
     py::list rows;
-    for (std::size_t i = 0; i < a.size(); ++i)
-        rows.append(py::make_tuple(a[i], b[i], c[i], d[i]));
+    for (std::size_t i = 0; i < now.a.size(); ++i)
+        rows.append(py::make_tuple(now.a[i], now.b[i], now.c[i], now.d[i]));
     return rows;
 }
 

@@ -47,6 +47,7 @@ private:
 
     // For Python: the particle, or std::invalid_argument saying why there is none.
     const pp_particle* require() const;
+    void setAttribute(const std::string& key, const boost::python::object& value);
     // Sets the fields that say which particle it is.
     void give(const Definition& definition);
     void fillBox();
