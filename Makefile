@@ -17,15 +17,18 @@ Contact detection between potential particles.
   make side-by-side  YADE's own contact functor and this one on the same scenes; results in out/side_by_side
   make stress   a million random pairs, judged without a known answer; results in out/stress
   make fuzz     fuzz particle creation, detection and the reader of pairs, a minute each; needs libFuzzer's headers (g++)
+  make long     YADE for 200,000 steps, killed and loaded, started 500 times: what breaks? results in out/long
   make clean    remove everything built (results in out/ stay)
 
 Variables, as in "make demo STEPS=1000 BODIES=50":
 
-  STEPS=14000       demo: number of time steps
-  BODIES=200        demo: number of pyramids
+  STEPS=14000       demo, long (200000): number of time steps
+  BODIES=200        demo, long: number of pyramids
+  STARTS=500        long: how often a tiny scene is started
+  KILLS=10          long: how often a run is killed and loaded
   FUNCTOR=library   demo: who finds the contacts: library, or builtin for YADE's own functor
   CASES=all         wedge: all, or short for two of them
-  OUTPUT=DIR        demo, wedge, side-by-side: where the results go (out/pyramids, out/wedge, out/side_by_side)
+  OUTPUT=DIR        demo, wedge, side-by-side, long: where the results go (out/pyramids, ...)
   THREADS=1         demo: threads of YADE
   QUICK=1           side-by-side: a little of everything, in seconds
   POSES=1000000     stress: number of poses
@@ -50,7 +53,7 @@ export PATH := $(PATH):$(HOME)/.cargo/bin
 
 heading = @printf '== %s\n' '$(1)'
 
-.PHONY: help demo wedge test side-by-side setup build library glue header lint bench stress fuzz clean
+.PHONY: help demo wedge test side-by-side setup build library glue header lint bench stress fuzz long clean
 .DEFAULT_GOAL := help
 # The steps of one goal build on each other in the order in which they are named.
 .NOTPARALLEL:
@@ -91,6 +94,15 @@ wedge: glue
 
 test:
 	@scripts/test.sh
+
+long: export STEPS := $(STEPS)
+long: export BODIES := $(BODIES)
+long: export STARTS := $(STARTS)
+long: export KILLS := $(KILLS)
+long: export OUTPUT := $(OUTPUT)
+long: glue
+	$(call heading,Long runs)
+	@tests/yade/long/run.py
 
 side-by-side: export QUICK := $(QUICK)
 side-by-side: glue

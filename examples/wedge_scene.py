@@ -5,8 +5,8 @@ Joints are elastic, perfectly plastic, Mohr-Coulomb without cohesion. Each face 
 block in one contact point, which carries a moment only by moving to where the balance wants it.
 Between exactly flat faces (k = 0) that point is chosen as if they were very slightly curved
 (flat_regularisation), so that it moves smoothly with the tilt of the wedge. The more curved, the
-softer is the wedge against tilting, and the longer may a time step be; but overlaps that the curvature
-would hide are taken as none, so that it must stay well below the overlap.
+softer is the wedge against tilting, and the longer may a time step be; but the overlap counts at that point,
+which in a tilted wedge is not where it is largest, so that the curvature should stay below the overlap.
 """
 
 from dataclasses import dataclass

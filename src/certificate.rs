@@ -20,6 +20,8 @@ pub(crate) struct Certified {
     pub s: f64,
     /// |s − s*| ≤ gap.
     pub gap: f64,
+    /// s* ≥ low.
+    pub low: f64,
 }
 
 /// The scale s of an outcome, with the regularisation taken out again, and the bound on its error.
@@ -33,7 +35,8 @@ pub(crate) fn scale(outcome: &Outcome, a: &Body, b: &Body, target: Target) -> Ce
     let high = outcome.upper.max(outcome.lower).max(square) + outcome.rounding;
     let low = low.min(square);
     let s = square.sqrt();
-    Certified { s, gap: (high.sqrt() - s).max(s - low.sqrt()) + f64::EPSILON * s }
+    let low = low.sqrt() * (1.0 - f64::EPSILON);
+    Certified { s, gap: (high.sqrt() - s).max(s - low) + f64::EPSILON * s, low }
 }
 
 /// Bound on the distance from the point of an outcome to the optimum, length.

@@ -132,7 +132,8 @@ impl LocalContact {
             let guess_b = surface::root_of_piece(missing, -gradients[1].dot(&normal), bend[1]);
             let to_a = surface::distance_near(pair.a, &pair.in_a(x), &pair.rotation.tr_mul(&normal), guess_a)?;
             let to_b = surface::distance_near(pair.b, x, &-normal, guess_b)?;
-            Some((x + to_a * normal, x - to_b * normal, to_a + to_b))
+            // Where s < 1 by rounding alone, so may be the sum.
+            Some((x + to_a * normal, x - to_b * normal, (to_a + to_b).max(0.0)))
         } else {
             None
         };

@@ -69,7 +69,7 @@ pub fn detect(
         memory.last = Some(Remembered { x: midway.outcome.x, lambda: midway.outcome.lambda, overlapping });
     }
     if separated {
-        let mut contact = Contact::separated(settings.formulation, scale.s.max(1.0));
+        let mut contact = Contact::separated(settings.formulation, scale.low.max(1.0));
         contact.flags.insert(search.flags);
         (contact.iterations, contact.back_end) = (search.iterations, search.answered);
         return Ok(contact);

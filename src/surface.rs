@@ -35,7 +35,9 @@ pub(crate) fn distance_near(
     // outside, which, S being convex, never jumps.
     let (mut inside, mut outside) = (f64::NEG_INFINITY, f64::INFINITY);
     let mut newton_from_outside = f64::NAN;
-    let mut tau = if guess.is_finite() { guess } else { 0.0 };
+    // No surface point is further off than this.
+    let farthest = from.norm() + particle.bounding_radius();
+    let mut tau = if guess.abs() <= farthest { guess } else { 0.0 };
     let rounding = 2.0 * f64::EPSILON * (from.norm() + particle.bounds.longest_offset);
     for _ in 0..MOST_STEPS {
         let line = at(tau);
@@ -43,10 +45,11 @@ pub(crate) fn distance_near(
             return None;
         }
         let newton = tau - line.value / line.slope;
-        // A Newton step misses by ½·curvature·step²/slope; below the rounding of a point on the ray neither the
-        // step nor what it misses means anything.
+        // From outside a Newton step misses by at most ½·curvature·step²/slope, since planes only go off on the way; from
+        // inside others may come on, and only a step below the rounding of a point on the ray is the last.
         let step = newton - tau;
-        if line.slope > 0.0 && (step.abs() <= rounding || 0.5 * line.curvature * step * step <= rounding * line.slope) {
+        let outside_and_close = line.value >= 0.0 && 0.5 * line.curvature * step * step <= rounding * line.slope;
+        if line.slope > 0.0 && (step.abs() <= rounding || outside_and_close) {
             return Some(newton);
         }
         if line.value < 0.0 {
@@ -58,7 +61,7 @@ pub(crate) fn distance_near(
         let mut next = if line.slope > 0.0 {
             tau + root_of_piece(line.value, line.slope, line.curvature)
         } else if outside == f64::INFINITY {
-            particle.bounding_radius() + from.norm()
+            farthest
         } else {
             newton_from_outside
         };

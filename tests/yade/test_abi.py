@@ -70,6 +70,40 @@ plain_python = subprocess.run([sys.executable, "-c", program], capture_output=Tr
 last = (plain_python.stdout.split() or ["nothing"])[-1]
 check.true(last.startswith("2."), f"in a plain Python: {last} {plain_python.stderr[-300:]}")
 
+# A library that is missing, broken, or of another version: a sentence with the remedy, and no class registered.
+def import_with(glue=lambda binary: binary, library=None):
+    """What importing says, with the plugin's file changed, or another library ahead of the right one."""
+    with tempfile.TemporaryDirectory() as folder:
+        package = shutil.copytree(GLUE, os.path.join(folder, "potential_particles"))
+        name = os.path.join(package, "_glue.so")
+        binary = open(name, "rb").read()
+        open(name, "wb").write(glue(binary))
+        if library is not None:
+            library(os.path.join(folder, "libpotential_particles.so"))
+        environment = dict(os.environ, PYTHONPATH=folder, LD_LIBRARY_PATH=folder)
+        done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, env=environment)
+        check.equal(done.returncode, 1, f"an error of Python, not of the process: {done.stderr[-500:]}")
+        return done.stderr.strip().splitlines()[-1]
+
+
+def compiled(source):
+    return lambda path: subprocess.run(["gcc", "-shared", "-fPIC", "-x", "c", "-", "-o", path], input=source, text=True, check=True)
+
+
+said = import_with(lambda binary: binary.replace(b"libpotential_particles.so", b"libpotential_particles.no"))
+check.true("ImportError" in said and "cargo build" in said, f"missing library: {said}")
+said = import_with(library=lambda path: open(path, "w").close())
+check.true("ImportError" in said and "cargo build" in said, f"empty library: {said}")
+said = import_with(library=compiled("int other;"))
+check.true("ImportError" in said and "pp_" in said and "build both again" in said, f"a library without our functions: {said}")
+undefined = subprocess.run(["nm", "-D", "--undefined-only", os.path.join(GLUE, "_glue.so")], capture_output=True, text=True)
+called = [word for word in undefined.stdout.split() if word.startswith("pp_") and word != "pp_version"]
+said = import_with(library=compiled('const char *pp_version(void) { return "9.8.7"; }\n'
+                                    + "".join(f"void {name}(void) {{}}\n" for name in called)))
+check.true("ImportError" in said and "9.8.7" in said and "build the plugin again" in said, f"another version: {said}")
+said = import_with(lambda binary: b"")
+check.true("ImportError" in said and "cmake --build" in said, f"empty plugin: {said}")
+
 # The build-time check, with declarations that are wrong on purpose.
 def build_check(edits):
     """Exit status and messages of check_abi.py for a copy of abi/ with edits {file: (old, new)}."""

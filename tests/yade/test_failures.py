@@ -59,4 +59,34 @@ check.true(forced.geom.penetrationDepth < 0, "a forced pair that cannot be solve
 check.close(forced.geom.normal.norm(), 1, 1e-12, "with a unit normal")
 check.equal(contacts.failures, 1, "and is counted")
 
+# A scene that blows up: first it flies apart, then a body has no velocity, and at last nobody has a position.
+# Every engine takes part, the collider too.
+for verlet in (0.0, 0.01):
+    fresh_scene(yade.Ig2_ConicPP_ConicPP_ScGeom(), dt=1e-5)
+    O.engines[1].verletDist = verlet
+    for i in range(4):
+        add(cube(), Vector3(0, 0, 0.97 * i))
+    run(20)
+    O.saveTmp("sound")
+    for what, spoil in [("huge step", lambda: setattr(O, "dt", 1.0)), ("step NaN", lambda: setattr(O, "dt", nan)),
+                        ("velocity", lambda: setattr(O.bodies[1].state, "vel", Vector3(nan, 0, 0))),
+                        ("position", lambda: setattr(O.bodies[1].state, "pos", Vector3(0, math.inf, 1))),
+                        ("orientation", lambda: setattr(O.bodies[1].state, "ori", Quaternion(nan, nan, nan, nan))),
+                        ("no rotation", lambda: setattr(O.bodies[1].state, "ori", Quaternion(0, 0, 0, 0)))]:
+        O.loadTmp("sound")
+        O.dt = 1e-5
+        first = O.iter
+        spoil()
+        run(50)
+        check.equal(O.iter - first, 50, f"{what}, verletDist {verlet}: every step is done")
+        report = functor().failureReport
+        check.true(len(report) <= 3 and all(entry["message"] for entry in report), f"{what}: once a pair: {report}")
+        counted = functor().failures
+        # Flown apart they are no pairs; lost to NaN, they cannot be solved.
+        check.true(counted == 0 if what == "huge step" else counted > 0, f"{what}: counted {counted}")
+    O.loadTmp("sound")
+    O.dt = 1e-5
+    run(50)
+    check.true(all(math.isfinite(x) for x in state_numbers()), "the sound state goes on")
+
 check.finish()

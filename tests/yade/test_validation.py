@@ -30,6 +30,13 @@ for name, value in [("r", -1.0), ("k", 2.0), ("R", 0.0), ("planes", [(0, 0, 0, 1
 check.raises(ValueError, lambda: shape.updateAttrs(dict(r=-1.0, k=0.1)), "updateAttrs")
 check.equal((shape.r, shape.k), (0.05, 0.05), "after refused updateAttrs")
 
+# A group of which one attribute cannot be set: none of them is.
+for last, kind in [(dict(noSuchThing=1), AttributeError), (dict(k="round"), TypeError), (dict(planes=[(1, 0, 0)]), ValueError)]:
+    before = shape.dict()
+    check.raises(kind, lambda: shape.updateAttrs(dict(a=[1.0], r=0.2, **last)), f"a group with {last}")
+    check.equal((shape.a, shape.r, shape.planes), (before["a"], before["r"], cube_planes()), f"after a group with {last}")
+    check.true(shape.volume > 0, f"and the particle is there after {last}")
+
 # Changes take effect.
 sphere = yade.ConicPotentialParticle(k=1.0, R=2.0)
 check.close(sphere.volume, 4 / 3 * math.pi * 8, 0.01, "volume of a sphere")

@@ -2,7 +2,9 @@
 #include "archives.hpp"
 
 #include "conic_potential_particle.hpp"
+#include "plane_lists.hpp"
 #include "python_class.hpp"
+#include "retired.hpp"
 
 #include <algorithm>
 #include <array>
@@ -99,16 +101,29 @@ void ConicPotentialParticle::settle()
     if (!current || !current->definition.describes(*this)) {
         const auto made = Particle::make(Definition::of(*this));
         if (!made->handle() && !made->pending()) {
-            accepted.giveTo(*this);
+            give(accepted);
             throw std::invalid_argument("ConicPotentialParticle: " + made->refusal());
         }
         accepted = made->definition;
-        replaced[oldest] = std::exchange(current, made);
-        oldest = (oldest + 1) % replaced.size();
+        const auto old = std::exchange(current, made);
         published.store(made.get(), std::memory_order_release);
+        if (old)
+            retire(old);
     }
     if (automaticBox)
         fillBox();
+}
+
+void ConicPotentialParticle::give(const Definition& definition)
+{
+    using Base = yade::PotentialParticle;
+    setList(*this, &Base::a, definition.a);
+    setList(*this, &Base::b, definition.b);
+    setList(*this, &Base::c, definition.c);
+    setList(*this, &Base::d, definition.d);
+    r = definition.r;
+    k = definition.k;
+    R = definition.R;
 }
 
 void ConicPotentialParticle::fillBox()
@@ -126,7 +141,7 @@ void ConicPotentialParticle::fillBox()
     Vector3r lower, upper;
     requireOk(pp_particle_box(particle, &identity, lower.data(), upper.data()));
 
-    vertices = std::move(corners);
+    setVertices(*this, std::move(corners));
     minAabb = minAabbRotated = -lower;
     maxAabb = maxAabbRotated = upper;
     AabbMinMax = true;
@@ -136,12 +151,27 @@ void ConicPotentialParticle::fillBox()
 
 void ConicPotentialParticle::pySetAttr(const std::string& key, const py::object& value)
 {
+    try {
+        setAttribute(key, value);
+    } catch (...) {
+        // One of a group, of which no more will come: what was set before it must not stay behind,
+        // since settle() would never see it.
+        give(accepted);
+        boxGiven = false;
+        automaticBoxGiven.reset();
+        throw;
+    }
+}
+
+void ConicPotentialParticle::setAttribute(const std::string& key, const py::object& value)
+{
     if (key == "planes") {
         pySetPlanes(value);
     } else if (key == "automaticBox") {
         automaticBoxGiven = py::extract<bool>(value)();
     } else {
-        PotentialParticle::pySetAttr(key, value);
+        if (!setList(*this, key, value))
+            PotentialParticle::pySetAttr(key, value);
         if (std::find(boxAttributes.begin(), boxAttributes.end(), key) != boxAttributes.end())
             boxGiven = boxGiven || saysSomething(*this, key);
     }
@@ -172,11 +202,12 @@ void ConicPotentialParticle::callPostLoad()
 
 py::list ConicPotentialParticle::pyPlanes() const
 {
-    if (!accepted.listsAgree())
-        require();
+    const Definition now = Definition::of(*this);
+    if (!now.listsAgree())
+        Particle::make(now)->require();
     py::list rows;
-    for (std::size_t i = 0; i < a.size(); ++i)
-        rows.append(py::make_tuple(a[i], b[i], c[i], d[i]));
+    for (std::size_t i = 0; i < now.a.size(); ++i)
+        rows.append(py::make_tuple(now.a[i], now.b[i], now.c[i], now.d[i]));
     return rows;
 }
 
@@ -195,7 +226,7 @@ void ConicPotentialParticle::pySetPlanes(const py::object& rows)
         next.c.push_back(py::extract<double>(row[2]));
         next.d.push_back(py::extract<double>(row[3]));
     }
-    next.giveTo(*this);
+    give(next);
 }
 
 void ConicPotentialParticle::pySetAutomaticBox(bool automatic)
@@ -254,6 +285,23 @@ py::list ConicPotentialParticle::pySurfaceDistance(const py::object& directions)
 
 namespace {
 
+    void set(yade::PotentialParticle& shape, std::vector<double> yade::PotentialParticle::*list,
+             const std::vector<double>& values)
+    {
+        setList(shape, list, values);
+    }
+
+    void set(yade::PotentialParticle& shape, std::vector<Vector3r> yade::PotentialParticle::*,
+             const std::vector<Vector3r>& values)
+    {
+        setVertices(shape, values);
+    }
+
+    template <class Value> void set(yade::PotentialParticle& shape, Value yade::PotentialParticle::*field, const Value& value)
+    {
+        shape.*field = value;
+    }
+
     // A property of the base whose change makes the particle anew.
     template <class Value>
     void defining(PythonClass<ConicPotentialParticle, yade::PotentialParticle>& registered, const char* name,
@@ -263,7 +311,7 @@ namespace {
         registered.add_property(
             name, py::make_getter(field, py::return_value_policy<py::return_by_value>()),
             pythonFunction<void, Shape&, const Value&>([field](Shape& shape, const Value& value) {
-                shape.*field = value;
+                set(shape, field, value);
                 shape.settle();
             }),
             fieldDoc);
@@ -285,7 +333,7 @@ namespace {
         using Shape = ConicPotentialParticle;
         registered.add_property(name, reader(field),
                                 pythonFunction<void, Shape&, const Value&>([field](Shape& shape, const Value& value) {
-                                    shape.*field = value;
+                                    set(shape, field, value);
                                     shape.automaticBox = false;
                                 }),
                                 fieldDoc);

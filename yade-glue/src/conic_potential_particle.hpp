@@ -9,7 +9,6 @@
 #include <boost/python/list.hpp>
 #include <boost/serialization/access.hpp>
 
-#include <array>
 #include <atomic>
 #include <optional>
 
@@ -30,7 +29,8 @@ public:
     PP_ABI_INDEX_OVERRIDES
 
     // For the contact functor; any thread. Null when the fields differ from what it was made of.
-    // No share of ownership, which threads would pass to and fro for every pair: see `replaced`.
+    // No share of ownership, which threads would pass to and fro for every pair: what a script replaces
+    // is kept long enough for the pairs that are being solved (retired.hpp).
     const Particle* particle() const;
 
     // Makes the particle of the present attributes. An invalid set of attributes is replaced by
@@ -47,6 +47,9 @@ private:
 
     // For Python: the particle, or std::invalid_argument saying why there is none.
     const pp_particle* require() const;
+    void setAttribute(const std::string& key, const boost::python::object& value);
+    // Sets the fields that say which particle it is.
+    void give(const Definition& definition);
     void fillBox();
 
     boost::python::list pyPlanes() const;
@@ -62,10 +65,6 @@ private:
     std::shared_ptr<const Particle> current;
     // What contact functors read while Python may replace it.
     std::atomic<const Particle*> published { nullptr };
-    // A pair that is being solved while a script changes its shape goes on with the particle that
-    // it found: that one is let go only when the shape has changed so many times more.
-    std::array<std::shared_ptr<const Particle>, 8> replaced;
-    std::size_t oldest = 0;
     Definition accepted;
     // What the group of attributes that is being set says about the box; see callPostLoad().
     bool boxGiven = false;

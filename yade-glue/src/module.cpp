@@ -5,6 +5,7 @@
 
 #include "load_check.hpp"
 #include "particle_store.hpp"
+#include "plane_lists.hpp"
 #include "registration.hpp"
 
 #include <boost/python/def.hpp>
@@ -27,6 +28,13 @@ py::list differencesOfLayout()
 
 std::size_t storedParticles() { return pp::ParticleStore::instance().size(); }
 
+// For plain shapes, whose own properties know no lock.
+void setListOf(yade::PotentialParticle& shape, const std::string& name, const py::object& value)
+{
+    if (!pp::setList(shape, name, value))
+        throw std::invalid_argument("PotentialParticle has no list '" + name + "'");
+}
+
 } // namespace
 
 BOOST_PYTHON_MODULE(_glue)
@@ -41,4 +49,5 @@ BOOST_PYTHON_MODULE(_glue)
     py::def("differences_of_layout", &differencesOfLayout);
     py::def("register_classes", &pp::registerClasses);
     py::def("stored_particles", &storedParticles);
+    py::def("set_list", &setListOf);
 }

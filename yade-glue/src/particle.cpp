@@ -32,17 +32,6 @@ Definition Definition::of(const yade::PotentialParticle& shape)
     return { shape.a, shape.b, shape.c, shape.d, shape.r, shape.k, shape.R };
 }
 
-void Definition::giveTo(yade::PotentialParticle& shape) const
-{
-    shape.a = a;
-    shape.b = b;
-    shape.c = c;
-    shape.d = d;
-    shape.r = r;
-    shape.k = k;
-    shape.R = R;
-}
-
 bool Definition::describes(const yade::PotentialParticle& shape) const
 {
     return roughlyDescribes(shape) && sameBits(a, shape.a)

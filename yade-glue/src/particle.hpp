@@ -19,7 +19,6 @@ struct Definition {
     double r, k, R;
 
     static Definition of(const yade::PotentialParticle& shape);
-    void giveTo(yade::PotentialParticle& shape) const;
 
     // Bit for bit, so that a NaN equals itself.
     bool describes(const yade::PotentialParticle& shape) const;

@@ -17,14 +17,16 @@ std::shared_ptr<const Particle> ParticleStore::find(const boost::shared_ptr<yade
                                                     const yade::PotentialParticle& shape)
 {
     Shard& shard = shardOf(&shape);
+    Definition definition;
     {
         const std::lock_guard<std::mutex> lock(shard.mutex);
         const auto found = shard.entries.find(&shape);
         if (found != shard.entries.end() && found->second.particle->definition.describes(shape))
             return found->second.particle;
+        definition = Definition::of(shape);
     }
     // Made outside the lock: two threads may both make it, which is waste and no error.
-    auto made = Particle::make(Definition::of(shape));
+    auto made = Particle::make(std::move(definition));
     const std::lock_guard<std::mutex> lock(shard.mutex);
     shard.entries[&shape] = { owner, made };
     if (shard.entries.size() >= shard.sweepAt)

@@ -23,6 +23,9 @@ public:
 
     std::shared_ptr<const Particle> find(const boost::shared_ptr<yade::Shape>& owner,
                                          const yade::PotentialParticle& shape);
+    // Held while the lists of a shape are compared or copied here; who sets them while a step may be
+    // going on holds it too (plane_lists.hpp). Nobody may ask for Python's lock while holding it.
+    std::mutex& mutexOf(const yade::PotentialParticle& shape) { return shardOf(&shape).mutex; }
     // Particles held now, for tests and curiosity.
     std::size_t size();
 

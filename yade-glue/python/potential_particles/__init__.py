@@ -62,7 +62,9 @@ def _import_glue():
         from . import _glue
     except ImportError as error:
         reason = str(error)
-        if "libpotential_particles" in reason:
+        if "undefined symbol: pp_" in reason:
+            remedy = "another version of the library was found than the plugin was built for: build both again with `make build`"
+        elif "libpotential_particles" in reason:
             remedy = "build the library with `cargo build --release`, in the place that the plugin was linked to"
         elif "undefined symbol" in reason:
             remedy = "the YADE that runs lacks a function that the plugin calls; it is not Debian's " + SUPPORTED_YADE
@@ -177,6 +179,8 @@ def _load():
     _register(yade, glue)
     _resize_dispatchers(yade)
     _prepare_before_steps(yade)
+    from . import outside
+    outside.guard(yade, glue.set_list)
     return glue
 
 

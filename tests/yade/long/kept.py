@@ -1,0 +1,49 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A run that saves itself every so many steps; or its last save, taken further.
+
+    BODIES=30 FUNCTOR=library STEPS=4000 EVERY=500 SCENE=s.yade.gz LATER=1000 RESULT=unbroken.json \\
+        scripts/yade.sh -j1 tests/yade/long/kept.py
+    SCENE=s.yade.gz EVERY=500 LATER=1000 RESULT=reloaded.json scripts/yade.sh -j1 tests/yade/long/kept.py
+
+The first form runs to STEPS, saving as it goes, and LATER steps beyond. RESULT gets the states at all
+multiples of EVERY. Run by tests/yade/long/run.py, which kills it.
+"""
+import json
+import os
+import sys
+from pathlib import Path
+
+sys.path.insert(0, str(Path(sys.argv[0]).resolve().parent))
+
+import potential_particles  # noqa: F401 (a saved scene holds its classes)
+from yade import O
+
+import scene
+from stepping import advance
+
+path, every, states = os.environ["SCENE"], int(os.environ["EVERY"]), {}
+
+
+def go_on(steps):
+    for stop in range(O.iter + every, O.iter + steps + 1, every):
+        advance(stop)
+        states[stop] = scene.state()
+        yield stop
+
+
+if "BODIES" in os.environ:
+    scene.build(int(os.environ["BODIES"]), os.environ["FUNCTOR"])
+    for step in go_on(int(os.environ["STEPS"])):
+        # In one move, so that a kill while it is written leaves the save before whole.
+        O.save(path + ".new.yade.gz")
+        os.replace(path + ".new.yade.gz", path)
+        print(f"saved at step {step}", flush=True)
+else:
+    O.load(path)
+first = O.iter
+for _ in go_on(int(os.environ["LATER"])):
+    pass
+functor = O.engines[2].geomDispatcher.functors[0]
+Path(os.environ["RESULT"]).write_text(json.dumps({
+    "saved_at": first, "states": states, "failures": getattr(functor, "failures", None),
+    "contacts": sum(c.isReal for c in O.interactions)}))

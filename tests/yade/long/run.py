@@ -1,0 +1,262 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""YADE for a long time, killed, and started very often: what breaks?
+
+    tests/yade/long/run.py [--short]        (make long)
+
+A pile of pyramids for very many steps, at rest and shaken; runs that are killed and go on from their last save, beside
+the same with YADE's built-in functor; and a tiny scene started again and again with two threads. Results
+go to out/long/summary.json, limits and what was found to the screen. --short: small, among the tests.
+Environment: BODIES (200), STEPS (200000), STARTS (500), KILLS (10), OUTPUT (out/long).
+"""
+import json
+import os
+import random
+import re
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+TOP = HERE.parents[2]
+sys.path.insert(0, str(TOP / "examples"))
+
+import machine
+import settings
+from progress import Progress
+
+SEED = 2012
+SHORT = "--short" in sys.argv[1:]
+# bodies and steps until they lie still, steps after; starts; kills
+BODIES, SETTLE, STEPS, STARTS, KILLS = (12, 6000, 3000, 10, 2) if SHORT else (200, 15_000, 200_000, 500, 10)
+# Of the runs that are killed: the built-in functor sets their size.
+KEPT_BODIES, KEPT_STEPS, EVERY, LATER = (8, 2000, 500, 500) if SHORT else (30, 4000, 500, 1000)
+KEPT_STATES = ("positions", "orientations", "velocities")  # m, 1, m/s
+
+# Rise of the total energy between two looks, and its change over the second half, over weight x size:
+# damping only takes, and a pile at rest has nothing left to give but slow spins.
+MOST_RISE, MOST_DRIFT = 1e-9, 1e-2 if SHORT else 1e-6
+MOST_OVERLAP = 0.05  # over the size
+# MiB: a hundred records and Python's own ups and downs; one byte a pair and step would be tens of times that.
+MOST_GROWTH = 2.0
+
+
+running = []  # the last process
+
+
+def yade(threads, script, **environment):
+    """The running process, and what it says through a pipe."""
+    # In a session of its own: Ctrl-C is for this script, which then ends what it started.
+    running[:] = [subprocess.Popen(
+        [TOP / "scripts" / "yade.sh", f"-j{threads}", HERE / script], text=True, start_new_session=True,
+        env={**os.environ, "PYTHONPATH": str(HERE.parent), **{key: str(value) for key, value in environment.items()}},
+        stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)]
+    return running[0]
+
+
+def end():
+    """Kills what runs."""
+    for process in running:
+        if process.poll() is None:
+            os.killpg(process.pid, signal.SIGKILL)
+            process.communicate()
+
+
+def finish(process, what):
+    """All that it said; SystemExit with the end of that unless it ended well."""
+    text, _ = process.communicate()
+    if process.returncode:
+        raise SystemExit(f"{text[-2000:]}\n{what} ended with exit code {process.returncode}")
+    return text
+
+
+def endurance(folder, shaken):
+    """A pile at rest or shaken, and what became of it."""
+    bodies = settings.whole_number("BODIES", BODIES, 2, "number of pyramids")
+    steps = settings.whole_number("STEPS", STEPS, 400, "number of steps")
+    name = "shaken" if shaken else "at rest"
+    print(f"{bodies} pyramids, {SETTLE:,} steps to fall and {steps:,} {name}", flush=True)
+    result = folder / "endurance.json"
+    begin = time.perf_counter()
+    process = yade(1, "endurance.py", BODIES=bodies, SETTLE=SETTLE, STEPS=steps, SHAKEN=int(shaken), RESULT=result)
+    for line in process.stdout:
+        if re.match(r" *\d+%", line):
+            print("  " + line, end="", flush=True)
+    finish(process, f"the pile {name}")
+    found = json.loads(result.read_text())
+    looks = found["looks"]
+    energies = [one["kinetic_J"] + one["potential_J"] + one["elastic_J"] for one in looks]
+    half, unit = len(looks) // 2, found["weight_times_size_J"]
+    return {
+        "name": name, "bodies": bodies, "steps": steps, "seconds": time.perf_counter() - begin, "calls": found["calls"],
+        "failures": looks[-1]["failures"], "lost": max(one["lost"] for one in looks),
+        "largest_overlap_over_size": max(one["overlap_over_size"] for one in looks),
+        "fastest_m_per_s": max(one["fastest_m_per_s"] for one in looks),
+        "largest_rise_over_weight_size": max(b - a for a, b in zip(energies, energies[1:])) / unit,
+        "drift_in_second_half_over_weight_size": (energies[-1] - energies[half]) / unit,
+        "kinetic_first_half_J": max(one["kinetic_J"] for one in looks[1:half]),
+        "kinetic_second_half_J": max(one["kinetic_J"] for one in looks[half:]),
+        "resident_MiB": looks[-1]["resident_MiB"],
+        "growth_MiB": looks[-1]["resident_MiB"] - looks[len(looks) // 20]["resident_MiB"],
+        "looks": looks,
+    }
+
+
+def kept(folder, functor, threads, **more):
+    name = folder / f"{functor}-{threads}.yade.gz"
+    return dict(FUNCTOR=functor, STEPS=KEPT_STEPS, EVERY=EVERY, LATER=LATER, SCENE=name, **more)
+
+
+def apart(one, other, step):
+    """Largest difference of any number of two states: {positions: m, orientations: 1, velocities: m/s}."""
+    pair = [found["states"][str(step)] for found in (one, other)]
+    return {key: max(abs(x - y) for p, q in zip(pair[0][key], pair[1][key]) for x, y in zip(p, q)) for key in KEPT_STATES}
+
+
+def unbroken_and_reloaded(folder, functor, threads):
+    """Differences after LATER steps between a run that went on and one that was loaded from its last save."""
+    result = folder / "unbroken.json", folder / "reloaded.json"
+    options = kept(folder, functor, threads)
+    what = f"{KEPT_BODIES} pyramids with the {functor} functor, -j{threads}"
+    finish(yade(threads, "kept.py", BODIES=KEPT_BODIES, **options, RESULT=result[0]), what)
+    finish(yade(threads, "kept.py", **options, RESULT=result[1]), what + ", loaded")
+    unbroken, loaded = (json.loads(path.read_text()) for path in result)
+    difference = apart(unbroken, loaded, unbroken["saved_at"] + LATER)
+    return unbroken, {"functor": functor, "threads": threads, "contacts": unbroken["contacts"], **difference}
+
+
+def killed(folder, unbroken, number, chance):
+    """A run like the unbroken one, killed somewhere after one of its saves, loaded and taken further."""
+    options = kept(folder, "library", 1)
+    process = yade(1, "kept.py", BODIES=KEPT_BODIES, **{**options, "LATER": 10**8}, RESULT=folder / "never.json")
+    saves = 1 + number % (KEPT_STEPS // EVERY - 1)
+    for line in process.stdout:
+        saves -= line.startswith("saved")
+        if not saves:
+            break
+    # A step takes some tenths of a millisecond here, a save some milliseconds.
+    time.sleep(chance.uniform(0.0, 0.1))
+    end()
+    if process.returncode != -signal.SIGKILL:
+        raise SystemExit(f"the run that was to be killed ended before, with exit code {process.returncode}")
+    result = folder / "resumed.json"
+    finish(yade(1, "kept.py", **options, RESULT=result), "a run loaded after a kill")
+    resumed = json.loads(result.read_text())
+    step = resumed["saved_at"] + LATER
+    return {"killed_after_step": resumed["saved_at"], "failures": resumed["failures"], **apart(unbroken, resumed, step)}
+
+
+def starts(count, found):
+    """A tiny scene so many times with two threads; adds to `found` what ended otherwise than well, and how it went."""
+    progress = Progress(count, unit="start")
+    begin = time.perf_counter()
+    try:
+        for number in range(count):
+            process = yade(2, "start.py")
+            text, _ = process.communicate()
+            ending = next((line for line in text.splitlines() if line.startswith("ended with")), "no end")
+            if process.returncode or ending == "no end":
+                found["failed"].append({"number": number, "exit_code": process.returncode, "output": text[-2000:]})
+            found["endings"][ending] = found["endings"].get(ending, 0) + 1
+            found["starts"] += 1
+            found["seconds"] = time.perf_counter() - begin
+            progress.update(found["starts"])
+    finally:
+        progress.close()
+
+
+def checks_of(summary):
+    """What must hold, by name."""
+    good = {}
+    for pile in summary["piles"]:
+        name = "the pile " + pile["name"]
+        good[f"{name}: no failure"] = pile["failures"] == 0 and pile["calls"] > 0
+        good[f"{name}: nobody lost"] = pile["lost"] == 0
+        good[f"{name}: overlaps"] = 0 < pile["largest_overlap_over_size"] < MOST_OVERLAP
+        good[f"{name}: memory"] = pile["growth_MiB"] < MOST_GROWTH
+        if pile["name"] == "shaken":
+            good[f"{name}: moves"] = pile["kinetic_second_half_J"] > 1e-3
+            good[f"{name}: energy does not build up"] = pile["kinetic_second_half_J"] < 2 * pile["kinetic_first_half_J"]
+        else:
+            good[f"{name}: energy never rises"] = pile["largest_rise_over_weight_size"] < MOST_RISE
+            good[f"{name}: no drift"] = abs(pile["drift_in_second_half_over_weight_size"]) < MOST_DRIFT
+    by_builtin = {row["threads"]: row for row in summary["reloads"] if row["functor"] == "builtin"}
+    for row in summary["reloads"]:
+        good[f"{row['functor']}, -j{row['threads']}: in contact"] = row["contacts"] > 3
+        # With more threads, the order of sums differs from run to run, saved or not: for the table alone.
+        if row["functor"] == "library" and row["threads"] == 1:
+            good["loaded as near as with the built-in"] = all(row[key] <= by_builtin[1][key] for key in KEPT_STATES)
+    one = by_builtin[1]
+    for number, row in enumerate(summary["kills"]):
+        good[f"kill {number}"] = row["failures"] == 0 and all(row[key] <= one[key] for key in KEPT_STATES)
+    good["every start ends well"] = summary["starts"]["starts"] > 0 and not summary["starts"]["failed"]
+    return good
+
+
+def go(summary):
+    """Fills the summary part by part, so that Ctrl-C leaves those that ended."""
+    with tempfile.TemporaryDirectory() as scratch:
+        folder, chance = Path(scratch), random.Random(SEED)
+        for shaken in (False, True):
+            summary["piles"].append(endurance(folder, shaken))
+        print(f"{KEPT_BODIES} pyramids, saved every {EVERY} steps, killed and loaded", flush=True)
+        unbroken, row = unbroken_and_reloaded(folder, "library", 1)
+        summary["reloads"].append(row)
+        for number in range(settings.whole_number("KILLS", KILLS, 1, "number of kills")):
+            summary["kills"].append(killed(folder, unbroken, number, chance))
+        for threads in (1,) if SHORT else (1, 2):
+            for functor in ("builtin", "library")[: threads]:
+                summary["reloads"].append(unbroken_and_reloaded(folder, functor, threads)[1])
+        count = settings.whole_number("STARTS", STARTS, 1, "number of starts")
+        print(f"a tiny scene, yade -j2, {count} times", flush=True)
+        starts(count, summary["starts"])
+
+
+def main():
+    out = settings.folder("OUTPUT", TOP / "out" / "long")
+    out.mkdir(parents=True, exist_ok=True)
+    summary = {"machine": machine.machine_line(), "date": machine.now(), "seed": SEED, "short": SHORT, "interrupted": False,
+               "piles": [], "reloads": [], "kills": [],
+               "starts": {"starts": 0, "failed": [], "endings": {}, "seconds": 0.0}}
+    try:
+        go(summary)
+    except KeyboardInterrupt:
+        summary["interrupted"] = True
+    finally:
+        end()
+    (out / "summary.json").write_text(json.dumps(summary, indent=1) + "\n")
+    show(summary)
+    print(f"results: {out / 'summary.json'}")
+    if summary["interrupted"]:
+        print("interrupted: the parts that had ended are above")
+        return 130
+    good = checks_of(summary)
+    for name, held in good.items():
+        if not held:
+            print(f"does not hold: {name}")
+    print(f"{sum(good.values())} passed, {sum(not held for held in good.values())} failed")
+    return 0 if all(good.values()) else 1
+
+
+def show(summary):
+    """Tables as they stand in docs/reliability_yade.md."""
+    print("\n| pile | steps | contacts asked for | failures | lost | energy, largest rise, W x size | drift in the second half "
+          "| largest overlap, size | memory grew by, MiB | time, s |\n|---|---|---|---|---|---|---|---|---|---|")
+    for p in summary["piles"]:
+        print(f"| {p['name']} | {p['steps']:,} | {p['calls']:,} | {p['failures']} | {p['lost']} "
+              f"| {p['largest_rise_over_weight_size']:.1e} | {p['drift_in_second_half_over_weight_size']:.1e} "
+              f"| {p['largest_overlap_over_size']:.1e} | {p['growth_MiB']:.2f} | {p['seconds']:.0f} |")
+    print("\n| unbroken against loaded | positions, m | orientations | velocities, m/s |\n|---|---|---|---|")
+    for row in summary["reloads"]:
+        print(f"| {row['functor']}, -j{row['threads']} | " + " | ".join(f"{row[key]:.1e}" for key in KEPT_STATES) + " |")
+    worst = {key: max((row[key] for row in summary["kills"]), default=float("nan")) for key in KEPT_STATES}
+    print(f"| library, -j1, {len(summary['kills'])} kills, worst | " + " | ".join(f"{worst[key]:.1e}" for key in KEPT_STATES) + " |")
+    begun = summary["starts"]
+    print(f"\n{begun['starts']} starts, {len(begun['failed'])} failed, {begun['seconds']:.0f} s\n", flush=True)
+
+
+if __name__ == "__main__":
+    sys.exit(main())
