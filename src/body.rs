@@ -212,6 +212,12 @@ impl<'a> Body<'a> {
         planes + ROUNDING * f64::EPSILON * q.value
     }
 
+    /// The same at the end of a step, where the quadratic is `value`: Σ⟨n·x − d⟩ ≤ √(m·S/w) over its m planes.
+    pub fn rounding_after(&self, local: &Local, q: &Quadratic, value: f64) -> f64 {
+        let pull = 2.0 * (f64::from(q.count) * self.particle.plane_weight * value.max(0.0)).sqrt();
+        self.rounding(local, q).max(pull * local.blur)
+    }
+
     /// Weights of the planes and of the shadow sphere in (regularised) S.
     pub fn weights(&self) -> (f64, f64) {
         (self.particle.plane_weight, self.sphere_weight)

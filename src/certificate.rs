@@ -54,7 +54,10 @@ pub(crate) fn distance(outcome: &Outcome, expansion: &Expansion, a: &Body, b: &B
     };
     let step = outcome.x - expansion.x;
     let turn = TURN * f64::EPSILON * response.per_slope(a.particle.dimensions);
-    let mut sum = response.unsolved();
+    // The two sides meet to the rounding of what they are summed from.
+    let (side_a, side_b) = target.changes(expansion.q_a.expansion, expansion.q_b.expansion);
+    let sides = SIDES * f64::EPSILON * (side_a + side_b + outcome.upper.max(1.0));
+    let mut sum = response.unsolved() + response.to_value(sides);
     for (i, (body, q, weight)) in
         [(a, &expansion.q_a, weights.0), (b, &expansion.q_b, weights.1)].into_iter().enumerate()
     {
@@ -66,6 +69,9 @@ pub(crate) fn distance(outcome: &Outcome, expansion: &Expansion, a: &Body, b: &B
     // Carried along from the point of expansion, and rounded at the end.
     sum + TURN * f64::EPSILON * (step.norm() + outcome.x.norm())
 }
+
+/// Units in the last place by which two sides that meet may still differ.
+const SIDES: f64 = 8.0;
 
 /// Units in the last place by which a rotated normal may be turned.
 const TURN: f64 = 4.0;

@@ -309,6 +309,11 @@ impl Response {
         self.of_slope().times(&self.slope).norm()
     }
 
+    /// Bound on the move when α·q_A + β·q_B is off by `value`.
+    pub fn to_value(&self, value: f64) -> f64 {
+        self.along.norm() * value / self.rate
+    }
+
     fn of_slope(&self) -> Symmetric {
         let mut squares = Symmetric::default();
         squares.add_square(&self.along);

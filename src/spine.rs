@@ -272,7 +272,8 @@ impl Expansion {
         let pulled = slope * slope / (weights.0 * soft.0 + weights.1 * soft.1);
         // (x + y)² ≤ 2x² + 2y² for the two slopes in doubt.
         let doubt = 2.0 * optimum.doubt(target, soft) + pulled;
-        let (of_a, of_b) = self.rounding(bodies[0], bodies[1]);
+        let of_a = bodies[0].rounding_after(&self.locals[0], &self.q_a, s_a);
+        let of_b = bodies[1].rounding_after(&self.locals[1], &self.q_b, s_b);
         Outcome {
             x: self.x + step.v,
             lambda,

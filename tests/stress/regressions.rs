@@ -59,35 +59,30 @@ fn two_spheres_that_barely_touch_have_no_negative_overlap() {
 /// A small body at the corner of a box 500 away from its centre: the rotation of that arm rounds more than the
 /// distances to the planes near the corner.
 #[test]
-#[ignore = "open: the bound of s leaves out the rounding of a long arm"]
 fn the_bound_of_s_counts_a_long_arm_to_a_sharp_corner() {
     judged("the_bound_of_s_counts_a_long_arm_to_a_sharp_corner", &[BoundOfS]);
 }
 
 /// Told separated by 1.3e-11 with a gap far below that, and they overlap by 3.6e-11: the same cause.
 #[test]
-#[ignore = "open: the bound of s leaves out the rounding of a long arm"]
 fn a_kissing_pair_is_on_its_side_of_contact_beyond_the_gap() {
     judged("a_kissing_pair_is_on_its_side_of_contact_beyond_the_gap", &[WrongSide, BoundOfS]);
 }
 
 /// Two ordinary polyhedra, from memory: s and point are right, point_bound is NaN.
 #[test]
-#[ignore = "open: from some memories the bound of the point is NaN"]
 fn the_bound_of_the_point_is_a_number() {
     judged("the_bound_of_the_point_is_a_number", &[Malformed, Warm]);
 }
 
 /// P1 on a sphere, constrained by λ = 1e-10.
 #[test]
-#[ignore = "open: the bound of P1 and P2 is a few times too small"]
 fn the_bound_of_closest_points_on_a_sphere_counts_their_rounding() {
     judged("the_bound_of_closest_points_on_a_sphere_counts_their_rounding", &[BoundOfPoint]);
 }
 
 /// s_A = 846: the gap is that of a pair that touches.
 #[test]
-#[ignore = "open: the gap of closest leaves out what s_B = 1 is off"]
 fn the_bound_of_s_of_closest_far_apart_counts_its_rounding() {
     judged("the_bound_of_s_of_closest_far_apart_counts_its_rounding", &[BoundOfS]);
 }
