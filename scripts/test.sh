@@ -69,6 +69,7 @@ stage check "Library, release build" submake library
 stage suite "Rust tests, with the C header" cargo test --release --no-fail-fast
 stage suite "C harness" submake -C tests/c run
 stage check "C harness under valgrind" submake -C tests/c valgrind
+stage check "C harness under AddressSanitizer and UBSan" submake -C tests/c asan
 stage check "Many threads under ThreadSanitizer and helgrind" submake -C tests/c tsan helgrind
 stage check "C harness calls every function" submake -C tests/c complete
 stage suite "C header as C++17" submake -C tests/c cxx

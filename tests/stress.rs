@@ -91,7 +91,7 @@ fn random_walks_from_memory() {
 }
 
 /// Share of steps on which bounds of points contradict each other, not yet cured.
-const WALKS_OPEN: f64 = 2e-3;
+const WALKS_OPEN: f64 = 2e-4;
 
 #[test]
 fn smooth_motions_have_no_jumps() {

@@ -234,7 +234,7 @@ fn all(case: &Case, units: &Units, random: &mut Random, verdict: &mut Verdict) -
     in_other_units(verdict, &scene, &contact, units);
     warm(verdict, &scene, &contact, &mut clock, random);
     closest(verdict, &scene, &contact, &bodies, &mut clock);
-    if case.index % CONIC_EVERY == 0 && a.plane_count() + b.plane_count() <= CONIC_PLANES {
+    if case.index.is_multiple_of(CONIC_EVERY) && a.plane_count() + b.plane_count() <= CONIC_PLANES {
         by_cone_program(verdict, &scene, &contact);
     }
     verdict.costs = clock.costs;
