@@ -29,7 +29,8 @@ pub(crate) fn start(
 ) -> (Option<Start>, u32) {
     let (mut x, mut at) = (from.x, from.lambda.ln());
     // ln λ where the difference of the sides is negative, and where it is positive, with the difference.
-    let (mut below, mut above): (Option<(f64, f64)>, Option<(f64, f64)>) = (None, None);
+    let mut below: Option<(f64, f64)> = None;
+    let mut above: Option<(f64, f64)> = None;
     let mut models = 0;
     for _ in 0..MOST_WEIGHTS {
         let lambda = at.exp();
