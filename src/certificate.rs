@@ -47,11 +47,12 @@ pub(crate) fn scale(outcome: &Outcome, a: &Body, b: &Body, target: Target) -> Ce
 /// ½·curvature·distance² ≤ upper − lower.
 pub(crate) fn distance(outcome: &Outcome, expansion: &Expansion, a: &Body, b: &Body, target: Target) -> f64 {
     let weights = target.weights(outcome.lambda);
-    let Some(response) = &outcome.response else {
+    let convexity = || {
         let soft = spine::softest(a, b);
         let excess = (outcome.upper - outcome.lower).max(0.0) + outcome.rounding;
-        return (2.0 * excess / (weights.0 * soft.0 + weights.1 * soft.1)).sqrt();
+        (2.0 * excess / (weights.0 * soft.0 + weights.1 * soft.1)).sqrt()
     };
+    let Some(response) = &outcome.response else { return convexity() };
     let step = outcome.x - expansion.x;
     let turn = TURN * f64::EPSILON * response.per_slope(a.particle.dimensions);
     // The two sides meet to the rounding of what they are summed from.
@@ -67,7 +68,9 @@ pub(crate) fn distance(outcome: &Outcome, expansion: &Expansion, a: &Body, b: &B
         sum += expansion.locals[i].blur * (1.0 + planes) + force * turn;
     }
     // Carried along from the point of expansion, and rounded at the end.
-    sum + TURN * f64::EPSILON * (step.norm() + outcome.x.norm())
+    let carried = TURN * f64::EPSILON * (step.norm() + outcome.x.norm());
+    // Where both gradients vanish, the response has no digits.
+    if sum.is_finite() { sum + carried } else { convexity() + carried }
 }
 
 /// Units in the last place by which two sides that meet may still differ.

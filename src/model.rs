@@ -341,7 +341,8 @@ impl Response {
             first.x * n.xx + second.y * n.yy + third * n.zz + 2.0 * (first.y * n.yx + first.z * n.zx + second.z * n.zy);
         let count = f64::from(q.count);
         let turned = weight * (2.0 * plane_weight * count * spread.max(0.0)).sqrt();
-        let raised = rate.abs() / self.rate * self.along.norm() * (count * plane_weight * self.values[body]).sqrt();
+        let raised =
+            rate.abs() / self.rate * self.along.norm() * (count * plane_weight * self.values[body].max(0.0)).sqrt();
         turned + 2.0 * raised
     }
 
