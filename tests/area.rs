@@ -177,3 +177,32 @@ fn a_section_that_is_none_is_refused() {
         refused(Section { branch_b: Vector3::new(surface + out, 0.0, 0.0), ..section });
     }
 }
+
+/// Offsets of 1e308 overflow where the arcs of both cuts are compared: the comparison then halved what was no number,
+/// down to a thousandth of a millionth of the arc on every side, for minutes.
+#[test]
+fn offsets_that_overflow_end_at_once() {
+    let cube = |offsets: [f64; 6]| {
+        let planes: Vec<Plane> =
+            (0..6).map(|i| Plane { normal: Vector3::ith(i / 2, [1.0, -1.0][i % 2]), offset: offsets[i] }).collect();
+        Particle::new(&planes, 0.05, 0.05, 0.9).unwrap()
+    };
+    let small = cube([0.45; 6]);
+    let plate = cube([1e308, 9.2e18, 9e-4, 1e160, -1e-4, -2e-3]);
+    let unturned = [1.0, 0.0, 0.0, 0.0];
+    let below = Pose::new([0.0; 3], unturned).unwrap();
+    let above = Pose::new([0.0, 0.95, 0.0], [1.0, 1.2e-13, 0.0, 5.8e-14]).unwrap();
+    let aside = Pose::new([0.9, 0.0, 0.0], unturned).unwrap();
+    let mut asked = 0;
+    for (a, at_a, b, at_b) in [(&small, &below, &plate, &above), (&plate, &above, &small, &aside)] {
+        let Ok(contact) = detect(a, at_a, b, at_b, &Settings::default(), None) else { continue };
+        if contact.kind != Kind::Overlapping {
+            continue;
+        }
+        let section = Section { branch_a: contact.branch_a, branch_b: contact.branch_b, normal: contact.normal };
+        let area = section.area(a, at_a, b, at_b, 1e-6);
+        assert!(area.is_none_or(|area| area.is_finite() && area >= 0.0), "{area:?} of {contact:?}");
+        asked += 1;
+    }
+    assert!(asked > 0, "no contact to ask for");
+}

@@ -116,6 +116,11 @@ impl Contest {
             self.own(c[0] <= 0.0, &at(low));
             return self.own(c[0] > 0.0, &at(between(crossing(c))));
         }
+        // Halves of what is no number are none either: the caller sees that in the area.
+        if !c.iter().all(|c| c.is_finite()) {
+            self.area = f64::NAN;
+            return;
+        }
         if deeper == 0 {
             return self.own(c[2] <= 0.0, &at(low));
         }

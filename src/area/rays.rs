@@ -71,7 +71,8 @@ impl Sector {
         let change = fine - self.simpson();
         // Richardson: the fine sum errs by a fifteenth of the change on smooth sectors; at a kink by less
         // than the change.
-        if change.abs() <= tolerance || deeper == 0 {
+        // What is no number, halving does not mend.
+        if !(change.abs() > tolerance) || deeper == 0 {
             return Some(fine + change / 15.0);
         }
         Some(left.integral(f, tolerance, deeper - 1)? + right.integral(f, tolerance, deeper - 1)?)

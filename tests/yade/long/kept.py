@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A run that saves itself every so many steps; or its last save, taken further.
+"""A run that saves itself every so many steps; or one of its saves, taken further.
 
-    BODIES=30 FUNCTOR=library STEPS=4000 EVERY=500 SCENE=s.yade.gz LATER=1000 RESULT=unbroken.json \\
+    BODIES=30 FUNCTOR=library STEPS=4000 EVERY=500 SCENE=s LATER=1000 RESULT=unbroken.json \\
         scripts/yade.sh -j1 tests/yade/long/kept.py
-    SCENE=s.yade.gz EVERY=500 LATER=1000 RESULT=reloaded.json scripts/yade.sh -j1 tests/yade/long/kept.py
+    SCENE=s FROM=2500 EVERY=500 LATER=1000 RESULT=reloaded.json scripts/yade.sh -j1 tests/yade/long/kept.py
 
 The first form runs to STEPS, saving as it goes, and LATER steps beyond. RESULT gets the states at all
 multiples of EVERY. Run by tests/yade/long/run.py, which kills it.
@@ -34,12 +34,12 @@ def go_on(steps):
 if "BODIES" in os.environ:
     scene.build(int(os.environ["BODIES"]), os.environ["FUNCTOR"])
     for step in go_on(int(os.environ["STEPS"])):
-        # In one move, so that a kill while it is written leaves the save before whole.
+        # In one move, so that a kill while it is written leaves no part of a save.
         O.save(path + ".new.yade.gz")
-        os.replace(path + ".new.yade.gz", path)
+        os.replace(path + ".new.yade.gz", f"{path}-{step}.yade.gz")
         print(f"saved at step {step}", flush=True)
 else:
-    O.load(path)
+    O.load(f"{path}-{os.environ['FROM']}.yade.gz")
 first = O.iter
 for _ in go_on(int(os.environ["LATER"])):
     pass
