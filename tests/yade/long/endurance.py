@@ -24,7 +24,7 @@ from stepping import advance
 from watch import Watch
 
 LOOKS = int(os.environ.get("LOOKS", 200))
-# Accelerations of 0.7 and 0.35 g: the heap slides and hops, and lands again.
+# Accelerations of 0.7, 0.8 and 0.35 g: the heap slides and hops, and lands again.
 AMPLITUDE, FREQUENCY = (0.02, 0.015, 0.005), (3.0, 3.7, 4.2)  # m, Hz; along x, y, z
 
 
