@@ -194,13 +194,13 @@ impl<'a> Body<'a> {
         }
     }
 
-    /// Calls `visit` with the (solver frame) normal and n·x − d of each plane of the quadratic.
+    /// Calls `visit` with the (solver frame) normal of each plane of the quadratic.
     #[inline]
-    pub fn rows(&self, local: &Local, mut visit: impl FnMut(Vector3<f64>, f64)) {
+    pub fn normals(&self, local: &Local, mut visit: impl FnMut(Vector3<f64>)) {
         let y = &local.y;
         self.particle.visit_near(y, local.early, |i, n, excess| {
             if local.counts(i, excess) {
-                visit(if self.turned { self.rotation * n } else { n }, excess);
+                visit(if self.turned { self.rotation * n } else { n });
             }
         });
     }

@@ -7,9 +7,7 @@
 //! pull 2(1−k)/r² Σ⟨·⟩ of the planes; that product is the condition number of S, and it is added.
 
 use crate::body::{Body, Planes};
-use crate::frame;
-use crate::model::Model;
-use crate::spine::{self, Ending, Expansion, Outcome};
+use crate::spine::{self, Ending, Expansion, Factorisation, Outcome, Start};
 use crate::target::Target;
 use nalgebra::Vector3;
 
@@ -84,7 +82,7 @@ const TURN: f64 = 4.0;
 /// Two dual bounds are tried: the quadratic model's where its multipliers are admissible, and the
 /// linear one, φ(x) − |∇φ|·D, for any optimum within a distance D of x.
 pub(crate) fn judge(x: &Vector3<f64>, lambda: f64, s: f64, a: &Body, b: &Body, target: Target) -> Outcome {
-    let mut locals = [a.locate(x, 0.0), b.locate(x, 0.0)];
+    let locals = [a.locate(x, 0.0), b.locate(x, 0.0)];
     let (q_a, q_b) = (a.at(&locals[0], None), b.at(&locals[1], None));
     let upper = target.merit(q_a.value, q_b.value, lambda);
     let rounding = target.dual_weighted(a.rounding(&locals[0], &q_a), b.rounding(&locals[1], &q_b), lambda);
@@ -95,32 +93,20 @@ pub(crate) fn judge(x: &Vector3<f64>, lambda: f64, s: f64, a: &Body, b: &Body, t
     let linear = target.dual(q_a.value, q_b.value, lambda) - slope * reach;
     let mut lower = linear;
     // Planes that only seem to be on are dropped one by one, as in the solver.
-    loop {
-        let axes = frame::aligned([a, b], weights, &locals);
-        let (q_a, q_b) = (a.at(&locals[0], Some(&axes)), b.at(&locals[1], Some(&axes)));
-        let soft = spine::softest(a, b);
-        let Some(optimum) = Model::new(&q_a, &q_b, soft, target).solve(lambda, 0.0) else {
-            break;
-        };
-        let step = axes * optimum.step;
-        let verdicts = [a.check(&locals[0], &step), b.check(&locals[1], &step)];
-        match verdicts[0].planes.max(verdicts[1].planes) {
+    let (bodies, start) = ([a, b], Start { x: *x, lambda, near: true });
+    let mut expansion = Expansion::at(bodies, &start, target, Factorisation::Aligned);
+    while let Some(step) = expansion.optimum(bodies, target, lambda, 0.0) {
+        match step.planes {
             Planes::Exact | Planes::Met => {
-                let slope = weights.0 * verdicts[0].slope + weights.1 * verdicts[1].slope;
-                let pulled = slope * slope / (weights.0 * soft.0 + weights.1 * soft.1);
-                let expanded = target.dual_weighted(optimum.rounding(&q_a), optimum.rounding(&q_b), lambda);
+                let optimum = &step.optimum;
+                let (of_a, of_b) = (optimum.rounding(&expansion.q_a), optimum.rounding(&expansion.q_b));
                 let dual = target.dual(optimum.values.0, optimum.values.1, optimum.lambda);
-                lower = lower.max(dual - 2.0 * optimum.doubt(target, soft) - pulled - expanded);
+                let doubt = step.doubt(target, spine::softest(a, b));
+                lower = lower.max(dual - doubt - target.dual_weighted(of_a, of_b, lambda));
                 break;
             }
             Planes::Pulling => break,
-            Planes::Dropped => {
-                for (local, verdict) in locals.iter_mut().zip(&verdicts) {
-                    if let Some(i) = verdict.drop {
-                        local.drop(i);
-                    }
-                }
-            }
+            Planes::Dropped => expansion.drop(bodies, &step, target, lambda, Factorisation::Aligned),
         }
     }
     let gradients = [q_a.gradient, q_b.gradient];

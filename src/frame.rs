@@ -31,7 +31,7 @@ fn stiffest(bodies: [(&Body, &Local, f64); 2], remainder: impl Fn(Vector3<f64>) 
     let (mut best, mut most) = (Vector3::zeros(), 0.0);
     for (body, local, scale) in bodies {
         let weight = scale * body.plane_curvature();
-        body.rows(local, |n, _| {
+        body.normals(local, |n| {
             let rest = remainder(n);
             let stiffness = weight * rest.norm_squared();
             if stiffness > most && rest.norm_squared() > PARALLEL * n.norm_squared() {

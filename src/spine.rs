@@ -225,7 +225,7 @@ impl Expansion {
     ///
     /// λ is good to `enough` where another plane is met or one pulls, and to rounding where the planes are right.
     #[inline]
-    fn optimum(&self, bodies: [&Body; 2], target: Target, guess: f64, enough: f64) -> Option<Step> {
+    pub fn optimum(&self, bodies: [&Body; 2], target: Target, guess: f64, enough: f64) -> Option<Step> {
         let model = Model::new(&self.q_a, &self.q_b, softest(bodies[0], bodies[1]), target);
         let step = self.step(bodies, model.solve(guess, enough)?);
         if step.planes == Planes::Exact && !step.optimum.settled {
@@ -266,12 +266,7 @@ impl Expansion {
             Planes::Exact => target.merit(s_a, s_b, lambda),
             _ => self.merit(target, lambda),
         };
-        // Planes of doubtful sign may pull: the model's value may lie above a lower bound by this.
-        let weights = target.weights(lambda);
-        let slope = weights.0 * step.verdicts[0].slope + weights.1 * step.verdicts[1].slope;
-        let pulled = slope * slope / (weights.0 * soft.0 + weights.1 * soft.1);
-        // (x + y)² ≤ 2x² + 2y² for the two slopes in doubt.
-        let doubt = 2.0 * optimum.doubt(target, soft) + pulled;
+        let doubt = step.doubt(target, soft);
         let of_a = bodies[0].rounding_after(&self.locals[0], &self.q_a, s_a);
         let of_b = bodies[1].rounding_after(&self.locals[1], &self.q_b, s_b);
         Outcome {
@@ -298,6 +293,17 @@ pub(crate) struct Step {
     verdicts: [Verdict; 2],
     /// The worse of the two.
     pub planes: Planes,
+}
+
+impl Step {
+    /// How far the dual value may lie above a lower bound: the step is not solved exactly, and planes of doubtful sign may
+    /// pull after all.
+    pub fn doubt(&self, target: Target, soft: (f64, f64)) -> f64 {
+        let (a, b) = target.weights(self.optimum.lambda);
+        let slope = a * self.verdicts[0].slope + b * self.verdicts[1].slope;
+        // (x + y)² ≤ 2x² + 2y² for the two slopes in doubt.
+        2.0 * self.optimum.doubt(target, soft) + slope * slope / (a * soft.0 + b * soft.1)
+    }
 }
 
 /// Solves for the goal, beginning with the quadratics in `here`; those of the answer are left there.
