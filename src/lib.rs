@@ -53,6 +53,7 @@ pub mod reject;
 mod search;
 pub mod settings;
 mod spine;
+mod start;
 pub mod surface;
 pub mod symmetric;
 mod target;

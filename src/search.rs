@@ -8,6 +8,7 @@ use crate::dual;
 use crate::pair::Pair;
 use crate::settings::{BackEnd, Settings};
 use crate::spine::{self, Ending, Expansion, Factorisation, Goal, Outcome, Start};
+use crate::start;
 use crate::target::Target;
 
 /// One call: the pair, what is asked, and what it has cost so far.
@@ -95,7 +96,7 @@ impl<'a> Search<'a> {
     ) -> Result<(), ConicError> {
         let usual = spine::factorisation(&self.body_a, &self.body_b);
         if self.settings.back_end == BackEnd::Fast {
-            let first = start.unwrap_or_else(|| spine::cold_start(self.pair, &self.body_a, &self.body_b));
+            let first = start.unwrap_or_else(|| start::cold(self.pair, &self.body_a, &self.body_b));
             self.rung(target, &first, left, usual, answer);
             if answer.outcome.ending == Ending::Stuck {
                 self.further(target, start.is_some(), usual, answer);
@@ -118,11 +119,12 @@ impl<'a> Search<'a> {
     /// The rungs after the first: cold, and with the safer axes from the end of the safe way to λ.
     #[cold]
     fn further(&mut self, target: Target, warm: bool, usual: Factorisation, answer: &mut Answer) {
-        let cold = spine::cold_start(self.pair, &self.body_a, &self.body_b);
         if warm {
+            let cold = start::cold(self.pair, &self.body_a, &self.body_b);
             self.rung(target, &cold, None, usual, answer);
         }
         if answer.outcome.ending == Ending::Stuck {
+            let cold = start::on_centre_line(self.pair, &self.body_a, &self.body_b);
             let bodies = [&self.body_a, &self.body_b];
             let (start, models) = dual::start(bodies, target, &cold, Factorisation::Aligned);
             self.iterations += models;

@@ -9,7 +9,6 @@ use crate::body::{Body, Local, Planes, Verdict};
 use crate::frame;
 use crate::line::{self, Merit};
 use crate::model::{Model, Optimum, Response};
-use crate::pair::Pair;
 use crate::potential::Quadratic;
 use crate::target::Target;
 use nalgebra::{Matrix3, Vector3};
@@ -145,23 +144,6 @@ pub(crate) fn factorisation(a: &Body, b: &Body) -> Factorisation {
 /// Least curvatures of A and B in any direction.
 pub(crate) fn softest(a: &Body, b: &Body) -> (f64, f64) {
     (a.sphere_curvature(), b.sphere_curvature())
-}
-
-/// A start without memory: the best point on the line of centres.
-pub(crate) fn cold_start(pair: &Pair, a: &Body, b: &Body) -> Start {
-    let from = a.centre();
-    let direction = -from;
-    let (ra, rb) = (pair.a.bounding_radius(), pair.b.bounding_radius());
-    let guess = ra / (ra + rb);
-    if direction.norm_squared() == 0.0 {
-        return Start { x: Vector3::zeros(), lambda: 1.0, near: false };
-    }
-    let line::Descent { alpha, slope_a, slope_b, .. } =
-        line::descend(a, b, Merit::Of(Target::Midway, 1.0), &from, &direction, (guess, 1.0));
-    // (1−u) S_A' + u S_B' = 0 on the line.
-    let lambda = -slope_a / slope_b;
-    let lambda = if lambda > 0.0 && lambda.is_finite() { lambda } else { 1.0 };
-    Start { x: from + alpha * direction, lambda, near: false }
 }
 
 const NOWHERE: Vector3<f64> = Vector3::new(0.0, 0.0, 0.0);

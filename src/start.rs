@@ -1,0 +1,235 @@
+//! Where a search without memory begins.
+//!
+//! Near contact a few planes of each particle decide, and which ones is a question about the sharp polyhedra behind
+//! the particles. With w the weight (1−k)/r² of a particle's planes, let
+//!
+//! ```text
+//! F(x) = max over the planes of A and of B of √w·(n·x − d)
+//! ```
+//!
+//! Its minimum lies where up to four planes hold each other, Σ c_i g_i = 0 with g_i = √w n_i, c_i ≥ 0 and Σ c_i = 1:
+//! a linear program in x and F. It is solved by steepest descent: against the shortest vector y in the convex hull of
+//! the g_i in force, until another plane takes over, which joins the hull; those that y no longer needs leave it.
+//!
+//! As long as the same planes decide, the minimiser of max(S_A, S_B) without the spheres' shares then is known in closed
+//! form. Forces balance at excesses √w·(n_i·x − d_i) = τ c_i/α on A and τ c_i/β on B, where α² and β² are the
+//! sums of c_i² over the planes of A and of B; both S are τ², τ = F/(α + β), and the ratio of weights is λ = β/α.
+
+use crate::body::Body;
+use crate::line::{self, Merit};
+use crate::pair::Pair;
+use crate::spine::Start;
+use crate::target::Target;
+use nalgebra::Vector3;
+
+/// Most planes that take over, one after the other, and most trials for each. A start need not be perfect.
+const MOST_PLANES: usize = 24;
+const MOST_TRIALS: usize = 24;
+
+/// Relative to F: no other plane lies higher.
+const LEVEL: f64 = 1e-9;
+
+/// Square of the shortest vector of the hull, relative to the longest, that is none: the planes hold each other.
+const BALANCED: f64 = 1e-20;
+
+/// Sphericity from which the spheres decide as much as the planes.
+const ROUND: f64 = 0.5;
+
+/// A start without memory.
+pub(crate) fn cold(pair: &Pair, a: &Body, b: &Body) -> Start {
+    let angular = |body: &Body| !body.particle.is_sphere() && body.particle.sphericity() < ROUND;
+    let between = if angular(a) && angular(b) { between_polyhedra([a, b], centre_line(pair)) } else { None };
+    between.unwrap_or_else(|| on_centre_line(pair, a, b))
+}
+
+/// The best point on the line of centres.
+pub(crate) fn on_centre_line(pair: &Pair, a: &Body, b: &Body) -> Start {
+    let from = a.centre();
+    let direction = -from;
+    let (ra, rb) = (pair.a.bounding_radius(), pair.b.bounding_radius());
+    let guess = ra / (ra + rb);
+    if direction.norm_squared() == 0.0 {
+        return Start { x: Vector3::zeros(), lambda: 1.0, near: false };
+    }
+    let line::Descent { alpha, slope_a, slope_b, .. } =
+        line::descend(a, b, Merit::Of(Target::Midway, 1.0), &from, &direction, (guess, 1.0));
+    // (1−u) S_A' + u S_B' = 0 on the line.
+    let lambda = -slope_a / slope_b;
+    let lambda = if lambda > 0.0 && lambda.is_finite() { lambda } else { 1.0 };
+    Start { x: from + alpha * direction, lambda, near: false }
+}
+
+/// The point of the line of centres that divides it as the bounding radii do.
+fn centre_line(pair: &Pair) -> Vector3<f64> {
+    let (ra, rb) = (pair.a.bounding_radius(), pair.b.bounding_radius());
+    pair.centre * (rb / (ra + rb))
+}
+
+/// The minimum of F and what follows from it. `None` where the polyhedra overlap (F ≤ 0), do not end, or no start is
+/// found.
+fn between_polyhedra(bodies: [&Body; 2], from: Vector3<f64>) -> Option<Start> {
+    let mut x = from;
+    let (mut level, first) = highest(bodies, &x);
+    let mut hull = Hull::of(first);
+    for _ in 0..MOST_PLANES {
+        let y = hull.shortest();
+        let rate = y.norm_squared();
+        if hull.count == 4 || rate <= BALANCED * hull.longest() {
+            return hull.start(x, level);
+        }
+        // F falls to 0 over this way at most.
+        let mut way = level / rate;
+        let mut next = None;
+        for _ in 0..MOST_TRIALS {
+            let (here, face) = highest(bodies, &(x - way * y));
+            let over = here - (level - way * rate);
+            if over <= LEVEL * level {
+                break;
+            }
+            way -= over / (rate - face.gradient.dot(&y));
+            next = Some(face);
+        }
+        x -= way * y;
+        level -= way * rate;
+        hull.join(next?)?;
+    }
+    None
+}
+
+/// F, and the plane that it is that of.
+fn highest([a, b]: [&Body; 2], x: &Vector3<f64>) -> (f64, Face) {
+    let ((of_a, place_a), (of_b, place_b)) = (a.highest(x), b.highest(x));
+    if of_a > of_b {
+        (of_a, Face { gradient: a.scaled_normal(place_a), on_a: true })
+    } else {
+        (of_b, Face { gradient: b.scaled_normal(place_b), on_a: false })
+    }
+}
+
+/// A plane in force.
+#[derive(Clone, Copy)]
+struct Face {
+    /// g = √w·n in the solver's frame.
+    gradient: Vector3<f64>,
+    on_a: bool,
+}
+
+/// Planes that balance each other as far as they can: y = Σ c_i g_i is the shortest vector of their convex hull.
+struct Hull {
+    faces: [Face; 4],
+    /// c_i > 0, Σ c_i = 1.
+    shares: [f64; 4],
+    count: usize,
+}
+
+impl Hull {
+    fn of(face: Face) -> Self {
+        Self { faces: [face; 4], shares: [1.0, 0.0, 0.0, 0.0], count: 1 }
+    }
+
+    /// y.
+    fn shortest(&self) -> Vector3<f64> {
+        (1..self.count).fold(self.shares[0] * self.g(0), |sum, i| sum + self.shares[i] * self.g(i))
+    }
+
+    /// Square of the longest g.
+    fn longest(&self) -> f64 {
+        (0..self.count).fold(0.0, |most, i| self.g(i).norm_squared().max(most))
+    }
+
+    fn g(&self, i: usize) -> &Vector3<f64> {
+        &self.faces[i].gradient
+    }
+
+    /// One more plane; those that y needs no longer go (Wolfe's algorithm). `None` where rounding decides.
+    fn join(&mut self, face: Face) -> Option<()> {
+        self.faces[self.count] = face;
+        self.shares[self.count] = 0.0;
+        self.count += 1;
+        loop {
+            let wanted = self.affine();
+            // The way to `wanted` on which all shares stay positive, and which vanishes first.
+            let (mut way, mut first) = (1.0, None);
+            for i in 0..self.count {
+                let (have, want) = (self.shares[i], wanted[i]);
+                if !want.is_finite() {
+                    return None;
+                }
+                if want <= 0.0 && have <= way * (have - want) {
+                    (way, first) = (have / (have - want), Some(i));
+                }
+            }
+            for i in 0..self.count {
+                self.shares[i] += way * (wanted[i] - self.shares[i]);
+            }
+            let Some(i) = first else { return Some(()) };
+            self.count -= 1;
+            if i == self.count {
+                return None;
+            }
+            // The newest stays last.
+            for j in i..self.count {
+                (self.faces[j], self.shares[j]) = (self.faces[j + 1], self.shares[j + 1]);
+            }
+        }
+    }
+
+    /// Shares, of any sign, of the shortest vector in the affine hull.
+    fn affine(&self) -> [f64; 4] {
+        let last = self.count - 1;
+        let [first, second, third] = self.reciprocal();
+        let g = self.g(last);
+        let shares = [-g.dot(&first), -g.dot(&second), -g.dot(&third)];
+        let mut all = [0.0; 4];
+        all[..last].copy_from_slice(&shares[..last]);
+        all[last] = 1.0 - shares[..last].iter().sum::<f64>();
+        all
+    }
+
+    /// Vectors in the span of the differences g_i − g_last, each with product 1 with its own and 0 with the others.
+    fn reciprocal(&self) -> [Vector3<f64>; 3] {
+        let last = self.g(self.count - 1);
+        let zero = Vector3::zeros();
+        match self.count {
+            2 => {
+                let u = self.g(0) - last;
+                [u / u.norm_squared(), zero, zero]
+            }
+            3 => {
+                let (u, v) = (self.g(0) - last, self.g(1) - last);
+                let across = u.cross(&v);
+                let area = across.norm_squared();
+                [v.cross(&across) / area, across.cross(&u) / area, zero]
+            }
+            _ => {
+                let (u, v, w) = (self.g(0) - last, self.g(1) - last, self.g(2) - last);
+                let across = v.cross(&w);
+                let volume = u.dot(&across);
+                [across / volume, w.cross(&u) / volume, u.cross(&v) / volume]
+            }
+        }
+    }
+
+    /// The minimiser of max(S_A, S_B) from that of F, and its λ.
+    fn start(&self, x: Vector3<f64>, level: f64) -> Option<Start> {
+        let squares = |on_a: bool| {
+            let of = (0..self.count).filter(|&i| self.faces[i].on_a == on_a);
+            of.map(|i| self.shares[i] * self.shares[i]).sum::<f64>().sqrt()
+        };
+        let (alpha, beta) = (squares(true), squares(false));
+        // One particle's planes alone: its own centre is meant, not a contact.
+        if !(alpha > 0.0 && beta > 0.0) {
+            return None;
+        }
+        let excess = |i: usize| {
+            let side = if self.faces[i].on_a { alpha } else { beta };
+            level * self.shares[i] / ((alpha + beta) * side)
+        };
+        let last = self.count - 1;
+        let to_last = excess(last);
+        let reciprocal = self.reciprocal();
+        let step = (0..last).fold(Vector3::zeros(), |sum, i| sum + (excess(i) - to_last) * reciprocal[i]);
+        let (x, lambda) = (x + step, beta / alpha);
+        (lambda.is_finite() && x.iter().all(|v| v.is_finite())).then_some(Start { x, lambda, near: true })
+    }
+}
