@@ -28,6 +28,9 @@ const ROUNDING: f64 = 4.0;
 /// Rounding of a depth, relative to the terms of its sum.
 const DOUBT: f64 = 8.0 * f64::EPSILON;
 
+/// Less than 1 by more than the rounding of a distance to a plane, relative to the terms of its sum.
+const CLEAR: f64 = 1.0 - 4.0 * DOUBT;
+
 /// Most planes that one model may drop at a point.
 const MOST_DROPPED: usize = 8;
 
@@ -151,9 +154,31 @@ impl<'a> Body<'a> {
     /// The quadratic with depth n·x − d + n·v ≥ 0 for each of its planes is a lower bound of S everywhere:
     /// ⟨t⟩² ≥ 2λt − λ² for every λ ≥ 0. The sign is judged in the model's own arithmetic, to which the rounding
     /// of n·x − d is but a shift of the plane.
-    ///
     #[inline]
-    pub fn check(&self, local: &Local, v: &Vector3<f64>) -> Verdict {
+    pub fn check(&self, local: &Local, q: &Quadratic, v: &Vector3<f64>, length: f64) -> Verdict {
+        if self.stays(q, length) { Verdict::EXACT } else { self.check_each(local, v) }
+    }
+
+    /// Whether no plane of the quadratic switches within a distance.
+    #[inline]
+    fn stays(&self, q: &Quadratic, distance: f64) -> bool {
+        self.particle.bounds.longest_normal * distance <= CLEAR * q.clear
+    }
+
+    /// The distance within which no plane of the quadratic switches.
+    #[inline]
+    pub fn stays_for(&self, q: &Quadratic) -> f64 {
+        CLEAR * q.clear / self.particle.bounds.longest_normal
+    }
+
+    /// Whether S is the particle's own, not regularised.
+    #[inline]
+    pub fn is_plain(&self) -> bool {
+        self.sphere_weight == self.particle.sphere_weight
+    }
+
+    #[inline(never)]
+    fn check_each(&self, local: &Local, v: &Vector3<f64>) -> Verdict {
         let (y, blur, e) = (local.y, local.blur, self.turn(v));
         let p = self.particle;
         let mut worst: Option<(usize, f64)> = None;
@@ -232,9 +257,9 @@ impl<'a> Body<'a> {
         self.rounding(local, q).max(pull * local.blur)
     }
 
-    /// Weights of the planes and of the shadow sphere in (regularised) S.
-    pub fn weights(&self) -> (f64, f64) {
-        (self.particle.plane_weight, self.sphere_weight)
+    /// Weight of the planes in S.
+    pub fn plane_weight(&self) -> f64 {
+        self.particle.plane_weight
     }
 
     /// Largest curvature that one plane can give S.
@@ -261,6 +286,10 @@ impl<'a> Body<'a> {
         let reach = self.particle.reach(level);
         added * reach * reach
     }
+}
+
+impl Verdict {
+    const EXACT: Self = Self { planes: Planes::Exact, drop: None, slope: 0.0 };
 }
 
 impl Local {

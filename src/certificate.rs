@@ -7,7 +7,8 @@
 //! pull 2(1−k)/r² Σ⟨·⟩ of the planes; that product is the condition number of S, and it is added.
 
 use crate::body::{Body, Planes};
-use crate::spine::{self, Ending, Expansion, Factorisation, Outcome, Start};
+use crate::expansion::{self, Expansion, Factorisation, Start};
+use crate::outcome::{Ending, Outcome};
 use crate::target::Target;
 use nalgebra::Vector3;
 
@@ -46,7 +47,7 @@ pub(crate) fn scale(outcome: &Outcome, a: &Body, b: &Body, target: Target) -> Ce
 pub(crate) fn distance(outcome: &Outcome, expansion: &Expansion, a: &Body, b: &Body, target: Target) -> f64 {
     let weights = target.weights(outcome.lambda);
     let convexity = || {
-        let soft = spine::softest(a, b);
+        let soft = expansion::softest(a, b);
         let excess = (outcome.upper - outcome.lower).max(0.0) + outcome.rounding;
         (2.0 * excess / (weights.0 * soft.0 + weights.1 * soft.1)).sqrt()
     };
@@ -60,7 +61,7 @@ pub(crate) fn distance(outcome: &Outcome, expansion: &Expansion, a: &Body, b: &B
     for (i, (body, q, weight)) in
         [(a, &expansion.q_a, weights.0), (b, &expansion.q_b, weights.1)].into_iter().enumerate()
     {
-        let planes = response.to_planes(i, q, target, outcome.lambda, body.weights());
+        let planes = response.to_planes(i, q, target, outcome.lambda, body.plane_weight());
         // The force, rounded at either end of the step.
         let force = weight * (outcome.gradients[i].norm() + q.gradient.norm());
         sum += expansion.locals[i].blur * (1.0 + planes) + force * turn;
@@ -101,7 +102,7 @@ pub(crate) fn judge(x: &Vector3<f64>, lambda: f64, s: f64, a: &Body, b: &Body, t
                 let optimum = &step.optimum;
                 let (of_a, of_b) = (optimum.rounding(&expansion.q_a), optimum.rounding(&expansion.q_b));
                 let dual = target.dual(optimum.values.0, optimum.values.1, optimum.lambda);
-                let doubt = step.doubt(target, spine::softest(a, b));
+                let doubt = step.doubt(target, expansion::softest(a, b));
                 lower = lower.max(dual - doubt - target.dual_weighted(of_a, of_b, lambda));
                 break;
             }

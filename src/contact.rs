@@ -1,9 +1,10 @@
 //! The contact: point, normal and overlap from a solution.
 
+use crate::expansion::Piece;
+use crate::outcome::Outcome;
 use crate::pair::Pair;
 use crate::pose::Pose;
 use crate::settings::{BackEnd, Formulation};
-use crate::spine::Outcome;
 use crate::surface;
 use nalgebra::Vector3;
 
@@ -115,23 +116,27 @@ pub(crate) struct LocalContact {
 impl LocalContact {
     /// Midway: normal from both unit gradients at P3, surface points along it from there.
     ///
-    /// `curvatures` gives the second derivatives of S_A and S_B along the normal: on the quadratics at P3 the surface
-    /// is a square root away.
+    /// `pieces` gives S_A and S_B along the normal: on the quadratics at P3 the surface is a square root away.
     pub fn midway(
         pair: &Pair,
         outcome: &Outcome,
-        curvatures: impl Fn(&Vector3<f64>) -> [f64; 2],
+        pieces: impl Fn(&Vector3<f64>) -> [Piece; 2],
         overlapping: bool,
     ) -> Option<Self> {
         let (x, gradients) = (&outcome.x, &outcome.gradients);
         let (normal, normal_by_centres) = normal(pair, gradients);
         let surface = if overlapping {
-            let bend = curvatures(&normal);
+            let [of_a, of_b] = pieces(&normal);
             let missing = outcome.estimate - 1.0;
-            let guess_a = surface::root_of_piece(missing, gradients[0].dot(&normal), bend[0]);
-            let guess_b = surface::root_of_piece(missing, -gradients[1].dot(&normal), bend[1]);
-            let to_a = surface::distance_near(pair.a, &pair.in_a(x), &pair.rotation.tr_mul(&normal), guess_a)?;
-            let to_b = surface::distance_near(pair.b, x, &-normal, guess_b)?;
+            let way = |piece: Piece, slope: f64, from_there: &dyn Fn(f64) -> Option<f64>| {
+                let way = surface::root_of_piece(missing, slope, piece.curvature);
+                if way.abs() <= piece.reach { Some(way) } else { from_there(way) }
+            };
+            let to_a = way(of_a, gradients[0].dot(&normal), &|guess| {
+                surface::distance_near(pair.a, &pair.in_a(x), &pair.rotation.tr_mul(&normal), guess)
+            })?;
+            let to_b =
+                way(of_b, -gradients[1].dot(&normal), &|guess| surface::distance_near(pair.b, x, &-normal, guess))?;
             // Where s < 1 by rounding alone, so may be the sum.
             Some((x + to_a * normal, x - to_b * normal, (to_a + to_b).max(0.0)))
         } else {

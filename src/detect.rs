@@ -2,14 +2,15 @@
 
 use crate::certificate::Certified;
 use crate::contact::{Contact, Flags, Kind, LocalContact};
+use crate::expansion::Start;
 use crate::memory::{Memory, Remembered};
+use crate::outcome::Ending;
 use crate::pair::Pair;
 use crate::particle::Particle;
 use crate::pose::Pose;
 use crate::reject;
 use crate::search::{Answer, Search};
 use crate::settings::{BackEnd, Formulation, Settings, SettingsError};
-use crate::spine::{Ending, Start};
 use crate::target::Target;
 use thiserror::Error;
 
@@ -123,7 +124,7 @@ fn describe(
     contact.gap = scale.gap;
     contact.weight = share(midway.outcome.lambda);
     contact.point_bound = search.bound(midway, Target::Midway);
-    LocalContact::midway(pair, &midway.outcome, |n| midway.expansion.curvatures(n), overlapping)
+    LocalContact::midway(pair, &midway.outcome, |n| search.pieces(midway, n), overlapping)
         .ok_or_else(|| DetectError::Failed { conic: "the surface was not found along the normal".into() })
 }
 

@@ -6,8 +6,8 @@
 //! Slower than the spine, which moves point and λ together; it only has to come near enough for the spine to end.
 
 use crate::body::{Body, Planes};
+use crate::expansion::{Expansion, Factorisation, Start};
 use crate::line::{self, Merit};
-use crate::spine::{Expansion, Factorisation, Start};
 use crate::target::Target;
 
 /// Most values of λ that are tried, and most steps for each.

@@ -76,6 +76,9 @@ const BALANCED: f64 = 16.0 * f64::EPSILON;
 /// Relative mismatch below which a search that no longer gains is at the end of its digits.
 const STALLING: f64 = 1e-9;
 
+/// Rounding of tr(M H M), relative to tr H⁻¹.
+const TRACE_ROUNDING: f64 = 16.0 * f64::EPSILON;
+
 impl<'a> Model<'a> {
     #[inline(always)]
     pub fn new(q_a: &'a Quadratic, q_b: &'a Quadratic, soft: (f64, f64), target: Target) -> Self {
@@ -271,12 +274,24 @@ impl Optimum {
         self.rate * target.per_logarithm(target.weights(self.lambda))
     }
 
-    /// How the optimum answers to small changes of the data.
-    pub fn response(&self, target: Target) -> Option<Response> {
-        (self.rate > 0.0).then(|| Response {
-            inverse: self.factor.inverse(),
-            along: self.along,
-            rate: self.rate,
+    /// How the optimum answers to small changes of the data, with least curvatures `soft` of A and B.
+    pub fn response(&self, target: Target, soft: (f64, f64)) -> Option<Response> {
+        if !(self.rate > 0.0) {
+            return None;
+        }
+        let inverse = self.factor.inverse();
+        let mut squares = Symmetric::default();
+        squares.add_square(&self.along);
+        let to_slope = squares.weighted(1.0 / self.rate, &inverse, -1.0);
+        let (a, b) = target.weights(self.lambda);
+        // tr(M H M) = −tr M, less the spheres' share of H; the difference is known to the rounding of its terms.
+        let (trace, traces) = (-to_slope.trace(), [inverse.trace(), inverse.xx + inverse.yy]);
+        let of_planes = trace - (a * soft.0 + b * soft.1) * to_slope.square() + TRACE_ROUNDING * traces[0];
+        Some(Response {
+            to_slope,
+            traces,
+            per_value: self.along.norm() / self.rate,
+            to_all_planes: of_planes.max(0.0),
             slope: self.slope(target),
             values: self.values.into(),
         })
@@ -287,12 +302,18 @@ impl Optimum {
 /// a·g_A + b·g_B = 0 and m = 0.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Response {
-    /// H⁻¹.
-    inverse: Symmetric,
-    /// dv/dθ = −H⁻¹w.
-    along: Vector3<f64>,
-    /// dm/dθ = wᵀH⁻¹w.
-    rate: f64,
+    /// The answer of v to a slope that is left:
+    ///
+    /// ```text
+    /// M = (along ⊗ along)/rate − H⁻¹
+    /// ```
+    to_slope: Symmetric,
+    /// Traces of H⁻¹: over all three axes, and over the first two.
+    traces: [f64; 2],
+    /// |dv/dθ| / (dm/dθ), with dv/dθ = −H⁻¹w and dm/dθ = wᵀH⁻¹w.
+    per_value: f64,
+    /// Σ of weight·2w·tr(M N M) over both bodies, N = Σ n nᵀ over the planes of one.
+    to_all_planes: f64,
     /// What is left of a·g_A + b·g_B.
     slope: Vector3<f64>,
     /// q_A and q_B.
@@ -300,56 +321,36 @@ pub(crate) struct Response {
 }
 
 impl Response {
-    /// The move that would take away what is left of the slope: M·slope, with
-    ///
-    /// ```text
-    /// M = (along ⊗ along)/rate − H⁻¹
-    /// ```
+    /// The move that would take away what is left of the slope.
     pub fn unsolved(&self) -> f64 {
-        self.of_slope().times(&self.slope).norm()
+        self.to_slope.times(&self.slope).norm()
     }
 
     /// Bound on the move when α·q_A + β·q_B is off by `value`.
     pub fn to_value(&self, value: f64) -> f64 {
-        self.along.norm() * value / self.rate
-    }
-
-    fn of_slope(&self) -> Symmetric {
-        let mut squares = Symmetric::default();
-        squares.add_square(&self.along);
-        squares.weighted(1.0 / self.rate, &self.inverse, -1.0)
+        self.per_value * value
     }
 
     /// Bound on the moves, summed, when each plane of A (0) or B (1) moves by one unit of length.
     ///
     /// A plane with depth p turns the slope by 2wn and raises S by 2wp, and the optimum answers with
-    /// 2w·(a·M n + along·α·p/rate). By Cauchy's inequality Σ|M n| ≤ √(m·tr(M N M)), with N = Σ n nᵀ from the Hessian,
-    /// and Σp ≤ √(m·S/w), so that no plane is looked at again.
-    pub fn to_planes(&self, body: usize, q: &Quadratic, target: Target, lambda: f64, weights: (f64, f64)) -> f64 {
-        let (plane_weight, sphere_weight) = weights;
+    /// 2w·(a·M n + along·α·p/rate). By Cauchy's inequality Σ|M n| ≤ √(m·tr(M N M)), and Σp ≤ √(m·S/w), so that no plane is
+    /// looked at again. H·along = −w makes M H M = −M, of which the planes' share is what the spheres leave: one trace
+    /// for all planes of both.
+    pub fn to_planes(&self, body: usize, q: &Quadratic, target: Target, lambda: f64, plane_weight: f64) -> f64 {
         if plane_weight == 0.0 || q.count == 0 {
             return 0.0;
         }
         let ((a, b), (alpha, beta)) = (target.weights(lambda), target.turning());
         let (weight, rate) = if body == 0 { (a, alpha) } else { (b, beta) };
-        let (m, n) = (self.of_slope(), q.hessian.scaled(1.0, -2.0 * sphere_weight));
-        // 2w·tr(M N M).
-        let first = m.times(&Vector3::new(m.xx, m.yx, m.zx));
-        let second = m.times(&Vector3::new(m.yx, m.yy, m.zy));
-        let third = m.times(&Vector3::new(m.zx, m.zy, m.zz)).z;
-        let spread =
-            first.x * n.xx + second.y * n.yy + third * n.zz + 2.0 * (first.y * n.yx + first.z * n.zx + second.z * n.zy);
         let count = f64::from(q.count);
-        let turned = weight * (2.0 * plane_weight * count * spread.max(0.0)).sqrt();
-        let raised =
-            rate.abs() / self.rate * self.along.norm() * (count * plane_weight * self.values[body].max(0.0)).sqrt();
+        let turned = (2.0 * plane_weight * weight * count * self.to_all_planes).sqrt();
+        let raised = rate.abs() * self.per_value * (count * plane_weight * self.values[body].max(0.0)).sqrt();
         turned + 2.0 * raised
     }
 
     /// Bound on the move per unit of slope, in whatever direction (in the plane: of its first two axes).
     pub fn per_slope(&self, dimensions: usize) -> f64 {
-        let g = &self.inverse;
-        let columns = [(g.xx, g.yx, g.zx), (g.yx, g.yy, g.zy), (g.zx, g.zy, g.zz)];
-        columns[..dimensions].iter().map(|(x, y, z)| (x * x + y * y + z * z).sqrt()).sum()
+        self.traces[usize::from(dimensions == 2)]
     }
 }

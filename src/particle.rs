@@ -235,22 +235,27 @@ impl Particle {
         &self.bounds.corners
     }
 
-    /// Calls `visit` with place, normal n and excess n·y − d of each plane that may have an excess above −`early`; no
-    /// others have.
+    /// Calls `visit` with place, normal n and excess n·y − d of each plane that may have an excess above −`early`. Gives a
+    /// number that no excess of the others exceeds.
     #[inline(always)]
-    pub(crate) fn visit_near(&self, y: &Vector3<f64>, early: f64, mut visit: impl FnMut(usize, Vector3<f64>, f64)) {
+    pub(crate) fn visit_near(
+        &self,
+        y: &Vector3<f64>,
+        early: f64,
+        mut visit: impl FnMut(usize, Vector3<f64>, f64),
+    ) -> f64 {
         let mut each = |i, [a, b, c, d]: &[f64; 4]| visit(i, Vector3::new(*a, *b, *c), a * y.x + b * y.y + c * y.z - d);
         if self.leaves.single() {
             for (i, row) in self.rows.iter().enumerate() {
                 each(i, row);
             }
-        } else {
-            for run in self.leaves.near(y, early) {
-                for (i, row) in run.clone().zip(&self.rows[run]) {
-                    each(i, row);
-                }
-            }
+            return f64::NEG_INFINITY;
         }
+        self.leaves.visit_near(y, early, |run| {
+            for (i, row) in run.clone().zip(&self.rows[run]) {
+                each(i, row);
+            }
+        })
     }
 
     /// The largest n·y − d, and the place of its plane; −∞ when there are no planes.

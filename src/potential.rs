@@ -24,6 +24,9 @@ pub struct Quadratic {
     pub pull: f64,
     /// Planes that are counted.
     pub count: u32,
+    /// No n·x − d is nearer to where its plane switches on or off; below 0 where one counts before it is on, or is on and
+    /// does not count.
+    pub clear: f64,
 }
 
 impl Quadratic {
@@ -34,6 +37,7 @@ impl Quadratic {
         hessian: Symmetric { xx: 0.0, yx: 0.0, yy: 0.0, zx: 0.0, zy: 0.0, zz: 0.0 },
         pull: 0.0,
         count: 0,
+        clear: 0.0,
     };
 }
 
@@ -91,8 +95,12 @@ pub(crate) fn turned(
     let (mut square, mut not_yet, mut linear, mut count) = (0.0, 0.0, 0.0, 0);
     let mut g = Vector3::zeros();
     let mut squares = Symmetric::default();
-    particle.visit_near(y, early, |i, n, excess| {
-        if counts(i, excess) {
+    let mut clear = f64::INFINITY;
+    let most_left_out = particle.visit_near(y, early, |i, n, excess| {
+        if !counts(i, excess) {
+            clear = if -excess < clear { -excess } else { clear };
+        } else {
+            clear = if excess < clear { excess } else { clear };
             let n = turn(n);
             let reached = excess.max(0.0);
             square += reached * reached;
@@ -112,6 +120,7 @@ pub(crate) fn turned(
         hessian: squares.scaled(w2, m2),
         pull: w2 * linear,
         count,
+        clear: clear.min(-most_left_out),
     }
 }
 

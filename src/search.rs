@@ -5,11 +5,14 @@ use crate::certificate::{self, Certified};
 use crate::conic::{self, ConicError, Role};
 use crate::contact::Flags;
 use crate::dual;
+use crate::expansion::{self, Expansion, Factorisation, Piece, Start};
+use crate::outcome::{Ending, Outcome};
 use crate::pair::Pair;
 use crate::settings::{BackEnd, Settings};
-use crate::spine::{self, Ending, Expansion, Factorisation, Goal, Outcome, Start};
+use crate::spine::{self, Goal};
 use crate::start;
 use crate::target::Target;
+use nalgebra::Vector3;
 
 /// One call: the pair, what is asked, and what it has cost so far.
 pub(crate) struct Search<'a> {
@@ -80,6 +83,11 @@ impl<'a> Search<'a> {
         certificate::scale(&answer.outcome, &self.body_a, &self.body_b, target)
     }
 
+    /// S_A and S_B along a direction from the point of an answer.
+    pub fn pieces(&self, answer: &Answer, n: &Vector3<f64>) -> [Piece; 2] {
+        answer.expansion.pieces([&self.body_a, &self.body_b], &answer.outcome.x, n)
+    }
+
     /// Bound on the distance from the point of an answer to the optimum.
     pub fn bound(&self, answer: &Answer, target: Target) -> f64 {
         certificate::distance(&answer.outcome, &answer.expansion, &self.body_a, &self.body_b, target)
@@ -94,7 +102,7 @@ impl<'a> Search<'a> {
         left: Option<&Expansion>,
         answer: &mut Answer,
     ) -> Result<(), ConicError> {
-        let usual = spine::factorisation(&self.body_a, &self.body_b);
+        let usual = expansion::factorisation(&self.body_a, &self.body_b);
         if self.settings.back_end == BackEnd::Fast {
             let first = start.unwrap_or_else(|| start::cold(self.pair, &self.body_a, &self.body_b));
             self.rung(target, &first, left, usual, answer);

@@ -16,9 +16,9 @@
 //! sums of c_i² over the planes of A and of B; both S are τ², τ = F/(α + β), and the ratio of weights is λ = β/α.
 
 use crate::body::Body;
+use crate::expansion::Start;
 use crate::line::{self, Merit};
 use crate::pair::Pair;
-use crate::spine::Start;
 use crate::target::Target;
 use nalgebra::Vector3;
 

@@ -57,6 +57,13 @@ impl Symmetric {
         }
     }
 
+    /// Sum of the squares of all nine entries.
+    #[inline]
+    pub(crate) fn square(&self) -> f64 {
+        let (diagonal, below) = ([self.xx, self.yy, self.zz], [self.yx, self.zx, self.zy]);
+        diagonal.map(|v| v * v).iter().sum::<f64>() + 2.0 * below.map(|v| v * v).iter().sum::<f64>()
+    }
+
     #[inline]
     pub(crate) fn times(&self, v: &Vector3<f64>) -> Vector3<f64> {
         Vector3::new(

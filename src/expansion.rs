@@ -1,0 +1,192 @@
+//! Both quadratics at a point, and the step to their optimum.
+
+use crate::body::{Body, Local, Planes, Verdict};
+use crate::frame;
+use crate::model::{Model, Optimum};
+use crate::potential::Quadratic;
+use crate::target::Target;
+use nalgebra::{Matrix3, Vector3};
+
+/// How the quadratics are factored.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Factorisation {
+    /// In the axes of B.
+    Plain,
+    /// In axes aligned with the stiffest planes, chosen anew at each point.
+    Aligned,
+}
+
+/// Ratio of plane to sphere curvature above which plain axes lose the soft direction: its relative error
+/// is the ratio times 1e-16, and a Newton step is still worth its cost at 1e-8 or so.
+const PLAIN_STIFFNESS: f64 = 1e7;
+
+/// Where to begin.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Start {
+    pub x: Vector3<f64>,
+    /// Ratio of weights λ = u/(1−u).
+    pub lambda: f64,
+    /// Whether the planes on at x are likely those of the optimum, as from memory or a neighbouring problem.
+    pub near: bool,
+}
+
+/// S up to which a point is so near the surface that a quadratic from there has all its digits on the surface.
+const NEARBY: f64 = 4.0;
+
+/// Both quadratics at a point.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Expansion {
+    pub x: Vector3<f64>,
+    /// Axes of the quadratics (columns, in the solver's frame), if not the solver's own.
+    axes: Option<Matrix3<f64>>,
+    pub locals: [Local; 2],
+    pub q_a: Quadratic,
+    pub q_b: Quadratic,
+}
+
+/// The factorisation that the shapes of a pair call for.
+pub(crate) fn factorisation(a: &Body, b: &Body) -> Factorisation {
+    let stiff = a.plane_curvature().max(b.plane_curvature());
+    let soft = a.sphere_curvature().min(b.sphere_curvature());
+    if stiff <= PLAIN_STIFFNESS * soft { Factorisation::Plain } else { Factorisation::Aligned }
+}
+
+/// Least curvatures of A and B in any direction.
+pub(crate) fn softest(a: &Body, b: &Body) -> (f64, f64) {
+    (a.sphere_curvature(), b.sphere_curvature())
+}
+
+impl Expansion {
+    pub const BLANK: Self = Self {
+        x: Vector3::new(0.0, 0.0, 0.0),
+        axes: None,
+        locals: [Local::BLANK; 2],
+        q_a: Quadratic::ZERO,
+        q_b: Quadratic::ZERO,
+    };
+
+    /// At a point, with planes counting from their own blur.
+    pub fn at(bodies: [&Body; 2], start: &Start, target: Target, factorisation: Factorisation) -> Self {
+        let locals = bodies.map(|body| body.locate(&start.x, 0.0));
+        Self::of(bodies, start.x, locals, target.weights(start.lambda), factorisation)
+    }
+
+    #[inline]
+    pub fn of(
+        bodies: [&Body; 2],
+        x: Vector3<f64>,
+        locals: [Local; 2],
+        weights: (f64, f64),
+        factorisation: Factorisation,
+    ) -> Self {
+        let axes = match factorisation {
+            Factorisation::Plain => None,
+            Factorisation::Aligned => Some(frame::aligned(bodies, weights, &locals)),
+        };
+        let q_a = bodies[0].at(&locals[0], axes.as_ref());
+        let q_b = bodies[1].at(&locals[1], axes.as_ref());
+        Self { x, axes, locals, q_a, q_b }
+    }
+
+    /// A direction of the solver's frame in the axes of the quadratics.
+    pub fn to_axes(&self, v: &Vector3<f64>) -> Vector3<f64> {
+        self.axes.map_or(*v, |axes| axes.tr_mul(v))
+    }
+
+    #[inline]
+    pub fn to_solver(&self, v: &Vector3<f64>) -> Vector3<f64> {
+        match &self.axes {
+            Some(axes) => axes * v,
+            None => *v,
+        }
+    }
+
+    /// S_A and S_B along a unit vector of the solver's frame, from the point x on.
+    #[inline]
+    pub fn pieces(&self, bodies: [&Body; 2], x: &Vector3<f64>, n: &Vector3<f64>) -> [Piece; 2] {
+        let (n, moved) = (self.to_axes(n), (x - self.x).norm());
+        let piece = |body: &Body, q: &Quadratic| {
+            let exact = body.is_plain() && q.expansion <= NEARBY;
+            let reach = if exact { body.stays_for(q) - moved } else { 0.0 };
+            Piece { curvature: q.hessian.times(&n).dot(&n), reach }
+        };
+        [piece(bodies[0], &self.q_a), piece(bodies[1], &self.q_b)]
+    }
+
+    /// Bounds on the rounding of S_A and S_B.
+    pub fn rounding(&self, a: &Body, b: &Body) -> (f64, f64) {
+        (a.rounding(&self.locals[0], &self.q_a), b.rounding(&self.locals[1], &self.q_b))
+    }
+
+    pub fn merit(&self, target: Target, lambda: f64) -> f64 {
+        target.merit(self.q_a.value, self.q_b.value, lambda)
+    }
+
+    /// The model's optimum here, and what its step does to the planes of A and of B.
+    ///
+    /// λ is good to `enough` where another plane is met or one pulls, and to rounding where the planes are right.
+    #[inline]
+    pub fn optimum(&self, bodies: [&Body; 2], target: Target, guess: f64, enough: f64) -> Option<Step> {
+        let model = Model::new(&self.q_a, &self.q_b, softest(bodies[0], bodies[1]), target);
+        let step = self.step(bodies, model.solve(guess, enough)?);
+        if step.planes == Planes::Exact && !step.optimum.settled {
+            return Some(self.step(bodies, model.settle(step.optimum)?));
+        }
+        Some(step)
+    }
+
+    /// The same for a fixed λ.
+    pub fn weighted(&self, bodies: [&Body; 2], target: Target, lambda: f64) -> Option<Step> {
+        let model = Model::new(&self.q_a, &self.q_b, softest(bodies[0], bodies[1]), target);
+        Some(self.step(bodies, model.at(lambda)?))
+    }
+
+    /// Drops the planes that a step says.
+    pub fn drop(&mut self, bodies: [&Body; 2], step: &Step, target: Target, lambda: f64, factorisation: Factorisation) {
+        for (local, verdict) in self.locals.iter_mut().zip(&step.verdicts) {
+            if let Some(i) = verdict.drop {
+                local.drop(i);
+            }
+        }
+        *self = Self::of(bodies, self.x, self.locals, target.weights(lambda), factorisation);
+    }
+
+    #[inline]
+    fn step(&self, [a, b]: [&Body; 2], optimum: Optimum) -> Step {
+        let v = self.to_solver(&optimum.step);
+        let length = v.norm();
+        let verdicts =
+            [a.check(&self.locals[0], &self.q_a, &v, length), b.check(&self.locals[1], &self.q_b, &v, length)];
+        Step { optimum, v, verdicts, planes: verdicts[0].planes.max(verdicts[1].planes) }
+    }
+}
+
+/// A potential along a line.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Piece {
+    /// Its second derivative, 1/length².
+    pub curvature: f64,
+    /// How far it is the same quadratic for sure, either way.
+    pub reach: f64,
+}
+
+/// A step to the optimum of the quadratics at a point.
+pub(crate) struct Step {
+    pub optimum: Optimum,
+    /// The step in the solver's frame.
+    pub v: Vector3<f64>,
+    pub verdicts: [Verdict; 2],
+    /// The worse of the two.
+    pub planes: Planes,
+}
+
+impl Step {
+    /// How far the dual value may lie above a lower bound: the step is not solved exactly, and planes of doubtful sign may
+    /// pull after all.
+    pub fn doubt(&self, target: Target, soft: (f64, f64)) -> f64 {
+        let (a, b) = target.weights(self.optimum.lambda);
+        let slope = a * self.verdicts[0].slope + b * self.verdicts[1].slope;
+        // (x + y)² ≤ 2x² + 2y² for the two slopes in doubt.
+        2.0 * self.optimum.doubt(target, soft) + slope * slope / (a * soft.0 + b * soft.1)
+    }
+}
