@@ -65,6 +65,12 @@ pub fn detect(
     search.midway(start, &mut midway)?;
     let scale = search.certify(&midway, Target::Midway);
     let separated = midway.outcome.ending == Ending::Separated;
+    let least = Settings::default().flat_regularisation;
+    if !separated && scale.s >= 1.0 && scale.low < 1.0 && settings.flat_regularisation > least {
+        // Where the bulge of a raised regularisation may hide an overlap, the particles as they are decide.
+        let settings = Settings { flat_regularisation: least, ..*settings };
+        return detect(a, pose_a, b, pose_b, &settings, memory);
+    }
     if let Some(memory) = memory {
         let overlapping = !separated && scale.s < 1.0;
         memory.last = Some(Remembered { x: midway.outcome.x, lambda: midway.outcome.lambda, overlapping });
