@@ -75,10 +75,13 @@ impl Leaves {
     /// The largest of the numbers that `largest_of` gives for runs of planes, each with n·y − d; runs that cannot
     /// hold a larger one than is known already are left out.
     pub fn largest(&self, y: &Vector3<f64>, mut largest_of: impl FnMut(Range<usize>) -> (f64, usize)) -> (f64, usize) {
+        if let [all] = &self.0[..] {
+            return largest_of(all.planes.clone());
+        }
         let length = y.norm() * (1.0 + 1e-14);
         let mut largest = (f64::NEG_INFINITY, 0);
         for leaf in &self.0 {
-            if self.single() || leaf.bound(y, length) > largest.0 {
+            if leaf.bound(y, length) > largest.0 {
                 let found = largest_of(leaf.planes.clone());
                 if found.0 > largest.0 {
                     largest = found;
