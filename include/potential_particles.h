@@ -205,6 +205,9 @@ typedef struct pp_contact {
     double point_on_a[3];
     // Point on the surface of B inside A, world frame; P2 of closest. NaN when separated.
     double point_on_b[3];
+    // Separated: proved lower bound on the distance between the two particles, length; 0 when the proof knows none.
+    // Until their surfaces have come closer to each other by as much, they stay separated. NaN when overlapping.
+    double distance;
 } pp_contact;
 
 // Volume and inertia of a particle of unit density, in its local frame.

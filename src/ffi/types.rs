@@ -130,6 +130,9 @@ pub struct pp_contact {
     pub point_on_a: [f64; 3],
     /// Point on the surface of B inside A, world frame; P2 of closest. NaN when separated.
     pub point_on_b: [f64; 3],
+    /// Separated: proved lower bound on the distance between the two particles, length; 0 when the proof knows none.
+    /// Until their surfaces have come closer to each other by as much, they stay separated. NaN when overlapping.
+    pub distance: f64,
 }
 
 /// Volume and inertia of a particle of unit density, in its local frame.
