@@ -64,7 +64,8 @@ pub(crate) fn distance(outcome: &Outcome, expansion: &Expansion, a: &Body, b: &B
         let planes = response.to_planes(i, q, target, outcome.lambda, body.plane_weight());
         // The force, rounded at either end of the step.
         let force = weight * (outcome.gradients[i].norm() + q.gradient.norm());
-        sum += expansion.locals[i].blur * (1.0 + planes) + force * turn;
+        let local = &expansion.locals[i];
+        sum += local.shift + local.blur * planes + force * turn;
     }
     // Carried along from the point of expansion, and rounded at the end.
     let carried = TURN * f64::EPSILON * (step.norm() + outcome.x.norm());
@@ -88,21 +89,21 @@ pub(crate) fn judge(x: &Vector3<f64>, lambda: f64, s: f64, a: &Body, b: &Body, t
     let upper = target.merit(q_a.value, q_b.value, lambda);
     let rounding = target.dual_weighted(a.rounding(&locals[0], &q_a), b.rounding(&locals[1], &q_b), lambda);
     let weights = target.weights(lambda);
-    let level = upper.max(1.0);
-    let reach = (x - a.centre()).norm() + a.particle.reach(level).min(b.particle.reach(level) + a.centre().norm());
+    let bodies = [a, b];
     let slope = (weights.0 * q_a.gradient + weights.1 * q_b.gradient).norm();
-    let linear = target.dual(q_a.value, q_b.value, lambda) - slope * reach;
+    let linear = target.dual(q_a.value, q_b.value, lambda) - slope * expansion::farthest(bodies, x, upper);
     let mut lower = linear;
     // Planes that only seem to be on are dropped one by one, as in the solver.
-    let (bodies, start) = ([a, b], Start { x: *x, lambda, near: true });
+    let start = Start { x: *x, lambda, near: true };
     let mut expansion = Expansion::at(bodies, &start, target, Factorisation::Aligned);
     while let Some(step) = expansion.optimum(bodies, target, lambda, 0.0) {
         match step.planes {
             Planes::Exact | Planes::Met => {
                 let optimum = &step.optimum;
-                let (of_a, of_b) = (optimum.rounding(&expansion.q_a), optimum.rounding(&expansion.q_b));
+                let of_a = optimum.rounding(&expansion.q_a);
+                let of_b = optimum.rounding(&expansion.q_b);
                 let dual = target.dual(optimum.values.0, optimum.values.1, optimum.lambda);
-                let doubt = step.doubt(target, expansion::softest(a, b));
+                let doubt = expansion.doubt(bodies, target, &step, upper, 0.0);
                 lower = lower.max(dual - doubt - target.dual_weighted(of_a, of_b, lambda));
                 break;
             }

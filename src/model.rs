@@ -250,23 +250,27 @@ struct Series {
 }
 
 impl Optimum {
-    /// How far the dual value may lie above the model's minimum, because the step is not solved exactly: with
-    /// a curvature of at least `soft`, a remaining slope can hide this much.
-    pub fn doubt(&self, target: Target, soft: (f64, f64)) -> f64 {
-        let (a, b) = target.weights(self.lambda);
-        0.5 * self.slope(target).norm_squared() / (a * soft.0 + b * soft.1)
-    }
-
     /// a·g_A + b·g_B: zero but for rounding.
-    fn slope(&self, target: Target) -> Vector3<f64> {
+    pub fn slope(&self, target: Target) -> Vector3<f64> {
         let (a, b) = target.weights(self.lambda);
         a * self.gradients[0] + b * self.gradients[1]
     }
 
-    /// Bound on the rounding of S of one body over the length of the step.
+    /// Bound on the rounding of the sums by which S of one body is taken along the step, axis by axis: along a face a long
+    /// step has but the curvature of the face. By Cauchy's inequality no sum in the Hessian has terms above √(h_ii·h_jj).
     pub fn rounding(&self, q: &Quadratic) -> f64 {
-        let length = self.step.norm();
-        2.0 * f64::EPSILON * (q.expansion + length * (q.gradient.norm() + length * q.hessian.trace()))
+        let (v, g, h) = (self.step.abs(), q.gradient.abs(), &q.hessian);
+        let bent = v.x * h.xx.sqrt() + v.y * h.yy.sqrt() + v.z * h.zz.sqrt();
+        2.0 * f64::EPSILON * (q.expansion + v.dot(&g) + bent * bent)
+    }
+
+    /// Bound on the rounding of the sums by which the slope a·g_A + b·g_B was made to vanish, in any direction: of either
+    /// body √h·(√(2S) + Σ|v_i|·√h_ii), as for S itself.
+    pub fn rounding_of_slope(&self, (a, b): (f64, f64), [q_a, q_b]: [&Quadratic; 2]) -> f64 {
+        let v = self.step.component_mul(&self.step);
+        let square = |q: &Quadratic, h: &Symmetric| q.expansion + 1.5 * (v.x * h.xx + v.y * h.yy + v.z * h.zz);
+        let of = |q: &Quadratic| 4.0 * square(q, &q.hessian) * (q.hessian.xx + q.hessian.yy + q.hessian.zz);
+        4.0 * f64::EPSILON * (a * of(q_a).sqrt() + b * of(q_b).sqrt())
     }
 
     /// How fast the sides part with ln λ.

@@ -3,6 +3,7 @@
 use crate::body::{Body, Planes};
 use crate::expansion::{self, Expansion, Step};
 use crate::model::{Optimum, Response};
+use crate::potential::Quadratic;
 use crate::target::Target;
 use nalgebra::Vector3;
 
@@ -46,23 +47,26 @@ impl Outcome {
     pub fn of(here: &Expansion, bodies: [&Body; 2], target: Target, step: &Step) -> Self {
         let (optimum, soft, lambda) = (&step.optimum, expansion::softest(bodies[0], bodies[1]), step.optimum.lambda);
         let (s_a, s_b) = optimum.values;
-        let lower = target.dual(s_a, s_b, lambda);
+        let estimate = target.dual(s_a, s_b, lambda);
         let upper = match step.planes {
             Planes::Exact => target.merit(s_a, s_b, lambda),
             _ => here.merit(target, lambda),
         };
-        let doubt = step.doubt(target, soft);
-        let of_a = bodies[0].rounding_after(&here.locals[0], &here.q_a, s_a);
-        let of_b = bodies[1].rounding_after(&here.locals[1], &here.q_b, s_b);
+        let length = step.v.norm();
+        let rounding = |i: usize, q: &Quadratic, value: f64| {
+            let (local, verdict, slope) = (&here.locals[i], &step.verdicts[i], optimum.gradients[i].norm());
+            bodies[i].rounding_after(local, q, verdict, length, value, slope) + optimum.rounding(q)
+        };
+        let rounding = swayed(target, optimum, rounding(0, &here.q_a, s_a), rounding(1, &here.q_b, s_b));
+        let doubt = here.doubt(bodies, target, step, upper, rounding);
         Self {
             x: here.x + step.v,
             lambda,
             gradients: optimum.gradients.map(|g| here.to_solver(&g)),
-            estimate: lower,
-            lower,
+            estimate,
+            lower: estimate - doubt,
             upper,
-            rounding: doubt
-                + rounding(target, optimum, of_a + optimum.rounding(&here.q_a), of_b + optimum.rounding(&here.q_b)),
+            rounding,
             iterations: 0,
             ending: Ending::Stuck,
             response: optimum.response(target, soft),
@@ -92,7 +96,7 @@ pub(crate) enum Ending {
 ///
 /// An error in S_A or S_B moves the optimum by its weight, while the weights stay what they are; where the
 /// error itself decides about the weights, by no more than the whole of it.
-fn rounding(target: Target, optimum: &Optimum, of_a: f64, of_b: f64) -> f64 {
+fn swayed(target: Target, optimum: &Optimum, of_a: f64, of_b: f64) -> f64 {
     let lambda = optimum.lambda;
     let weighted = target.dual_weighted(of_a, of_b, lambda);
     let (change_a, change_b) = target.changes(of_a, of_b);

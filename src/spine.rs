@@ -109,7 +109,7 @@ pub(crate) fn solve(
         if goal.stop_when_separated && lower > 1.0 && step.planes != Planes::Pulling {
             let outcome = Outcome::of(here, bodies, target, &step);
             // What the regularisation adds proves nothing.
-            if lower - outcome.rounding - flat > 1.0 {
+            if outcome.lower - outcome.rounding - flat > 1.0 {
                 return Outcome { ending: Ending::Separated, iterations, ..outcome };
             }
         }
@@ -194,7 +194,7 @@ impl Attempt {
         let x = self.from + descent.alpha * self.step;
         let early = descent.ahead * self.step.norm();
         let mut locals = [a.locate(&x, early), b.locate(&x, early)];
-        let moved = (x - self.from).norm() > self.locals[0].blur.max(self.locals[1].blur);
+        let moved = (x - self.from).norm() > self.locals[0].shift.max(self.locals[1].shift);
         if !moved {
             a.carry_dropped(&self.locals[0], &self.step, &mut locals[0]);
             b.carry_dropped(&self.locals[1], &self.step, &mut locals[1]);

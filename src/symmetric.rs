@@ -73,7 +73,7 @@ impl Symmetric {
         )
     }
 
-    /// The trace: for a positive semidefinite matrix a bound of its norm.
+    /// The trace.
     #[inline]
     pub(crate) fn trace(&self) -> f64 {
         self.xx + self.yy + self.zz

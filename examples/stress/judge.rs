@@ -200,7 +200,7 @@ fn all(case: &Case, units: &Units, random: &mut Random, verdict: &mut Verdict) -
     match truth {
         Some(truth) if truth.most - truth.least <= 0.1 * contact.gap + 1e-300 => {
             verdict.judged += 1;
-            midway(verdict, &scene, &contact, &truth, &start);
+            midway(verdict, &scene, &contact, &bodies, &truth, &start);
         }
         Some(truth) => {
             verdict.unjudged += 1;
@@ -303,7 +303,14 @@ fn well_formed(verdict: &mut Verdict, scene: &Scene, c: &Contact) {
     verdict.check(fine && consistent, Failure::Malformed, || format!("{c:?}"));
 }
 
-fn midway(verdict: &mut Verdict, scene: &Scene, contact: &Contact, truth: &Optimum, start: &Vector3<f64>) {
+fn midway(
+    verdict: &mut Verdict,
+    scene: &Scene,
+    contact: &Contact,
+    bodies: &[Body; 2],
+    truth: &Optimum,
+    start: &Vector3<f64>,
+) {
     let (s, gap) = (contact.s, contact.gap);
     let scale = truth.most.max(1.0);
     let off = (s - truth.most).abs().min((s - truth.least).abs());
@@ -322,8 +329,8 @@ fn midway(verdict: &mut Verdict, scene: &Scene, contact: &Contact, truth: &Optim
 
     // The least that rounding lengths of this size does to s², and the tolerance asked for.
     let u = truth.lambda.f64() / (1.0 + truth.lambda.f64());
-    let pull = (1.0 - u) * truth.a.pull + u * truth.b.pull;
-    let explained = 1e-12 * scale * scale + EPS * scene.length * pull + flat_share(scene, truth);
+    let [a, b] = [0, 1].map(|i| bodies[i].risen(&truth.x, EPS * scene.length));
+    let explained = 1e-12 * scale * scale + (1.0 - u) * a + u * b + flat_share(scene, truth);
     let looseness = gap * (2.0 * s + gap) / explained;
     verdict.measures.looseness = Some(looseness);
     verdict.check(looseness <= LOOSE, Failure::LooseBound, || {
