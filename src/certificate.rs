@@ -51,13 +51,14 @@ pub(crate) fn distance(outcome: &Outcome, expansion: &Expansion, a: &Body, b: &B
         let excess = (outcome.upper - outcome.lower).max(0.0) + outcome.rounding;
         (2.0 * excess / (weights.0 * soft.0 + weights.1 * soft.1)).sqrt()
     };
-    let Some(response) = &outcome.response else { return convexity() };
+    let Some(response) = outcome.response.as_ref().filter(|_| outcome.sure) else { return convexity() };
     let step = outcome.x - expansion.x;
     let turn = TURN * f64::EPSILON * response.per_slope(a.particle.dimensions);
     // The two sides meet to the rounding of what they are summed from.
     let (side_a, side_b) = target.changes(expansion.q_a.expansion, expansion.q_b.expansion);
     let sides = SIDES * f64::EPSILON * (side_a + side_b + outcome.upper.max(1.0));
-    let mut sum = response.unsolved() + response.to_value(sides);
+    let sums = expansion.rounding_of_slope(weights, &expansion.to_axes(&step));
+    let mut sum = response.unsolved() + response.to_value(sides) + response.to_axes(&sums);
     for (i, (body, q, weight)) in
         [(a, &expansion.q_a, weights.0), (b, &expansion.q_b, weights.1)].into_iter().enumerate()
     {
@@ -103,7 +104,7 @@ pub(crate) fn judge(x: &Vector3<f64>, lambda: f64, s: f64, a: &Body, b: &Body, t
                 let of_a = optimum.rounding(&expansion.q_a);
                 let of_b = optimum.rounding(&expansion.q_b);
                 let dual = target.dual(optimum.values.0, optimum.values.1, optimum.lambda);
-                let doubt = expansion.doubt(bodies, target, &step, upper, 0.0);
+                let (doubt, _) = expansion.doubt(bodies, target, &step, upper, 0.0);
                 lower = lower.max(dual - doubt - target.dual_weighted(of_a, of_b, lambda));
                 break;
             }
@@ -122,6 +123,7 @@ pub(crate) fn judge(x: &Vector3<f64>, lambda: f64, s: f64, a: &Body, b: &Body, t
         rounding,
         iterations: 0,
         ending: Ending::Converged,
+        sure: false,
         response: None,
     }
 }

@@ -259,18 +259,9 @@ impl Optimum {
     /// Bound on the rounding of the sums by which S of one body is taken along the step, axis by axis: along a face a long
     /// step has but the curvature of the face. By Cauchy's inequality no sum in the Hessian has terms above √(h_ii·h_jj).
     pub fn rounding(&self, q: &Quadratic) -> f64 {
-        let (v, g, h) = (self.step.abs(), q.gradient.abs(), &q.hessian);
-        let bent = v.x * h.xx.sqrt() + v.y * h.yy.sqrt() + v.z * h.zz.sqrt();
+        let (v, g) = (self.step.abs(), q.gradient.abs());
+        let bent = v.dot(&q.hessian.diagonal().map(f64::sqrt));
         2.0 * f64::EPSILON * (q.expansion + v.dot(&g) + bent * bent)
-    }
-
-    /// Bound on the rounding of the sums by which the slope a·g_A + b·g_B was made to vanish, in any direction: of either
-    /// body √h·(√(2S) + Σ|v_i|·√h_ii), as for S itself.
-    pub fn rounding_of_slope(&self, (a, b): (f64, f64), [q_a, q_b]: [&Quadratic; 2]) -> f64 {
-        let v = self.step.component_mul(&self.step);
-        let square = |q: &Quadratic, h: &Symmetric| q.expansion + 1.5 * (v.x * h.xx + v.y * h.yy + v.z * h.zz);
-        let of = |q: &Quadratic| 4.0 * square(q, &q.hessian) * (q.hessian.xx + q.hessian.yy + q.hessian.zz);
-        4.0 * f64::EPSILON * (a * of(q_a).sqrt() + b * of(q_b).sqrt())
     }
 
     /// How fast the sides part with ln λ.
@@ -328,6 +319,13 @@ impl Response {
     /// The move that would take away what is left of the slope.
     pub fn unsolved(&self) -> f64 {
         self.to_slope.times(&self.slope).norm()
+    }
+
+    /// Bound on the move when the slope is off by as much as this on each axis.
+    pub fn to_axes(&self, off: &Vector3<f64>) -> f64 {
+        let m = &self.to_slope;
+        let columns = [(m.xx, m.yx, m.zx), (m.yx, m.yy, m.zy), (m.zx, m.zy, m.zz)];
+        columns.iter().zip(off.iter()).map(|((x, y, z), off)| off * (x * x + y * y + z * z).sqrt()).sum()
     }
 
     /// Bound on the move when α·q_A + β·q_B is off by `value`.

@@ -24,6 +24,8 @@ pub(crate) struct Outcome {
     pub rounding: f64,
     pub iterations: u32,
     pub ending: Ending,
+    /// Whether every plane of the quadratics pushes beyond doubt.
+    pub sure: bool,
     /// How the optimum answers to changes of its data, where it is that of known quadratics.
     pub response: Option<Response>,
 }
@@ -40,6 +42,7 @@ impl Outcome {
         rounding: f64::INFINITY,
         iterations: 0,
         ending: Ending::Stuck,
+        sure: false,
         response: None,
     };
 
@@ -58,7 +61,7 @@ impl Outcome {
             bodies[i].rounding_after(local, q, verdict, length, value, slope) + optimum.rounding(q)
         };
         let rounding = swayed(target, optimum, rounding(0, &here.q_a, s_a), rounding(1, &here.q_b, s_b));
-        let doubt = here.doubt(bodies, target, step, upper, rounding);
+        let (doubt, sure) = here.doubt(bodies, target, step, upper, rounding);
         Self {
             x: here.x + step.v,
             lambda,
@@ -69,6 +72,7 @@ impl Outcome {
             rounding,
             iterations: 0,
             ending: Ending::Stuck,
+            sure,
             response: optimum.response(target, soft),
         }
     }

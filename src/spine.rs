@@ -119,7 +119,11 @@ pub(crate) fn solve(
             let gap = outcome.gap();
             let precise = gap <= goal.tolerance * outcome.upper;
             outcome.ending = if precise { Ending::Converged } else { Ending::RoundingLimited };
-            if precise {
+            let short = step.v.norm() <= SHORT * reach;
+            // A plane that only seems to push holds the point where it does not belong, whatever it does to s: from nearby
+            // its sign is known.
+            let decided = outcome.sure || short;
+            if precise && decided {
                 return outcome;
             }
             // What rounding leaves at the optimum itself: no other point of expansion will do much better.
@@ -128,10 +132,9 @@ pub(crate) fn solve(
                 here.locals[1].least_rounding(&outcome.gradients[1]),
                 lambda,
             );
-            let short = step.v.norm() <= SHORT * reach;
             let sharp = short || gap <= AS_SHARP * least;
             // Again after a step too short to gain anything: this is what rounding allows, however much it is.
-            if sharp && (gap <= SHARP * outcome.upper || (short && arriving > 1)) {
+            if sharp && decided && (gap <= SHARP * outcome.upper || (short && arriving > 1)) {
                 return outcome;
             }
             // Proved, but over a long step; the same from nearby is sharper.

@@ -73,6 +73,11 @@ impl Symmetric {
         )
     }
 
+    #[inline]
+    pub(crate) fn diagonal(&self) -> Vector3<f64> {
+        Vector3::new(self.xx, self.yy, self.zz)
+    }
+
     /// The trace.
     #[inline]
     pub(crate) fn trace(&self) -> f64 {
