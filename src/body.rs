@@ -267,24 +267,39 @@ impl<'a> Body<'a> {
         planes + ROUNDING * f64::EPSILON * q.value
     }
 
-    /// The same at the end of a step of this length with its verdict, where the quadratic has this value and gradient.
-    /// What counts there is where the planes lie, and here the rounding of the sums at the point of expansion.
-    pub fn rounding_after(
-        &self,
-        local: &Local,
-        q: &Quadratic,
-        verdict: &Verdict,
-        step: f64,
-        value: f64,
-        g: f64,
-    ) -> f64 {
+    /// What the rounding of where the planes lie does to S at the end of a step of this length with its verdict, where
+    /// the gradient is this long; with it the rounding of the sums at the point of expansion, carried along.
+    pub fn rounding_after(&self, local: &Local, q: &Quadratic, verdict: &Verdict, step: f64, gradient: f64) -> f64 {
+        let (shift, blur) = self.after(local, step);
+        let planes = (verdict.pull + verdict.near * self.particle.plane_weight * blur) * blur;
+        planes + gradient * shift + q.pull * (blur - local.blur)
+    }
+
+    /// The shift and the blur at the end of a step of this length.
+    #[inline]
+    fn after(&self, local: &Local, step: f64) -> (f64, f64) {
         let further = ROUNDING * f64::EPSILON * step;
-        let turned = self.particle.bounds.longest_normal * further;
-        let (shift, blur) = (local.shift + further, local.blur + turned);
-        (verdict.pull + verdict.near * self.particle.plane_weight * blur) * blur
-            + g * shift
-            + q.pull * turned
-            + ROUNDING * f64::EPSILON * value
+        (local.shift + further, local.blur + self.particle.bounds.longest_normal * further)
+    }
+
+    /// Rounding of a value of S that is summed up.
+    #[inline]
+    pub fn rounding_of_value(&self, value: f64) -> f64 {
+        ROUNDING * f64::EPSILON * value
+    }
+
+    /// The share of the way to the centre on which every plane falls by more than its rounding at the end of a step; more
+    /// than 1 where some plane does not.
+    pub fn share_of_way(&self, local: &Local, step: f64) -> f64 {
+        let (_, blur) = self.after(local, step);
+        let least = self.particle.bounds.least_offset;
+        if least > blur { blur / least + ROUNDING * f64::EPSILON } else { f64::INFINITY }
+    }
+
+    /// (Regularised) S at x.
+    pub fn value(&self, x: &Vector3<f64>) -> f64 {
+        let surplus = self.surplus(x);
+        potential::value(self.particle, &self.local(x)) + surplus
     }
 
     /// Weight of the planes in S.

@@ -14,8 +14,8 @@ pub(crate) struct Bounds {
     pub corners: Box<[Vector3<f64>]>,
     /// max |d_i|, for bounds on rounding.
     longest_offset: f64,
-    /// max −d_i, or 0: how far planes pass behind the origin.
-    behind: f64,
+    /// min d_i; negative where a plane passes behind the origin.
+    pub least_offset: f64,
     /// max |n_i|, likewise.
     pub longest_normal: f64,
     /// How far beyond d_i the particle can reach along n_i: r/√(1−k); infinite for k = 1.
@@ -61,7 +61,7 @@ impl Bounds {
             radius,
             corners: corners.into_iter().map(|c| c * MARGIN).collect(),
             longest_offset: offsets().map(f64::abs).fold(0.0, f64::max),
-            behind: offsets().map(|d| -d).fold(0.0, f64::max),
+            least_offset: offsets().fold(f64::INFINITY, f64::min),
             longest_normal: (0..particle.plane_count()).map(|i| particle.normal(i).norm()).fold(0.0, f64::max),
             face_reach,
             growth: by_faces.min(1.0 / (1.0 - s_origin)),
@@ -72,7 +72,7 @@ impl Bounds {
     /// their rounding is nobody's.
     #[inline]
     pub fn offset_within(&self, distance: f64) -> f64 {
-        self.longest_offset.min(self.longest_normal * distance + self.behind)
+        self.longest_offset.min(self.longest_normal * distance + (-self.least_offset).max(0.0))
     }
 }
 

@@ -80,6 +80,23 @@ const SIDES: f64 = 8.0;
 /// Units in the last place by which a rotated normal may be turned.
 const TURN: f64 = 4.0;
 
+/// The merit of x, or of a point on the way to the centre of the body that x should be in and is not: λ may be wrong, and
+/// with it the price of what is missing. s is convex on that way.
+fn feasible(x: &Vector3<f64>, values: [f64; 2], bodies: [&Body; 2], target: Target) -> f64 {
+    let (held, free) = match target {
+        Target::Midway => return values[0].max(values[1]),
+        Target::OnB => (1, 0),
+        Target::OnA => (0, 1),
+    };
+    let (s, centre) = (values[held].sqrt(), bodies[held].centre());
+    if s <= 1.0 {
+        return values[free];
+    }
+    let s0 = bodies[held].value(&centre).sqrt();
+    let share = (1.0 - s0) / (s - s0);
+    values[free].max(bodies[free].value(&(centre + share * (x - centre))))
+}
+
 /// Bounds for a point and a scale s that another solver found, with the ratio of weights λ that came with them.
 ///
 /// Two dual bounds are tried: the quadratic model's where its multipliers are admissible, and the
@@ -87,7 +104,7 @@ const TURN: f64 = 4.0;
 pub(crate) fn judge(x: &Vector3<f64>, lambda: f64, s: f64, a: &Body, b: &Body, target: Target) -> Outcome {
     let locals = [a.locate(x, 0.0), b.locate(x, 0.0)];
     let (q_a, q_b) = (a.at(&locals[0], None), b.at(&locals[1], None));
-    let upper = target.merit(q_a.value, q_b.value, lambda);
+    let upper = feasible(x, [q_a.value, q_b.value], [a, b], target);
     let rounding = target.dual_weighted(a.rounding(&locals[0], &q_a), b.rounding(&locals[1], &q_b), lambda);
     let weights = target.weights(lambda);
     let bodies = [a, b];

@@ -76,6 +76,9 @@ const BALANCED: f64 = 16.0 * f64::EPSILON;
 /// Relative mismatch below which a search that no longer gains is at the end of its digits.
 const STALLING: f64 = 1e-9;
 
+/// Searches in a row that may gain less than half: a side that hardly changes with λ gains late.
+const MOST_SLOW: u32 = 4;
+
 /// Rounding of tr(M H M), relative to tr H⁻¹.
 const TRACE_ROUNDING: f64 = 16.0 * f64::EPSILON;
 
@@ -131,7 +134,7 @@ impl<'a> Model<'a> {
         let mut found = first;
         let (nearest, farthest) = (found.lambda / FARTHEST, found.lambda * FARTHEST);
         let (mut low, mut high) = (nearest, farthest);
-        let mut last = f64::INFINITY;
+        let (mut last, mut slow) = (f64::INFINITY, 0);
         for _ in 0..MOST_SEARCHES {
             let (growing, falling) = self.target.sides(found.values.0, found.values.1);
             let (difference, larger) = (growing - falling, growing.max(falling));
@@ -140,7 +143,8 @@ impl<'a> Model<'a> {
             }
             // To rounding; or the search, which should do far better, does not even halve it any more.
             let noise = self.noise + 4.0 * f64::EPSILON * larger;
-            let stalled = difference.abs() <= STALLING * larger && difference.abs() > 0.5 * last;
+            slow = if difference.abs() > 0.5 * last { slow + 1 } else { 0 };
+            let stalled = difference.abs() <= STALLING * larger && slow >= MOST_SLOW;
             found.settled = difference.abs() <= noise || stalled;
             if found.settled || difference.abs() <= enough {
                 return Some(found);

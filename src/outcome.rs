@@ -56,11 +56,15 @@ impl Outcome {
             _ => here.merit(target, lambda),
         };
         let length = step.v.norm();
-        let rounding = |i: usize, q: &Quadratic, value: f64| {
+        let of_places = |i: usize, q: &Quadratic| {
             let (local, verdict, slope) = (&here.locals[i], &step.verdicts[i], optimum.gradients[i].norm());
-            bodies[i].rounding_after(local, q, verdict, length, value, slope) + optimum.rounding(q)
+            bodies[i].rounding_after(local, q, verdict, length, slope)
         };
-        let rounding = swayed(target, optimum, rounding(0, &here.q_a, s_a), rounding(1, &here.q_b, s_b));
+        let of_sums = |i: usize, q: &Quadratic, value: f64| bodies[i].rounding_of_value(value) + optimum.rounding(q);
+        let places = [of_places(0, &here.q_a), of_places(1, &here.q_b)];
+        let sums = [of_sums(0, &here.q_a, s_a), of_sums(1, &here.q_b, s_b)];
+        let rounding = swayed(target, optimum, (places[0] + sums[0], places[1] + sums[1]))
+            .unwrap_or_else(|| decisive(here, bodies, target, step, places, sums));
         let (doubt, sure) = here.doubt(bodies, target, step, upper, rounding);
         Self {
             x: here.x + step.v,
@@ -96,14 +100,41 @@ pub(crate) enum Ending {
     Stuck,
 }
 
-/// Bound on the effect of rounding on the optimum, from bounds on that of S_A and S_B.
-///
-/// An error in S_A or S_B moves the optimum by its weight, while the weights stay what they are; where the
-/// error itself decides about the weights, by no more than the whole of it.
-fn swayed(target: Target, optimum: &Optimum, of_a: f64, of_b: f64) -> f64 {
-    let lambda = optimum.lambda;
-    let weighted = target.dual_weighted(of_a, of_b, lambda);
+/// Bound on the effect of rounding on the optimum, from bounds on that of S_A and S_B: it moves the optimum by its weight,
+/// while the weights stay what they are. `None` where the rounding itself decides about the weights.
+fn swayed(target: Target, optimum: &Optimum, (of_a, of_b): (f64, f64)) -> Option<f64> {
     let (change_a, change_b) = target.changes(of_a, of_b);
     let swing = change_a.max(change_b) / optimum.rate(target).abs();
-    if swing < 0.25 { weighted * (1.0 + 4.0 * swing) } else { target.merit_rounding(of_a, of_b, lambda).max(weighted) }
+    (swing < 0.25).then(|| target.dual_weighted(of_a, of_b, optimum.lambda) * (1.0 + 4.0 * swing))
+}
+
+/// The same where rounding decides about the weights: from below the weights at hand are as good as any, from above it
+/// is the whole of it at most.
+///
+/// Where the planes of one body lie moves that body, and the point may follow. A way towards its centre, as a share of
+/// the whole way, by which no plane is deeper than before undoes all of it, and changes the other S, which is convex, by
+/// no more than that share of what it changes on the whole way. A small, sharp body at a large one needs that.
+#[cold]
+fn decisive(
+    here: &Expansion,
+    bodies: [&Body; 2],
+    target: Target,
+    step: &Step,
+    places: [f64; 2],
+    sums: [f64; 2],
+) -> f64 {
+    let lambda = step.optimum.lambda;
+    let whole = [places[0] + sums[0], places[1] + sums[1]];
+    let values: [f64; 2] = step.optimum.values.into();
+    let followed = [0, 1].map(|i| {
+        let other = 1 - i;
+        let further = bodies[other].value(&bodies[i].centre()) - values[other];
+        let share = bodies[i].share_of_way(&here.locals[i], step.v.norm());
+        let mut errors = whole;
+        errors[i] = sums[i];
+        errors[other] += share * further.max(0.0);
+        target.merit_rounding(errors[0], errors[1], lambda)
+    });
+    let above = target.merit_rounding(whole[0], whole[1], lambda).min(followed[0]).min(followed[1]);
+    above.max(target.dual_weighted(whole[0], whole[1], lambda))
 }

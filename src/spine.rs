@@ -133,8 +133,8 @@ pub(crate) fn solve(
                 lambda,
             );
             let sharp = short || gap <= AS_SHARP * least;
-            // Again after a step too short to gain anything: this is what rounding allows, however much it is.
-            if sharp && decided && (gap <= SHARP * outcome.upper || (short && arriving > 1)) {
+            // Again after a step that should have gained more: this is what rounding allows, however much it is.
+            if sharp && decided && (gap <= SHARP * outcome.upper || arriving > 1) {
                 return outcome;
             }
             // Proved, but over a long step; the same from nearby is sharper.

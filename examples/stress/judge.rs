@@ -384,10 +384,10 @@ fn surfaces(verdict: &mut Verdict, scene: &Scene, contact: &Contact, bodies: &[B
     {
         let point = point - scene.at_b.position;
         let off = off_surface(body, &point);
-        // Where s bends within the rounding of the point, the first order says nothing: then it has to lie between a
-        // point inside and one outside.
+        // Where s bends within the rounding of the point, the first order says nothing: then there has to be a point inside
+        // and one outside within that.
         let inside = |by: f64| body.at(&Wide3::from(point + by * outwards)).value.f64() <= 1.0;
-        let between = inside(-allowed) && !inside(allowed);
+        let between = (inside(0.0) || inside(-allowed)) && !inside(allowed);
         verdict.check(off <= allowed || between, Failure::OffSurface, || {
             format!("{:?}: point on {name} {off:e} off, allowed {allowed:e}", contact.formulation)
         });
