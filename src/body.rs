@@ -167,7 +167,7 @@ impl<'a> Body<'a> {
     /// of n·x − d is but a shift of the plane.
     #[inline]
     pub fn check(&self, local: &Local, q: &Quadratic, v: &Vector3<f64>, length: f64) -> Verdict {
-        if self.stays(q, length) { Verdict::clear(self, local, q, length) } else { self.check_each(local, v) }
+        if self.stays(q, length) { Verdict::clear(self, local, q, length) } else { self.check_each(local, q, v) }
     }
 
     /// Whether no plane of the quadratic switches within a distance.
@@ -188,8 +188,14 @@ impl<'a> Body<'a> {
         self.sphere_weight == self.particle.sphere_weight
     }
 
+    /// The depth at which a plane pushes as much as the regularisation does at the surface, or as the rounding of the forces.
+    fn weakest(&self, q: &Quadratic) -> f64 {
+        let force = self.sphere_curvature() * self.particle.bounding_radius() + DOUBT * q.pull;
+        force / (self.plane_curvature() * self.particle.bounds.longest_normal)
+    }
+
     #[inline(never)]
-    fn check_each(&self, local: &Local, v: &Vector3<f64>) -> Verdict {
+    fn check_each(&self, local: &Local, q: &Quadratic, v: &Vector3<f64>) -> Verdict {
         let (y, blur, e) = (local.y, local.blur, self.turn(v));
         let p = self.particle;
         let mut worst: Option<(usize, f64)> = None;
@@ -199,6 +205,9 @@ impl<'a> Body<'a> {
         let far = if p.leaves.single() { 0.0 } else { local.early.max(p.bounds.longest_normal * e.norm()) };
         // The step was turned: what is left of a long one across a plane is but rounding.
         let doubt = DOUBT * p.bounds.longest_normal * (e.x.abs() + e.y.abs() + e.z.abs());
+        // Where only the regularisation tells one point of a face from another, pulls as weak as itself or as the rounding of
+        // the forces would let planes take turns without end.
+        let weak = if self.is_plain() { 0.0 } else { self.weakest(q) };
         p.visit_near(&y, far, |i, n, excess| {
             let depth = excess + n.dot(&e);
             if !local.counts(i, excess) {
@@ -212,8 +221,8 @@ impl<'a> Body<'a> {
             if depth >= doubt {
                 return;
             }
-            if depth >= -doubt {
-                doubtful += doubt;
+            if depth >= -doubt.max(weak) {
+                doubtful += doubt.max(-depth);
             } else if excess > blur {
                 pulling = true;
             } else if worst.is_none_or(|(_, most)| depth < most) {
