@@ -10,8 +10,10 @@ use nalgebra::{Matrix3, Vector3};
 pub(crate) struct Bounds {
     /// Radius of a ball about the origin that holds the particle.
     pub radius: f64,
-    /// Corners of a polyhedron that holds the particle.
+    /// Corners of a polyhedron that holds the particle, but for `merged`.
     pub corners: Box<[Vector3<f64>]>,
+    /// Corners that lie no further apart than this are one: of a body far longer than wide, those all around an end.
+    merged: f64,
     /// max |d_i|, for bounds on rounding.
     longest_offset: f64,
     /// min d_i; negative where a plane passes behind the origin.
@@ -60,6 +62,7 @@ impl Bounds {
         (radius.is_finite() && radius > 0.0).then(|| Self {
             radius,
             corners: corners.into_iter().map(|c| c * MARGIN).collect(),
+            merged: SLACK * farthest * MARGIN,
             longest_offset: offsets().map(f64::abs).fold(0.0, f64::max),
             least_offset: offsets().fold(f64::INFINITY, f64::min),
             longest_normal: (0..particle.plane_count()).map(|i| particle.normal(i).norm()).fold(0.0, f64::max),
@@ -103,7 +106,7 @@ impl Particle {
     /// The least over the corners' polyhedron and the ball of the shadow sphere.
     pub fn support(&self, e: &Vector3<f64>) -> f64 {
         let farthest = self.bounds.corners.iter().map(|c| c.dot(e)).fold(f64::NEG_INFINITY, f64::max);
-        farthest.min(self.bounds.radius)
+        (farthest + self.bounds.merged).min(self.bounds.radius)
     }
 }
 
