@@ -134,6 +134,7 @@ pub(crate) fn judge(x: &Vector3<f64>, lambda: f64, s: f64, a: &Body, b: &Body, t
         x: *x,
         lambda,
         gradients,
+        values: [q_a.value, q_b.value],
         estimate: s * s,
         lower,
         upper,

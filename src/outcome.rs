@@ -14,6 +14,8 @@ pub(crate) struct Outcome {
     pub lambda: f64,
     /// ∇S_A and ∇S_B at the optimum.
     pub gradients: [Vector3<f64>; 2],
+    /// S_A and S_B at x, which differ by rounding.
+    pub values: [f64; 2],
     /// Best estimate of the optimal S.
     pub estimate: f64,
     /// Lower bound up to `rounding`.
@@ -36,6 +38,7 @@ impl Outcome {
         x: Vector3::new(f64::NAN, f64::NAN, f64::NAN),
         lambda: 1.0,
         gradients: [Vector3::new(f64::NAN, f64::NAN, f64::NAN); 2],
+        values: [f64::NAN; 2],
         estimate: f64::NAN,
         lower: f64::NEG_INFINITY,
         upper: f64::INFINITY,
@@ -70,6 +73,7 @@ impl Outcome {
             x: here.x + step.v,
             lambda,
             gradients: optimum.gradients.map(|g| here.to_solver(&g)),
+            values: [s_a, s_b],
             estimate,
             lower: estimate - doubt,
             upper,

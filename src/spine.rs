@@ -146,7 +146,8 @@ pub(crate) fn solve(
             let outcome = Outcome::of(here, bodies, target, &step);
             if proved.as_ref().is_none_or(|(old, _)| outcome.gap() < old.gap()) {
                 let ending = Ending::RoundingLimited;
-                proved = Some((Outcome { x: here.x, ending, response: None, ..outcome }, *here));
+                let values = [here.q_a.value, here.q_b.value];
+                proved = Some((Outcome { x: here.x, values, ending, response: None, ..outcome }, *here));
             }
         }
         arriving += u32::from(proved.is_some());
