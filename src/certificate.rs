@@ -57,8 +57,8 @@ pub(crate) fn distance(outcome: &Outcome, expansion: &Expansion, a: &Body, b: &B
     // The two sides meet to the rounding of what they are summed from.
     let (side_a, side_b) = target.changes(expansion.q_a.expansion, expansion.q_b.expansion);
     let sides = SIDES * f64::EPSILON * (side_a + side_b + outcome.upper.max(1.0));
-    let sums = expansion.rounding_of_slope(weights, &expansion.to_axes(&step));
-    let mut sum = response.unsolved() + response.to_value(sides) + response.to_axes(&sums);
+    let in_axes = expansion.to_axes(&step);
+    let mut sum = response.unsolved() + response.to_value(sides);
     for (i, (body, q, weight)) in
         [(a, &expansion.q_a, weights.0), (b, &expansion.q_b, weights.1)].into_iter().enumerate()
     {
@@ -66,7 +66,7 @@ pub(crate) fn distance(outcome: &Outcome, expansion: &Expansion, a: &Body, b: &B
         // The force, rounded at either end of the step.
         let force = weight * (outcome.gradients[i].norm() + q.gradient.norm());
         let local = &expansion.locals[i];
-        sum += local.shift + local.blur * planes + force * turn;
+        sum += local.shift + local.blur * planes + force * turn + response.to_sums(q, weight, &in_axes);
     }
     // Carried along from the point of expansion, and rounded at the end.
     let carried = TURN * f64::EPSILON * (step.norm() + outcome.x.norm());

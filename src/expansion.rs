@@ -159,7 +159,7 @@ impl Expansion {
     /// {S ≤ `upper`}. Less than what is `negligible` is not looked at again. Also tells whether no sign is in doubt.
     pub fn doubt(&self, bodies: [&Body; 2], target: Target, step: &Step, upper: f64, negligible: f64) -> (f64, bool) {
         let ((a, b), soft) = (target.weights(step.optimum.lambda), softest(bodies[0], bodies[1]));
-        let rounding = self.rounding_of_slope((a, b), &step.optimum.step).norm();
+        let rounding = a * step.optimum.rounding_of_slope(&self.q_a) + b * step.optimum.rounding_of_slope(&self.q_b);
         let [of_a, of_b] = [0, 1].map(|i| step.verdicts[i].doubtful_slope(bodies[i], [a, b][i], rounding));
         let slope = step.optimum.slope(target).norm() + of_a + of_b;
         let by_curvature = 0.5 * slope * slope / (a * soft.0 + b * soft.1);
@@ -167,17 +167,6 @@ impl Expansion {
         let doubt =
             if wide { by_curvature.min(slope * farthest(bodies, &(self.x + step.v), upper)) } else { by_curvature };
         (doubt, of_a + of_b == 0.0)
-    }
-
-    /// Bounds, axis by axis, on the rounding of the sums by which a step v makes the slope a·g_A + b·g_B vanish: of either
-    /// body √h_kk·(√(2S) + Σ|v_i|·√h_ii), by Cauchy's inequality.
-    pub fn rounding_of_slope(&self, (a, b): (f64, f64), v: &Vector3<f64>) -> Vector3<f64> {
-        let of = |weight: f64, q: &Quadratic| {
-            let stiff = q.hessian.diagonal();
-            let size = q.expansion + 1.5 * v.component_mul(v).dot(&stiff);
-            2.0 * weight * size.sqrt() * stiff.map(f64::sqrt)
-        };
-        4.0 * f64::EPSILON * (of(a, &self.q_a) + of(b, &self.q_b))
     }
 
     #[inline]

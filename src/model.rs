@@ -76,6 +76,9 @@ const BALANCED: f64 = 16.0 * f64::EPSILON;
 /// Relative mismatch below which a search that no longer gains is at the end of its digits.
 const STALLING: f64 = 1e-9;
 
+/// Rounding of the sums in a slope: twice the root of the terms of S, each right to a few units in the last place.
+const SUMS: f64 = 8.0 * f64::EPSILON;
+
 /// Searches in a row that may gain less than half: a side that hardly changes with λ gains late.
 const MOST_SLOW: u32 = 4;
 
@@ -263,9 +266,12 @@ impl Optimum {
     /// Bound on the rounding of the sums by which S of one body is taken along the step, axis by axis: along a face a long
     /// step has but the curvature of the face. By Cauchy's inequality no sum in the Hessian has terms above √(h_ii·h_jj).
     pub fn rounding(&self, q: &Quadratic) -> f64 {
-        let (v, g) = (self.step.abs(), q.gradient.abs());
-        let bent = v.dot(&q.hessian.diagonal().map(f64::sqrt));
-        2.0 * f64::EPSILON * (q.expansion + v.dot(&g) + bent * bent)
+        2.0 * f64::EPSILON * (2.0 * q.terms(&self.step) + self.step.abs().dot(&q.gradient.abs()))
+    }
+
+    /// The same of the sums by which the slope was made to vanish, in whatever direction.
+    pub fn rounding_of_slope(&self, q: &Quadratic) -> f64 {
+        SUMS * (q.terms(&self.step) * q.hessian.trace()).sqrt()
     }
 
     /// How fast the sides part with ln λ.
@@ -325,11 +331,13 @@ impl Response {
         self.to_slope.times(&self.slope).norm()
     }
 
-    /// Bound on the move when the slope is off by as much as this on each axis.
-    pub fn to_axes(&self, off: &Vector3<f64>) -> f64 {
+    /// Bound on the move by the rounding of the sums in the slope of a body of this weight, after a step v: on axis k they
+    /// are as large as √h_kk.
+    pub fn to_sums(&self, q: &Quadratic, weight: f64, v: &Vector3<f64>) -> f64 {
         let m = &self.to_slope;
-        let columns = [(m.xx, m.yx, m.zx), (m.yx, m.yy, m.zy), (m.zx, m.zy, m.zz)];
-        columns.iter().zip(off.iter()).map(|((x, y, z), off)| off * (x * x + y * y + z * z).sqrt()).sum()
+        let square = |x: f64, y: f64, z: f64| x * x + y * y + z * z;
+        let moves = Vector3::new(square(m.xx, m.yx, m.zx), square(m.yx, m.yy, m.zy), square(m.zx, m.zy, m.zz));
+        SUMS * weight * (3.0 * q.terms(v) * q.hessian.diagonal().dot(&moves)).sqrt()
     }
 
     /// Bound on the move when α·q_A + β·q_B is off by `value`.
