@@ -84,6 +84,10 @@ fn between_polyhedra(bodies: [&Body; 2], from: Vector3<f64>) -> Option<Start> {
             let (here, face) = highest(bodies, &(x - way * y));
             let over = here - (level - way * rate);
             if over <= LEVEL * level {
+                if next.is_none() {
+                    // Inside both polyhedra.
+                    return Some(Start { x: x - way * y, lambda: 1.0, near: false });
+                }
                 break;
             }
             way -= over / (rate - face.gradient.dot(&y));

@@ -39,6 +39,7 @@ pub(crate) fn distance_near(
     let farthest = from.norm() + particle.bounding_radius();
     let mut tau = if guess.abs() <= farthest { guess } else { 0.0 };
     let rounding = 2.0 * f64::EPSILON * (from.norm() + particle.bounds.offset_within(farthest).min(farthest));
+    let mut first = true;
     for _ in 0..MOST_STEPS {
         let line = at(tau);
         if !(line.value.is_finite() && line.slope.is_finite()) {
@@ -58,13 +59,17 @@ pub(crate) fn distance_near(
             outside = tau;
             newton_from_outside = newton;
         }
-        let mut next = if line.slope > 0.0 {
+        let mut next = if first {
+            // The guess was none: on from where a plane alone brings S to 1.
+            beyond_a_plane(particle, from, direction, farthest)
+        } else if line.slope > 0.0 {
             tau + root_of_piece(line.value, line.slope, line.curvature)
         } else if outside == f64::INFINITY {
             farthest
         } else {
             newton_from_outside
         };
+        first = false;
         if !(inside < next && next < outside) && outside < f64::INFINITY {
             next = newton_from_outside;
         }
@@ -77,6 +82,28 @@ pub(crate) fn distance_near(
         tau = next;
     }
     Some(tau)
+}
+
+/// A distance at which one plane alone has brought S to 1, near the least; at most `farthest`.
+///
+/// Newton's method from outside on the largest n·x − d, which is convex along the ray.
+#[cold]
+fn beyond_a_plane(particle: &Particle, from: &Vector3<f64>, direction: &Vector3<f64>, farthest: f64) -> f64 {
+    if particle.is_sphere() {
+        return farthest;
+    }
+    let depth = 1.0 / particle.plane_weight.sqrt();
+    let mut tau = farthest;
+    for _ in 0..MOST_STEPS {
+        let (excess, place) = particle.farthest_excess(&(from + tau * direction));
+        let rate = particle.normal(place).dot(direction);
+        let next = tau - (excess - depth) / rate;
+        if !(excess > depth && rate > 0.0 && next < tau) {
+            break;
+        }
+        tau = next;
+    }
+    tau
 }
 
 /// Root right of the stationary point of v + s·δ + ½c·δ² (s > 0), without cancellation; the Newton step
