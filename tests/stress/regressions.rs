@@ -90,7 +90,7 @@ fn the_bound_of_s_of_closest_far_apart_counts_its_rounding() {
     judged("the_bound_of_s_of_closest_far_apart_counts_its_rounding", &[BoundOfS]);
 }
 
-/// s_A is 6e10 and should be 8e9: solved to the end far apart, it is not the optimum, and its gap says it is.
+/// s_A is 6e10, and a judge that took a point far outside B for a proof held it for 8e9.
 #[test]
 fn closest_of_sharp_bodies_far_apart_is_the_optimum() {
     judged("closest_of_sharp_bodies_far_apart_is_the_optimum", &[BoundOfS]);
