@@ -15,8 +15,8 @@ pub(crate) struct Body<'a> {
     turned: bool,
     /// Centre in the solver frame.
     centre: Vector3<f64>,
-    /// Sum of the lengths, other than the point's own, that a distance to a plane is made from.
-    lengths: f64,
+    /// Twice the distance of the centre from the origin: it enters the point as seen from here, rounded twice.
+    twice_centre: f64,
     /// Weight of the shadow sphere that the solver uses: the particle's own, or the regularised one.
     sphere_weight: f64,
 }
@@ -39,8 +39,10 @@ const MOST_DROPPED: usize = 8;
 pub(crate) struct Local {
     /// The point in the particle's own frame.
     y: Vector3<f64>,
-    /// Bound on the rounding of a distance to a plane here: a sum of terms as long as the point, the centre
-    /// and the offsets, each known to a few units in the last place.
+    /// Bound on the rounding of this point: a sum of terms as long as the point and the centre, each known to a few
+    /// units in the last place.
+    pub shift: f64,
+    /// Bound on the rounding of n·y − d of every plane that can be on here, from that of the point and of the offset.
     pub blur: f64,
     /// Planes count from this distance before they switch on: at least the blur, since a stiff plane carries
     /// its share with a depth below rounding; more where a step was stopped by a plane, so that the next
@@ -57,8 +59,14 @@ pub(crate) struct Verdict {
     pub planes: Planes,
     /// The plane to be dropped before the model is solved again.
     pub drop: Option<usize>,
-    /// Slope, 1/length, by which planes of doubtful sign may pull after all.
-    pub slope: f64,
+    /// Sum of the depths by which planes of doubtful sign may pull after all.
+    doubtful: f64,
+    /// The least depth of a plane of the quadratic after the step.
+    least: f64,
+    /// Bound on the pull after the step.
+    pull: f64,
+    /// How many planes there are, or may be by rounding.
+    near: f64,
 }
 
 /// What a step does to the planes of a model, from best to worst.
@@ -83,7 +91,7 @@ impl<'a> Body<'a> {
             rotation,
             turned,
             centre,
-            lengths: 2.0 * centre.norm() + particle.bounds.longest_offset,
+            twice_centre: 2.0 * centre.norm(),
             sphere_weight: particle.sphere_weight.max(least_sphericity / particle.bounding_radius().powi(2)),
         };
         (body(pair.a, pair.rotation, true, pair.centre), body(pair.b, Matrix3::identity(), false, Vector3::zeros()))
@@ -120,8 +128,11 @@ impl<'a> Body<'a> {
 
     /// The point x as this body sees it, with planes counting from `early` before they switch on.
     pub fn locate(&self, x: &Vector3<f64>, early: f64) -> Local {
-        let blur = ROUNDING * f64::EPSILON * (x.norm() + self.lengths);
-        Local { y: self.local(x), blur, early: early.max(blur), dropped: [0; MOST_DROPPED], count: 0 }
+        let bounds = &self.particle.bounds;
+        let lengths = x.norm() + self.twice_centre;
+        let shift = ROUNDING * f64::EPSILON * lengths;
+        let blur = bounds.longest_normal * shift + ROUNDING * f64::EPSILON * bounds.offset_within(lengths + early);
+        Local { y: self.local(x), shift, blur, early: early.max(blur), dropped: [0; MOST_DROPPED], count: 0 }
     }
 
     /// (Regularised) S with derivatives in the axes of `frame` (columns: axes in the solver frame), or of the solver
@@ -155,7 +166,7 @@ impl<'a> Body<'a> {
     /// of n·x − d is but a shift of the plane.
     #[inline]
     pub fn check(&self, local: &Local, q: &Quadratic, v: &Vector3<f64>, length: f64) -> Verdict {
-        if self.stays(q, length) { Verdict::EXACT } else { self.check_each(local, v) }
+        if self.stays(q, length) { Verdict::clear(self, local, q, length) } else { self.check_each(local, q, v) }
     }
 
     /// Whether no plane of the quadratic switches within a distance.
@@ -176,38 +187,52 @@ impl<'a> Body<'a> {
         self.sphere_weight == self.particle.sphere_weight
     }
 
+    /// The depth at which a plane pushes as much as the regularisation does at the surface, or as the rounding of the forces.
+    fn weakest(&self, q: &Quadratic) -> f64 {
+        let force = self.sphere_curvature() * self.particle.bounding_radius() + DOUBT * q.pull;
+        force / (self.plane_curvature() * self.particle.bounds.longest_normal)
+    }
+
     #[inline(never)]
-    fn check_each(&self, local: &Local, v: &Vector3<f64>) -> Verdict {
+    fn check_each(&self, local: &Local, q: &Quadratic, v: &Vector3<f64>) -> Verdict {
         let (y, blur, e) = (local.y, local.blur, self.turn(v));
         let p = self.particle;
         let mut worst: Option<(usize, f64)> = None;
-        let (mut met, mut pulling, mut doubtful) = (false, false, 0.0);
+        let (mut pulling, mut doubtful, mut depths, mut near) = (false, 0.0, 0.0, 0.0);
+        let (mut nearest, mut least) = (f64::NEG_INFINITY, f64::INFINITY);
         // Planes of the quadratic are near y, planes that are met near y + e: no other is near either.
         let far = if p.leaves.single() { 0.0 } else { local.early.max(p.bounds.longest_normal * e.norm()) };
-        // The rounding of no depth exceeds this and that of the excess.
+        // The step was turned: what is left of a long one across a plane is but rounding.
         let doubt = DOUBT * p.bounds.longest_normal * (e.x.abs() + e.y.abs() + e.z.abs());
+        // Where only the regularisation tells one point of a face from another, pulls as weak as itself or as the rounding of
+        // the forces would let planes take turns without end.
+        let weak = if self.is_plain() { 0.0 } else { self.weakest(q) };
         p.visit_near(&y, far, |i, n, excess| {
-            let terms = n.component_mul(&e);
-            let depth = excess + (terms.x + terms.y + terms.z);
+            let depth = excess + n.dot(&e);
             if !local.counts(i, excess) {
-                met |= depth > blur;
+                nearest = nearest.max(depth);
                 return;
             }
-            if depth >= doubt + DOUBT * excess.abs() {
+            depths += depth.max(0.0);
+            near += 1.0;
+            least = least.min(depth);
+            let doubt = doubt + DOUBT * excess.abs();
+            if depth >= doubt {
                 return;
             }
-            let size = excess.abs() + terms.x.abs() + terms.y.abs() + terms.z.abs();
-            let doubt = DOUBT * size;
-            if depth >= -doubt {
-                doubtful += if depth < doubt { doubt } else { 0.0 };
+            if depth >= -doubt.max(weak) {
+                doubtful += doubt.max(-depth);
             } else if excess > blur {
                 pulling = true;
             } else if worst.is_none_or(|(_, most)| depth < most) {
                 worst = Some((i, depth));
             }
         });
+        near += if nearest > -blur { 1.0 } else { 0.0 };
+        let met = nearest > blur;
+        let pull = self.plane_curvature() * depths;
         if pulling {
-            return Verdict { planes: Planes::Pulling, drop: None, slope: f64::INFINITY };
+            return Verdict { planes: Planes::Pulling, drop: None, doubtful: f64::INFINITY, least, pull, near };
         }
         // One at a time: without the worst, the others may push again.
         let drop = worst.map(|(i, _)| i);
@@ -217,7 +242,7 @@ impl<'a> Body<'a> {
             Some(_) if usize::from(local.count) < MOST_DROPPED => Planes::Dropped,
             Some(_) => Planes::Pulling,
         };
-        Verdict { planes, drop, slope: self.plane_curvature() * p.bounds.longest_normal * doubtful }
+        Verdict { planes, drop, doubtful, least, pull, near }
     }
 
     /// Carries over which planes were dropped, from a point whose step was stopped at once, to the same point again:
@@ -246,14 +271,43 @@ impl<'a> Body<'a> {
     /// Bound on the rounding of S, given the quadratic.
     pub fn rounding(&self, local: &Local, q: &Quadratic) -> f64 {
         let blur = local.blur;
-        let planes = (q.pull + q.gradient.norm()) * blur + self.particle.plane_weight * blur * blur;
+        let planes = q.pull * blur + q.gradient.norm() * local.shift + self.particle.plane_weight * blur * blur;
         planes + ROUNDING * f64::EPSILON * q.value
     }
 
-    /// The same at the end of a step, where the quadratic is `value`: Σ⟨n·x − d⟩ ≤ √(m·S/w) over its m planes.
-    pub fn rounding_after(&self, local: &Local, q: &Quadratic, value: f64) -> f64 {
-        let pull = 2.0 * (f64::from(q.count) * self.particle.plane_weight * value.max(0.0)).sqrt();
-        self.rounding(local, q).max(pull * local.blur)
+    /// What the rounding of where the planes lie does to S at the end of a step of this length with its verdict, where
+    /// the gradient is this long; with it the rounding of the sums at the point of expansion, carried along.
+    pub fn rounding_after(&self, local: &Local, q: &Quadratic, verdict: &Verdict, step: f64, gradient: f64) -> f64 {
+        let (shift, blur) = self.after(local, step);
+        let planes = (verdict.pull + verdict.near * self.particle.plane_weight * blur) * blur;
+        planes + gradient * shift + q.pull * (blur - local.blur)
+    }
+
+    /// The shift and the blur at the end of a step of this length.
+    #[inline]
+    fn after(&self, local: &Local, step: f64) -> (f64, f64) {
+        let further = ROUNDING * f64::EPSILON * step;
+        (local.shift + further, local.blur + self.particle.bounds.longest_normal * further)
+    }
+
+    /// Rounding of a value of S that is summed up.
+    #[inline]
+    pub fn rounding_of_value(&self, value: f64) -> f64 {
+        ROUNDING * f64::EPSILON * value
+    }
+
+    /// The share of the way to the centre on which every plane falls by more than its rounding at the end of a step; more
+    /// than 1 where some plane does not.
+    pub fn share_of_way(&self, local: &Local, step: f64) -> f64 {
+        let (_, blur) = self.after(local, step);
+        let least = self.particle.bounds.least_offset;
+        if least > blur { blur / least + ROUNDING * f64::EPSILON } else { f64::INFINITY }
+    }
+
+    /// (Regularised) S at x.
+    pub fn value(&self, x: &Vector3<f64>) -> f64 {
+        let surplus = self.surplus(x);
+        potential::value(self.particle, &self.local(x)) + surplus
     }
 
     /// Weight of the planes in S.
@@ -288,12 +342,35 @@ impl<'a> Body<'a> {
 }
 
 impl Verdict {
-    const EXACT: Self = Self { planes: Planes::Exact, drop: None, slope: 0.0 };
+    /// Of a step so short that no plane switches.
+    #[inline]
+    fn clear(body: &Body, local: &Local, q: &Quadratic, length: f64) -> Self {
+        let (moved, count) = (body.particle.bounds.longest_normal * length, f64::from(q.count));
+        let least = q.clear - moved;
+        let pull = q.pull + count * body.plane_curvature() * moved;
+        let near = if least < local.blur { count + 1.0 } else { count };
+        Self { planes: Planes::Exact, drop: None, doubtful: 0.0, least, pull, near }
+    }
+
+    /// Slope that planes of doubtful sign may leave, for a body of this weight: a force that is found to rounding only may
+    /// be a pull.
+    pub fn doubtful_slope(&self, body: &Body, weight: f64, rounding: f64) -> f64 {
+        let per_depth = weight * body.plane_curvature() * body.particle.bounds.longest_normal;
+        let lost = if per_depth * self.least < rounding { self.near * rounding } else { 0.0 };
+        // No plane may be doubtful, of weights that overflow.
+        if self.doubtful > 0.0 { lost + per_depth * self.doubtful } else { lost }
+    }
 }
 
 impl Local {
-    pub const BLANK: Self =
-        Self { y: Vector3::new(0.0, 0.0, 0.0), blur: 0.0, early: 0.0, dropped: [0; MOST_DROPPED], count: 0 };
+    pub const BLANK: Self = Self {
+        y: Vector3::new(0.0, 0.0, 0.0),
+        shift: 0.0,
+        blur: 0.0,
+        early: 0.0,
+        dropped: [0; MOST_DROPPED],
+        count: 0,
+    };
 
     /// Lower bound of [`Body::rounding`] where S has the given gradient.
     pub fn least_rounding(&self, gradient: &Vector3<f64>) -> f64 {

@@ -10,16 +10,20 @@ use nalgebra::{Matrix3, Vector3};
 pub(crate) struct Bounds {
     /// Radius of a ball about the origin that holds the particle.
     pub radius: f64,
-    /// Corners of a polyhedron that holds the particle.
+    /// Corners of a polyhedron that holds the particle, but for `merged`.
     pub corners: Box<[Vector3<f64>]>,
+    /// Corners that lie no further apart than this are one: of a body far longer than wide, those all around an end.
+    merged: f64,
     /// max |d_i|, for bounds on rounding.
-    pub longest_offset: f64,
+    longest_offset: f64,
+    /// min d_i; negative where a plane passes behind the origin.
+    pub least_offset: f64,
     /// max |n_i|, likewise.
     pub longest_normal: f64,
     /// How far beyond d_i the particle can reach along n_i: r/√(1−k); infinite for k = 1.
     pub face_reach: f64,
-    /// s at the origin, < 1.
-    pub s_origin: f64,
+    /// {S ≤ s²} lies in a ball of radius·(1 + growth·(s − 1)), s ≥ 1.
+    growth: f64,
 }
 
 /// Most planes whose corners are enumerated; further ones only make the polyhedron smaller.
@@ -48,25 +52,40 @@ impl Bounds {
         let corners = corners(&faces, half, particle.dimensions);
         let farthest = corners.iter().map(|c| c.norm()).fold(0.0, f64::max);
         let radius = farthest.min(sphere_reach) * MARGIN;
+        let offsets = || (0..particle.plane_count()).map(|i| particle.offset(i));
+        let s_origin = crate::potential::value(particle, &Vector3::zeros()).sqrt();
+        // Where the faces alone enclose the particle, {S ≤ s²} lies between those at d_i + s·r/√(1−k): for small r that grows
+        // far less than convexity of s allows. With a sphere they do if no corner lies on the cube.
+        let enclosed = !sphere_reach.is_finite() || farthest < 0.99 * half;
+        let nearest = offsets().fold(f64::INFINITY, f64::min) + face_reach;
+        let by_faces = if enclosed { face_reach / nearest } else { f64::INFINITY };
         (radius.is_finite() && radius > 0.0).then(|| Self {
             radius,
             corners: corners.into_iter().map(|c| c * MARGIN).collect(),
-            longest_offset: (0..particle.plane_count()).map(|i| particle.offset(i).abs()).fold(0.0, f64::max),
+            merged: SLACK * farthest * MARGIN,
+            longest_offset: offsets().map(f64::abs).fold(0.0, f64::max),
+            least_offset: offsets().fold(f64::INFINITY, f64::min),
             longest_normal: (0..particle.plane_count()).map(|i| particle.normal(i).norm()).fold(0.0, f64::max),
             face_reach,
-            s_origin: crate::potential::value(particle, &Vector3::zeros()).sqrt(),
+            growth: by_faces.min(1.0 / (1.0 - s_origin)),
         })
+    }
+
+    /// Longest |d| of a plane that can be reached within this distance of the origin: others are never summed, so that
+    /// their rounding is nobody's.
+    #[inline]
+    pub fn offset_within(&self, distance: f64) -> f64 {
+        self.longest_offset.min(self.longest_normal * distance + (-self.least_offset).max(0.0))
     }
 }
 
 impl Particle {
     /// Radius of a ball about the origin that holds {S ≤ level}, level ≥ 1.
     ///
-    /// s = √S is convex with s(0) < 1, so that along a ray it needs at least (s − s(0))/(1 − s(0)) times
+    /// s = √S is convex with s(0) < 1, so that along a ray it needs at most (s − s(0))/(1 − s(0)) times
     /// the way to the surface to reach s.
     pub(crate) fn reach(&self, level: f64) -> f64 {
-        let (s, s0) = (level.sqrt().max(1.0), self.bounds.s_origin);
-        self.bounds.radius * (s - s0) / (1.0 - s0)
+        self.bounds.radius * (1.0 + self.bounds.growth * (level.sqrt().max(1.0) - 1.0))
     }
 
     /// Axis-aligned box in world axes that holds the particle at a pose, from its corners: (lower, upper).
@@ -87,7 +106,7 @@ impl Particle {
     /// The least over the corners' polyhedron and the ball of the shadow sphere.
     pub fn support(&self, e: &Vector3<f64>) -> f64 {
         let farthest = self.bounds.corners.iter().map(|c| c.dot(e)).fold(f64::NEG_INFINITY, f64::max);
-        farthest.min(self.bounds.radius)
+        (farthest + self.bounds.merged).min(self.bounds.radius)
     }
 }
 

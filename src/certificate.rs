@@ -51,12 +51,13 @@ pub(crate) fn distance(outcome: &Outcome, expansion: &Expansion, a: &Body, b: &B
         let excess = (outcome.upper - outcome.lower).max(0.0) + outcome.rounding;
         (2.0 * excess / (weights.0 * soft.0 + weights.1 * soft.1)).sqrt()
     };
-    let Some(response) = &outcome.response else { return convexity() };
+    let Some(response) = outcome.response.as_ref().filter(|_| outcome.sure) else { return convexity() };
     let step = outcome.x - expansion.x;
     let turn = TURN * f64::EPSILON * response.per_slope(a.particle.dimensions);
     // The two sides meet to the rounding of what they are summed from.
     let (side_a, side_b) = target.changes(expansion.q_a.expansion, expansion.q_b.expansion);
     let sides = SIDES * f64::EPSILON * (side_a + side_b + outcome.upper.max(1.0));
+    let in_axes = expansion.to_axes(&step);
     let mut sum = response.unsolved() + response.to_value(sides);
     for (i, (body, q, weight)) in
         [(a, &expansion.q_a, weights.0), (b, &expansion.q_b, weights.1)].into_iter().enumerate()
@@ -64,7 +65,8 @@ pub(crate) fn distance(outcome: &Outcome, expansion: &Expansion, a: &Body, b: &B
         let planes = response.to_planes(i, q, target, outcome.lambda, body.plane_weight());
         // The force, rounded at either end of the step.
         let force = weight * (outcome.gradients[i].norm() + q.gradient.norm());
-        sum += expansion.locals[i].blur * (1.0 + planes) + force * turn;
+        let local = &expansion.locals[i];
+        sum += local.shift + local.blur * planes + force * turn + response.to_sums(q, weight, &in_axes);
     }
     // Carried along from the point of expansion, and rounded at the end.
     let carried = TURN * f64::EPSILON * (step.norm() + outcome.x.norm());
@@ -78,6 +80,23 @@ const SIDES: f64 = 8.0;
 /// Units in the last place by which a rotated normal may be turned.
 const TURN: f64 = 4.0;
 
+/// The merit of x, or of a point on the way to the centre of the body that x should be in and is not: λ may be wrong, and
+/// with it the price of what is missing. s is convex on that way.
+fn feasible(x: &Vector3<f64>, values: [f64; 2], bodies: [&Body; 2], target: Target) -> f64 {
+    let (held, free) = match target {
+        Target::Midway => return values[0].max(values[1]),
+        Target::OnB => (1, 0),
+        Target::OnA => (0, 1),
+    };
+    let (s, centre) = (values[held].sqrt(), bodies[held].centre());
+    if s <= 1.0 {
+        return values[free];
+    }
+    let s0 = bodies[held].value(&centre).sqrt();
+    let share = (1.0 - s0) / (s - s0);
+    values[free].max(bodies[free].value(&(centre + share * (x - centre))))
+}
+
 /// Bounds for a point and a scale s that another solver found, with the ratio of weights λ that came with them.
 ///
 /// Two dual bounds are tried: the quadratic model's where its multipliers are admissible, and the
@@ -85,24 +104,24 @@ const TURN: f64 = 4.0;
 pub(crate) fn judge(x: &Vector3<f64>, lambda: f64, s: f64, a: &Body, b: &Body, target: Target) -> Outcome {
     let locals = [a.locate(x, 0.0), b.locate(x, 0.0)];
     let (q_a, q_b) = (a.at(&locals[0], None), b.at(&locals[1], None));
-    let upper = target.merit(q_a.value, q_b.value, lambda);
+    let upper = feasible(x, [q_a.value, q_b.value], [a, b], target);
     let rounding = target.dual_weighted(a.rounding(&locals[0], &q_a), b.rounding(&locals[1], &q_b), lambda);
     let weights = target.weights(lambda);
-    let level = upper.max(1.0);
-    let reach = (x - a.centre()).norm() + a.particle.reach(level).min(b.particle.reach(level) + a.centre().norm());
+    let bodies = [a, b];
     let slope = (weights.0 * q_a.gradient + weights.1 * q_b.gradient).norm();
-    let linear = target.dual(q_a.value, q_b.value, lambda) - slope * reach;
+    let linear = target.dual(q_a.value, q_b.value, lambda) - slope * expansion::farthest(bodies, x, upper);
     let mut lower = linear;
     // Planes that only seem to be on are dropped one by one, as in the solver.
-    let (bodies, start) = ([a, b], Start { x: *x, lambda, near: true });
+    let start = Start { x: *x, lambda, near: true };
     let mut expansion = Expansion::at(bodies, &start, target, Factorisation::Aligned);
     while let Some(step) = expansion.optimum(bodies, target, lambda, 0.0) {
         match step.planes {
             Planes::Exact | Planes::Met => {
                 let optimum = &step.optimum;
-                let (of_a, of_b) = (optimum.rounding(&expansion.q_a), optimum.rounding(&expansion.q_b));
+                let of_a = optimum.rounding(&expansion.q_a);
+                let of_b = optimum.rounding(&expansion.q_b);
                 let dual = target.dual(optimum.values.0, optimum.values.1, optimum.lambda);
-                let doubt = step.doubt(target, expansion::softest(a, b));
+                let (doubt, _) = expansion.doubt(bodies, target, &step, upper, 0.0);
                 lower = lower.max(dual - doubt - target.dual_weighted(of_a, of_b, lambda));
                 break;
             }
@@ -115,12 +134,14 @@ pub(crate) fn judge(x: &Vector3<f64>, lambda: f64, s: f64, a: &Body, b: &Body, t
         x: *x,
         lambda,
         gradients,
+        values: [q_a.value, q_b.value],
         estimate: s * s,
         lower,
         upper,
         rounding,
         iterations: 0,
         ending: Ending::Converged,
+        sure: false,
         response: None,
     }
 }

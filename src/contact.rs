@@ -129,16 +129,16 @@ impl LocalContact {
         let (normal, normal_by_centres) = normal(pair, gradients);
         let surface = if overlapping {
             let [of_a, of_b] = pieces(&normal);
-            let missing = outcome.estimate - 1.0;
-            let way = |piece: Piece, slope: f64, from_there: &dyn Fn(f64) -> Option<f64>| {
-                let way = surface::root_of_piece(missing, slope, piece.curvature);
+            let way = |value: f64, piece: Piece, slope: f64, from_there: &dyn Fn(f64) -> Option<f64>| {
+                let way = surface::root_of_piece(value - 1.0, slope, piece.curvature);
                 if way.abs() <= piece.reach { Some(way) } else { from_there(way) }
             };
-            let to_a = way(of_a, gradients[0].dot(&normal), &|guess| {
+            let to_a = way(outcome.values[0], of_a, gradients[0].dot(&normal), &|guess| {
                 surface::distance_near(pair.a, &pair.in_a(x), &pair.rotation.tr_mul(&normal), guess)
             })?;
-            let to_b =
-                way(of_b, -gradients[1].dot(&normal), &|guess| surface::distance_near(pair.b, x, &-normal, guess))?;
+            let to_b = way(outcome.values[1], of_b, -gradients[1].dot(&normal), &|guess| {
+                surface::distance_near(pair.b, x, &-normal, guess)
+            })?;
             // Where s < 1 by rounding alone, so may be the sum.
             Some((x + to_a * normal, x - to_b * normal, (to_a + to_b).max(0.0)))
         } else {

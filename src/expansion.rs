@@ -151,6 +151,24 @@ impl Expansion {
         *self = Self::of(bodies, self.x, self.locals, target.weights(lambda), factorisation);
     }
 
+    /// How far the dual value after a step may lie above a lower bound: the step is not solved exactly, and planes of
+    /// doubtful sign may pull after all.
+    ///
+    /// With a curvature of at least that of the spheres, a slope that is left can hide its square over twice as much. Where
+    /// the spheres are all but flat that is more than it can hide between here and the optimum, which lies in
+    /// {S ≤ `upper`}. Less than what is `negligible` is not looked at again. Also tells whether no sign is in doubt.
+    pub fn doubt(&self, bodies: [&Body; 2], target: Target, step: &Step, upper: f64, negligible: f64) -> (f64, bool) {
+        let ((a, b), soft) = (target.weights(step.optimum.lambda), softest(bodies[0], bodies[1]));
+        let rounding = a * step.optimum.rounding_of_slope(&self.q_a) + b * step.optimum.rounding_of_slope(&self.q_b);
+        let [of_a, of_b] = [0, 1].map(|i| step.verdicts[i].doubtful_slope(bodies[i], [a, b][i], rounding));
+        let slope = step.optimum.slope(target).norm() + of_a + of_b;
+        let by_curvature = 0.5 * slope * slope / (a * soft.0 + b * soft.1);
+        let wide = by_curvature > negligible;
+        let doubt =
+            if wide { by_curvature.min(slope * farthest(bodies, &(self.x + step.v), upper)) } else { by_curvature };
+        (doubt, of_a + of_b == 0.0)
+    }
+
     #[inline]
     fn step(&self, [a, b]: [&Body; 2], optimum: Optimum) -> Step {
         let v = self.to_solver(&optimum.step);
@@ -180,13 +198,8 @@ pub(crate) struct Step {
     pub planes: Planes,
 }
 
-impl Step {
-    /// How far the dual value may lie above a lower bound: the step is not solved exactly, and planes of doubtful sign may
-    /// pull after all.
-    pub fn doubt(&self, target: Target, soft: (f64, f64)) -> f64 {
-        let (a, b) = target.weights(self.optimum.lambda);
-        let slope = a * self.verdicts[0].slope + b * self.verdicts[1].slope;
-        // (x + y)² ≤ 2x² + 2y² for the two slopes in doubt.
-        2.0 * self.optimum.doubt(target, soft) + slope * slope / (a * soft.0 + b * soft.1)
-    }
+/// Bound on the distance from x to any optimum of a value of at most `upper`: it lies in both level sets.
+pub(crate) fn farthest([a, b]: [&Body; 2], x: &Vector3<f64>, upper: f64) -> f64 {
+    let of = |body: &Body| (x - body.centre()).norm() + body.particle.reach(upper);
+    of(a).min(of(b))
 }

@@ -76,6 +76,12 @@ const BALANCED: f64 = 16.0 * f64::EPSILON;
 /// Relative mismatch below which a search that no longer gains is at the end of its digits.
 const STALLING: f64 = 1e-9;
 
+/// Rounding of the sums in a slope: twice the root of the terms of S, each right to a few units in the last place.
+const SUMS: f64 = 8.0 * f64::EPSILON;
+
+/// Searches in a row that may gain less than half: a side that hardly changes with λ gains late.
+const MOST_SLOW: u32 = 4;
+
 /// Rounding of tr(M H M), relative to tr H⁻¹.
 const TRACE_ROUNDING: f64 = 16.0 * f64::EPSILON;
 
@@ -131,7 +137,7 @@ impl<'a> Model<'a> {
         let mut found = first;
         let (nearest, farthest) = (found.lambda / FARTHEST, found.lambda * FARTHEST);
         let (mut low, mut high) = (nearest, farthest);
-        let mut last = f64::INFINITY;
+        let (mut last, mut slow) = (f64::INFINITY, 0);
         for _ in 0..MOST_SEARCHES {
             let (growing, falling) = self.target.sides(found.values.0, found.values.1);
             let (difference, larger) = (growing - falling, growing.max(falling));
@@ -140,7 +146,8 @@ impl<'a> Model<'a> {
             }
             // To rounding; or the search, which should do far better, does not even halve it any more.
             let noise = self.noise + 4.0 * f64::EPSILON * larger;
-            let stalled = difference.abs() <= STALLING * larger && difference.abs() > 0.5 * last;
+            slow = if difference.abs() > 0.5 * last { slow + 1 } else { 0 };
+            let stalled = difference.abs() <= STALLING * larger && slow >= MOST_SLOW;
             found.settled = difference.abs() <= noise || stalled;
             if found.settled || difference.abs() <= enough {
                 return Some(found);
@@ -250,23 +257,21 @@ struct Series {
 }
 
 impl Optimum {
-    /// How far the dual value may lie above the model's minimum, because the step is not solved exactly: with
-    /// a curvature of at least `soft`, a remaining slope can hide this much.
-    pub fn doubt(&self, target: Target, soft: (f64, f64)) -> f64 {
-        let (a, b) = target.weights(self.lambda);
-        0.5 * self.slope(target).norm_squared() / (a * soft.0 + b * soft.1)
-    }
-
     /// a·g_A + b·g_B: zero but for rounding.
-    fn slope(&self, target: Target) -> Vector3<f64> {
+    pub fn slope(&self, target: Target) -> Vector3<f64> {
         let (a, b) = target.weights(self.lambda);
         a * self.gradients[0] + b * self.gradients[1]
     }
 
-    /// Bound on the rounding of S of one body over the length of the step.
+    /// Bound on the rounding of the sums by which S of one body is taken along the step, axis by axis: along a face a long
+    /// step has but the curvature of the face. By Cauchy's inequality no sum in the Hessian has terms above √(h_ii·h_jj).
     pub fn rounding(&self, q: &Quadratic) -> f64 {
-        let length = self.step.norm();
-        2.0 * f64::EPSILON * (q.expansion + length * (q.gradient.norm() + length * q.hessian.trace()))
+        2.0 * f64::EPSILON * (2.0 * q.terms(&self.step) + self.step.abs().dot(&q.gradient.abs()))
+    }
+
+    /// The same of the sums by which the slope was made to vanish, in whatever direction.
+    pub fn rounding_of_slope(&self, q: &Quadratic) -> f64 {
+        SUMS * (q.terms(&self.step) * q.hessian.trace()).sqrt()
     }
 
     /// How fast the sides part with ln λ.
@@ -324,6 +329,15 @@ impl Response {
     /// The move that would take away what is left of the slope.
     pub fn unsolved(&self) -> f64 {
         self.to_slope.times(&self.slope).norm()
+    }
+
+    /// Bound on the move by the rounding of the sums in the slope of a body of this weight, after a step v: on axis k they
+    /// are as large as √h_kk.
+    pub fn to_sums(&self, q: &Quadratic, weight: f64, v: &Vector3<f64>) -> f64 {
+        let m = &self.to_slope;
+        let square = |x: f64, y: f64, z: f64| x * x + y * y + z * z;
+        let moves = Vector3::new(square(m.xx, m.yx, m.zx), square(m.yx, m.yy, m.zy), square(m.zx, m.zy, m.zz));
+        SUMS * weight * (3.0 * q.terms(v) * q.hessian.diagonal().dot(&moves)).sqrt()
     }
 
     /// Bound on the move when α·q_A + β·q_B is off by `value`.

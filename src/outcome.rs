@@ -3,6 +3,7 @@
 use crate::body::{Body, Planes};
 use crate::expansion::{self, Expansion, Step};
 use crate::model::{Optimum, Response};
+use crate::potential::Quadratic;
 use crate::target::Target;
 use nalgebra::Vector3;
 
@@ -13,6 +14,8 @@ pub(crate) struct Outcome {
     pub lambda: f64,
     /// ∇S_A and ∇S_B at the optimum.
     pub gradients: [Vector3<f64>; 2],
+    /// S_A and S_B at x, which differ by rounding.
+    pub values: [f64; 2],
     /// Best estimate of the optimal S.
     pub estimate: f64,
     /// Lower bound up to `rounding`.
@@ -23,6 +26,8 @@ pub(crate) struct Outcome {
     pub rounding: f64,
     pub iterations: u32,
     pub ending: Ending,
+    /// Whether every plane of the quadratics pushes beyond doubt.
+    pub sure: bool,
     /// How the optimum answers to changes of its data, where it is that of known quadratics.
     pub response: Option<Response>,
 }
@@ -33,12 +38,14 @@ impl Outcome {
         x: Vector3::new(f64::NAN, f64::NAN, f64::NAN),
         lambda: 1.0,
         gradients: [Vector3::new(f64::NAN, f64::NAN, f64::NAN); 2],
+        values: [f64::NAN; 2],
         estimate: f64::NAN,
         lower: f64::NEG_INFINITY,
         upper: f64::INFINITY,
         rounding: f64::INFINITY,
         iterations: 0,
         ending: Ending::Stuck,
+        sure: false,
         response: None,
     };
 
@@ -46,25 +53,34 @@ impl Outcome {
     pub fn of(here: &Expansion, bodies: [&Body; 2], target: Target, step: &Step) -> Self {
         let (optimum, soft, lambda) = (&step.optimum, expansion::softest(bodies[0], bodies[1]), step.optimum.lambda);
         let (s_a, s_b) = optimum.values;
-        let lower = target.dual(s_a, s_b, lambda);
+        let estimate = target.dual(s_a, s_b, lambda);
         let upper = match step.planes {
             Planes::Exact => target.merit(s_a, s_b, lambda),
             _ => here.merit(target, lambda),
         };
-        let doubt = step.doubt(target, soft);
-        let of_a = bodies[0].rounding_after(&here.locals[0], &here.q_a, s_a);
-        let of_b = bodies[1].rounding_after(&here.locals[1], &here.q_b, s_b);
+        let length = step.v.norm();
+        let of_places = |i: usize, q: &Quadratic| {
+            let (local, verdict, slope) = (&here.locals[i], &step.verdicts[i], optimum.gradients[i].norm());
+            bodies[i].rounding_after(local, q, verdict, length, slope)
+        };
+        let of_sums = |i: usize, q: &Quadratic, value: f64| bodies[i].rounding_of_value(value) + optimum.rounding(q);
+        let places = [of_places(0, &here.q_a), of_places(1, &here.q_b)];
+        let sums = [of_sums(0, &here.q_a, s_a), of_sums(1, &here.q_b, s_b)];
+        let rounding = swayed(target, optimum, (places[0] + sums[0], places[1] + sums[1]))
+            .unwrap_or_else(|| decisive(here, bodies, target, step, places, sums));
+        let (doubt, sure) = here.doubt(bodies, target, step, upper, rounding);
         Self {
             x: here.x + step.v,
             lambda,
             gradients: optimum.gradients.map(|g| here.to_solver(&g)),
-            estimate: lower,
-            lower,
+            values: [s_a, s_b],
+            estimate,
+            lower: estimate - doubt,
             upper,
-            rounding: doubt
-                + rounding(target, optimum, of_a + optimum.rounding(&here.q_a), of_b + optimum.rounding(&here.q_b)),
+            rounding,
             iterations: 0,
             ending: Ending::Stuck,
+            sure,
             response: optimum.response(target, soft),
         }
     }
@@ -88,14 +104,41 @@ pub(crate) enum Ending {
     Stuck,
 }
 
-/// Bound on the effect of rounding on the optimum, from bounds on that of S_A and S_B.
-///
-/// An error in S_A or S_B moves the optimum by its weight, while the weights stay what they are; where the
-/// error itself decides about the weights, by no more than the whole of it.
-fn rounding(target: Target, optimum: &Optimum, of_a: f64, of_b: f64) -> f64 {
-    let lambda = optimum.lambda;
-    let weighted = target.dual_weighted(of_a, of_b, lambda);
+/// Bound on the effect of rounding on the optimum, from bounds on that of S_A and S_B: it moves the optimum by its weight,
+/// while the weights stay what they are. `None` where the rounding itself decides about the weights.
+fn swayed(target: Target, optimum: &Optimum, (of_a, of_b): (f64, f64)) -> Option<f64> {
     let (change_a, change_b) = target.changes(of_a, of_b);
     let swing = change_a.max(change_b) / optimum.rate(target).abs();
-    if swing < 0.25 { weighted * (1.0 + 4.0 * swing) } else { target.merit_rounding(of_a, of_b, lambda).max(weighted) }
+    (swing < 0.25).then(|| target.dual_weighted(of_a, of_b, optimum.lambda) * (1.0 + 4.0 * swing))
+}
+
+/// The same where rounding decides about the weights: from below the weights at hand are as good as any, from above it
+/// is the whole of it at most.
+///
+/// Where the planes of one body lie moves that body, and the point may follow. A way towards its centre, as a share of
+/// the whole way, by which no plane is deeper than before undoes all of it, and changes the other S, which is convex, by
+/// no more than that share of what it changes on the whole way. A small, sharp body at a large one needs that.
+#[cold]
+fn decisive(
+    here: &Expansion,
+    bodies: [&Body; 2],
+    target: Target,
+    step: &Step,
+    places: [f64; 2],
+    sums: [f64; 2],
+) -> f64 {
+    let lambda = step.optimum.lambda;
+    let whole = [places[0] + sums[0], places[1] + sums[1]];
+    let values: [f64; 2] = step.optimum.values.into();
+    let followed = [0, 1].map(|i| {
+        let other = 1 - i;
+        let further = bodies[other].value(&bodies[i].centre()) - values[other];
+        let share = bodies[i].share_of_way(&here.locals[i], step.v.norm());
+        let mut errors = whole;
+        errors[i] = sums[i];
+        errors[other] += share * further.max(0.0);
+        target.merit_rounding(errors[0], errors[1], lambda)
+    });
+    let above = target.merit_rounding(whole[0], whole[1], lambda).min(followed[0]).min(followed[1]);
+    above.max(target.dual_weighted(whole[0], whole[1], lambda))
 }

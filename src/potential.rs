@@ -30,6 +30,12 @@ pub struct Quadratic {
 }
 
 impl Quadratic {
+    /// Bound on the terms of S after a step v, in the axes of the quadratic: (√S + Σ|v_i|·√(h_ii/2))², at most fourfold.
+    #[inline]
+    pub(crate) fn terms(&self, v: &Vector3<f64>) -> f64 {
+        self.expansion + 1.5 * v.component_mul(v).dot(&self.hessian.diagonal())
+    }
+
     pub(crate) const ZERO: Self = Self {
         value: 0.0,
         expansion: 0.0,

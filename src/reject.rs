@@ -67,7 +67,7 @@ pub(crate) fn still_apart(pair: &Pair, x: &Vector3<f64>) -> Option<Apart> {
     let lambda = -gradient_a.dot(&b.gradient) / b.gradient.norm_squared();
     let slope = (gradient_a + lambda * b.gradient).norm();
     // What rounding can do: to the distances of the planes, and with them to the values and the slope.
-    let lengths = 2.0 * (to_a + to_b + pair.a.bounds.longest_offset + pair.b.bounds.longest_offset);
+    let lengths = 2.0 * (to_a + to_b + pair.a.bounds.offset_within(to_a) + pair.b.bounds.offset_within(to_b));
     let blur = MARGIN * lengths;
     let doubt = |t: &potential::Tangent| blur * (t.pull + t.stiffness * (blur + reach)) + MARGIN * t.value;
     let least = a.value + lambda * b.value - slope * reach - doubt(&a) - lambda * doubt(&b);
@@ -98,7 +98,7 @@ fn beyond_a_face(
     let n = host.normal(face);
     let length = n.norm();
     let reach = host.bounds.face_reach;
-    let slack = MARGIN * (distance * length + host.bounds.longest_offset + reach + ball * length);
+    let slack = MARGIN * (distance * length + host.offset(face).abs() + reach + ball * length);
     let gap = most - reach - slack;
     if gap > ball * length {
         return Some(gap / length - ball);

@@ -109,7 +109,7 @@ pub(crate) fn solve(
         if goal.stop_when_separated && lower > 1.0 && step.planes != Planes::Pulling {
             let outcome = Outcome::of(here, bodies, target, &step);
             // What the regularisation adds proves nothing.
-            if lower - outcome.rounding - flat > 1.0 {
+            if outcome.lower - outcome.rounding - flat > 1.0 {
                 return Outcome { ending: Ending::Separated, iterations, ..outcome };
             }
         }
@@ -119,7 +119,11 @@ pub(crate) fn solve(
             let gap = outcome.gap();
             let precise = gap <= goal.tolerance * outcome.upper;
             outcome.ending = if precise { Ending::Converged } else { Ending::RoundingLimited };
-            if precise {
+            let short = step.v.norm() <= SHORT * reach;
+            // A plane that only seems to push holds the point where it does not belong, whatever it does to s: from nearby
+            // its sign is known.
+            let decided = outcome.sure || short;
+            if precise && decided {
                 return outcome;
             }
             // What rounding leaves at the optimum itself: no other point of expansion will do much better.
@@ -128,10 +132,9 @@ pub(crate) fn solve(
                 here.locals[1].least_rounding(&outcome.gradients[1]),
                 lambda,
             );
-            let short = step.v.norm() <= SHORT * reach;
             let sharp = short || gap <= AS_SHARP * least;
-            // Again after a step too short to gain anything: this is what rounding allows, however much it is.
-            if sharp && (gap <= SHARP * outcome.upper || (short && arriving > 1)) {
+            // Again after a step that should have gained more: this is what rounding allows, however much it is.
+            if sharp && decided && (gap <= SHARP * outcome.upper || arriving > 1) {
                 return outcome;
             }
             // Proved, but over a long step; the same from nearby is sharper.
@@ -143,7 +146,8 @@ pub(crate) fn solve(
             let outcome = Outcome::of(here, bodies, target, &step);
             if proved.as_ref().is_none_or(|(old, _)| outcome.gap() < old.gap()) {
                 let ending = Ending::RoundingLimited;
-                proved = Some((Outcome { x: here.x, ending, response: None, ..outcome }, *here));
+                let values = [here.q_a.value, here.q_b.value];
+                proved = Some((Outcome { x: here.x, values, ending, response: None, ..outcome }, *here));
             }
         }
         arriving += u32::from(proved.is_some());
@@ -194,7 +198,7 @@ impl Attempt {
         let x = self.from + descent.alpha * self.step;
         let early = descent.ahead * self.step.norm();
         let mut locals = [a.locate(&x, early), b.locate(&x, early)];
-        let moved = (x - self.from).norm() > self.locals[0].blur.max(self.locals[1].blur);
+        let moved = (x - self.from).norm() > self.locals[0].shift.max(self.locals[1].shift);
         if !moved {
             a.carry_dropped(&self.locals[0], &self.step, &mut locals[0]);
             b.carry_dropped(&self.locals[1], &self.step, &mut locals[1]);

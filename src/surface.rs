@@ -38,7 +38,7 @@ pub(crate) fn distance_near(
     // No surface point is further off than this.
     let farthest = from.norm() + particle.bounding_radius();
     let mut tau = if guess.abs() <= farthest { guess } else { 0.0 };
-    let rounding = 2.0 * f64::EPSILON * (from.norm() + particle.bounds.longest_offset);
+    let rounding = 2.0 * f64::EPSILON * (from.norm() + particle.bounds.offset_within(farthest).min(farthest));
     let mut first = true;
     for _ in 0..MOST_STEPS {
         let line = at(tau);

@@ -73,7 +73,12 @@ impl Symmetric {
         )
     }
 
-    /// The trace: for a positive semidefinite matrix a bound of its norm.
+    #[inline]
+    pub(crate) fn diagonal(&self) -> Vector3<f64> {
+        Vector3::new(self.xx, self.yy, self.zz)
+    }
+
+    /// The trace.
     #[inline]
     pub(crate) fn trace(&self) -> f64 {
         self.xx + self.yy + self.zz

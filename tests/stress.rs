@@ -44,18 +44,7 @@ const THREADS: usize = 2;
 
 /// Kinds of failure that are known and not yet cured (docs/reliability.md), and how many there may be in 10,000
 /// poses: about twice what a long run finds, so that a change for the worse is seen. All others may not occur.
-const OPEN: [(Failure, f64); 10] = [
-    (Failure::Error, 3.0),
-    (Failure::Malformed, 10.0),
-    (Failure::BoundOfS, 35.0),
-    (Failure::BoundOfPoint, 60.0),
-    (Failure::LooseBound, 350.0),
-    (Failure::OffSurface, 25.0),
-    (Failure::Normal, 3.0),
-    (Failure::Swap, 10.0),
-    (Failure::Warm, 10.0),
-    (Failure::Reject, 10.0),
-];
+const OPEN: [(Failure, f64); 2] = [(Failure::BoundOfPoint, 1.0), (Failure::LooseBound, 1.0)];
 
 fn check(tally: &Tally, tries: u64) {
     for found in &tally.found {
@@ -86,12 +75,8 @@ fn random_walks_from_memory() {
     const WALKS: u64 = 40;
     let tally = walks::run(1, WALKS, THREADS, &AtomicBool::new(false), &ProgressBar::hidden());
     assert_eq!(tally.walk_steps, WALKS * walks::STEPS);
-    let wrong = tally.failures() as f64 / tally.walk_steps as f64;
-    assert!(wrong <= WALKS_OPEN, "{wrong} of the steps are wrong: {:?}", tally.failures);
+    assert_eq!(tally.failures(), 0, "{:?}", tally.found);
 }
-
-/// Share of steps on which bounds of points contradict each other, not yet cured.
-const WALKS_OPEN: f64 = 2e-4;
 
 #[test]
 fn smooth_motions_have_no_jumps() {

@@ -133,9 +133,37 @@ impl<'a> Body<'a> {
         }
     }
 
+    /// A point on the way from x to the centre that is surely inside, near the surface: what proves an upper bound has
+    /// to be feasible. s is convex along that way.
+    fn inward(&self, x: &Wide3, at: &Local) -> Wide3 {
+        let (s, s0) = (at.value.sqrt(), Wide::from(self.at_centre()));
+        if (s - Wide::ONE).f64() <= 0.0 {
+            return *x;
+        }
+        let share = (Wide::ONE - s0) / (s - s0);
+        self.centre.plus(&x.minus(&self.centre).times(share))
+    }
+
+    /// s at the centre.
+    fn at_centre(&self) -> f64 {
+        (self.particle.potential(&Vector3::zeros()) + 1.0).max(0.0).sqrt()
+    }
+
+    /// How much S grows when every plane moves in by `depth`.
+    pub fn risen(&self, x: &Wide3, depth: f64) -> f64 {
+        let plain = x.minus(&self.centre).f64();
+        let grown = |(turned, (_, d)): (&Vector3<f64>, &([f64; 3], f64))| {
+            let excess = turned.dot(&plain) - d;
+            let reached = excess.max(0.0);
+            // (e + δ)² − e², where the plane is on before or after.
+            if excess + depth > 0.0 { (excess + depth - reached) * (excess + depth + reached) } else { 0.0 }
+        };
+        self.plane_weight.f64() * self.turned.iter().zip(&self.planes).map(grown).sum::<f64>()
+    }
+
     /// Distance from the centre within which S ≤ level.
     fn reach(&self, level: f64) -> f64 {
-        let s0 = (self.particle.potential(&Vector3::zeros()) + 1.0).max(0.0).sqrt();
+        let s0 = self.at_centre();
         let s = level.max(1.0).sqrt();
         // s is convex along the ray to a point of the level set, and 1 at most where the ball ends.
         self.particle.bounding_radius() * (s - s0) / (1.0 - s0)
@@ -356,14 +384,8 @@ impl Problem<'_> {
         let phi = Self::phi(&a, &b, lambda);
         let (dual, most) = match self.wanted {
             Wanted::Midway => ((phi - slack) / (Wide::ONE + lambda), a.value.max(b.value)),
-            Wanted::OnB => (phi - slack - lambda, a.value),
-            Wanted::OnA => ((phi - slack - Wide::ONE) / lambda, b.value),
-        };
-        // Of closest the point has to be on the surface; what it misses is paid for at the price λ.
-        let paid = match self.wanted {
-            Wanted::Midway => Wide::ZERO,
-            Wanted::OnB => (b.value - Wide::ONE).abs() * lambda,
-            Wanted::OnA => (a.value - Wide::ONE).abs() / lambda,
+            Wanted::OnB => (phi - slack - lambda, self.a.at(&self.b.inward(&x, &b)).value),
+            Wanted::OnA => ((phi - slack - Wide::ONE) / lambda, self.b.at(&self.a.inward(&x, &a)).value),
         };
         let soft = self.a.softest() + lambda.f64() * self.b.softest();
         let curve = solve(&sum(&a.hessian, &b.hessian, lambda), &b.gradient);
@@ -378,7 +400,7 @@ impl Problem<'_> {
             a,
             b,
             least: dual.max(Wide::ZERO).sqrt().f64(),
-            most: (most + paid + paid).sqrt().f64(),
+            most: most.sqrt().f64(),
             doubt: if doubt.is_finite() { doubt } else { f64::INFINITY },
         }
     }

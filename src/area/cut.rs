@@ -72,7 +72,7 @@ impl<'s> Cut<'s> {
             pull += reached;
             along += reached * line.rate;
         }
-        let size = point.norm() + particle.bounds.longest_offset;
+        let size = point.norm() + particle.bounds.offset_within(point.norm());
         let mut margin = 1.0 - plane_weight * sum - sphere_weight * point.norm_squared();
         let rounding = ROUNDING * (1.0 + 2.0 * plane_weight * pull * size);
         if margin < SMALL * rounding {

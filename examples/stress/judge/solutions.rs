@@ -1,0 +1,179 @@
+//! The answer beside other solutions: in 32 digits, from memory, by closest and by the cone program.
+
+use super::definition::surfaces;
+use super::{EPS, FULL, Failure, LOOSE, Scene, Verdict, path};
+use crate::clock::{Call, Cost};
+use crate::random::Random;
+use crate::reference::{Body, Optimum, Wanted, optimum};
+use crate::wide::Wide3;
+use nalgebra::Vector3;
+use potential_particles::{BackEnd, Contact, Flags, Formulation, Kind, Memory, Particle, Settings};
+
+pub(super) fn midway(
+    verdict: &mut Verdict,
+    scene: &Scene,
+    contact: &Contact,
+    bodies: &[Body; 2],
+    truth: &Optimum,
+    start: &Vector3<f64>,
+) {
+    let (s, gap) = (contact.s, contact.gap);
+    let scale = truth.most.max(1.0);
+    let off = (s - truth.most).abs().min((s - truth.least).abs());
+    verdict.measures.error = Some(off / scale);
+    verdict.check(s + gap >= truth.least && s - gap <= truth.most, Failure::BoundOfS, || {
+        format!(
+            "s={s:e} ± {gap:e}, truth {:e} (± {:e}): {:.2} gaps off",
+            truth.most,
+            truth.most - truth.least,
+            off / gap
+        )
+    });
+    let overlapping = contact.kind == Kind::Overlapping;
+    let wrong = if overlapping { truth.least > 1.0 + gap } else { truth.most < 1.0 - gap };
+    verdict.check(!wrong, Failure::WrongSide, || format!("{:?}, s={s:e}, truth {:e}", contact.kind, truth.most));
+
+    // The least that rounding lengths of this size does to s², and the tolerance asked for.
+    let u = truth.lambda.f64() / (1.0 + truth.lambda.f64());
+    let [a, b] = [0, 1].map(|i| bodies[i].risen(&truth.x, EPS * scene.length));
+    let explained = 1e-12 * scale * scale + (1.0 - u) * a + u * b + flat_share(scene, truth);
+    let looseness = gap * (2.0 * s + gap) / explained;
+    verdict.measures.looseness = Some(looseness);
+    verdict.check(looseness <= LOOSE, Failure::LooseBound, || {
+        format!("s={s:e} ± {gap:e}, truth {:e}: {looseness:.1e} times what rounding explains", truth.most)
+    });
+
+    let small = scene.a.bounding_radius().min(scene.b.bounding_radius());
+    let distance = truth.x.minus(&Wide3::from(*start)).norm().f64();
+    let flat = scene.a.sphericity().min(scene.b.sphericity()) < 1e-12;
+    if !flat && truth.doubt < 0.05 * contact.point_bound {
+        verdict.measures.point_error = Some(distance / small);
+        verdict.measures.point_bound = Some(contact.point_bound / small);
+        verdict.check(distance <= contact.point_bound + truth.doubt, Failure::BoundOfPoint, || {
+            format!("{distance:e} off, bound {:e}, small {small:e}", contact.point_bound)
+        });
+        if let Some(normal) = truth.normal()
+            && !contact.flags.contains(Flags::NORMAL_BY_CENTRES)
+        {
+            let angle = (contact.normal - normal).norm();
+            verdict.measures.normal_error = Some(angle);
+            // How fast a normal turns along the surface, times how well the point is known.
+            let known = contact.point_bound + 8.0 * EPS * scene.length;
+            let allowed = 8.0 * EPS + 2.0 * (truth.a.bend() + truth.b.bend()) * known;
+            verdict.check(angle <= allowed, Failure::Normal, || format!("{angle:e} off, allowed {allowed:e}"));
+        }
+    }
+}
+
+/// What the regularisation of flat faces adds to the gap of s².
+fn flat_share(scene: &Scene, truth: &Optimum) -> f64 {
+    let missing = |p: &Particle| (FULL.flat_regularisation - p.sphericity()).max(0.0);
+    2.0 * (missing(scene.a) + missing(scene.b)) * truth.most.max(1.0).powi(2)
+}
+
+/// Remembers a pose a step away, or another pair, and solves this one.
+pub(super) fn warm(verdict: &mut Verdict, scene: &Scene, cold: &Contact, clock: &mut Cost, random: &mut Random) {
+    let small = scene.a.bounding_radius().min(scene.b.bounding_radius());
+    let step = small * 10f64.powf(-6.0 + 5.0 * random.uniform());
+    let mut memory = Memory::default();
+    if let Err(error) = scene.detect(&scene.moved(step * random.direction()), &FULL, Some(&mut memory)) {
+        verdict.fail(Failure::Error, format!("a step of {step:e}: {error}"));
+        return;
+    }
+    let answer = clock.time(Call::Warm, || scene.detect(&scene.at_b, &FULL, Some(&mut memory.clone())));
+    match answer {
+        Ok(warm) => {
+            verdict.paths.push((Call::Warm, path(&warm)));
+            same(verdict, cold, &warm, scene);
+        }
+        Err(error) => verdict.fail(Failure::Error, format!("warm: {error}")),
+    }
+    let quick =
+        clock.time(Call::QuickWarm, || scene.detect(&scene.at_b, &Settings::default(), Some(&mut memory.clone())));
+    match quick {
+        Ok(quick) => {
+            verdict.paths.push((Call::QuickWarm, path(&quick)));
+            let right = quick.kind == cold.kind || (cold.s - 1.0).abs() <= cold.gap;
+            verdict.check(right, Failure::Warm, || format!("quick {:?}, cold s={:e}", quick.flags, cold.s));
+        }
+        Err(error) => verdict.fail(Failure::Error, format!("quick and warm: {error}")),
+    }
+}
+
+fn same(verdict: &mut Verdict, cold: &Contact, warm: &Contact, scene: &Scene) {
+    let both = cold.gap + warm.gap;
+    verdict.check((cold.s - warm.s).abs() <= both, Failure::Warm, || {
+        format!("s={:e} cold and {:e} warm, gaps {both:e}", cold.s, warm.s)
+    });
+    let flat = scene.a.sphericity().min(scene.b.sphericity()) < 1e-12;
+    let off = (cold.branch_b - warm.branch_b).norm();
+    let allowed = cold.point_bound + warm.point_bound + 8.0 * EPS * scene.length;
+    verdict.check(flat || off <= allowed, Failure::Warm, || format!("points {off:e} apart, bounds {allowed:e}"));
+}
+
+pub(super) fn closest(verdict: &mut Verdict, scene: &Scene, midway: &Contact, bodies: &[Body; 2], clock: &mut Cost) {
+    let settings = |weight_on_a| Settings { formulation: Formulation::Closest, weight_on_a, ..FULL };
+    let answer = clock.time(Call::Closest, || scene.detect(&scene.at_b, &settings(0.0), None));
+    let (on_b, on_a) = match (answer, scene.detect(&scene.at_b, &settings(1.0), None)) {
+        (Ok(on_b), Ok(on_a)) => (on_b, on_a),
+        (Err(error), _) | (_, Err(error)) => {
+            verdict.fail(Failure::Error, format!("closest: {error}"));
+            return;
+        }
+    };
+    verdict.paths.push((Call::Closest, path(&on_b)));
+    verdict.check(on_b.kind == midway.kind, Failure::WrongSide, || {
+        format!("closest {:?}, midway {:?}", on_b.kind, midway.kind)
+    });
+    if on_b.flags.contains(Flags::SLACK) {
+        verdict.check(on_b.formulation == Formulation::Midway && on_b.s == midway.s, Failure::Malformed, || {
+            format!("slack, but {on_b:?}")
+        });
+        return;
+    }
+    surfaces(verdict, scene, &on_b, bodies);
+    let flat = scene.a.sphericity().min(scene.b.sphericity()) < 1e-12;
+    let lambda = on_b.weight / (1.0 - on_b.weight);
+    for (wanted, contact, s) in [(Wanted::OnB, &on_b, on_b.s), (Wanted::OnA, &on_a, on_a.s_b)] {
+        let point = &contact.branch_b;
+        let Some(truth) = optimum(&bodies[0], &bodies[1], wanted, point, lambda) else {
+            verdict.unjudged += 1;
+            continue;
+        };
+        if (truth.most - truth.least).abs() > 0.1 * contact.gap {
+            verdict.unjudged += 1;
+            // Not settled, but what is proved still counts.
+            let outside = s + contact.gap < truth.least || s - contact.gap > truth.most;
+            verdict.check(!outside, Failure::BoundOfS, || {
+                format!("{wanted:?}: s={s:e} ± {:e}, but in [{:e}, {:e}]", contact.gap, truth.least, truth.most)
+            });
+            continue;
+        }
+        verdict.judged += 1;
+        let off = (s - truth.most).abs().min((s - truth.least).abs());
+        verdict.check(off <= contact.gap, Failure::BoundOfS, || {
+            format!("{wanted:?}: s={s:e} ± {:e}, truth {:e}", contact.gap, truth.most)
+        });
+        let distance = truth.x.minus(&Wide3::from(*point)).norm().f64();
+        if !flat && truth.doubt < 0.05 * contact.point_bound {
+            verdict.check(distance <= contact.point_bound + truth.doubt, Failure::BoundOfPoint, || {
+                format!("{wanted:?}: {distance:e} off, bound {:e}", contact.point_bound)
+            });
+        }
+    }
+}
+
+pub(super) fn by_cone_program(verdict: &mut Verdict, scene: &Scene, fast: &Contact) {
+    match scene.detect(&scene.at_b, &Settings { back_end: BackEnd::Conic, ..FULL }, None) {
+        Ok(conic) => {
+            verdict.conic = Some(true);
+            // clarabel stops at about 1e-8 of its own scaled numbers; its bound is no proof below that.
+            let allowed = 1e-6 * fast.s.max(1.0) + fast.gap + conic.gap;
+            verdict.check((conic.s - fast.s).abs() <= allowed, Failure::Conic, || {
+                format!("cone program s={:e} ± {:e}, fast {:e} ± {:e}", conic.s, conic.gap, fast.s, fast.gap)
+            });
+        }
+        // The judge may give up where the judged does not.
+        Err(_) => verdict.conic = Some(false),
+    }
+}
