@@ -80,7 +80,7 @@ pub(crate) fn solved(
     if !separated && scale.s >= 1.0 && scale.low < 1.0 && settings.flat_regularisation > least {
         // Where the bulge of a raised regularisation may hide an overlap, the particles as they are decide.
         let settings = Settings { flat_regularisation: least, ..*settings };
-        return detect(a, pose_a, b, pose_b, &settings, memory);
+        return solved(pair, [pose_a, pose_b], &settings, memory);
     }
     if let Some(memory) = memory {
         let overlapping = !separated && scale.s < 1.0;
