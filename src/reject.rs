@@ -74,7 +74,8 @@ pub(crate) fn still_apart(pair: &Pair, x: &Vector3<f64>) -> Option<Apart> {
     if !(lambda > 0.0 && least > 1.0 + lambda) {
         return None;
     }
-    let steepest = gradient_a.norm_squared().max(lambda * lambda * b.gradient.norm_squared()).sqrt();
+    let steep = |t: &potential::Tangent| t.gradient.norm() + blur * t.stiffness;
+    let steepest = steep(&a).max(lambda * steep(&b));
     Some(Apart::new(Flags::BY_MEMORY, (least - (1.0 + lambda)) / steepest))
 }
 
