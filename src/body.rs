@@ -17,6 +17,8 @@ pub(crate) struct Body<'a> {
     centre: Vector3<f64>,
     /// Twice the distance of the centre from the origin: it enters the point as seen from here, rounded twice.
     twice_centre: f64,
+    /// Weight of the planes that the solver uses: the particle's own, or a lower one ([`Body::softened`]).
+    plane_weight: f64,
     /// Weight of the shadow sphere that the solver uses: the particle's own, or the regularised one.
     sphere_weight: f64,
 }
@@ -53,6 +55,34 @@ pub(crate) struct Local {
     count: u8,
 }
 
+/// A point of the particle's own frame, and which planes count there.
+pub(crate) trait Place {
+    fn point(&self) -> &Vector3<f64>;
+
+    /// No plane counts whose excess at the point is below −`early`.
+    fn early(&self) -> f64;
+
+    /// Whether plane `i`, with this excess at the point, counts.
+    fn counts(&self, particle: &Particle, i: usize, excess: f64) -> bool;
+}
+
+impl Place for Local {
+    #[inline]
+    fn point(&self) -> &Vector3<f64> {
+        &self.y
+    }
+
+    #[inline]
+    fn early(&self) -> f64 {
+        self.early
+    }
+
+    #[inline]
+    fn counts(&self, _: &Particle, i: usize, excess: f64) -> bool {
+        excess > self.blur || (excess > -self.early && !self.dropped().contains(&(i as u16)))
+    }
+}
+
 /// What a step does to the planes of a quadratic.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Verdict {
@@ -60,13 +90,13 @@ pub(crate) struct Verdict {
     /// The plane to be dropped before the model is solved again.
     pub drop: Option<usize>,
     /// Sum of the depths by which planes of doubtful sign may pull after all.
-    doubtful: f64,
+    pub doubtful: f64,
     /// The least depth of a plane of the quadratic after the step.
-    least: f64,
+    pub least: f64,
     /// Bound on the pull after the step.
-    pull: f64,
+    pub pull: f64,
     /// How many planes there are, or may be by rounding.
-    near: f64,
+    pub near: f64,
 }
 
 /// What a step does to the planes of a model, from best to worst.
@@ -92,9 +122,15 @@ impl<'a> Body<'a> {
             turned,
             centre,
             twice_centre: 2.0 * centre.norm(),
+            plane_weight: particle.plane_weight,
             sphere_weight: particle.sphere_weight.max(least_sphericity / particle.bounding_radius().powi(2)),
         };
         (body(pair.a, pair.rotation, true, pair.centre), body(pair.b, Matrix3::identity(), false, Vector3::zeros()))
+    }
+
+    /// The same body with planes that weigh at most this much: S nowhere larger.
+    pub fn softened(&self, plane_weight: f64) -> Self {
+        Self { plane_weight: self.plane_weight.min(plane_weight), ..*self }
     }
 
     /// Solver frame to local frame.
@@ -105,7 +141,7 @@ impl<'a> Body<'a> {
 
     /// A direction of the solver frame in the local frame.
     #[inline]
-    fn turn(&self, v: &Vector3<f64>) -> Vector3<f64> {
+    pub fn turn(&self, v: &Vector3<f64>) -> Vector3<f64> {
         if self.turned { self.rotation.tr_mul(v) } else { *v }
     }
 
@@ -138,20 +174,21 @@ impl<'a> Body<'a> {
     /// (Regularised) S with derivatives in the axes of `frame` (columns: axes in the solver frame), or of the solver
     /// frame itself.
     #[inline]
-    pub fn at(&self, local: &Local, frame: Option<&Matrix3<f64>>) -> Quadratic {
-        let turned = |rotation: Matrix3<f64>| self.quadratic(local, |n| rotation * n);
+    pub fn at(&self, place: &impl Place, frame: Option<&Matrix3<f64>>) -> Quadratic {
+        let turned = |rotation: Matrix3<f64>| self.quadratic(place, |n| rotation * n);
         match frame {
             Some(axes) if self.turned => turned(axes.tr_mul(&self.rotation)),
             Some(axes) => turned(axes.transpose()),
             None if self.turned => turned(self.rotation),
-            None => self.quadratic(local, |n| n),
+            None => self.quadratic(place, |n| n),
         }
     }
 
     #[inline]
-    fn quadratic(&self, local: &Local, turn: impl Fn(Vector3<f64>) -> Vector3<f64>) -> Quadratic {
-        let counts = |i, excess| local.counts(i, excess);
-        potential::turned(self.particle, self.sphere_weight, turn, &local.y, local.early, counts)
+    fn quadratic(&self, place: &impl Place, turn: impl Fn(Vector3<f64>) -> Vector3<f64>) -> Quadratic {
+        let weights = (self.plane_weight, self.sphere_weight);
+        let counts = |i, excess| place.counts(self.particle, i, excess);
+        potential::turned(self.particle, weights, turn, place.point(), place.early(), counts)
     }
 
     /// (Regularised) S at x along the direction e.
@@ -209,7 +246,7 @@ impl<'a> Body<'a> {
         let weak = if self.is_plain() { 0.0 } else { self.weakest(q) };
         p.visit_near(&y, far, |i, n, excess| {
             let depth = excess + n.dot(&e);
-            if !local.counts(i, excess) {
+            if !local.counts(p, i, excess) {
                 nearest = nearest.max(depth);
                 return;
             }
@@ -259,10 +296,9 @@ impl<'a> Body<'a> {
 
     /// Calls `visit` with the (solver frame) normal of each plane of the quadratic.
     #[inline]
-    pub fn normals(&self, local: &Local, mut visit: impl FnMut(Vector3<f64>)) {
-        let y = &local.y;
-        self.particle.visit_near(y, local.early, |i, n, excess| {
-            if local.counts(i, excess) {
+    pub fn normals(&self, place: &impl Place, mut visit: impl FnMut(Vector3<f64>)) {
+        self.particle.visit_near(place.point(), place.early(), |i, n, excess| {
+            if place.counts(self.particle, i, excess) {
                 visit(if self.turned { self.rotation * n } else { n });
             }
         });
@@ -271,7 +307,7 @@ impl<'a> Body<'a> {
     /// Bound on the rounding of S, given the quadratic.
     pub fn rounding(&self, local: &Local, q: &Quadratic) -> f64 {
         let blur = local.blur;
-        let planes = q.pull * blur + q.gradient.norm() * local.shift + self.particle.plane_weight * blur * blur;
+        let planes = q.pull * blur + q.gradient.norm() * local.shift + self.plane_weight * blur * blur;
         planes + ROUNDING * f64::EPSILON * q.value
     }
 
@@ -279,7 +315,7 @@ impl<'a> Body<'a> {
     /// the gradient is this long; with it the rounding of the sums at the point of expansion, carried along.
     pub fn rounding_after(&self, local: &Local, q: &Quadratic, verdict: &Verdict, step: f64, gradient: f64) -> f64 {
         let (shift, blur) = self.after(local, step);
-        let planes = (verdict.pull + verdict.near * self.particle.plane_weight * blur) * blur;
+        let planes = (verdict.pull + verdict.near * self.plane_weight * blur) * blur;
         planes + gradient * shift + q.pull * (blur - local.blur)
     }
 
@@ -312,12 +348,17 @@ impl<'a> Body<'a> {
 
     /// Weight of the planes in S.
     pub fn plane_weight(&self) -> f64 {
-        self.particle.plane_weight
+        self.plane_weight
+    }
+
+    /// Weight of the shadow sphere in (regularised) S.
+    pub fn sphere_weight(&self) -> f64 {
+        self.sphere_weight
     }
 
     /// Largest curvature that one plane can give S.
     pub fn plane_curvature(&self) -> f64 {
-        2.0 * self.particle.plane_weight
+        2.0 * self.plane_weight
     }
 
     /// Curvature of the shadow sphere's share of S, the least in any direction.
@@ -375,11 +416,6 @@ impl Local {
     /// Lower bound of [`Body::rounding`] where S has the given gradient.
     pub fn least_rounding(&self, gradient: &Vector3<f64>) -> f64 {
         self.blur * gradient.norm()
-    }
-
-    #[inline]
-    fn counts(&self, i: usize, excess: f64) -> bool {
-        excess > self.blur || (excess > -self.early && !self.dropped().contains(&(i as u16)))
     }
 
     fn dropped(&self) -> &[u16] {

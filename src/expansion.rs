@@ -1,6 +1,6 @@
 //! Both quadratics at a point, and the step to their optimum.
 
-use crate::body::{Body, Local, Planes, Verdict};
+use crate::body::{Body, Local, Place, Planes, Verdict};
 use crate::frame;
 use crate::model::{Model, Optimum};
 use crate::potential::Quadratic;
@@ -88,6 +88,19 @@ impl Expansion {
         Self { x, axes, locals, q_a, q_b }
     }
 
+    /// About a point, in safe axes, with the planes that count in `places`.
+    pub fn about(
+        bodies: [&Body; 2],
+        x: Vector3<f64>,
+        locals: [Local; 2],
+        places: &[impl Place; 2],
+        weights: (f64, f64),
+    ) -> Self {
+        let axes = Some(frame::aligned(bodies, weights, places));
+        let [q_a, q_b] = [0, 1].map(|i| bodies[i].at(&places[i], axes.as_ref()));
+        Self { x, axes, locals, q_a, q_b }
+    }
+
     /// A direction of the solver's frame in the axes of the quadratics.
     pub fn to_axes(&self, v: &Vector3<f64>) -> Vector3<f64> {
         self.axes.map_or(*v, |axes| axes.tr_mul(v))
@@ -133,12 +146,6 @@ impl Expansion {
             return Some(self.step(bodies, model.settle(step.optimum)?));
         }
         Some(step)
-    }
-
-    /// The same for a fixed λ.
-    pub fn weighted(&self, bodies: [&Body; 2], target: Target, lambda: f64) -> Option<Step> {
-        let model = Model::new(&self.q_a, &self.q_b, softest(bodies[0], bodies[1]), target);
-        Some(self.step(bodies, model.at(lambda)?))
     }
 
     /// Drops the planes that a step says.

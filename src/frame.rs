@@ -5,15 +5,15 @@
 //! remainder, q₃ = q₁ × q₂ the Hessian is graded, and elimination in this order keeps each
 //! direction's own relative precision.
 
-use crate::body::{Body, Local};
+use crate::body::{Body, Place};
 use nalgebra::{Matrix3, Vector3};
 
 /// Square of the sine below which what is left of a normal is rounding.
 const PARALLEL: f64 = 1e-30;
 
 /// Orthonormal axes (columns), stiffest first, from the planes of both quadratics with weights (a, b).
-pub(crate) fn aligned(bodies: [&Body; 2], weights: (f64, f64), locals: &[Local; 2]) -> Matrix3<f64> {
-    let bodies = [(bodies[0], &locals[0], weights.0), (bodies[1], &locals[1], weights.1)];
+pub(crate) fn aligned(bodies: [&Body; 2], weights: (f64, f64), places: &[impl Place; 2]) -> Matrix3<f64> {
+    let bodies = [(bodies[0], &places[0], weights.0), (bodies[1], &places[1], weights.1)];
     let Some(first) = stiffest(bodies, |n| n).try_normalize(0.0) else {
         return Matrix3::identity();
     };
@@ -27,11 +27,11 @@ pub(crate) fn aligned(bodies: [&Body; 2], weights: (f64, f64), locals: &[Local; 
 }
 
 /// The remainder of an active normal that carries the largest curvature.
-fn stiffest(bodies: [(&Body, &Local, f64); 2], remainder: impl Fn(Vector3<f64>) -> Vector3<f64>) -> Vector3<f64> {
+fn stiffest(bodies: [(&Body, &impl Place, f64); 2], remainder: impl Fn(Vector3<f64>) -> Vector3<f64>) -> Vector3<f64> {
     let (mut best, mut most) = (Vector3::zeros(), 0.0);
-    for (body, local, scale) in bodies {
+    for (body, place, scale) in bodies {
         let weight = scale * body.plane_curvature();
-        body.normals(local, |n| {
+        body.normals(place, |n| {
             let rest = remainder(n);
             let stiffness = weight * rest.norm_squared();
             if stiffness > most && rest.norm_squared() > PARALLEL * n.norm_squared() {

@@ -17,7 +17,7 @@
 //! | [`symmetric`], `target` | small matrices, and which point of two bodies is wanted |
 //! | `model` | two quadratics solved exactly: midway and both closest points on one curve |
 //! | `frame`, `line`, `spine` | the fast solver: Newton on that model, safe axes, safe steps |
-//! | `dual` | the safe way to the ratio of weights, where the fast one goes in circles |
+//! | `anchored` | the safe solver, finite, where the fast one goes in circles |
 //! | `certificate` | how far an answer can be from the optimum |
 //! | [`conic`] | the paper's second-order cone programs through clarabel: the reference |
 //! | [`contact`] | point, normal, overlap from a solution |
@@ -27,6 +27,7 @@
 //! | [`planar`] | the same for particles of the plane |
 //! | [`ffi`] | the C interface |
 
+mod anchored;
 pub mod area;
 mod body;
 pub mod bounds;
@@ -34,7 +35,6 @@ mod certificate;
 pub mod conic;
 pub mod contact;
 pub mod detect;
-mod dual;
 mod expansion;
 pub mod ffi;
 mod frame;

@@ -74,14 +74,9 @@ pub(crate) struct Descent {
     pub slope_b: f64,
 }
 
-/// What is to become small along the line.
+/// The merit of a target at λ.
 #[derive(Clone, Copy, Debug)]
-pub(crate) enum Merit {
-    /// The merit of a target at λ.
-    Of(Target, f64),
-    /// a·S_A + b·S_B.
-    Sum(f64, f64),
-}
+pub(crate) struct Merit(pub Target, pub f64);
 
 impl Merit {
     /// The two functions whose larger one is the merit.
@@ -91,11 +86,11 @@ impl Merit {
             slope: weight_p * p.slope + weight_q * q.slope,
             curvature: weight_p * p.curvature + weight_q * q.curvature,
         };
-        match self {
-            Self::Of(Target::Midway, _) => [a, b],
-            Self::Of(Target::OnB, lambda) => [a, sum(a, 1.0, b, PRICE * lambda, 1.0)],
-            Self::Of(Target::OnA, lambda) => [b, sum(b, 1.0, a, PRICE / lambda, 1.0)],
-            Self::Sum(weight_a, weight_b) => [sum(a, weight_a, b, weight_b, 0.0); 2],
+        let Self(target, lambda) = self;
+        match target {
+            Target::Midway => [a, b],
+            Target::OnB => [a, sum(a, 1.0, b, PRICE * lambda, 1.0)],
+            Target::OnA => [b, sum(b, 1.0, a, PRICE / lambda, 1.0)],
         }
     }
 }

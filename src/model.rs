@@ -122,6 +122,13 @@ impl<'a> Model<'a> {
         Some(Optimum { along, rate: -w0.dot(&along), exact: true, ..found })
     }
 
+    /// What a step and a λ are worth that another model found.
+    pub fn held(&self, step: Vector3<f64>, lambda: f64) -> Option<Optimum> {
+        let at = self.at(lambda)?;
+        let found = self.after(step, lambda, at.factor);
+        Some(Optimum { along: at.along, rate: at.rate, exact: true, settled: true, ..found })
+    }
+
     /// The quadratics after a step.
     #[inline(always)]
     fn after(&self, step: Vector3<f64>, lambda: f64, factor: Factor) -> Optimum {
@@ -132,8 +139,9 @@ impl<'a> Model<'a> {
         Optimum { step, gradients, values, lambda, settled: false, factor, exact: false, along, rate: 0.0 }
     }
 
+    /// Searches λ from an optimum on.
     #[inline(always)]
-    fn search(&self, first: Optimum, enough: f64) -> Option<Optimum> {
+    pub fn search(&self, first: Optimum, enough: f64) -> Option<Optimum> {
         let mut found = first;
         let (nearest, farthest) = (found.lambda / FARTHEST, found.lambda * FARTHEST);
         let (mut low, mut high) = (nearest, farthest);
@@ -338,6 +346,11 @@ impl Response {
         let square = |x: f64, y: f64, z: f64| x * x + y * y + z * z;
         let moves = Vector3::new(square(m.xx, m.yx, m.zx), square(m.yx, m.yy, m.zy), square(m.zx, m.zy, m.zz));
         SUMS * weight * (3.0 * q.terms(v) * q.hessian.diagonal().dot(&moves)).sqrt()
+    }
+
+    /// The move of the optimum when a·g_A + b·g_B grows by a slope.
+    pub fn to(&self, slope: &Vector3<f64>) -> Vector3<f64> {
+        self.to_slope.times(slope)
     }
 
     /// Bound on the move when α·q_A + β·q_B is off by `value`.

@@ -80,11 +80,11 @@ pub fn value(particle: &Particle, y: &Vector3<f64>) -> f64 {
 
 /// S, ∇S, ∇²S at y, local frame.
 pub fn local(particle: &Particle, y: &Vector3<f64>) -> Quadratic {
-    turned(particle, particle.sphere_weight, |n| n, y, 0.0, |_, excess| excess > 0.0)
+    turned(particle, (particle.plane_weight, particle.sphere_weight), |n| n, y, 0.0, |_, excess| excess > 0.0)
 }
 
 /// S, ∇S, ∇²S at the local point y, with derivatives in the frame that `turn` takes local directions to, and
-/// with a weight of the shadow sphere that may differ from the particle's own. `counts` says of a
+/// with weights of the planes and of the shadow sphere that may differ from the particle's own. `counts` says of a
 /// plane and its n·y − d whether it belongs to the quadratic; none below −`early` does.
 ///
 /// Each active normal is turned before it is squared, not the finished Hessian: in a frame aligned
@@ -92,7 +92,7 @@ pub fn local(particle: &Particle, y: &Vector3<f64>) -> Quadratic {
 #[inline]
 pub(crate) fn turned(
     particle: &Particle,
-    sphere_weight: f64,
+    (plane_weight, sphere_weight): (f64, f64),
     turn: impl Fn(Vector3<f64>) -> Vector3<f64>,
     y: &Vector3<f64>,
     early: f64,
@@ -117,11 +117,11 @@ pub(crate) fn turned(
             squares.add_square(&n);
         }
     });
-    let (w2, m2) = (2.0 * particle.plane_weight, 2.0 * sphere_weight);
-    let value = particle.plane_weight * square + sphere_weight * y.norm_squared();
+    let (w2, m2) = (2.0 * plane_weight, 2.0 * sphere_weight);
+    let value = plane_weight * square + sphere_weight * y.norm_squared();
     Quadratic {
         value,
-        expansion: value + particle.plane_weight * not_yet,
+        expansion: value + plane_weight * not_yet,
         gradient: w2 * g + m2 * turn(*y),
         hessian: squares.scaled(w2, m2),
         pull: w2 * linear,

@@ -1,10 +1,10 @@
 //! One pair being solved: the ladder of solvers, and what it has cost so far.
 
+use crate::anchored;
 use crate::body::Body;
 use crate::certificate::{self, Certified};
 use crate::conic::{self, ConicError, Role};
 use crate::contact::Flags;
-use crate::dual;
 use crate::expansion::{self, Expansion, Factorisation, Piece, Start};
 use crate::outcome::{Ending, Outcome};
 use crate::pair::Pair;
@@ -31,10 +31,12 @@ pub(crate) struct Search<'a> {
 pub(crate) struct Answer {
     pub outcome: Outcome,
     pub expansion: Expansion,
+    /// Weights of the planes in the problem that it answers, where the safe solver gave it.
+    pub softened: Option<[f64; 2]>,
 }
 
 impl Answer {
-    pub const BLANK: Self = Self { outcome: Outcome::UNKNOWN, expansion: Expansion::BLANK };
+    pub const BLANK: Self = Self { outcome: Outcome::UNKNOWN, expansion: Expansion::BLANK, softened: None };
 
     /// Where a neighbouring problem of the same pair may begin.
     fn start(&self) -> Start {
@@ -72,7 +74,9 @@ impl<'a> Search<'a> {
         if centre_inside {
             return Ok(None);
         }
-        self.solve(target, midway.map(Answer::start), midway.map(|midway| &midway.expansion), answer)?;
+        // The quadratics of a softened problem are those of no other.
+        let left = midway.filter(|midway| midway.softened.is_none()).map(|midway| &midway.expansion);
+        self.solve(target, midway.map(Answer::start), left, answer)?;
         let scale = self.certify(answer, target);
         // A scale that cannot be told from 0 belongs to a core.
         Ok((scale.s > scale.gap).then_some(scale))
@@ -85,15 +89,21 @@ impl<'a> Search<'a> {
 
     /// S_A and S_B along a direction from the point of an answer.
     pub fn pieces(&self, answer: &Answer, n: &Vector3<f64>) -> [Piece; 2] {
-        answer.expansion.pieces([&self.body_a, &self.body_b], &answer.outcome.x, n)
+        let pieces = answer.expansion.pieces([&self.body_a, &self.body_b], &answer.outcome.x, n);
+        // Quadratics of a softened problem tell no more than the way.
+        if answer.softened.is_some() { pieces.map(|piece| Piece { reach: 0.0, ..piece }) } else { pieces }
     }
 
     /// Bound on the distance from the point of an answer to the optimum.
     pub fn bound(&self, answer: &Answer, target: Target) -> f64 {
-        certificate::distance(&answer.outcome, &answer.expansion, &self.body_a, &self.body_b, target)
+        let bound = |a: &Body, b: &Body| certificate::distance(&answer.outcome, &answer.expansion, a, b, target);
+        match answer.softened {
+            None => bound(&self.body_a, &self.body_b),
+            Some([w_a, w_b]) => bound(&self.body_a.softened(w_a), &self.body_b.softened(w_b)),
+        }
     }
 
-    /// The ladder: from the start at hand, cold, with the safer factorisation, and by the cone program.
+    /// The ladder: from the start at hand, cold, by the safe solver, and by the cone program.
     #[inline(always)]
     fn solve(
         &mut self,
@@ -124,7 +134,7 @@ impl<'a> Search<'a> {
         Ok(())
     }
 
-    /// The rungs after the first: cold, and with the safer axes from the end of the safe way to λ.
+    /// The rungs after the first: cold, and by the safe solver.
     #[cold]
     fn further(&mut self, target: Target, warm: bool, usual: Factorisation, answer: &mut Answer) {
         if warm {
@@ -134,12 +144,11 @@ impl<'a> Search<'a> {
         if answer.outcome.ending == Ending::Stuck {
             let cold = start::on_centre_line(self.pair, &self.body_a, &self.body_b);
             let bodies = [&self.body_a, &self.body_b];
-            let (start, models) = dual::start(bodies, target, &cold, Factorisation::Aligned);
-            self.iterations += models;
-            if let Some(start) = start {
-                self.rung(target, &start, None, Factorisation::Aligned, answer);
-            }
+            let found = anchored::solve(bodies, &self.goal(target), &cold, &mut answer.expansion);
+            self.iterations += found.models;
+            answer.outcome = found.outcome;
             if answer.outcome.ending != Ending::Stuck {
+                answer.softened = Some(found.plane_weights);
                 self.flags.insert(Flags::SAFER);
             }
         }
@@ -159,13 +168,17 @@ impl<'a> Search<'a> {
             Some(expansion) => *expansion,
             None => Expansion::at(bodies, start, target, factorisation),
         };
-        let goal = Goal {
+        answer.outcome =
+            spine::solve(bodies[0], bodies[1], &self.goal(target), start, factorisation, &mut answer.expansion);
+        self.iterations += answer.outcome.iterations;
+    }
+
+    fn goal(&self, target: Target) -> Goal {
+        Goal {
             target,
             tolerance: self.settings.gap_tolerance,
             stop_when_separated: target == Target::Midway && !self.settings.solve_separated,
-        };
-        answer.outcome = spine::solve(bodies[0], bodies[1], &goal, start, factorisation, &mut answer.expansion);
-        self.iterations += answer.outcome.iterations;
+        }
     }
 
     #[cold]

@@ -52,7 +52,7 @@ pub(crate) fn on_centre_line(pair: &Pair, a: &Body, b: &Body) -> Start {
         return Start { x: Vector3::zeros(), lambda: 1.0, near: false };
     }
     let line::Descent { alpha, slope_a, slope_b, .. } =
-        line::descend(a, b, Merit::Of(Target::Midway, 1.0), &from, &direction, (guess, 1.0));
+        line::descend(a, b, Merit(Target::Midway, 1.0), &from, &direction, (guess, 1.0));
     // (1−u) S_A' + u S_B' = 0 on the line.
     let lambda = -slope_a / slope_b;
     let lambda = if lambda > 0.0 && lambda.is_finite() { lambda } else { 1.0 };
