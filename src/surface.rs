@@ -36,9 +36,9 @@ pub(crate) fn distance_near(
     let (mut inside, mut outside) = (f64::NEG_INFINITY, f64::INFINITY);
     let mut newton_from_outside = f64::NAN;
     // No surface point is further off than this.
-    let farthest = from.norm() + particle.bounding_radius();
+    let start = from.norm();
+    let farthest = start + particle.bounding_radius();
     let mut tau = if guess.abs() <= farthest { guess } else { 0.0 };
-    let rounding = 2.0 * f64::EPSILON * (from.norm() + particle.bounds.offset_within(farthest).min(farthest));
     let mut first = true;
     for _ in 0..MOST_STEPS {
         let line = at(tau);
@@ -46,6 +46,8 @@ pub(crate) fn distance_near(
             return None;
         }
         let newton = tau - line.value / line.slope;
+        let lengths = start + tau.abs();
+        let rounding = 2.0 * f64::EPSILON * (lengths + particle.bounds.offset_within(lengths).min(lengths));
         // From outside a Newton step misses by at most ½·curvature·step²/slope, since planes only go off on the way; from
         // inside others may come on, and only a step below the rounding of a point on the ray is the last.
         let step = newton - tau;
