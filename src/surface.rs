@@ -46,7 +46,7 @@ pub(crate) fn distance_near(
             return None;
         }
         let newton = tau - line.value / line.slope;
-        let lengths = start + tau.abs();
+        let lengths = start + newton.abs();
         let rounding = 2.0 * f64::EPSILON * (lengths + particle.bounds.offset_within(lengths).min(lengths));
         // From outside a Newton step misses by at most ½·curvature·step²/slope, since planes only go off on the way; from
         // inside others may come on, and only a step below the rounding of a point on the ray is the last.
