@@ -46,7 +46,7 @@ pub(crate) fn distance_near(
             return None;
         }
         let newton = tau - line.value / line.slope;
-        let lengths = start + newton.abs();
+        let lengths = start + newton.abs().min(tau.abs());
         let rounding = 2.0 * f64::EPSILON * (lengths + particle.bounds.offset_within(lengths).min(lengths));
         // From outside a Newton step misses by at most ½·curvature·step²/slope, since planes only go off on the way; from
         // inside others may come on, and only a step below the rounding of a point on the ray is the last.
@@ -61,9 +61,10 @@ pub(crate) fn distance_near(
             outside = tau;
             newton_from_outside = newton;
         }
-        let mut next = if first {
-            // The guess was none: on from where a plane alone brings S to 1.
-            beyond_a_plane(particle, from, direction, farthest)
+        // The guess was none: on from where a plane alone brings S to 1, if rounding on the long way to it left it ahead.
+        let beyond = if first { beyond_a_plane(particle, from, direction, farthest) } else { inside };
+        let mut next = if beyond > inside {
+            beyond
         } else if line.slope > 0.0 {
             tau + root_of_piece(line.value, line.slope, line.curvature)
         } else if outside == f64::INFINITY {
