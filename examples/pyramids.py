@@ -353,7 +353,7 @@ def answer_lines(answers):
     paths = {name: count for name, count in answers.items() if name != "overlapping"}
     total = sum(paths.values())
     apart = total - answers["overlapping"]
-    skipped = sum(paths[name] for name in ("spheres", "face", "memory"))
+    skipped = sum(paths[name] for name in ("motion", "spheres", "face", "memory"))
     if not apart:
         return
     yield f"{skipped / apart:.1%} of the pairs that do not touch needed no solve; of all pairs: " + (

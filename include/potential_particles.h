@@ -140,7 +140,8 @@ typedef struct pp_settings {
     double weight_on_a;
     // Smallest sphericity that the solver treats as given; below it, the point on a flat face
     // is chosen as if k were this value (shape, s and overlap stay those of the given k).
-    // In [0, 0.1], default 1e-13. Raise it (1e-4, say) when flat faces rattle in dynamics.
+    // In [0, 0.1], default 1e-13. Raise it (1e-4, say) when flat faces rattle in dynamics. Whether
+    // the particles overlap at all is never left to it: where it would be, the default decides.
     double flat_regularisation;
 } pp_settings;
 
@@ -204,6 +205,9 @@ typedef struct pp_contact {
     double point_on_a[3];
     // Point on the surface of B inside A, world frame; P2 of closest. NaN when separated.
     double point_on_b[3];
+    // Separated: proved lower bound on the distance between the two particles, length; 0 when the proof knows none.
+    // Until their surfaces have come closer to each other by as much, they stay separated. NaN when overlapping.
+    double distance;
 } pp_contact;
 
 // Volume and inertia of a particle of unit density, in its local frame.

@@ -5,4 +5,5 @@ cd "$(dirname "$0")/.."
 
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
-env -u STEPS -u BODIES -u STARTS -u KILLS OUTPUT="$folder" tests/yade/long/run.py --short
+# Empty, as make hands them over.
+STEPS="" BODIES="" STARTS="" KILLS="" OUTPUT="$folder" tests/yade/long/run.py --short

@@ -53,7 +53,7 @@ struct Side<'a> {
 }
 
 /// Room for lines on the stack, cleared at each call: usually the smaller one is enough.
-const ROOMS: [usize; 2] = [24, 256];
+const ROOMS: [usize; 2] = [32, 256];
 
 impl Section {
     /// Area of the intersection of both particles with this plane, length².
@@ -142,7 +142,7 @@ fn exact(sides: &[Side; 2]) -> Result<f64, Trouble> {
 /// Apart from its callers, so that only the room in use is on the stack.
 #[inline(never)]
 fn in_room<const LINES: usize>(sides: &[Side; 2]) -> Result<f64, Trouble> {
-    let [mut room_a, mut room_b] = [[Line::default(); LINES]; 2];
+    let (mut room_a, mut room_b) = ([Line::default(); LINES], [Line::default(); LINES]);
     common(sides, &mut room_a, &mut room_b)
 }
 

@@ -109,17 +109,16 @@ impl<'a> Body<'a> {
         if self.turned { self.rotation.tr_mul(v) } else { *v }
     }
 
-    /// The largest √w·(n·x − d), and the place of its plane.
+    /// The largest n·x − d, and the place of its plane.
     #[inline]
-    pub fn highest(&self, x: &Vector3<f64>) -> (f64, usize) {
-        let (excess, place) = self.particle.farthest_excess(&self.local(x));
-        (self.particle.plane_weight.sqrt() * excess, place)
+    pub fn farthest_excess(&self, x: &Vector3<f64>) -> (f64, usize) {
+        self.particle.farthest_excess(&self.local(x))
     }
 
-    /// √w·n of a plane, solver frame.
+    /// The normal of a plane, solver frame.
     #[inline]
-    pub fn scaled_normal(&self, place: usize) -> Vector3<f64> {
-        let n = self.particle.plane_weight.sqrt() * self.particle.normal(place);
+    pub fn normal(&self, place: usize) -> Vector3<f64> {
+        let n = self.particle.normal(place);
         if self.turned { self.rotation * n } else { n }
     }
 

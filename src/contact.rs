@@ -89,6 +89,8 @@ pub struct Contact {
     pub point_bound: f64,
     /// Overlap, > 0 when overlapping; NaN when separated.
     pub overlap: f64,
+    /// Separated: the particles are at least this far from each other, as far as the proof knows; NaN when overlapping.
+    pub distance: f64,
     /// Unit normal from A to B.
     pub normal: Vector3<f64>,
     /// Contact point, world frame.
@@ -182,6 +184,7 @@ impl Contact {
             gap: f64::NAN,
             point_bound: f64::NAN,
             overlap: f64::NAN,
+            distance: 0.0,
             normal: nan,
             point: nan,
             branch_a: nan,

@@ -8,7 +8,7 @@ use crate::outcome::Ending;
 use crate::pair::Pair;
 use crate::particle::Particle;
 use crate::pose::Pose;
-use crate::reject;
+use crate::reject::{self, Apart};
 use crate::search::{Answer, Search};
 use crate::settings::{BackEnd, Formulation, Settings, SettingsError};
 use crate::target::Target;
@@ -50,13 +50,24 @@ pub fn detect(
 ) -> Result<Contact, DetectError> {
     settings.validate()?;
     let pair = Pair::new(a, pose_a, b, pose_b);
-    let last = memory.as_deref().and_then(|memory| memory.last);
-    if !settings.solve_separated
-        && let Some(proof) = rejected(&pair, last)
-    {
-        return Ok(Contact { flags: proof, ..Contact::separated(settings.formulation, 1.0) });
+    if let Some(proof) = rejected(&pair, settings, memory.as_deref()) {
+        let flags = proof.by.with(Flags::REJECTED);
+        return Ok(Contact { flags, distance: proof.distance, ..Contact::separated(settings.formulation, 1.0) });
     }
-    let mut search = Search::new(&pair, settings);
+    solved(&pair, [pose_a, pose_b], settings, memory)
+}
+
+/// The contact of a pair that no cheap proof holds apart. In a frame of its own: it is large, and most pairs of a scene
+/// need none.
+#[inline(never)]
+pub(crate) fn solved(
+    pair: &Pair,
+    [pose_a, pose_b]: [&Pose; 2],
+    settings: &Settings,
+    memory: Option<&mut Memory>,
+) -> Result<Contact, DetectError> {
+    let last = memory.as_deref().and_then(|memory| memory.last);
+    let mut search = Search::new(pair, settings);
     let start = last.map(|last| Start { x: last.x, lambda: last.lambda, near: true });
     if start.is_some() && settings.back_end == BackEnd::Fast {
         search.flags.insert(Flags::WARM);
@@ -65,6 +76,12 @@ pub fn detect(
     search.midway(start, &mut midway)?;
     let scale = search.certify(&midway, Target::Midway);
     let separated = midway.outcome.ending == Ending::Separated;
+    let least = Settings::default().flat_regularisation;
+    if !separated && scale.s >= 1.0 && scale.low < 1.0 && settings.flat_regularisation > least {
+        // Where the bulge of a raised regularisation may hide an overlap, the particles as they are decide.
+        let settings = Settings { flat_regularisation: least, ..*settings };
+        return solved(pair, [pose_a, pose_b], &settings, memory);
+    }
     if let Some(memory) = memory {
         let overlapping = !separated && scale.s < 1.0;
         memory.last = Some(Remembered { x: midway.outcome.x, lambda: midway.outcome.lambda, overlapping });
@@ -76,23 +93,28 @@ pub fn detect(
         return Ok(contact);
     }
     let mut contact = Contact::separated(settings.formulation, scale.s);
-    contact.kind = if scale.s < 1.0 { Kind::Overlapping } else { Kind::Separated };
-    let local = describe(&mut search, settings, &pair, &midway, scale, &mut contact)?;
+    if scale.s < 1.0 {
+        (contact.kind, contact.distance) = (Kind::Overlapping, f64::NAN);
+    }
+    let local = describe(&mut search, settings, pair, &midway, scale, &mut contact)?;
     contact.flags = search.flags;
     (contact.iterations, contact.back_end) = (search.iterations, search.answered);
-    contact.place(&local, &pair, pose_a, pose_b);
+    contact.place(&local, pair, pose_a, pose_b);
     Ok(contact)
 }
 
-/// Whether a cheap proof of separation succeeds, and which one.
-fn rejected(pair: &Pair, last: Option<Remembered>) -> Option<Flags> {
-    let proofs = match last {
+/// A cheap proof of separation, if one succeeds and will do.
+#[inline]
+pub(crate) fn rejected(pair: &Pair, settings: &Settings, memory: Option<&Memory>) -> Option<Apart> {
+    if settings.solve_separated {
+        return None;
+    }
+    match memory.and_then(|memory| memory.last) {
         // Of a pair that overlapped, only the cheapest proof is worth a try.
-        Some(Remembered { overlapping: true, .. }) => reject::balls_apart(pair).then_some(Flags::BY_SPHERES),
-        Some(last) if reject::still_apart(pair, &last.x) => Some(Flags::BY_MEMORY),
-        _ => reject::proof_of_separation(pair),
-    };
-    proofs.map(|proof| proof.with(Flags::REJECTED))
+        Some(Remembered { overlapping: true, .. }) => reject::balls_apart(pair),
+        Some(last) => reject::still_apart(pair, &last.x).or_else(|| reject::proof_of_separation(pair)),
+        None => reject::proof_of_separation(pair),
+    }
 }
 
 /// The geometry that the settings ask for, from the solution of midway; what else is known goes into `contact`.

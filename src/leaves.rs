@@ -55,30 +55,16 @@ impl Leaves {
         most_left_out
     }
 
-    /// Runs of planes that may have n·y − d > 0 somewhere in a disc of that radius around a centre, in the plane
-    /// of two axes (unit vectors at right angles); no others have.
-    pub fn reaching(
-        &self,
-        centre: &Vector3<f64>,
-        axes: &[Vector3<f64>; 2],
-        radius: f64,
-    ) -> impl Iterator<Item = Range<usize>> + '_ {
-        let (centre, axes, single) = (*centre, *axes, self.single());
-        let length = centre.norm() * (1.0 + 1e-14);
-        let reaches = move |leaf: &&Leaf| {
-            let rate = leaf.middle.dot(&axes[0]).hypot(leaf.middle.dot(&axes[1])) * (1.0 + 1e-14) + leaf.spread;
-            single || leaf.bound(&centre, length) + radius * rate >= 0.0
-        };
-        self.0.iter().filter(reaches).map(|leaf| leaf.planes.clone())
-    }
-
     /// The largest of the numbers that `largest_of` gives for runs of planes, each with n·y − d; runs that cannot
     /// hold a larger one than is known already are left out.
     pub fn largest(&self, y: &Vector3<f64>, mut largest_of: impl FnMut(Range<usize>) -> (f64, usize)) -> (f64, usize) {
+        if let [all] = &self.0[..] {
+            return largest_of(all.planes.clone());
+        }
         let length = y.norm() * (1.0 + 1e-14);
         let mut largest = (f64::NEG_INFINITY, 0);
         for leaf in &self.0 {
-            if self.single() || leaf.bound(y, length) > largest.0 {
+            if leaf.bound(y, length) > largest.0 {
                 let found = largest_of(leaf.planes.clone());
                 if found.0 > largest.0 {
                     largest = found;

@@ -1,6 +1,6 @@
 //! Rigid poses, and the one change of frame that a contact call makes.
 
-use nalgebra::{Matrix3, Quaternion, UnitQuaternion, Vector3};
+use nalgebra::{Matrix3, Vector3};
 use thiserror::Error;
 
 /// Why numbers do not make a pose.
@@ -34,13 +34,25 @@ impl Pose {
             return Err(PoseError::Position(x, y, z));
         }
         let [w, i, j, k] = orientation;
-        let quaternion = Quaternion::new(w, i, j, k);
-        let length = quaternion.norm();
-        if !(1e-150..=1e150).contains(&length) {
+        let square = w * w + i * i + j * j + k * k;
+        if !(1e-300..=1e300).contains(&square) {
             return Err(PoseError::Orientation(w, i, j, k));
         }
-        let unit = UnitQuaternion::new_unchecked(quaternion / length);
-        Ok(Self { position: Vector3::from(position), rotation: unit.to_rotation_matrix().into_inner() })
+        // The matrix of the unit quaternion, without its root.
+        let t = 2.0 / square;
+        let (ti, tj, tk) = (t * i, t * j, t * k);
+        let rotation = Matrix3::new(
+            1.0 - (tj * j + tk * k),
+            ti * j - tk * w,
+            ti * k + tj * w,
+            ti * j + tk * w,
+            1.0 - (ti * i + tk * k),
+            tj * k - ti * w,
+            ti * k - tj * w,
+            tj * k + ti * w,
+            1.0 - (ti * i + tj * j),
+        );
+        Ok(Self { position: Vector3::from(position), rotation })
     }
 
     /// No rotation, at a position.

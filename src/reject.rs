@@ -9,25 +9,41 @@ use nalgebra::{Matrix3, Vector3};
 /// Rounding of the sums below, relative to the lengths in them; thirty times what they can lose.
 const MARGIN: f64 = 1e-14;
 
-/// Whether two balls that hold the particles prove that they share no point.
-pub fn balls_apart(pair: &Pair) -> bool {
-    pair.centre.norm() * (1.0 - MARGIN) > pair.a.bounding_radius() + pair.b.bounding_radius()
+/// A proof that two particles share no point.
+#[derive(Clone, Copy, Debug)]
+pub struct Apart {
+    /// Which proof.
+    pub by: Flags,
+    /// The particles are at least this far from each other, length.
+    pub distance: f64,
+}
+
+impl Apart {
+    /// From a distance that is known but for the rounding of a few operations on it.
+    fn new(by: Flags, distance: f64) -> Self {
+        Self { by, distance: distance * (1.0 - MARGIN) }
+    }
+}
+
+/// Two balls that hold the particles and do not meet.
+pub fn balls_apart(pair: &Pair) -> Option<Apart> {
+    let distance = pair.centre.norm() * (1.0 - MARGIN) - (pair.a.bounding_radius() + pair.b.bounding_radius());
+    (distance > 0.0).then(|| Apart::new(Flags::BY_SPHERES, distance))
 }
 
 /// A cheap proof, by balls or by faces, that the particles share no point.
-pub fn proof_of_separation(pair: &Pair) -> Option<Flags> {
+pub fn proof_of_separation(pair: &Pair) -> Option<Apart> {
     let (a, b) = (pair.a, pair.b);
-    if balls_apart(pair) {
-        return Some(Flags::BY_SPHERES);
-    }
-    let distance = pair.centre.norm();
-    let b_in_a = pair.in_a(&Vector3::zeros());
-    let apart = beyond_a_face(a, &b_in_a, b, &pair.rotation, distance)
-        || beyond_a_face(b, &pair.centre, a, &pair.rotation.transpose(), distance);
-    apart.then_some(Flags::BY_FACE)
+    balls_apart(pair).or_else(|| {
+        let distance = pair.centre.norm();
+        let b_in_a = pair.in_a(&Vector3::zeros());
+        beyond_a_face(a, &b_in_a, b, &pair.rotation, distance)
+            .or_else(|| beyond_a_face(b, &pair.centre, a, &pair.rotation.transpose(), distance))
+            .map(|distance| Apart::new(Flags::BY_FACE, distance))
+    })
 }
 
-/// Whether the tangents of both potentials at x (frame of B) prove that the particles share no point.
+/// What the tangents of both potentials at x (frame of B) prove, if that the particles share no point.
 ///
 /// S is convex, so that for any λ > 0 and any y that both hold
 ///
@@ -37,7 +53,10 @@ pub fn proof_of_separation(pair: &Pair) -> Option<Flags> {
 ///
 /// and |y − x| is at most the way to the far side of either ball. At the optimum of midway the gradients
 /// are opposite, and the point of the last call is near it.
-pub(crate) fn still_apart(pair: &Pair, x: &Vector3<f64>) -> bool {
+///
+/// Of two points at a distance d, one in A and one in B, the left side gains |∇S_A(x)|·d or λ|∇S_B(x)|·d, whichever of
+/// the two points y is: what is left above 1 + λ, over the larger of them, is a distance that no two points keep below.
+pub(crate) fn still_apart(pair: &Pair, x: &Vector3<f64>) -> Option<Apart> {
     let (from_a, from_b) = (x - pair.centre, *x);
     let a = potential::tangent(pair.a, &pair.rotation.tr_mul(&from_a));
     let b = potential::tangent(pair.b, &from_b);
@@ -52,10 +71,14 @@ pub(crate) fn still_apart(pair: &Pair, x: &Vector3<f64>) -> bool {
     let blur = MARGIN * lengths;
     let doubt = |t: &potential::Tangent| blur * (t.pull + t.stiffness * (blur + reach)) + MARGIN * t.value;
     let least = a.value + lambda * b.value - slope * reach - doubt(&a) - lambda * doubt(&b);
-    lambda > 0.0 && least > 1.0 + lambda
+    if !(lambda > 0.0 && least > 1.0 + lambda) {
+        return None;
+    }
+    let steepest = gradient_a.norm_squared().max(lambda * lambda * b.gradient.norm_squared()).sqrt();
+    Some(Apart::new(Flags::BY_MEMORY, (least - (1.0 + lambda)) / steepest))
 }
 
-/// Whether `other`, centred at `centre` in the frame of `host`, lies beyond a face of `host`.
+/// How far `other`, centred at `centre` in the frame of `host`, lies beyond a face of `host`, if it does.
 ///
 /// f ≤ 0 implies n·x ≤ d + r/√(1−k). The ball of `other` is tried against every face; its corners, which
 /// are tighter, against the face that its centre lies furthest beyond. `to_other` takes
@@ -66,9 +89,9 @@ fn beyond_a_face(
     other: &Particle,
     to_other: &Matrix3<f64>,
     distance: f64,
-) -> bool {
+) -> Option<f64> {
     if host.is_sphere() {
-        return false;
+        return None;
     }
     let ball = other.bounding_radius();
     let (most, face) = host.farthest_excess(centre);
@@ -77,5 +100,81 @@ fn beyond_a_face(
     let reach = host.bounds.face_reach;
     let slack = MARGIN * (distance * length + host.offset(face).abs() + reach + ball * length);
     let gap = most - reach - slack;
-    gap > ball * length || gap > length * other.support(&(to_other * (-n / length)))
+    if gap > ball * length {
+        return Some(gap / length - ball);
+    }
+    let extent = other.support(&(to_other * (-n / length)));
+    (gap > length * extent).then(|| gap / length - extent)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::particle::Plane;
+    use crate::pose::Pose;
+    use crate::{Kind, Memory, Settings, detect};
+
+    fn cube() -> Particle {
+        let sides = (0..3).flat_map(|axis| [1.0, -1.0].map(|sign| Vector3::ith(axis, sign)));
+        let planes: Vec<Plane> = sides.map(|normal| Plane { normal, offset: 0.4 }).collect();
+        Particle::new(&planes, 0.1, 0.02, 0.9).unwrap()
+    }
+
+    /// Numbers in (−1, 1) that look like chance.
+    fn scattered(seed: usize) -> impl FnMut() -> f64 {
+        let mut state = seed as f64;
+        move || {
+            state += 1.0;
+            2.0 * (1e4 * (12.9898 * state).sin()).rem_euclid(1.0) - 1.0
+        }
+    }
+
+    #[test]
+    fn whoever_moves_by_less_than_the_distance_meets_nobody() {
+        let (a, pose_a, settings) = (cube(), Pose::at([0.0; 3]).unwrap(), Settings::default());
+        let mut seen = [0; 3];
+        for seed in 0..200 {
+            let mut chance = scattered(1000 * seed);
+            let mut vector = || Vector3::from_fn(|_, _| chance());
+            let (turn, direction) = (vector(), vector().normalize());
+            let at = |position: Vector3<f64>| Pose::new(position.into(), [0.5, turn.x, turn.y, turn.z]).unwrap();
+            let mut memory = Memory::default();
+            // Closer from call to call, so that the proof changes.
+            for far in (0..40).map(|i| 2.2 - 0.03 * f64::from(i)) {
+                let pose_b = at(far * direction);
+                let contact = detect(&a, &pose_a, &a, &pose_b, &settings, Some(&mut memory)).unwrap();
+                if contact.kind == Kind::Overlapping {
+                    assert!(contact.distance.is_nan());
+                    break;
+                }
+                let proofs = [Flags::BY_SPHERES, Flags::BY_FACE, Flags::BY_MEMORY];
+                let Some(proof) = proofs.iter().position(|&proof| contact.flags.contains(proof)) else {
+                    assert_eq!(contact.distance, 0.0, "a solver knows no distance");
+                    continue;
+                };
+                seen[proof] += 1;
+                assert!(contact.distance > 0.0);
+                for towards in [-direction, vector().normalize(), vector().normalize()] {
+                    let moved = at(far * direction + 0.999_999 * contact.distance * towards);
+                    let then = detect(&a, &pose_a, &a, &moved, &settings, None).unwrap();
+                    assert_eq!(then.kind, Kind::Separated, "{contact:?} moved along {towards:?}");
+                }
+            }
+        }
+        assert!(seen.iter().all(|&count| count > 100), "{seen:?}");
+    }
+
+    #[test]
+    fn faces_and_balls_know_their_distance() {
+        let (cube, ball) = (cube(), Particle::sphere(0.5).unwrap());
+        let distance = |a: &Particle, b: &Particle, at: [f64; 3]| {
+            let (pose_a, pose_b) = (Pose::at([0.0; 3]).unwrap(), Pose::at(at).unwrap());
+            proof_of_separation(&Pair::new(a, &pose_a, b, &pose_b)).unwrap().distance
+        };
+        let between = 5.0 - 2.0 * ball.bounding_radius();
+        assert!((distance(&ball, &ball, [0.0, 3.0, 4.0]) - between).abs() < 1e-12 && between > 3.99);
+        // A face bulges by what the shadow sphere takes away and (1−k) gives: the bounds know it to a few percent of r.
+        let faces = distance(&cube, &cube, [0.0, 1.2, 0.0]);
+        assert!(0.19 < faces && faces <= 0.2 + 0.01, "{faces}");
+    }
 }

@@ -44,7 +44,8 @@ pub struct Settings {
     /// the bounding radius); s, overlap and normal stay those of the given k within the gap, which
     /// grows by at most this value. 1e-13 is the smallest value whose pull on a flat face of unit
     /// size still exceeds rounding; for exactly parallel faces any positive value gives the limit
-    /// k → 0⁺, the point nearest to the centres.
+    /// k → 0⁺, the point nearest to the centres. Where the choice would leave open whether the particles overlap at all,
+    /// the default value decides, and its contact is the answer.
     pub flat_regularisation: f64,
 }
 

@@ -65,12 +65,12 @@ fn centre_line(pair: &Pair) -> Vector3<f64> {
     pair.centre * (rb / (ra + rb))
 }
 
-/// The minimum of F and what follows from it. `None` where the polyhedra overlap (F ≤ 0), do not end, or no start is
-/// found.
+/// The minimum of F and what follows from it. `None` where a polyhedron does not end, or no start is found.
 fn between_polyhedra(bodies: [&Body; 2], from: Vector3<f64>) -> Option<Start> {
+    let envelope = Envelope { bodies, roots: bodies.map(|body| body.plane_weight().sqrt()) };
     let mut x = from;
-    let (mut level, first) = highest(bodies, &x);
-    let mut hull = Hull::of(first);
+    let (mut level, first) = envelope.highest(&x);
+    let mut hull = Hull::of(envelope.face(first));
     for _ in 0..MOST_PLANES {
         let y = hull.shortest();
         let rate = y.norm_squared();
@@ -81,32 +81,43 @@ fn between_polyhedra(bodies: [&Body; 2], from: Vector3<f64>) -> Option<Start> {
         let mut way = level / rate;
         let mut next = None;
         for _ in 0..MOST_TRIALS {
-            let (here, face) = highest(bodies, &(x - way * y));
+            let (here, plane) = envelope.highest(&(x - way * y));
             let over = here - (level - way * rate);
             if over <= LEVEL * level {
-                if next.is_none() {
-                    // Inside both polyhedra.
-                    return Some(Start { x: x - way * y, lambda: 1.0, near: false });
-                }
                 break;
             }
+            let face = envelope.face(plane);
             way -= over / (rate - face.gradient.dot(&y));
             next = Some(face);
         }
         x -= way * y;
+        let Some(face) = next else {
+            // F = 0: inside both polyhedra.
+            return Some(Start { x, lambda: 1.0, near: false });
+        };
         level -= way * rate;
-        hull.join(next?)?;
+        hull.join(face)?;
     }
     None
 }
 
-/// F, and the plane that it is that of.
-fn highest([a, b]: [&Body; 2], x: &Vector3<f64>) -> (f64, Face) {
-    let ((of_a, place_a), (of_b, place_b)) = (a.highest(x), b.highest(x));
-    if of_a > of_b {
-        (of_a, Face { gradient: a.scaled_normal(place_a), on_a: true })
-    } else {
-        (of_b, Face { gradient: b.scaled_normal(place_b), on_a: false })
+/// F.
+struct Envelope<'a> {
+    bodies: [&'a Body<'a>; 2],
+    /// √w of A and B.
+    roots: [f64; 2],
+}
+
+impl Envelope<'_> {
+    /// F, and the body (0, 1) and plane that it is that of.
+    fn highest(&self, x: &Vector3<f64>) -> (f64, (usize, usize)) {
+        let [(of_a, place_a), (of_b, place_b)] = self.bodies.map(|body| body.farthest_excess(x));
+        let (of_a, of_b) = (self.roots[0] * of_a, self.roots[1] * of_b);
+        if of_a > of_b { (of_a, (0, place_a)) } else { (of_b, (1, place_b)) }
+    }
+
+    fn face(&self, (body, place): (usize, usize)) -> Face {
+        Face { gradient: self.roots[body] * self.bodies[body].normal(place), on_a: body == 0 }
     }
 }
 

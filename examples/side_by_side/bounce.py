@@ -152,7 +152,7 @@ def momentum_change(kind, area):
     for particle, position, orientation, velocity, spin in start:
         body = particle.body(stuff, position, orientation)
         body.state.vel, body.state.angVel = Vector3(*velocity), Vector3(*spin)
-        body.state.angMom = _world_inertia(body.state) * body.state.angVel
+        body.state.angMom = world_inertia(body.state) * body.state.angVel
         O.bodies.append(body)
     O.engines = loop(contact.functor, Springs(STIFFNESS, STIFFNESS, FREE_STEP), gravity=0.0)
     O.dt = FREE_STEP
@@ -170,7 +170,7 @@ def momentum_change(kind, area):
     return tuple(float(np.linalg.norm(after - then) / size) for after, then, size in zip(_momenta(), before, scale))
 
 
-def _world_inertia(state):
+def world_inertia(state):
     turn = state.ori.toRotationMatrix()
     i = state.inertia
     return turn * Matrix3(i[0], 0, 0, 0, i[1], 0, 0, 0, i[2]) * turn.transpose()

@@ -48,11 +48,12 @@ impl Conic {
 
     /// Rounding of S at the end of such an arc that comes from that of the arc, in units of ε: both ends are rounded, the
     /// tangent at the base tilts, and the end slides along the soft direction.
-    pub fn rounding(&self, tau: f64, arc: &Arc, end_gradient: &Vector2<f64>) -> f64 {
+    ///
+    /// `length`: distances of both ends from the origin, added up.
+    pub fn rounding(&self, tau: f64, arc: &Arc, end_gradient: &Vector2<f64>, length: f64) -> f64 {
         let half_gradient = self.half_gradient.norm() + self.tilt;
         let soft = end_gradient.dot(&quarter_turn(&self.stiff)).abs();
         let slide = tau * tau * self.uu * arc.weight * arc.weight;
-        let length = arc.from.norm() + arc.to.norm();
         2.0 * (half_gradient + end_gradient.norm()) * length + 4.0 * half_gradient * slide * soft
     }
 

@@ -23,8 +23,9 @@ pub(super) struct Cut<'s> {
     sphere_weight: f64,
     /// 1 − S at the origin.
     margin: f64,
-    /// Half the gradient of S at the origin.
+    /// Half the gradient of S at the origin, and its length.
     slope: Vector2<f64>,
+    steepness: f64,
 }
 
 /// S at a point.
@@ -35,6 +36,8 @@ pub(super) struct Look {
     pub half_gradient: Vector2<f64>,
     /// Rounding of S, in units of ε.
     pub rounding: f64,
+    /// Distance from the contact point.
+    pub far: f64,
 }
 
 impl Look {
@@ -82,31 +85,32 @@ impl<'s> Cut<'s> {
         let margin = margin.max(f64::EPSILON * rounding);
         let centre = Vector2::new(point.dot(&axes[0]), point.dot(&axes[1]));
         let slope = plane_weight * along + sphere_weight * centre;
-        Ok(Self { lines, plane_weight, sphere_weight, margin, slope })
+        Ok(Self { lines, plane_weight, sphere_weight, margin, slope, steepness: slope.norm() })
     }
 
     /// A look at a point.
     pub fn look(&mut self, y: &Vector2<f64>) -> Look {
         let far = y.norm();
-        self.sum(y, |line| line.look(y, far))
+        self.sum(y, far, |line| line.look(y, far))
     }
 
     /// A look at a point that lies a step behind the one before it.
     pub fn follow(&mut self, y: &Vector2<f64>, step: &Vector2<f64>) -> Look {
         let (far, near) = (y.norm(), step.norm());
-        self.sum(y, |line| line.follow(y, far, step, near))
+        self.sum(y, far, |line| line.follow(y, far, step, near))
     }
 
     /// S − 1, half its gradient and the rounding of S, from lines that are looked at on the way.
-    fn sum(&mut self, y: &Vector2<f64>, look: impl Fn(&mut Line)) -> Look {
+    #[inline(always)]
+    fn sum(&mut self, y: &Vector2<f64>, far: f64, look: impl Fn(&mut Line)) -> Look {
         let (mut sum, mut rounding, mut pull) = (0.0, 0.0, Vector2::zeros());
-        for line in self.lines.as_mut_slice() {
-            look(line);
+        self.lines.look(look, |line| {
             if line.excess <= 0.0 {
-                let reached = line.here.max(0.0);
-                sum += reached * reached;
-                pull += reached * line.rate;
-                rounding += reached * line.noise();
+                if line.here > 0.0 {
+                    sum += line.here * line.here;
+                    pull += line.here * line.rate;
+                    rounding += line.here * line.noise();
+                }
             } else if line.here >= 0.0 {
                 // ⟨excess + change⟩² − excess² less its linear part, which is in the slope.
                 sum += line.change * line.change;
@@ -117,12 +121,14 @@ impl<'s> Cut<'s> {
                 pull -= line.excess * line.rate;
                 rounding += line.excess * line.noise();
             }
-        }
+        });
         let (w, s) = (self.plane_weight, self.sphere_weight);
+        let square = s * y.norm_squared();
         Look {
-            value: w * sum + s * y.norm_squared() + 2.0 * self.slope.dot(y) - self.margin,
+            value: w * sum + square + 2.0 * self.slope.dot(y) - self.margin,
             half_gradient: w * pull + s * y + self.slope,
-            rounding: 2.0 * (w * rounding + s * y.norm_squared() + self.slope.norm() * y.norm()),
+            rounding: 2.0 * (w * rounding + square + self.steepness * far),
+            far,
         }
     }
 
@@ -130,37 +136,54 @@ impl<'s> Cut<'s> {
     ///
     /// A line that passes through y, up to rounding or because it is the one `switching` there, counts when its
     /// excess grows that way. The excess is taken as 0: stiff as it may be, its rounding would turn the conic.
-    pub fn conic(&mut self, y: &Vector2<f64>, look: &Look, switching: Option<usize>) -> Conic {
+    pub fn conic(&mut self, y: &Vector2<f64>, look: &Look, switching: Option<u32>) -> Conic {
         let (w, s) = (self.plane_weight, self.sphere_weight);
+        let lines = &mut self.lines;
+        if let Some(i) = switching
+            && !lines.at(i).reaches()
+        {
+            lines.reach_by(i);
+        }
         let mut half_gradient = look.half_gradient;
-        for (i, line) in self.lines.as_mut_slice().iter_mut().enumerate() {
-            if switching == Some(i) || line.offset() == 0.0 {
+        let mut each = lines.reaching();
+        while let Some(i) = each {
+            let line = lines.at(i);
+            if switching == each || line.offset() == 0.0 {
                 if line.here > 0.0 {
                     let beyond = if line.excess > 0.0 { line.change + line.excess } else { line.here };
                     half_gradient -= w * beyond * line.rate;
                 }
                 (line.here, line.change, line.doubt) = (0.0, -line.excess, 0.0);
             }
+            each = line.next;
         }
         let onwards = quarter_turn(&half_gradient);
         let (mut stiffest, mut square) = (Vector2::x(), 0.0);
-        for line in self.lines.as_mut_slice() {
-            line.on = line.here > 0.0 || line.here == 0.0 && line.rate.dot(&onwards) > 0.0;
+        each = lines.reaching();
+        while let Some(i) = each {
+            let line = lines.at(i);
+            line.on = line.here > 0.0 || line.rate.dot(&onwards) > 0.0;
             if line.on && line.rate.norm_squared() > square {
                 (stiffest, square) = (line.rate, line.rate.norm_squared());
             }
+            each = line.next;
         }
         let stiff = if square > 0.0 { stiffest / square.sqrt() } else { stiffest };
         let soft = quarter_turn(&stiff);
         let (mut uu, mut uv, mut vv, mut tilt) = (0.0, 0.0, 0.0, 0.0);
-        for line in self.lines.as_slice().iter().filter(|line| line.on) {
-            let (u, v) = (line.rate.dot(&stiff), line.rate.dot(&soft));
-            uu += u * u;
-            uv += u * v;
-            vv += v * v;
-            tilt += line.noise() * line.rate.dot(&onwards).abs();
+        each = lines.reaching();
+        while let Some(i) = each {
+            let line = lines.at(i);
+            if line.on {
+                let (u, v) = (line.rate.dot(&stiff), line.rate.dot(&soft));
+                uu += u * u;
+                uv += u * v;
+                vv += v * v;
+                tilt += line.noise() * line.rate.dot(&onwards).abs();
+            }
+            each = line.next;
         }
-        let tilt = w * tilt / onwards.norm() + s * y.norm();
+        let tilt = w * tilt / onwards.norm() + s * look.far;
         Conic { base: *y, half_gradient, stiff, uu: w * uu + s, uv: w * uv, vv: w * vv + s, tilt }
     }
 

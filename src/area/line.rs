@@ -17,6 +17,8 @@ pub(super) struct Line {
     pub doubt: f64,
     /// Whether it counts on the conic from there on.
     pub on: bool,
+    /// The next of those that reach the point looked at last.
+    pub next: Option<u32>,
 }
 
 /// Multiple of the rounding of a sum below which its sign means nothing.
@@ -27,6 +29,12 @@ impl Line {
     #[inline]
     pub fn offset(&self) -> f64 {
         if self.here.abs() <= ROUNDING * self.noise() { 0.0 } else { self.here }
+    }
+
+    /// Whether the excess at the point looked at last is positive, or nothing but rounding.
+    #[inline]
+    pub fn reaches(&self) -> bool {
+        self.here >= -ROUNDING * self.noise()
     }
 
     /// Rounding of the excess, in units of ε.
@@ -67,6 +75,8 @@ pub(super) struct Lines<'s> {
     side: &'s Side<'s>,
     room: &'s mut [Line],
     used: usize,
+    /// First of the lines that reach the point looked at last, up to rounding: mostly a few of many.
+    reaching: Option<u32>,
     horizon: f64,
     /// The disc around the particle's centre in which its ball cuts the plane: centre and squared radius.
     centre: Vector2<f64>,
@@ -90,7 +100,7 @@ impl<'s> Lines<'s> {
         let radius = particle.bounding_radius();
         let square = radius * radius - point.norm_squared() + centre.norm_squared();
         let reach = square.max(0.0).sqrt() + centre.norm();
-        let mut lines = Self { side, room, used: 0, horizon: -1.0, centre, square, reach };
+        let mut lines = Self { side, room, used: 0, reaching: None, horizon: -1.0, centre, square, reach };
         if !particle.is_sphere() {
             // To judge few planes costs more than to keep them.
             lines.widen(if particle.leaves.single() { reach } else { FIRST * reach })?;
@@ -102,8 +112,32 @@ impl<'s> Lines<'s> {
         &self.room[..self.used]
     }
 
-    pub fn as_mut_slice(&mut self) -> &mut [Line] {
-        &mut self.room[..self.used]
+    pub fn at(&mut self, i: u32) -> &mut Line {
+        &mut self.room[i as usize]
+    }
+
+    /// First of the lines that reach the point looked at last; each knows the next one.
+    pub fn reaching(&self) -> Option<u32> {
+        self.reaching
+    }
+
+    /// Adds a line to those.
+    pub fn reach_by(&mut self, i: u32) {
+        self.room[i as usize].next = self.reaching.replace(i);
+    }
+
+    /// Calls `each` with every line after `look` has looked at the new point, and keeps in mind those that reach it.
+    #[inline(always)]
+    pub fn look(&mut self, look: impl Fn(&mut Line), mut each: impl FnMut(&Line)) {
+        self.reaching = None;
+        for (i, line) in self.room[..self.used].iter_mut().enumerate() {
+            look(line);
+            line.on = line.here > 0.0;
+            if line.reaches() {
+                line.next = self.reaching.replace(i as u32);
+            }
+            each(line);
+        }
     }
 
     /// Distance within which no line is missing.
@@ -134,26 +168,33 @@ impl<'s> Lines<'s> {
 
     fn widen(&mut self, horizon: f64) -> Result<(), Crowded> {
         let Side { particle, point, axes, .. } = self.side;
-        let old = if self.horizon < 0.0 { -1.0 } else { self.horizon * self.horizon };
-        let new = horizon * horizon;
-        for run in particle.leaves.reaching(point, axes, horizon) {
-            for i in run {
-                let normal = particle.normal(i);
-                let excess = normal.dot(point) - particle.offset(i);
-                let rate = Vector2::new(normal.dot(&axes[0]), normal.dot(&axes[1]));
-                let steep = rate.norm_squared();
-                let within = |square: f64| square >= 0.0 && (excess >= 0.0 || steep * square >= excess * excess);
-                if !within(new) || within(old) {
-                    continue;
-                }
-                let central = excess + rate.dot(&self.centre);
-                if excess > 0.0 || central > 0.0 || steep * self.square >= central * central {
-                    *self.room.get_mut(self.used).ok_or(Crowded)? = Line { excess, rate, ..Line::default() };
-                    self.used += 1;
-                }
+        let (old, new) = (self.horizon * self.horizon, horizon * horizon);
+        let is_first = self.horizon < 0.0;
+        // No excess grows by more on the way there; most planes end here.
+        let early = horizon * particle.bounds.longest_normal * (1.0 + ROUNDING);
+        let mut used = self.used;
+        particle.visit_near(point, early, |_, normal, excess| {
+            if excess < -early {
+                return;
             }
+            let rate = Vector2::new(normal.dot(&axes[0]), normal.dot(&axes[1]));
+            let steep = rate.norm_squared();
+            let within = |square: f64| excess >= 0.0 || steep * square >= excess * excess;
+            if !within(new) || !is_first && within(old) {
+                return;
+            }
+            let central = excess + rate.dot(&self.centre);
+            if excess > 0.0 || central > 0.0 || steep * self.square >= central * central {
+                if let Some(free) = self.room.get_mut(used) {
+                    *free = Line { excess, rate, ..Line::default() };
+                }
+                used += 1;
+            }
+        });
+        if used > self.room.len() {
+            return Err(Crowded);
         }
-        self.horizon = horizon;
+        (self.used, self.horizon) = (used, horizon);
         Ok(())
     }
 }

@@ -35,7 +35,7 @@ pub(super) struct Walk<'s> {
     here: Vector2<f64>,
     look: Look,
     /// The line that switches here.
-    switching: Option<usize>,
+    switching: Option<u32>,
     /// Rounding of S here, with that of the last arc.
     rounding: f64,
     /// Stops passed.
@@ -48,7 +48,7 @@ pub(super) struct Walk<'s> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Event {
     /// A plane switches.
-    Line(usize),
+    Line(u32),
     /// A stop, by its direction.
     Stop(Vector2<f64>),
     /// The widest angle.
@@ -90,8 +90,7 @@ impl<'s> Walk<'s> {
             return Err(Trouble::Spoilt);
         }
         self.conic = self.cut.conic(&self.here, &self.look, self.switching);
-        let (tau, event) = self.first_event(stop)?;
-        let (mut arc, mut step) = self.conic.arc(tau);
+        let (tau, event, (mut arc, mut step)) = self.first_event(stop)?;
         if let Event::Stop(stop) = event {
             let on_ray = arc.to.dot(&stop) * stop;
             step += on_ray - arc.to;
@@ -100,8 +99,10 @@ impl<'s> Walk<'s> {
         }
         self.switching = if let Event::Line(i) = event { Some(i) } else { None };
         self.here = arc.to;
+        let before = self.look.far;
         self.look = self.cut.follow(&self.here, &step);
-        self.rounding = self.look.rounding + self.conic.rounding(tau, &arc, &self.look.half_gradient);
+        let length = before + self.look.far;
+        self.rounding = self.look.rounding + self.conic.rounding(tau, &arc, &self.look.half_gradient, length);
         if !(self.look.value.abs() <= MISS * f64::EPSILON * self.rounding) {
             return Err(Trouble::Spoilt);
         }
@@ -112,15 +113,15 @@ impl<'s> Walk<'s> {
         Ok(arc)
     }
 
-    /// Parameter and kind of the first event on the conic.
-    fn first_event(&mut self, stop: &Vector2<f64>) -> Result<(f64, Event), Trouble> {
+    /// Parameter and kind of the first event on the conic, and the arc that leads there.
+    fn first_event(&mut self, stop: &Vector2<f64>) -> Result<(f64, Event, (Arc, Vector2<f64>)), Trouble> {
         let conic = &self.conic;
-        let (determinant, inwards) = (conic.determinant(), conic.inwards());
+        let (determinant, twice_inwards) = (conic.determinant(), 2.0 * conic.inwards());
         // Where below `limit` an excess, not negative at the base, first turns negative. On the conic it is
         // (excess + 2bτ + aτ²)/(1 + τ²·det M).
         let crossing = |excess: f64, rate: &Vector2<f64>, limit: f64| {
             let b = conic.half_gradient.perp(rate);
-            let a = excess * determinant + 2.0 * rate.dot(&inwards);
+            let a = excess * determinant + rate.dot(&twice_inwards);
             let control = excess + b * limit;
             if control >= 0.0 && control + limit * (b + a * limit) >= 0.0 {
                 return None;
@@ -137,20 +138,20 @@ impl<'s> Walk<'s> {
         }
         let mut known = 0;
         loop {
-            for (i, line) in self.cut.lines.as_slice().iter().enumerate().skip(known) {
+            for (i, line) in self.cut.lines.as_slice()[known..].iter().enumerate() {
                 let sign = if line.on { 1.0 } else { -1.0 };
                 if let Some(earlier) = crossing((sign * line.here).max(0.0), &(sign * line.rate), tau) {
-                    (tau, event) = (earlier, Event::Line(i));
+                    (tau, event) = (earlier, Event::Line((known + i) as u32));
                 }
             }
             let horizon = self.cut.lines.horizon();
+            let arc = conic.arc(tau);
             if horizon == f64::INFINITY {
-                return Ok((tau, event));
+                return Ok((tau, event, arc));
             }
-            let (arc, _) = conic.arc(tau);
-            let farthest = arc.pole.norm().max(arc.to.norm());
+            let farthest = arc.0.pole.norm_squared().max(arc.0.to.norm_squared()).sqrt();
             if !(farthest > horizon) {
-                return Ok((tau, event));
+                return Ok((tau, event, arc));
             }
             known = self.cut.lines.as_slice().len();
             self.cut.lines.widen_towards(farthest, &self.here)?;
@@ -166,7 +167,7 @@ impl<'s> Walk<'s> {
             let to_edge = -0.5 * value / half_gradient.norm_squared() * half_gradient;
             let shift = match event {
                 Event::Line(i) => {
-                    let line = &self.cut.lines.as_slice()[i];
+                    let line = self.cut.lines.at(i);
                     let (excess, rate) = (line.offset(), line.rate);
                     if on_edge && excess == 0.0 {
                         return;

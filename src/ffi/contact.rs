@@ -6,8 +6,10 @@ use super::status::*;
 use super::types::*;
 use crate::area::Section;
 use crate::contact::{Contact, Kind};
-use crate::detect::{DetectError, detect};
+use crate::detect::{DetectError, rejected, solved};
 use crate::memory::Memory;
+use crate::pair::Pair;
+use crate::reject::Apart;
 use crate::settings::{BackEnd, Formulation, Settings};
 use std::ffi::{CStr, c_char};
 
@@ -73,8 +75,16 @@ pub unsafe extern "C" fn pp_contact_detect(
         // SAFETY: NULL or exclusively ours for the call.
         let memory = unsafe { memory.as_mut() };
         let mut remembered = memory.as_ref().map(|m| Memory::from_raw(m.state));
+        settings.validate().map_err(|_| PP_BAD_SETTING)?;
+        let pair = Pair::new(a, &pose_a, b, &pose_b);
+        if let Some(Apart { by, distance }) = rejected(&pair, &settings, remembered.as_ref()) {
+            // Most calls of a scene end here: what is written is nearly all the same.
+            let (formulation, flags) = (formulation_code(settings.formulation), PP_FLAG_REJECTED | by.bits());
+            out.write(pp_contact { formulation, flags, distance, ..REJECTED });
+            return Ok(());
+        }
         let contact =
-            detect(a, &pose_a, b, &pose_b, &settings, remembered.as_mut()).map_err(|error| detect_status(&error))?;
+            solved(&pair, [&pose_a, &pose_b], &settings, remembered.as_mut()).map_err(|error| detect_status(&error))?;
         if let (Some(memory), Some(remembered)) = (memory, remembered) {
             memory.state = remembered.into_raw();
         }
@@ -132,6 +142,29 @@ pub unsafe extern "C" fn pp_contact_area(
     })
 }
 
+/// A pair that a cheap proof holds apart.
+const REJECTED: pp_contact = pp_contact {
+    kind: PP_SEPARATED,
+    formulation: PP_MIDWAY,
+    back_end: PP_FAST,
+    flags: PP_FLAG_REJECTED,
+    iterations: 0,
+    reserved: 0,
+    s: 1.0,
+    s_b: f64::NAN,
+    weight: f64::NAN,
+    gap: f64::NAN,
+    point_bound: f64::NAN,
+    overlap: f64::NAN,
+    normal: [f64::NAN; 3],
+    point: [f64::NAN; 3],
+    branch_a: [f64::NAN; 3],
+    branch_b: [f64::NAN; 3],
+    point_on_a: [f64::NAN; 3],
+    point_on_b: [f64::NAN; 3],
+    distance: 0.0,
+};
+
 fn settings_to(settings: &Settings) -> pp_settings {
     pp_settings {
         formulation: formulation_code(settings.formulation),
@@ -186,6 +219,7 @@ fn contact_to(contact: &Contact) -> pp_contact {
         branch_b: contact.branch_b.into(),
         point_on_a: contact.point_on_a.into(),
         point_on_b: contact.point_on_b.into(),
+        distance: contact.distance,
     }
 }
 

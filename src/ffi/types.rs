@@ -70,7 +70,8 @@ pub struct pp_settings {
     pub weight_on_a: f64,
     /// Smallest sphericity that the solver treats as given; below it, the point on a flat face
     /// is chosen as if k were this value (shape, s and overlap stay those of the given k).
-    /// In [0, 0.1], default 1e-13. Raise it (1e-4, say) when flat faces rattle in dynamics.
+    /// In [0, 0.1], default 1e-13. Raise it (1e-4, say) when flat faces rattle in dynamics. Whether
+    /// the particles overlap at all is never left to it: where it would be, the default decides.
     pub flat_regularisation: f64,
 }
 
@@ -129,6 +130,9 @@ pub struct pp_contact {
     pub point_on_a: [f64; 3],
     /// Point on the surface of B inside A, world frame; P2 of closest. NaN when separated.
     pub point_on_b: [f64; 3],
+    /// Separated: proved lower bound on the distance between the two particles, length; 0 when the proof knows none.
+    /// Until their surfaces have come closer to each other by as much, they stay separated. NaN when overlapping.
+    pub distance: f64,
 }
 
 /// Volume and inertia of a particle of unit density, in its local frame.

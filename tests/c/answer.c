@@ -42,9 +42,10 @@ void check_consistent(const pp_contact *contact, const pp_pose *pose_a, const pp
     CHECK(contact->weight >= 0 && contact->weight <= 1);
     CHECK(isnan(contact->s_b) == (contact->formulation == PP_MIDWAY));
     if (contact->kind == PP_OVERLAPPING) {
-        CHECK(contact->overlap > 0);
+        CHECK(contact->overlap > 0 && isnan(contact->distance));
     } else {
         CHECK(isnan(contact->overlap) && all_nan(contact->point_on_a) && all_nan(contact->point_on_b));
+        CHECK(contact->distance == 0);
     }
     CHECK_NEAR(dot(contact->normal, contact->normal), 1.0, 1e-14);
     double largest = 1.0;
@@ -88,6 +89,7 @@ void check_rejected(const pp_contact *contact, double s) {
     CHECK(contact->kind == PP_SEPARATED);
     CHECK(contact->flags & PP_FLAG_REJECTED);
     CHECK(contact->s >= 1 && contact->s <= s * (1 + 4 * DBL_EPSILON));
+    CHECK(contact->distance >= 0 && isfinite(contact->distance));
     CHECK(isnan(contact->s_b) && isnan(contact->weight) && isnan(contact->overlap));
     CHECK(all_nan(contact->normal) && all_nan(contact->point));
     CHECK(all_nan(contact->branch_a) && all_nan(contact->branch_b));

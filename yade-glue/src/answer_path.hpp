@@ -16,6 +16,7 @@ struct AnswerPath {
 };
 
 constexpr AnswerPath answerPaths[] = {
+    { Count::motion, "motion", true }, // apart: they have moved less than the distance that was between them
     { Count::spheres, "spheres", true }, // apart: so are the balls around them
     { Count::face, "face", true }, // apart: one lies beyond a face of the other
     { Count::memory, "memory", true }, // apart: what separated them in the last step still does

@@ -14,6 +14,7 @@ namespace potential_particles {
 
 // The first ones, up to `conic`, are the ways in which a pair may be answered (answer_path.hpp).
 enum class Count {
+    motion,
     spheres,
     face,
     memory,

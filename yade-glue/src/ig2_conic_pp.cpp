@@ -89,15 +89,17 @@ struct Ig2_ConicPP_ConicPP_ScGeom::Pair {
     Counters::Row& counts;
     // Both functors have run before: the pair has a history, which must not be dropped.
     const bool real;
-    const pp_pose pose1;
-    const pp_pose pose2;
 
     const Particle* particle1 = nullptr;
     const Particle* particle2 = nullptr;
     std::shared_ptr<const Particle> keeper1 = nullptr;
     std::shared_ptr<const Particle> keeper2 = nullptr;
     ScGeom* geom = nullptr;
-    pp_memory* memory = nullptr;
+    ScGeomConicPP* own = nullptr; // geom, if it is one with memory
+
+    // Most pairs are answered without.
+    pp_pose pose1() const { return poseOf(state1, Vector3r::Zero()); }
+    pp_pose pose2() const { return poseOf(state2, shift2); }
 
     Vector3r branch() const { return state2.se3.position + shift2 - state1.se3.position; }
 
@@ -106,7 +108,7 @@ struct Ig2_ConicPP_ConicPP_ScGeom::Pair {
     {
         geom = castTo<ScGeomConicPP, ScGeom>(interaction->geom.get());
         if (geom && typeid(*geom) == typeid(ScGeomConicPP)) {
-            memory = &static_cast<ScGeomConicPP*>(geom)->memory;
+            own = static_cast<ScGeomConicPP*>(geom);
             return true;
         }
         if (real)
@@ -116,9 +118,20 @@ struct Ig2_ConicPP_ConicPP_ScGeom::Pair {
         made->contactPoint = state1.se3.position + 0.5 * branch();
         made->penetrationDepth = apart;
         interaction->geom = made;
-        geom = made.get();
-        memory = &made->memory;
+        geom = own = made.get();
         return true;
+    }
+
+    // Whether they were apart, and have not moved by the distance between them since.
+    bool isKeptApart() const
+    {
+        return own && own->apart.holds(*particle1, *particle2, state1.se3.orientation, state2.se3.orientation, branch());
+    }
+
+    void noteApart(double distance)
+    {
+        if (own)
+            own->apart.note(*particle1, *particle2, state1.se3.orientation, state2.se3.orientation, branch(), distance);
     }
 
     // Ends the step for this pair. The stored normal must still be that of the last step.
@@ -149,9 +162,7 @@ bool Ig2_ConicPP_ConicPP_ScGeom::go(const boost::shared_ptr<Shape>& cm1, const b
                 force,
                 interaction,
                 counts,
-                interaction->hasGeomAndPhys(),
-                poseOf(state1, Vector3r::Zero()),
-                poseOf(state2, shift2) };
+                interaction->hasGeomAndPhys() };
     if (pair.shape1.isBoundary && pair.shape2.isBoundary)
         return false;
     counts.add(Count::calls);
@@ -190,19 +201,24 @@ bool Ig2_ConicPP_ConicPP_ScGeom::contact(Pair& pair)
         }
     }
 
-    pp_contact found;
-    if (const pp_status status = detect(pair, found); status != PP_OK) {
-        fail(pair, pp_status_message(status));
-        return keep(pair);
-    }
-    pair.counts.add(pathOf(found));
-    if (found.flags & PP_FLAG_FELL_BACK)
-        pair.counts.add(Count::fellBack);
+    if (pair.isKeptApart()) {
+        pair.counts.add(Count::motion);
+    } else {
+        pp_contact found;
+        if (const pp_status status = detect(pair, found); status != PP_OK) {
+            fail(pair, pp_status_message(status));
+            return keep(pair);
+        }
+        pair.counts.add(pathOf(found));
+        if (found.flags & PP_FLAG_FELL_BACK)
+            pair.counts.add(Count::fellBack);
 
-    if (found.kind == PP_OVERLAPPING) {
-        pair.counts.add(Count::overlapping);
-        fill(pair, found);
-        return true;
+        if (found.kind == PP_OVERLAPPING) {
+            pair.counts.add(Count::overlapping);
+            fill(pair, found);
+            return true;
+        }
+        pair.noteApart(found.distance);
     }
     if (!pair.real && !pair.force)
         return false;
@@ -224,13 +240,16 @@ pp_status Ig2_ConicPP_ConicPP_ScGeom::detect(Pair& pair, pp_contact& found)
 {
     const pp_particle* a = pair.particle1->handle();
     const pp_particle* b = pair.particle2->handle();
-    const pp_status status = pp_contact_detect(a, &pair.pose1, b, &pair.pose2, &library, pair.memory, &found);
+    const pp_pose pose1 = pair.pose1();
+    const pp_pose pose2 = pair.pose2();
+    pp_memory* const memory = pair.own ? &pair.own->memory : nullptr;
+    const pp_status status = pp_contact_detect(a, &pose1, b, &pose2, &library, memory, &found);
     if (status == PP_OK || library.back_end == PP_CONIC)
         return status;
     // Without memory, in case that is what led astray.
     pp_settings slow = library;
     slow.back_end = PP_CONIC;
-    if (pp_contact_detect(a, &pair.pose1, b, &pair.pose2, &slow, nullptr, &found) != PP_OK)
+    if (pp_contact_detect(a, &pose1, b, &pose2, &slow, nullptr, &found) != PP_OK)
         return status;
     pair.counts.add(Count::fellBack);
     return PP_OK;
@@ -242,8 +261,8 @@ void Ig2_ConicPP_ConicPP_ScGeom::fill(Pair& pair, pp_contact& found)
     Vector3r normal(found.normal);
     if (prescribedNormal(pair.shape1, pair.shape2, normal)) {
         // Overlap, and the points on both surfaces, along that normal through the contact point.
-        const double depth1 = distanceToSurface(*pair.particle1, pair.pose1, point, normal);
-        const double depth2 = distanceToSurface(*pair.particle2, pair.pose2, point, -normal);
+        const double depth1 = distanceToSurface(*pair.particle1, pair.pose1(), point, normal);
+        const double depth2 = distanceToSurface(*pair.particle2, pair.pose2(), point, -normal);
         found.overlap = depth1 + depth2;
         copyTo(found.normal, normal);
         copyTo(found.point_on_a, point + depth1 * normal);
@@ -285,15 +304,17 @@ void Ig2_ConicPP_ConicPP_ScGeom::fillPhysics(Pair& pair, const pp_contact& found
         across.normalize();
         const Vector3r point(found.point);
         const auto reach = [&](const Vector3r& direction) {
-            return std::min(distanceToSurface(*pair.particle1, pair.pose1, point, direction),
-                            distanceToSurface(*pair.particle2, pair.pose2, point, direction));
+            return std::min(distanceToSurface(*pair.particle1, pair.pose1(), point, direction),
+                            distanceToSurface(*pair.particle2, pair.pose2(), point, direction));
         };
         phys->jointLength = reach(across) + reach(-across);
         phys->contactArea = settings.unitWidth2D * phys->jointLength;
         pair.counts.add(Count::areas);
     } else {
         double area;
-        requireOk(pp_contact_area(pair.particle1->handle(), &pair.pose1, pair.particle2->handle(), &pair.pose2, &found,
+        const pp_pose pose1 = pair.pose1();
+        const pp_pose pose2 = pair.pose2();
+        requireOk(pp_contact_area(pair.particle1->handle(), &pose1, pair.particle2->handle(), &pose2, &found,
                                   settings.areaTolerance, &area));
         phys->contactArea = area;
         pair.counts.add(Count::areas);
@@ -304,7 +325,7 @@ void Ig2_ConicPP_ConicPP_ScGeom::fail(const Pair& pair, const std::string& why) 
 {
     pair.counts.add(Count::failures);
     try {
-        failures.add({ pair.interaction->id1, pair.interaction->id2, pair.pose1, pair.pose2, why });
+        failures.add({ pair.interaction->id1, pair.interaction->id2, pair.pose1(), pair.pose2(), why });
     } catch (...) {
         // Copying the text may run out of memory; the failure is counted.
     }

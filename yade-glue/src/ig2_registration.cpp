@@ -136,8 +136,9 @@ void Ig2_ConicPP_ConicPP_ScGeom::pyRegisterClass(py::object scope)
     count("failures", Count::failures, "Failed calls: no answer by any back end, or no valid particle or pose.");
     registered
         .add_property("answers", &Functor::pyAnswers,
-                      "How many pairs were answered in which way: without a solve, apart by bounding 'spheres', by a 'face', "
-                      "or by 'memory' of what separated them before; apart by a 'proof' that the solver met; solved "
+                      "How many pairs were answered in which way: without a solve, apart because their 'motion' was less than "
+                      "the distance that was between them, by bounding 'spheres', by a 'face', or by 'memory' of what "
+                      "separated them before; apart by a 'proof' that the solver met; solved "
                       "from the remembered point ('warm') or from nothing ('cold'); or by the 'conic' back end.")
         .add_property("rejected", &Functor::pyRejected, "Pairs proved separated without solving to the end.")
         .add_property("solved", &Functor::pySolved, "Pairs solved to the end.")
@@ -185,8 +186,8 @@ py::dict Ig2_ConicPP_ConicPP_ScGeom::pyAnswers() const
 
 std::uint64_t Ig2_ConicPP_ConicPP_ScGeom::pyRejected() const
 {
-    return counters.total(Count::spheres) + counters.total(Count::face) + counters.total(Count::memory)
-        + counters.total(Count::proof);
+    return counters.total(Count::motion) + counters.total(Count::spheres) + counters.total(Count::face)
+        + counters.total(Count::memory) + counters.total(Count::proof);
 }
 
 std::uint64_t Ig2_ConicPP_ConicPP_ScGeom::pySolved() const

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "particle.hpp"
 
+#include <atomic>
 #include <cstring>
 #include <limits>
 #include <stdexcept>
@@ -16,6 +17,12 @@ namespace {
     }
 
     bool sameBits(double left, double right) { return std::memcmp(&left, &right, sizeof left) == 0; }
+
+    std::uint64_t nextSerial()
+    {
+        static std::atomic<std::uint64_t> last { 0 };
+        return ++last;
+    }
 
     std::string lengths(const Definition& definition)
     {
@@ -55,6 +62,7 @@ std::shared_ptr<const Particle> Particle::make(Definition definition)
 
 Particle::Particle(Definition given)
     : definition(std::move(given))
+    , serial(nextSerial())
     , radius(std::numeric_limits<double>::quiet_NaN())
 {
     if (pending()) {

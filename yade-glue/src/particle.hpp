@@ -7,6 +7,7 @@
 
 #include <potential_particles.h>
 
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -44,6 +45,8 @@ public:
     double boundingRadius() const { return radius; }
 
     const Definition definition;
+    // No other particle of this process has it, before or after: an address may be used again.
+    const std::uint64_t serial;
 
 private:
     struct Release {

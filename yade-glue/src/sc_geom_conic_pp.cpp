@@ -54,6 +54,7 @@ void ScGeomConicPP::pySetMemory(const std::string& hexadecimal)
         bytes[i] = static_cast<unsigned char>(byte);
     }
     memory = next;
+    apart.forget();
 }
 
 void ScGeomConicPP::pySetAttr(const std::string& key, const py::object& value)

@@ -5,6 +5,7 @@
 
 #include "../abi/archive.hpp"
 #include "../abi/scgeom.hpp"
+#include "kept_apart.hpp"
 
 #include <boost/serialization/access.hpp>
 
@@ -22,6 +23,8 @@ public:
     PP_ABI_SERIALIZABLE_OVERRIDES
 
     pp_memory memory = { { 0 } };
+    // Not saved: made again by the first look after loading.
+    KeptApart apart;
 
 private:
     friend class boost::serialization::access;

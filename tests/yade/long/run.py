@@ -46,15 +46,19 @@ MOST_OVERLAP = 0.05  # over the size
 MOST_GROWTH = 2.0
 
 
+# This script's own, which make hands over empty when they are not given: the parts get theirs from here.
+OWN = ("BODIES", "STEPS", "STARTS", "KILLS", "OUTPUT")
+
 running = []  # the last process
 
 
 def yade(threads, script, **environment):
     """The running process, and what it says through a pipe."""
+    inherited = {key: value for key, value in os.environ.items() if key not in OWN}
     # In a session of its own: Ctrl-C is for this script, which then ends what it started.
     running[:] = [subprocess.Popen(
         [TOP / "scripts" / "yade.sh", f"-j{threads}", HERE / script], text=True, start_new_session=True,
-        env={**os.environ, "PYTHONPATH": str(HERE.parent), **{key: str(value) for key, value in environment.items()}},
+        env={**inherited, "PYTHONPATH": str(HERE.parent), **{key: str(value) for key, value in environment.items()}},
         stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)]
     return running[0]
 
