@@ -36,9 +36,9 @@ pub(crate) fn distance_near(
     let (mut inside, mut outside) = (f64::NEG_INFINITY, f64::INFINITY);
     let mut newton_from_outside = f64::NAN;
     // No surface point is further off than this.
-    let farthest = from.norm() + particle.bounding_radius();
+    let start = from.norm();
+    let farthest = start + particle.bounding_radius();
     let mut tau = if guess.abs() <= farthest { guess } else { 0.0 };
-    let rounding = 2.0 * f64::EPSILON * (from.norm() + particle.bounds.offset_within(farthest).min(farthest));
     let mut first = true;
     for _ in 0..MOST_STEPS {
         let line = at(tau);
@@ -46,6 +46,8 @@ pub(crate) fn distance_near(
             return None;
         }
         let newton = tau - line.value / line.slope;
+        let lengths = start + newton.abs().min(tau.abs());
+        let rounding = 2.0 * f64::EPSILON * (lengths + particle.bounds.offset_within(lengths).min(lengths));
         // From outside a Newton step misses by at most ½·curvature·step²/slope, since planes only go off on the way; from
         // inside others may come on, and only a step below the rounding of a point on the ray is the last.
         let step = newton - tau;
@@ -59,9 +61,10 @@ pub(crate) fn distance_near(
             outside = tau;
             newton_from_outside = newton;
         }
-        let mut next = if first {
-            // The guess was none: on from where a plane alone brings S to 1.
-            beyond_a_plane(particle, from, direction, farthest)
+        // The guess was none: on from where a plane alone brings S to 1, if rounding on the long way to it left it ahead.
+        let beyond = if first { beyond_a_plane(particle, from, direction, farthest) } else { inside };
+        let mut next = if beyond > inside {
+            beyond
         } else if line.slope > 0.0 {
             tau + root_of_piece(line.value, line.slope, line.curvature)
         } else if outside == f64::INFINITY {
