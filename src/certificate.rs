@@ -35,8 +35,11 @@ pub(crate) fn scale(outcome: &Outcome, a: &Body, b: &Body, target: Target) -> Ce
     let low = low.min(square);
     let s = square.sqrt();
     let low = low.sqrt() * (1.0 - f64::EPSILON);
-    Certified { s, gap: (high.sqrt() - s).max(s - low) + f64::EPSILON * s, low }
+    Certified { s, gap: (high.sqrt() - s).max(s - low) + f64::EPSILON * s + UNDERFLOW, low }
 }
+
+/// Root of the least normal number: an s below it has a square that is lost.
+const UNDERFLOW: f64 = 1.5e-154;
 
 /// Bound on the distance from the point of an outcome to the optimum, length.
 ///
