@@ -30,6 +30,9 @@ const ROUNDING: f64 = 4.0;
 /// Rounding of a depth, relative to the terms of its sum.
 const DOUBT: f64 = 8.0 * f64::EPSILON;
 
+/// Share of the regularisation below which a plane's pull changes nothing that counts about where it puts the point.
+const WEAK: f64 = 1e-3;
+
 /// Less than 1 by more than the rounding of a distance to a plane, relative to the terms of its sum.
 const CLEAR: f64 = 1.0 - 4.0 * DOUBT;
 
@@ -224,9 +227,10 @@ impl<'a> Body<'a> {
         self.sphere_weight == self.particle.sphere_weight
     }
 
-    /// The depth at which a plane pushes as much as the regularisation does at the surface, or as the rounding of the forces.
+    /// The depth at which a plane pushes as much as a share of the regularisation at the surface, or as the rounding of the
+    /// forces.
     fn weakest(&self, q: &Quadratic) -> f64 {
-        let force = self.sphere_curvature() * self.particle.bounding_radius() + DOUBT * q.pull;
+        let force = WEAK * self.sphere_curvature() * self.particle.bounding_radius() + DOUBT * q.pull;
         force / (self.plane_curvature() * self.particle.bounds.longest_normal)
     }
 
@@ -241,7 +245,7 @@ impl<'a> Body<'a> {
         let far = if p.leaves.single() { 0.0 } else { local.early.max(p.bounds.longest_normal * e.norm()) };
         // The step was turned: what is left of a long one across a plane is but rounding.
         let doubt = DOUBT * p.bounds.longest_normal * (e.x.abs() + e.y.abs() + e.z.abs());
-        // Where only the regularisation tells one point of a face from another, pulls as weak as itself or as the rounding of
+        // Where only the regularisation tells one point of a face from another, pulls far weaker than itself or as the rounding of
         // the forces would let planes take turns without end.
         let weak = if self.is_plain() { 0.0 } else { self.weakest(q) };
         p.visit_near(&y, far, |i, n, excess| {
