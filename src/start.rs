@@ -29,6 +29,9 @@ const MOST_TRIALS: usize = 24;
 /// Relative to F: no other plane lies higher.
 const LEVEL: f64 = 1e-9;
 
+/// Relative to the rate of F: a plane that falls slower than F by no more than this does not take over.
+const SLOW: f64 = 1e-6;
+
 /// Square of the shortest vector of the hull, relative to the longest, that is none: the planes hold each other.
 const BALANCED: f64 = 1e-20;
 
@@ -67,7 +70,7 @@ fn centre_line(pair: &Pair) -> Vector3<f64> {
 
 /// The minimum of F and what follows from it. `None` where a polyhedron does not end, or no start is found.
 fn between_polyhedra(bodies: [&Body; 2], from: Vector3<f64>) -> Option<Start> {
-    let envelope = Envelope { bodies, roots: bodies.map(|body| body.plane_weight().sqrt()) };
+    let envelope = Envelope::of(bodies);
     let mut x = from;
     let (mut level, first) = envelope.highest(&x);
     let mut hull = Hull::of(envelope.face(first));
@@ -77,26 +80,14 @@ fn between_polyhedra(bodies: [&Body; 2], from: Vector3<f64>) -> Option<Start> {
         if hull.count == 4 || rate <= BALANCED * hull.longest() {
             return hull.start(x, level);
         }
-        // F falls to 0 over this way at most.
-        let mut way = level / rate;
-        let mut next = None;
-        for _ in 0..MOST_TRIALS {
-            let (here, plane) = envelope.highest(&(x - way * y));
-            let over = here - (level - way * rate);
-            if over <= LEVEL * level {
-                break;
-            }
-            let face = envelope.face(plane);
-            way -= over / (rate - face.gradient.dot(&y));
-            next = Some(face);
-        }
+        let (way, next) = envelope.next(&x, &y, level, rate);
         x -= way * y;
-        let Some(face) = next else {
+        let Some(plane) = next else {
             // F = 0: inside both polyhedra.
             return Some(Start { x, lambda: 1.0, near: false });
         };
         level -= way * rate;
-        hull.join(face)?;
+        hull.join(envelope.face(plane))?;
     }
     None
 }
@@ -106,18 +97,64 @@ struct Envelope<'a> {
     bodies: [&'a Body<'a>; 2],
     /// √w of A and B.
     roots: [f64; 2],
+    /// Whether planes are so few that looking through all is cheaper than leaving groups out.
+    few: bool,
 }
 
-impl Envelope<'_> {
-    /// F, and the body (0, 1) and plane that it is that of.
-    fn highest(&self, x: &Vector3<f64>) -> (f64, (usize, usize)) {
+/// Body (0, 1) and place of a plane.
+type Place = (usize, usize);
+
+impl<'a> Envelope<'a> {
+    fn of(bodies: [&'a Body<'a>; 2]) -> Self {
+        let few = bodies.iter().all(|body| body.particle.leaves.single());
+        Self { bodies, roots: bodies.map(|body| body.plane_weight().sqrt()), few }
+    }
+
+    /// F, and the plane that it is that of.
+    fn highest(&self, x: &Vector3<f64>) -> (f64, Place) {
         let [(of_a, place_a), (of_b, place_b)] = self.bodies.map(|body| body.farthest_excess(x));
         let (of_a, of_b) = (self.roots[0] * of_a, self.roots[1] * of_b);
         if of_a > of_b { (of_a, (0, place_a)) } else { (of_b, (1, place_b)) }
     }
 
-    fn face(&self, (body, place): (usize, usize)) -> Face {
+    fn face(&self, (body, place): Place) -> Face {
         Face { gradient: self.roots[body] * self.bodies[body].normal(place), on_a: body == 0 }
+    }
+
+    /// How far F, now `level`, falls by `rate` a unit of way against y, and which plane takes over there; as far as
+    /// F = 0 if none does.
+    fn next(&self, x: &Vector3<f64>, y: &Vector3<f64>, level: f64, rate: f64) -> (f64, Option<Place>) {
+        if self.few { self.next_of_few(x, y, level, rate) } else { self.next_of_many(x, y, level, rate) }
+    }
+
+    fn next_of_few(&self, x: &Vector3<f64>, y: &Vector3<f64>, level: f64, rate: f64) -> (f64, Option<Place>) {
+        let (mut way, mut next) = (level / rate, None);
+        for (i, (body, root)) in self.bodies.iter().zip(self.roots).enumerate() {
+            let (x, y) = (body.local(x), body.turn(y));
+            body.particle.visit_near(&x, f64::INFINITY, |place, n, excess| {
+                let (below, closing) = (level - root * excess, rate - root * n.dot(&y));
+                // Planes in force fall as F does.
+                if closing > SLOW * rate && below < way * closing {
+                    (way, next) = (below / closing, Some((i, place)));
+                }
+            });
+        }
+        (way, next)
+    }
+
+    /// By Newton's method from the far end: what lies above F there takes over earlier.
+    fn next_of_many(&self, x: &Vector3<f64>, y: &Vector3<f64>, level: f64, rate: f64) -> (f64, Option<Place>) {
+        let (mut way, mut next) = (level / rate, None);
+        for _ in 0..MOST_TRIALS {
+            let (here, plane) = self.highest(&(x - way * y));
+            let over = here - (level - way * rate);
+            if over <= LEVEL * level {
+                break;
+            }
+            way -= over / (rate - self.face(plane).gradient.dot(y));
+            next = Some(plane);
+        }
+        (way, next)
     }
 }
 
