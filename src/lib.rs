@@ -16,7 +16,9 @@
 //! | [`reject`] | cheap proofs of separation |
 //! | [`symmetric`], `target` | small matrices, and which point of two bodies is wanted |
 //! | `model` | two quadratics solved exactly: midway and both closest points on one curve |
-//! | `frame`, `line`, `spine` | the fast solver: Newton on that model, safe axes, safe steps |
+//! | `frame`, `expansion` | both quadratics at a point, in safe axes, and the step to their optimum |
+//! | `line`, `start` | descent along a line; where a search without memory begins |
+//! | `outcome`, `spine` | where a search ended; the fast solver: Newton on that model, safe steps |
 //! | `anchored` | the safe solver, finite, where the fast one goes in circles |
 //! | `certificate` | how far an answer can be from the optimum |
 //! | [`conic`] | the paper's second-order cone programs through clarabel: the reference |
