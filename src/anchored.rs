@@ -23,13 +23,15 @@
 //! The minimum of the softened problem is a lower bound. The upper one is S itself, at a point within all planes by
 //! more than their rounding.
 
-use crate::body::{Body, Local, Place, Planes, Verdict};
+use crate::body::Body;
 use crate::expansion::{self, Expansion, Start, Step};
+use crate::local::{Local, Place};
 use crate::model::{Model, Optimum};
 use crate::outcome::{Ending, Outcome};
 use crate::particle::Particle;
 use crate::spine::Goal;
 use crate::target::Target;
+use crate::verdict::{Planes, Verdict};
 use nalgebra::Vector3;
 
 /// First ratio of plane to sphere curvature, and its growth.

@@ -6,10 +6,11 @@
 //! distances to the planes carry an error proportional to the lengths they are made from, times the
 //! pull 2(1−k)/r² Σ⟨·⟩ of the planes; that product is the condition number of S, and it is added.
 
-use crate::body::{Body, Planes};
+use crate::body::Body;
 use crate::expansion::{self, Expansion, Factorisation, Start};
 use crate::outcome::{Ending, Outcome};
 use crate::target::Target;
+use crate::verdict::Planes;
 use nalgebra::Vector3;
 
 /// Bound on |s − s*| for s = √(true S estimate), see [`scale`].

@@ -1,10 +1,12 @@
 //! Both quadratics at a point, and the step to their optimum.
 
-use crate::body::{Body, Local, Place, Planes, Verdict};
+use crate::body::Body;
 use crate::frame;
+use crate::local::{Local, Place};
 use crate::model::{Model, Optimum};
 use crate::potential::Quadratic;
 use crate::target::Target;
+use crate::verdict::{Planes, Verdict};
 use nalgebra::{Matrix3, Vector3};
 
 /// How the quadratics are factored.

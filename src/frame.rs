@@ -5,7 +5,8 @@
 //! remainder, q₃ = q₁ × q₂ the Hessian is graded, and elimination in this order keeps each
 //! direction's own relative precision.
 
-use crate::body::{Body, Place};
+use crate::body::Body;
+use crate::local::Place;
 use nalgebra::{Matrix3, Vector3};
 
 /// Square of the sine below which what is left of a normal is rounding.

@@ -12,10 +12,11 @@
 //! | [`mass`] | volume, centroid, inertia |
 //! | [`pose`] | where a body is |
 //! | [`settings`], [`memory`] | how to solve, and what a pair remembers |
-//! | [`pair`], `body` | two particles in one frame |
+//! | [`pair`], `body`, `local` | two particles in one frame, and a point as each sees it |
 //! | [`reject`] | cheap proofs of separation |
 //! | [`symmetric`], `target` | small matrices, and which point of two bodies is wanted |
 //! | `model` | two quadratics solved exactly: midway and both closest points on one curve |
+//! | `verdict` | what a step does to the planes of a quadratic |
 //! | `frame`, `expansion` | both quadratics at a point, in safe axes, and the step to their optimum |
 //! | `line`, `start` | descent along a line; where a search without memory begins |
 //! | `outcome`, `spine` | where a search ended; the fast solver: Newton on that model, safe steps |
@@ -44,6 +45,7 @@ pub mod half;
 mod leaves;
 mod line;
 mod linear_program;
+mod local;
 pub mod mass;
 pub mod memory;
 mod model;
@@ -61,6 +63,7 @@ mod start;
 pub mod surface;
 pub mod symmetric;
 mod target;
+mod verdict;
 
 pub use contact::{Contact, Flags, Kind};
 pub use detect::{DetectError, detect};

@@ -1,10 +1,11 @@
 //! Where a search ended, and how far that can be from the optimum.
 
-use crate::body::{Body, Planes};
+use crate::body::Body;
 use crate::expansion::{self, Expansion, Step};
 use crate::model::{Optimum, Response};
 use crate::potential::Quadratic;
 use crate::target::Target;
+use crate::verdict::Planes;
 use nalgebra::Vector3;
 
 /// Where the solver ended; everything in the solver's frame, potentials as regularised.

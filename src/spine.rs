@@ -5,11 +5,13 @@
 //! lower bound meet, and the answer is proved. A step that overshoots (a plane switched on behind x) is
 //! shortened by an exact search along it.
 
-use crate::body::{Body, Local, Planes};
+use crate::body::Body;
 use crate::expansion::{Expansion, Factorisation, Start};
 use crate::line::{self, Merit};
+use crate::local::Local;
 use crate::outcome::{Ending, Outcome};
 use crate::target::Target;
+use crate::verdict::Planes;
 use nalgebra::Vector3;
 
 /// Most iterations. One call in 20,000 would come to its end after more; the others are in circles, and the safe
@@ -201,8 +203,8 @@ impl Attempt {
         let mut locals = [a.locate(&x, early), b.locate(&x, early)];
         let moved = (x - self.from).norm() > self.locals[0].shift.max(self.locals[1].shift);
         if !moved {
-            a.carry_dropped(&self.locals[0], &self.step, &mut locals[0]);
-            b.carry_dropped(&self.locals[1], &self.step, &mut locals[1]);
+            locals[0].carry_dropped(&self.locals[0], a, &self.step);
+            locals[1].carry_dropped(&self.locals[1], b, &self.step);
         }
         *here = Expansion::of(bodies, x, locals, target.weights(lambda), factorisation);
         moved

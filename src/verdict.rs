@@ -1,0 +1,149 @@
+//! What a step does to the planes of a quadratic: whether its model was that of S, and a lower bound.
+
+use crate::body::Body;
+use crate::local::{Local, Place};
+use crate::potential::Quadratic;
+use nalgebra::Vector3;
+
+/// Rounding of a depth, relative to the terms of its sum.
+const DOUBT: f64 = 8.0 * f64::EPSILON;
+
+/// Share of the regularisation below which a plane's pull changes nothing that counts about where it puts the point.
+const WEAK: f64 = 1e-3;
+
+/// Less than 1 by more than the rounding of a distance to a plane, relative to the terms of its sum.
+const CLEAR: f64 = 1.0 - 4.0 * DOUBT;
+
+/// What a step does to the planes of a quadratic.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Verdict {
+    pub planes: Planes,
+    /// The plane to be dropped before the model is solved again.
+    pub drop: Option<usize>,
+    /// Sum of the depths by which planes of doubtful sign may pull after all.
+    pub doubtful: f64,
+    /// The least depth of a plane of the quadratic after the step.
+    pub least: f64,
+    /// Bound on the pull after the step.
+    pub pull: f64,
+    /// How many planes there are, or may be by rounding.
+    pub near: f64,
+}
+
+/// What a step does to the planes of a model, from best to worst.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Planes {
+    /// All still push and no other has switched on: the quadratic is S there, and a lower bound of it
+    /// everywhere.
+    Exact,
+    /// All still push, but another is met on the way: the quadratic is a lower bound only.
+    Met,
+    /// One that had hardly switched on pulls; without it, the model should be solved again.
+    Dropped,
+    /// Some that are clearly on at the point pull after the step: the point has to move first.
+    Pulling,
+}
+
+impl Body<'_> {
+    /// Checks the planes of the quadratic after the step v.
+    ///
+    /// The quadratic with depth n·x − d + n·v ≥ 0 for each of its planes is a lower bound of S everywhere:
+    /// ⟨t⟩² ≥ 2λt − λ² for every λ ≥ 0. The sign is judged in the model's own arithmetic, to which the rounding
+    /// of n·x − d is but a shift of the plane.
+    #[inline]
+    pub fn check(&self, local: &Local, q: &Quadratic, v: &Vector3<f64>, length: f64) -> Verdict {
+        if self.stays(q, length) { Verdict::clear(self, local, q, length) } else { self.check_each(local, q, v) }
+    }
+
+    /// Whether no plane of the quadratic switches within a distance.
+    #[inline]
+    fn stays(&self, q: &Quadratic, distance: f64) -> bool {
+        self.particle.bounds.longest_normal * distance <= CLEAR * q.clear
+    }
+
+    /// The distance within which no plane of the quadratic switches.
+    #[inline]
+    pub fn stays_for(&self, q: &Quadratic) -> f64 {
+        CLEAR * q.clear / self.particle.bounds.longest_normal
+    }
+
+    /// The depth at which a plane pushes as much as a share of the regularisation at the surface, or as the rounding of the
+    /// forces.
+    fn weakest(&self, q: &Quadratic) -> f64 {
+        let force = WEAK * self.sphere_curvature() * self.particle.bounding_radius() + DOUBT * q.pull;
+        force / (self.plane_curvature() * self.particle.bounds.longest_normal)
+    }
+
+    #[inline(never)]
+    fn check_each(&self, local: &Local, q: &Quadratic, v: &Vector3<f64>) -> Verdict {
+        let (y, blur, e) = (local.y, local.blur, self.turn(v));
+        let p = self.particle;
+        let mut worst: Option<(usize, f64)> = None;
+        let (mut pulling, mut doubtful, mut depths, mut near) = (false, 0.0, 0.0, 0.0);
+        let (mut nearest, mut least) = (f64::NEG_INFINITY, f64::INFINITY);
+        // Planes of the quadratic are near y, planes that are met near y + e: no other is near either.
+        let far = if p.leaves.single() { 0.0 } else { local.early.max(p.bounds.longest_normal * e.norm()) };
+        // The step was turned: what is left of a long one across a plane is but rounding.
+        let doubt = DOUBT * p.bounds.longest_normal * (e.x.abs() + e.y.abs() + e.z.abs());
+        // Where only the regularisation tells one point of a face from another, pulls far weaker than itself or as the rounding of
+        // the forces would let planes take turns without end.
+        let weak = if self.is_plain() { 0.0 } else { self.weakest(q) };
+        p.visit_near(&y, far, |i, n, excess| {
+            let depth = excess + n.dot(&e);
+            if !local.counts(p, i, excess) {
+                nearest = nearest.max(depth);
+                return;
+            }
+            depths += depth.max(0.0);
+            near += 1.0;
+            least = least.min(depth);
+            let doubt = doubt + DOUBT * excess.abs();
+            if depth >= doubt {
+                return;
+            }
+            if depth >= -doubt.max(weak) {
+                doubtful += doubt.max(-depth);
+            } else if excess > blur {
+                pulling = true;
+            } else if worst.is_none_or(|(_, most)| depth < most) {
+                worst = Some((i, depth));
+            }
+        });
+        near += if nearest > -blur { 1.0 } else { 0.0 };
+        let met = nearest > blur;
+        let pull = self.plane_curvature() * depths;
+        if pulling {
+            return Verdict { planes: Planes::Pulling, drop: None, doubtful: f64::INFINITY, least, pull, near };
+        }
+        // One at a time: without the worst, the others may push again.
+        let drop = worst.map(|(i, _)| i);
+        let planes = match drop {
+            None if met => Planes::Met,
+            None => Planes::Exact,
+            Some(_) if !local.is_full() => Planes::Dropped,
+            Some(_) => Planes::Pulling,
+        };
+        Verdict { planes, drop, doubtful, least, pull, near }
+    }
+}
+
+impl Verdict {
+    /// Of a step so short that no plane switches.
+    #[inline]
+    fn clear(body: &Body, local: &Local, q: &Quadratic, length: f64) -> Self {
+        let (moved, count) = (body.particle.bounds.longest_normal * length, f64::from(q.count));
+        let least = q.clear - moved;
+        let pull = q.pull + count * body.plane_curvature() * moved;
+        let near = if least < local.blur { count + 1.0 } else { count };
+        Self { planes: Planes::Exact, drop: None, doubtful: 0.0, least, pull, near }
+    }
+
+    /// Slope that planes of doubtful sign may leave, for a body of this weight: a force that is found to rounding only may
+    /// be a pull.
+    pub fn doubtful_slope(&self, body: &Body, weight: f64, rounding: f64) -> f64 {
+        let per_depth = weight * body.plane_curvature() * body.particle.bounds.longest_normal;
+        let lost = if per_depth * self.least < rounding { self.near * rounding } else { 0.0 };
+        // No plane may be doubtful, of weights that overflow.
+        if self.doubtful > 0.0 { lost + per_depth * self.doubtful } else { lost }
+    }
+}
