@@ -20,7 +20,7 @@
 //! | `frame`, `expansion` | both quadratics at a point, in safe axes, and the step to their optimum |
 //! | `line`, `start` | descent along a line; where a search without memory begins |
 //! | `outcome`, `spine` | where a search ended; the fast solver: Newton on that model, safe steps |
-//! | `anchored` | the safe solver, finite, where the fast one goes in circles |
+//! | `anchor`, `anchored` | the safe solver, finite, where the fast one goes in circles |
 //! | `certificate` | how far an answer can be from the optimum |
 //! | [`conic`] | the paper's second-order cone programs through clarabel: the reference |
 //! | [`contact`] | point, normal, overlap from a solution |
@@ -30,6 +30,7 @@
 //! | [`planar`] | the same for particles of the plane |
 //! | [`ffi`] | the C interface |
 
+mod anchor;
 mod anchored;
 pub mod area;
 mod body;

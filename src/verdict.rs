@@ -6,7 +6,7 @@ use crate::potential::Quadratic;
 use nalgebra::Vector3;
 
 /// Rounding of a depth, relative to the terms of its sum.
-const DOUBT: f64 = 8.0 * f64::EPSILON;
+pub(crate) const DOUBT: f64 = 8.0 * f64::EPSILON;
 
 /// Share of the regularisation below which a plane's pull changes nothing that counts about where it puts the point.
 const WEAK: f64 = 1e-3;
