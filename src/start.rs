@@ -68,11 +68,15 @@ fn centre_line(pair: &Pair) -> Vector3<f64> {
     pair.centre * (rb / (ra + rb))
 }
 
-/// The minimum of F and what follows from it. `None` where a polyhedron does not end, or no start is found.
+/// The minimum of F and what follows from it. `None` where the point to begin at is inside both, or no start is found.
 fn between_polyhedra(bodies: [&Body; 2], from: Vector3<f64>) -> Option<Start> {
     let envelope = Envelope::of(bodies);
     let mut x = from;
     let (mut level, first) = envelope.highest(&x);
+    if !(level > 0.0) {
+        // Inside both polyhedra, the line of centres is as good.
+        return None;
+    }
     let mut hull = Hull::of(envelope.face(first));
     for _ in 0..MOST_PLANES {
         let y = hull.shortest();

@@ -9,7 +9,7 @@ use nalgebra::Vector3;
 pub(crate) const DOUBT: f64 = 8.0 * f64::EPSILON;
 
 /// Share of the regularisation below which a plane's pull changes nothing that counts about where it puts the point.
-const WEAK: f64 = 1e-3;
+const WEAK: f64 = 1e-9;
 
 /// Less than 1 by more than the rounding of a distance to a plane, relative to the terms of its sum.
 const CLEAR: f64 = 1.0 - 4.0 * DOUBT;
