@@ -26,7 +26,7 @@ pub struct pp_pose_2d {
     pub angle: f64,
 }
 
-/// The answer for one pair of the plane: the fields of struct pp_contact, with vectors of two.
+/// The answer for one pair of the plane: the fields of struct pp_contact but distance, with vectors of two.
 /// Frames: world axes unless said otherwise; lengths in the caller's unit; s, weight and gap have no
 /// unit. Fields that do not apply are NaN.
 #[repr(C)]

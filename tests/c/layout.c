@@ -22,7 +22,7 @@ void test_layout(void) {
     CHECK(sizeof(pp_memory) == 64);
     CHECK(offsetof(pp_memory, state) == 0);
 
-    CHECK(sizeof(pp_contact) == 216);
+    CHECK(sizeof(pp_contact) == 224);
     CHECK(offsetof(pp_contact, kind) == 0);
     CHECK(offsetof(pp_contact, formulation) == 4);
     CHECK(offsetof(pp_contact, back_end) == 8);
@@ -41,6 +41,7 @@ void test_layout(void) {
     CHECK(offsetof(pp_contact, branch_b) == 144);
     CHECK(offsetof(pp_contact, point_on_a) == 168);
     CHECK(offsetof(pp_contact, point_on_b) == 192);
+    CHECK(offsetof(pp_contact, distance) == 216);
 
     CHECK(sizeof(pp_mass_properties) == 80);
     CHECK(offsetof(pp_mass_properties, volume) == 0);
