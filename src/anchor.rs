@@ -165,7 +165,7 @@ impl Anchor<'_> {
             steps += 1;
             let places = [0, 1].map(|i| After::of(self.bodies[i], &self.locals[i], v));
             let mut expansion = Expansion::about(self.bodies, self.x, self.locals, &places, (a, b));
-            self.tie(&mut expansion, 1.0);
+            self.tie(&mut expansion);
             let optimum = Model::new(&expansion.q_a, &expansion.q_b, soft, self.target).at(lambda)?;
             let mut saddle = self.judge(&expansion, optimum, v);
             if saddle.step.planes == Planes::Exact || steps >= MOST_STEPS || stalls > 2 * MOST_STALLS {
@@ -227,10 +227,10 @@ impl Anchor<'_> {
         Saddle { expansion: *expansion, step: Step { optimum, v: step, verdicts, planes }, depths, sums, on: *v }
     }
 
-    /// Ties the quadratics to the anchor by springs (or unties them: −1) that rounding cannot tell from nothing.
-    fn tie(&self, expansion: &mut Expansion, sign: f64) {
+    /// Ties the quadratics to the anchor by springs that rounding cannot tell from nothing.
+    fn tie(&self, expansion: &mut Expansion) {
         for (q, noise) in [(&mut expansion.q_a, self.noise[0]), (&mut expansion.q_b, self.noise[1])] {
-            q.hessian = q.hessian.scaled(1.0, sign * noise / self.reach);
+            q.hessian = q.hessian.scaled(1.0, noise / self.reach);
         }
     }
 

@@ -106,7 +106,7 @@ struct Envelope<'a> {
 }
 
 /// Body (0, 1) and place of a plane.
-type Place = (usize, usize);
+type Which = (usize, usize);
 
 impl<'a> Envelope<'a> {
     fn of(bodies: [&'a Body<'a>; 2]) -> Self {
@@ -115,23 +115,23 @@ impl<'a> Envelope<'a> {
     }
 
     /// F, and the plane that it is that of.
-    fn highest(&self, x: &Vector3<f64>) -> (f64, Place) {
+    fn highest(&self, x: &Vector3<f64>) -> (f64, Which) {
         let [(of_a, place_a), (of_b, place_b)] = self.bodies.map(|body| body.farthest_excess(x));
         let (of_a, of_b) = (self.roots[0] * of_a, self.roots[1] * of_b);
         if of_a > of_b { (of_a, (0, place_a)) } else { (of_b, (1, place_b)) }
     }
 
-    fn face(&self, (body, place): Place) -> Face {
+    fn face(&self, (body, place): Which) -> Face {
         Face { gradient: self.roots[body] * self.bodies[body].normal(place), on_a: body == 0 }
     }
 
     /// How far F, now `level`, falls by `rate` a unit of way against y, and which plane takes over there; as far as
     /// F = 0 if none does.
-    fn next(&self, x: &Vector3<f64>, y: &Vector3<f64>, level: f64, rate: f64) -> (f64, Option<Place>) {
+    fn next(&self, x: &Vector3<f64>, y: &Vector3<f64>, level: f64, rate: f64) -> (f64, Option<Which>) {
         if self.few { self.next_of_few(x, y, level, rate) } else { self.next_of_many(x, y, level, rate) }
     }
 
-    fn next_of_few(&self, x: &Vector3<f64>, y: &Vector3<f64>, level: f64, rate: f64) -> (f64, Option<Place>) {
+    fn next_of_few(&self, x: &Vector3<f64>, y: &Vector3<f64>, level: f64, rate: f64) -> (f64, Option<Which>) {
         let (mut way, mut next) = (level / rate, None);
         for (i, (body, root)) in self.bodies.iter().zip(self.roots).enumerate() {
             let (x, y) = (body.local(x), body.turn(y));
@@ -147,7 +147,7 @@ impl<'a> Envelope<'a> {
     }
 
     /// By Newton's method from the far end: what lies above F there takes over earlier.
-    fn next_of_many(&self, x: &Vector3<f64>, y: &Vector3<f64>, level: f64, rate: f64) -> (f64, Option<Place>) {
+    fn next_of_many(&self, x: &Vector3<f64>, y: &Vector3<f64>, level: f64, rate: f64) -> (f64, Option<Which>) {
         let (mut way, mut next) = (level / rate, None);
         for _ in 0..MOST_TRIALS {
             let (here, plane) = self.highest(&(x - way * y));

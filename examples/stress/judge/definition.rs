@@ -1,5 +1,6 @@
 //! What every right answer must satisfy, whatever the truth is.
 
+use super::solutions::same;
 use super::{EPS, FULL, Failure, Scene, Units, Verdict};
 use crate::cases::{Case, Place};
 use crate::random::Random;
@@ -126,15 +127,9 @@ pub(super) fn swapped(verdict: &mut Verdict, scene: &Scene, one: &Contact) {
     let answer = detect(scene.b, &scene.at_b, scene.a, &scene.at_a, &FULL, None);
     match answer {
         Ok(other) => {
-            let both = one.gap + other.gap;
-            verdict.check((one.s - other.s).abs() <= both, Failure::Swap, || {
-                format!("s={:e} and {:e}, gaps {both:e}", one.s, other.s)
-            });
-            let flat = scene.a.sphericity().min(scene.b.sphericity()) < 1e-12;
-            let off = (one.branch_b - other.branch_a).norm();
-            let allowed = one.point_bound + other.point_bound + 8.0 * EPS * scene.length;
-            verdict
-                .check(flat || off <= allowed, Failure::Swap, || format!("points {off:e} apart, bounds {allowed:e}"));
+            // What was B is A now.
+            let other = Contact { branch_b: other.branch_a, ..other };
+            same(verdict, Failure::Swap, one, &other, scene);
         }
         Err(error) => verdict.fail(Failure::Error, format!("swapped: {error}")),
     }

@@ -84,7 +84,7 @@ pub(super) fn warm(verdict: &mut Verdict, scene: &Scene, cold: &Contact, clock: 
     match answer {
         Ok(warm) => {
             verdict.paths.push((Call::Warm, path(&warm)));
-            same(verdict, cold, &warm, scene);
+            same(verdict, Failure::Warm, cold, &warm, scene);
         }
         Err(error) => verdict.fail(Failure::Error, format!("warm: {error}")),
     }
@@ -100,15 +100,15 @@ pub(super) fn warm(verdict: &mut Verdict, scene: &Scene, cold: &Contact, clock: 
     }
 }
 
-fn same(verdict: &mut Verdict, cold: &Contact, warm: &Contact, scene: &Scene) {
-    let both = cold.gap + warm.gap;
-    verdict.check((cold.s - warm.s).abs() <= both, Failure::Warm, || {
-        format!("s={:e} cold and {:e} warm, gaps {both:e}", cold.s, warm.s)
-    });
+/// Two answers to the same question, within their bounds.
+pub(super) fn same(verdict: &mut Verdict, failure: Failure, one: &Contact, other: &Contact, scene: &Scene) {
+    let both = one.gap + other.gap;
+    verdict
+        .check((one.s - other.s).abs() <= both, failure, || format!("s={:e} and {:e}, gaps {both:e}", one.s, other.s));
     let flat = scene.a.sphericity().min(scene.b.sphericity()) < 1e-12;
-    let off = (cold.branch_b - warm.branch_b).norm();
-    let allowed = cold.point_bound + warm.point_bound + 8.0 * EPS * scene.length;
-    verdict.check(flat || off <= allowed, Failure::Warm, || format!("points {off:e} apart, bounds {allowed:e}"));
+    let off = (one.branch_b - other.branch_b).norm();
+    let allowed = one.point_bound + other.point_bound + 8.0 * EPS * scene.length;
+    verdict.check(flat || off <= allowed, failure, || format!("points {off:e} apart, bounds {allowed:e}"));
 }
 
 pub(super) fn closest(verdict: &mut Verdict, scene: &Scene, midway: &Contact, bodies: &[Body; 2], clock: &mut Cost) {
