@@ -91,16 +91,16 @@ impl<'a> Body<'a> {
     /// frame itself.
     #[inline]
     pub fn at(&self, place: &impl Place, frame: Option<&Matrix3<f64>>) -> Quadratic {
-        let turned = |rotation: Matrix3<f64>| self.quadratic(place, |n| rotation * n);
-        match frame {
-            Some(axes) if self.turned => turned(axes.tr_mul(&self.rotation)),
-            Some(axes) => turned(axes.transpose()),
-            None if self.turned => turned(self.rotation),
-            None => self.quadratic(place, |n| n),
-        }
+        let rotation = match frame {
+            Some(axes) if self.turned => axes.tr_mul(&self.rotation),
+            Some(axes) => axes.transpose(),
+            None if self.turned => self.rotation,
+            None => return self.quadratic(place, |n| n),
+        };
+        self.quadratic(place, |n| rotation * n)
     }
 
-    #[inline]
+    #[inline(always)]
     fn quadratic(&self, place: &impl Place, turn: impl Fn(Vector3<f64>) -> Vector3<f64>) -> Quadratic {
         let weights = (self.plane_weight, self.sphere_weight);
         let counts = |i, excess| place.counts(self.particle, i, excess);

@@ -72,8 +72,7 @@ pub(crate) fn solved(
     if start.is_some() && settings.back_end == BackEnd::Fast {
         search.flags.insert(Flags::WARM);
     }
-    let mut midway = Answer::BLANK;
-    search.midway(start, &mut midway)?;
+    let midway = search.midway(start)?;
     let scale = search.certify(&midway, Target::Midway);
     let separated = midway.outcome.ending == Ending::Separated;
     let least = Settings::default().flat_regularisation;
@@ -128,10 +127,9 @@ fn describe(
 ) -> Result<LocalContact, DetectError> {
     let overlapping = contact.kind == Kind::Overlapping;
     if settings.formulation == Formulation::Closest {
-        let (mut p1, mut p2) = (Answer::BLANK, Answer::BLANK);
-        let of_a = search.constrained(Target::OnB, Some(midway), &mut p2)?;
-        let of_b = if of_a.is_some() { search.constrained(Target::OnA, Some(midway), &mut p1)? } else { None };
-        if let (Some(of_a), Some(of_b)) = (of_a, of_b) {
+        let of_a = search.constrained(Target::OnB, Some(midway))?;
+        let of_b = if of_a.is_some() { search.constrained(Target::OnA, Some(midway))? } else { None };
+        if let (Some((p2, of_a)), Some((p1, of_b))) = (of_a, of_b) {
             (contact.s, contact.s_b) = (of_a.s, of_b.s);
             contact.gap = of_a.gap.max(of_b.gap);
             contact.point_bound = search.bound(&p2, Target::OnB).max(search.bound(&p1, Target::OnA));

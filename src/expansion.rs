@@ -166,6 +166,7 @@ impl Expansion {
     /// With a curvature of at least that of the spheres, a slope that is left can hide its square over twice as much. Where
     /// the spheres are all but flat that is more than it can hide between here and the optimum, which lies in
     /// {S ≤ `upper`}. Less than what is `negligible` is not looked at again. Also tells whether no sign is in doubt.
+    #[inline(always)]
     pub fn doubt(&self, bodies: [&Body; 2], target: Target, step: &Step, upper: f64, negligible: f64) -> (f64, bool) {
         let ((a, b), soft) = (target.weights(step.optimum.lambda), softest(bodies[0], bodies[1]));
         let rounding = a * step.optimum.rounding_of_slope(&self.q_a) + b * step.optimum.rounding_of_slope(&self.q_b);
@@ -178,8 +179,8 @@ impl Expansion {
         (doubt, of_a + of_b == 0.0)
     }
 
-    #[inline]
-    fn step(&self, [a, b]: [&Body; 2], optimum: Optimum) -> Step {
+    #[inline(always)]
+    pub fn step(&self, [a, b]: [&Body; 2], optimum: Optimum) -> Step {
         let v = self.to_solver(&optimum.step);
         let length = v.norm();
         let verdicts =

@@ -5,7 +5,7 @@ use crate::detect::DetectError;
 use crate::pair::Pair;
 use crate::particle::Particle;
 use crate::pose::Pose;
-use crate::search::{Answer, Search};
+use crate::search::Search;
 use crate::settings::Settings;
 use crate::target::Target;
 use nalgebra::Vector3;
@@ -48,9 +48,8 @@ pub fn closest_point(
         Role::B => Target::OnB,
     };
     let mut search = Search::new(&pair, settings);
-    let mut answer = Answer::BLANK;
-    let found = search.constrained(target, None, &mut answer)?;
-    Ok(found.map(|scale| {
+    let found = search.constrained(target, None)?;
+    Ok(found.map(|(answer, scale)| {
         let branch_b = pose_b.rotate(&answer.outcome.x);
         let point_bound = search.bound(&answer, target);
         Half { s: scale.s, gap: scale.gap, point: pose_b.position + branch_b, branch_b, point_bound }

@@ -41,11 +41,12 @@ impl Leaves {
     /// exceeds.
     #[inline(always)]
     pub fn visit_near(&self, y: &Vector3<f64>, early: f64, mut visit: impl FnMut(Range<usize>)) -> f64 {
-        // The margin covers the rounding of the bound itself.
-        let length = y.norm() * (1.0 + 1e-14);
+        // The margin covers the rounding of the bound itself; a single group is not judged.
+        let single = self.single();
+        let length = if single { 0.0 } else { y.norm() * (1.0 + 1e-14) };
         let mut most_left_out = f64::NEG_INFINITY;
         for leaf in &self.0 {
-            let bound = leaf.bound(y, length);
+            let bound = if single { f64::INFINITY } else { leaf.bound(y, length) };
             if bound > -early {
                 visit(leaf.planes.clone());
             } else {

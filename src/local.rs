@@ -50,7 +50,7 @@ impl Place for Local {
 
     #[inline]
     fn counts(&self, _: &Particle, i: usize, excess: f64) -> bool {
-        excess > self.blur || (excess > -self.early && !self.dropped().contains(&(i as u16)))
+        excess > -self.early && (self.count == 0 || excess > self.blur || !self.dropped().contains(&(i as u16)))
     }
 }
 

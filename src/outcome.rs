@@ -51,6 +51,7 @@ impl Outcome {
     };
 
     /// The optimum that a step leads to, with its bounds.
+    #[inline(always)]
     pub fn of(here: &Expansion, bodies: [&Body; 2], target: Target, step: &Step) -> Self {
         let (optimum, soft, lambda) = (&step.optimum, expansion::softest(bodies[0], bodies[1]), step.optimum.lambda);
         let (s_a, s_b) = optimum.values;
@@ -86,7 +87,14 @@ impl Outcome {
         }
     }
 
+    /// Whether the optimum exceeds 1 for sure, where a regularisation adds no more than `flat`: what it adds proves nothing.
+    #[inline]
+    pub fn separates(&self, flat: f64) -> bool {
+        self.lower - self.rounding - flat > 1.0
+    }
+
     /// Bound on the error of the optimal S.
+    #[inline]
     pub fn gap(&self) -> f64 {
         self.upper - self.lower + self.rounding
     }

@@ -244,16 +244,10 @@ impl Particle {
         early: f64,
         mut visit: impl FnMut(usize, Vector3<f64>, f64),
     ) -> f64 {
-        let mut each = |i, [a, b, c, d]: &[f64; 4]| visit(i, Vector3::new(*a, *b, *c), a * y.x + b * y.y + c * y.z - d);
-        if self.leaves.single() {
-            for (i, row) in self.rows.iter().enumerate() {
-                each(i, row);
-            }
-            return f64::NEG_INFINITY;
-        }
         self.leaves.visit_near(y, early, |run| {
-            for (i, row) in run.clone().zip(&self.rows[run]) {
-                each(i, row);
+            let first = run.start;
+            for (j, [a, b, c, d]) in self.rows[run].iter().enumerate() {
+                visit(first + j, Vector3::new(*a, *b, *c), a * y.x + b * y.y + c * y.z - d);
             }
         })
     }

@@ -89,7 +89,7 @@ pub fn local(particle: &Particle, y: &Vector3<f64>) -> Quadratic {
 ///
 /// Each active normal is turned before it is squared, not the finished Hessian: in a frame aligned
 /// with a face the stiff and the soft direction then stay apart to full relative precision.
-#[inline]
+#[inline(always)]
 pub(crate) fn turned(
     particle: &Particle,
     (plane_weight, sphere_weight): (f64, f64),

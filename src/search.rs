@@ -26,8 +26,6 @@ pub(crate) struct Search<'a> {
 }
 
 /// An answer, with the quadratics that it is the optimum of, or at its point where the cone program gave it.
-///
-/// It is large: whoever asks provides the place for it.
 pub(crate) struct Answer {
     pub outcome: Outcome,
     pub expansion: Expansion,
@@ -36,8 +34,6 @@ pub(crate) struct Answer {
 }
 
 impl Answer {
-    pub const BLANK: Self = Self { outcome: Outcome::UNKNOWN, expansion: Expansion::BLANK, softened: None };
-
     /// Where a neighbouring problem of the same pair may begin.
     fn start(&self) -> Start {
         Start { x: self.outcome.x, lambda: self.outcome.lambda, near: true }
@@ -52,8 +48,8 @@ impl<'a> Search<'a> {
 
     /// Midway, from a start if there is one.
     #[inline(always)]
-    pub fn midway(&mut self, start: Option<Start>, answer: &mut Answer) -> Result<(), ConicError> {
-        self.solve(Target::Midway, start, None, answer)
+    pub fn midway(&mut self, start: Option<Start>) -> Result<Answer, ConicError> {
+        self.solve(Target::Midway, start, None)
     }
 
     /// One of the two problems of closest, or `None` where its constraint is slack: the optimum is then the
@@ -65,8 +61,7 @@ impl<'a> Search<'a> {
         &mut self,
         target: Target,
         midway: Option<&Answer>,
-        answer: &mut Answer,
-    ) -> Result<Option<Certified>, ConicError> {
+    ) -> Result<Option<(Answer, Certified)>, ConicError> {
         let centre_inside = match target {
             Target::OnB => self.pair.b.potential(&self.pair.centre) < 0.0,
             _ => self.pair.a.potential(&self.body_a.local(&self.body_b.centre())) < 0.0,
@@ -76,10 +71,10 @@ impl<'a> Search<'a> {
         }
         // The quadratics of a softened problem are those of no other.
         let left = midway.filter(|midway| midway.softened.is_none()).map(|midway| &midway.expansion);
-        self.solve(target, midway.map(Answer::start), left, answer)?;
-        let scale = self.certify(answer, target);
+        let answer = self.solve(target, midway.map(Answer::start), left)?;
+        let scale = self.certify(&answer, target);
         // A scale that cannot be told from 0 belongs to a core.
-        Ok((scale.s > scale.gap).then_some(scale))
+        Ok((scale.s > scale.gap).then_some((answer, scale)))
     }
 
     /// The scale s of an answer, and the bound on its error.
@@ -105,33 +100,60 @@ impl<'a> Search<'a> {
 
     /// The ladder: from the start at hand, cold, by the safe solver, and by the cone program.
     #[inline(always)]
-    fn solve(
-        &mut self,
-        target: Target,
-        start: Option<Start>,
-        left: Option<&Expansion>,
-        answer: &mut Answer,
-    ) -> Result<(), ConicError> {
-        let usual = expansion::factorisation(&self.body_a, &self.body_b);
-        if self.settings.back_end == BackEnd::Fast {
-            let first = start.unwrap_or_else(|| start::cold(self.pair, &self.body_a, &self.body_b));
-            self.rung(target, &first, left, usual, answer);
-            if answer.outcome.ending == Ending::Stuck {
-                self.further(target, start.is_some(), usual, answer);
-            }
-            if answer.outcome.ending != Ending::Stuck {
-                if answer.outcome.ending == Ending::RoundingLimited {
+    fn solve(&mut self, target: Target, start: Option<Start>, left: Option<&Expansion>) -> Result<Answer, ConicError> {
+        let (bodies, usual) = ([&self.body_a, &self.body_b], expansion::factorisation(&self.body_a, &self.body_b));
+        if self.settings.back_end != BackEnd::Fast {
+            return self.by_cone_program(target, usual);
+        }
+        let first = start.unwrap_or_else(|| start::cold(self.pair, &self.body_a, &self.body_b));
+        let expansion = match left {
+            Some(expansion) => *expansion,
+            None => Expansion::at(bodies, &first, target, usual),
+        };
+        match spine::at_once(bodies, &self.goal(target), &first, &expansion) {
+            Some(outcome) => {
+                self.iterations += 1;
+                if outcome.ending == Ending::RoundingLimited {
                     self.flags.insert(Flags::ROUNDING_LIMITED);
                 }
-                return Ok(());
+                Ok(Answer { outcome, expansion, softened: None })
             }
-            self.flags.insert(Flags::FELL_BACK);
+            None => self.climb(target, &first, start.is_some(), usual, expansion),
         }
+    }
+
+    /// The ladder from quadratics on.
+    #[inline(never)]
+    fn climb(
+        &mut self,
+        target: Target,
+        first: &Start,
+        warm: bool,
+        usual: Factorisation,
+        expansion: Expansion,
+    ) -> Result<Answer, ConicError> {
+        let mut answer = Answer { outcome: Outcome::UNKNOWN, expansion, softened: None };
+        self.rung(target, first, usual, &mut answer);
+        if answer.outcome.ending == Ending::Stuck {
+            self.further(target, warm, usual, &mut answer);
+        }
+        if answer.outcome.ending == Ending::Stuck {
+            self.flags.insert(Flags::FELL_BACK);
+            return self.by_cone_program(target, usual);
+        }
+        if answer.outcome.ending == Ending::RoundingLimited {
+            self.flags.insert(Flags::ROUNDING_LIMITED);
+        }
+        Ok(answer)
+    }
+
+    #[cold]
+    fn by_cone_program(&mut self, target: Target, usual: Factorisation) -> Result<Answer, ConicError> {
         self.answered = BackEnd::Conic;
-        answer.outcome = self.conic(target)?;
-        let start = answer.start();
-        answer.expansion = Expansion::at([&self.body_a, &self.body_b], &start, target, usual);
-        Ok(())
+        let outcome = self.conic(target)?;
+        let start = Start { x: outcome.x, lambda: outcome.lambda, near: true };
+        let expansion = Expansion::at([&self.body_a, &self.body_b], &start, target, usual);
+        Ok(Answer { outcome, expansion, softened: None })
     }
 
     /// The rungs after the first: cold, and by the safe solver.
@@ -139,7 +161,8 @@ impl<'a> Search<'a> {
     fn further(&mut self, target: Target, warm: bool, usual: Factorisation, answer: &mut Answer) {
         if warm {
             let cold = start::cold(self.pair, &self.body_a, &self.body_b);
-            self.rung(target, &cold, None, usual, answer);
+            answer.expansion = Expansion::at([&self.body_a, &self.body_b], &cold, target, usual);
+            self.rung(target, &cold, usual, answer);
         }
         if answer.outcome.ending == Ending::Stuck {
             let cold = start::on_centre_line(self.pair, &self.body_a, &self.body_b);
@@ -154,22 +177,11 @@ impl<'a> Search<'a> {
         }
     }
 
-    #[inline(always)]
-    fn rung(
-        &mut self,
-        target: Target,
-        start: &Start,
-        left: Option<&Expansion>,
-        factorisation: Factorisation,
-        answer: &mut Answer,
-    ) {
-        let bodies = [&self.body_a, &self.body_b];
-        answer.expansion = match left {
-            Some(expansion) => *expansion,
-            None => Expansion::at(bodies, start, target, factorisation),
-        };
+    /// The fast solver from the quadratics of an answer on.
+    fn rung(&mut self, target: Target, start: &Start, factorisation: Factorisation, answer: &mut Answer) {
+        let goal = self.goal(target);
         answer.outcome =
-            spine::solve(bodies[0], bodies[1], &self.goal(target), start, factorisation, &mut answer.expansion);
+            spine::solve(&self.body_a, &self.body_b, &goal, start, factorisation, &mut answer.expansion);
         self.iterations += answer.outcome.iterations;
     }
 

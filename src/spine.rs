@@ -6,9 +6,10 @@
 //! shortened by an exact search along it.
 
 use crate::body::Body;
-use crate::expansion::{Expansion, Factorisation, Start};
+use crate::expansion::{self, Expansion, Factorisation, Start};
 use crate::line::{self, Merit};
 use crate::local::Local;
+use crate::model::Model;
 use crate::outcome::{Ending, Outcome};
 use crate::target::Target;
 use crate::verdict::Planes;
@@ -47,6 +48,74 @@ pub(crate) struct Goal {
     pub stop_when_separated: bool,
 }
 
+/// The answer where the first step is the last: the planes of the quadratics stay on, no other is met, and the bounds
+/// meet. So it is for nearly all pairs whose start is from memory or from the polyhedra.
+#[inline(always)]
+pub(crate) fn at_once(bodies: [&Body; 2], goal: &Goal, start: &Start, here: &Expansion) -> Option<Outcome> {
+    let [a, b] = bodies;
+    let model = Model::new(&here.q_a, &here.q_b, expansion::softest(a, b), goal.target);
+    let found = model.solve(start.lambda, 0.0)?;
+    let optimum = if found.settled { found } else { model.settle(found)? };
+    let step = here.step(bodies, optimum);
+    if step.planes != Planes::Exact || !step.optimum.settled {
+        return None;
+    }
+    let outcome = Outcome { iterations: 1, ..Outcome::of(here, bodies, goal.target, &step) };
+    if goal.stop_when_separated && outcome.separates(flat(bodies)) {
+        return Some(Outcome { ending: Ending::Separated, ..outcome });
+    }
+    let proof = Proof::of(&outcome, goal, bodies, here, step.v.norm());
+    proof.is_final(false).then_some(Outcome { ending: proof.ending(), ..outcome })
+}
+
+/// What the regularisation itself leaves open.
+fn flat([a, b]: [&Body; 2]) -> f64 {
+    a.most_surplus(1.0).max(b.most_surplus(1.0))
+}
+
+/// How good the bounds of an outcome are.
+struct Proof {
+    /// They meet within the tolerance.
+    precise: bool,
+    /// No other point of expansion will do much better.
+    sharp: bool,
+    /// A plane that only seems to push holds the point where it does not belong, whatever it does to s: from nearby its
+    /// sign is known.
+    decided: bool,
+    /// They leave little open, however large what rounding leaves.
+    telling: bool,
+}
+
+impl Proof {
+    #[inline(always)]
+    fn of(outcome: &Outcome, goal: &Goal, bodies: [&Body; 2], here: &Expansion, length: f64) -> Self {
+        let reach = bodies[0].particle.bounding_radius().min(bodies[1].particle.bounding_radius());
+        let (gap, short) = (outcome.gap(), length <= SHORT * reach);
+        // What rounding leaves at the optimum itself.
+        let least = goal.target.dual_weighted(
+            here.locals[0].least_rounding(&outcome.gradients[0]),
+            here.locals[1].least_rounding(&outcome.gradients[1]),
+            outcome.lambda,
+        );
+        Self {
+            precise: gap <= goal.tolerance * outcome.upper,
+            sharp: short || gap <= AS_SHARP * least,
+            decided: outcome.sure || short,
+            telling: gap <= SHARP * outcome.upper,
+        }
+    }
+
+    fn ending(&self) -> Ending {
+        if self.precise { Ending::Converged } else { Ending::RoundingLimited }
+    }
+
+    /// Whether to look no further. After a step that should have gained more, this is what rounding allows, however much
+    /// it is.
+    fn is_final(&self, again: bool) -> bool {
+        self.decided && (self.precise || (self.sharp && (self.telling || again)))
+    }
+}
+
 /// Solves for the goal, beginning with the quadratics in `here`; those of the answer are left there.
 pub(crate) fn solve(
     a: &Body,
@@ -57,9 +126,7 @@ pub(crate) fn solve(
     here: &mut Expansion,
 ) -> Outcome {
     let (bodies, target) = ([a, b], goal.target);
-    let reach = a.particle.bounding_radius().min(b.particle.bounding_radius());
-    // What the regularisation itself leaves open.
-    let flat = a.most_surplus(1.0).max(b.most_surplus(1.0));
+    let flat = flat(bodies);
     let mut lambda = start.lambda;
     let mut thorough = start.near;
     let mut previous: Option<Attempt> = None;
@@ -111,33 +178,15 @@ pub(crate) fn solve(
         lower = target.dual(step.optimum.values.0, step.optimum.values.1, lambda);
         if goal.stop_when_separated && lower > 1.0 && step.planes != Planes::Pulling {
             let outcome = Outcome::of(here, bodies, target, &step);
-            // What the regularisation adds proves nothing.
-            if outcome.lower - outcome.rounding - flat > 1.0 {
+            if outcome.separates(flat) {
                 return Outcome { ending: Ending::Separated, iterations, ..outcome };
             }
         }
         if step.planes == Planes::Exact && step.optimum.settled {
-            let mut outcome = Outcome::of(here, bodies, target, &step);
-            outcome.iterations = iterations;
-            let gap = outcome.gap();
-            let precise = gap <= goal.tolerance * outcome.upper;
-            outcome.ending = if precise { Ending::Converged } else { Ending::RoundingLimited };
-            let short = step.v.norm() <= SHORT * reach;
-            // A plane that only seems to push holds the point where it does not belong, whatever it does to s: from nearby
-            // its sign is known.
-            let decided = outcome.sure || short;
-            if precise && decided {
-                return outcome;
-            }
-            // What rounding leaves at the optimum itself: no other point of expansion will do much better.
-            let least = target.dual_weighted(
-                here.locals[0].least_rounding(&outcome.gradients[0]),
-                here.locals[1].least_rounding(&outcome.gradients[1]),
-                lambda,
-            );
-            let sharp = short || gap <= AS_SHARP * least;
-            // Again after a step that should have gained more: this is what rounding allows, however much it is.
-            if sharp && decided && (gap <= SHARP * outcome.upper || arriving > 1) {
+            let mut outcome = Outcome { iterations, ..Outcome::of(here, bodies, target, &step) };
+            let proof = Proof::of(&outcome, goal, bodies, here, step.v.norm());
+            outcome.ending = proof.ending();
+            if proof.is_final(arriving > 1) {
                 return outcome;
             }
             // Proved, but over a long step; the same from nearby is sharper.

@@ -50,13 +50,13 @@ impl Body<'_> {
     /// The quadratic with depth n·x − d + n·v ≥ 0 for each of its planes is a lower bound of S everywhere:
     /// ⟨t⟩² ≥ 2λt − λ² for every λ ≥ 0. The sign is judged in the model's own arithmetic, to which the rounding
     /// of n·x − d is but a shift of the plane.
-    #[inline]
+    #[inline(always)]
     pub fn check(&self, local: &Local, q: &Quadratic, v: &Vector3<f64>, length: f64) -> Verdict {
         if self.stays(q, length) { Verdict::clear(self, local, q, length) } else { self.check_each(local, q, v) }
     }
 
     /// Whether no plane of the quadratic switches within a distance.
-    #[inline]
+    #[inline(always)]
     fn stays(&self, q: &Quadratic, distance: f64) -> bool {
         self.particle.bounds.longest_normal * distance <= CLEAR * q.clear
     }
@@ -129,7 +129,7 @@ impl Body<'_> {
 
 impl Verdict {
     /// Of a step so short that no plane switches.
-    #[inline]
+    #[inline(always)]
     fn clear(body: &Body, local: &Local, q: &Quadratic, length: f64) -> Self {
         let (moved, count) = (body.particle.bounds.longest_normal * length, f64::from(q.count));
         let least = q.clear - moved;
