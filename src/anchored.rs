@@ -53,18 +53,10 @@ const CLOSE: f64 = 1e-3;
 /// Units in the last place of the sum of its planes' forces by which a body's force may be turned aside.
 const NOISE: f64 = 32.0;
 
-/// What the solver found.
-pub(crate) struct Found {
-    pub outcome: Outcome,
-    /// Weights of the planes in the problem that it is the optimum of.
-    pub plane_weights: [f64; 2],
-    pub models: u32,
-}
-
 /// Solves for the goal; the quadratics of the answer are left in `here`.
-pub(crate) fn solve(bodies: [&Body; 2], goal: &Goal, from: &Start, here: &mut Expansion) -> Found {
+pub(crate) fn solve(bodies: [&Body; 2], goal: &Goal, from: &Start, here: &mut Expansion) -> Outcome {
     let target = goal.target;
-    let mut found = Found { outcome: Outcome::UNKNOWN, plane_weights: [0.0; 2], models: 0 };
+    let (mut found, mut models) = (Outcome::UNKNOWN, 0);
     let (mut x, mut lambda) = (from.x, from.lambda);
     // The body that is held at S = 1 has its planes as deep as they can be.
     let held = [target == Target::OnA, target == Target::OnB];
@@ -84,20 +76,21 @@ pub(crate) fn solve(bodies: [&Body; 2], goal: &Goal, from: &Start, here: &mut Ex
         });
         let anchor = Anchor { bodies: soft, target, x, locals: [0, 1].map(|i| soft[i].locate(&x, 0.0)), noise, reach };
         let enough = if as_given == [true; 2] || anchors > 0 { 0.0 } else { CLOSE };
-        let before = found.models;
-        let Some(mut saddle) = anchor.saddle(lambda, enough, &mut found.models) else { break };
+        let before = models;
+        let Some(mut saddle) = anchor.saddle(lambda, enough, &mut models) else { break };
         let shifts = [0, 1].map(|i| if as_given[i] { 0.0 } else { saddle.depths[i] });
         let stiff = [0, 1].map(|i| shifts[i] <= anchor.locals[i].blur);
         anchors += u32::from(stiff == [true; 2]);
         if stiff == [true; 2] && enough == 0.0 {
             let mut outcome = anchor.outcome(bodies, &mut saddle, shifts);
-            let (old, new) = (found.outcome.gap(), outcome.gap());
+            let (old, new) = (found.gap(), outcome.gap());
             // The later is from nearer by.
             if saddle.step.planes == Planes::Exact && new.is_finite() && !(new >= 2.0 * old) {
                 let precise = new <= goal.tolerance * outcome.upper;
                 outcome.ending = if precise { Ending::Converged } else { Ending::RoundingLimited };
-                (found.outcome, *here) = (outcome, saddle.expansion);
-                found.plane_weights = soft.map(|body| body.plane_weight());
+                let softened = Some(soft.map(|body| body.plane_weight()));
+                (found, *here) = (outcome, saddle.expansion);
+                here.softened = softened;
             }
             let near = saddle.step.v.norm() <= NEAR * reach;
             if new > 0.5 * old || (near && new <= goal.tolerance * outcome.upper) || anchors >= MOST_ANCHORS {
@@ -105,19 +98,18 @@ pub(crate) fn solve(bodies: [&Body; 2], goal: &Goal, from: &Start, here: &mut Ex
             }
         }
         // Where the last stage was no work, the next one may be three at once.
-        let factor = if found.models - before <= EASY { STIFFENING.powi(3) } else { STIFFENING };
+        let factor = if models - before <= EASY { STIFFENING.powi(3) } else { STIFFENING };
         for i in 0..2 {
             // Walls sink in as little as they are stiff: to a tenth of the rounding, and no less.
             let left = 10.0 * shifts[i] / anchor.locals[i].blur;
             contrasts[i] *= if stiff[i] { 1.0 } else { left.min(factor) };
         }
-        if found.models > MOST_MODELS {
+        if models > MOST_MODELS {
             break;
         }
         (x, lambda) = (x + saddle.step.v, saddle.step.optimum.lambda);
         weights = soft.map(|body| body.plane_weight());
         pulls = [0, 1].map(|i| 2.0 * weights[i] * bodies[i].particle.bounds.longest_normal * saddle.sums[i]);
     }
-    found.outcome.iterations = found.models;
-    found
+    Outcome { iterations: models, ..found }
 }

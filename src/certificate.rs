@@ -25,6 +25,7 @@ pub(crate) struct Certified {
 }
 
 /// The scale s of an outcome, with the regularisation taken out again, and the bound on its error.
+#[inline(always)]
 pub(crate) fn scale(outcome: &Outcome, a: &Body, b: &Body, target: Target) -> Certified {
     let weighted = |of_a, of_b| target.dual_weighted(of_a, of_b, outcome.lambda);
     // Regularised S exceeds S by at most this where the optimum can be.
@@ -48,7 +49,16 @@ const UNDERFLOW: f64 = 1.5e-154;
 /// rounding, each body's force a·∇S_A by the rounding of its direction. The answer of the optimum to each is
 /// a linear problem that is solved already, and the lengths are added. Elsewhere strong convexity bounds it:
 /// ½·curvature·distance² ≤ upper − lower.
+#[inline(always)]
 pub(crate) fn distance(outcome: &Outcome, expansion: &Expansion, a: &Body, b: &Body, target: Target) -> f64 {
+    match expansion.softened {
+        None => distance_of(outcome, expansion, a, b, target),
+        Some([w_a, w_b]) => distance_of(outcome, expansion, &a.softened(w_a), &b.softened(w_b), target),
+    }
+}
+
+#[inline(always)]
+fn distance_of(outcome: &Outcome, expansion: &Expansion, a: &Body, b: &Body, target: Target) -> f64 {
     let weights = target.weights(outcome.lambda);
     let convexity = || {
         let soft = expansion::softest(a, b);

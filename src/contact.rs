@@ -1,9 +1,11 @@
 //! The contact: point, normal and overlap from a solution.
 
+use crate::certificate::Certified;
 use crate::expansion::Piece;
 use crate::outcome::Outcome;
 use crate::pair::Pair;
 use crate::pose::Pose;
+use crate::search::Closest;
 use crate::settings::{BackEnd, Formulation};
 use crate::surface;
 use nalgebra::Vector3;
@@ -105,23 +107,32 @@ pub struct Contact {
     pub point_on_b: Vector3<f64>,
 }
 
-/// A contact in the local frame of B, before it is taken to the world.
+/// A contact in the local frame of B, before it is taken to the world; the numbers as in [`Contact`].
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct LocalContact {
-    pub point: Vector3<f64>,
-    pub normal: Vector3<f64>,
-    pub normal_by_centres: bool,
+    formulation: Formulation,
+    s: f64,
+    s_b: f64,
+    lambda: f64,
+    gap: f64,
+    point_bound: f64,
+    point: Vector3<f64>,
+    normal: Vector3<f64>,
+    normal_by_centres: bool,
     /// On A, on B, and their distance; `None` when separated.
-    pub surface: Option<(Vector3<f64>, Vector3<f64>, f64)>,
+    surface: Option<(Vector3<f64>, Vector3<f64>, f64)>,
 }
 
 impl LocalContact {
     /// Midway: normal from both unit gradients at P3, surface points along it from there.
     ///
     /// `pieces` gives S_A and S_B along the normal: on the quadratics at P3 the surface is a square root away.
+    #[inline(always)]
     pub fn midway(
         pair: &Pair,
         outcome: &Outcome,
+        scale: Certified,
+        point_bound: f64,
         pieces: impl Fn(&Vector3<f64>) -> [Piece; 2],
         overlapping: bool,
     ) -> Option<Self> {
@@ -144,41 +155,83 @@ impl LocalContact {
         } else {
             None
         };
-        Some(Self { point: *x, normal, normal_by_centres, surface })
+        Some(Self {
+            formulation: Formulation::Midway,
+            s: scale.s,
+            s_b: f64::NAN,
+            lambda: outcome.lambda,
+            gap: scale.gap,
+            point_bound,
+            point: *x,
+            normal,
+            normal_by_centres,
+            surface,
+        })
     }
 
     /// Closest: overlap distance |P1 − P2|, contact point their weighted mean, normal from the gradients
     /// of A at P1 and of B at P2.
-    pub fn closest(
-        pair: &Pair,
-        [p1, p2]: [&Vector3<f64>; 2],
-        gradients: &[Vector3<f64>; 2],
-        weight_on_a: f64,
-        overlapping: bool,
-    ) -> Self {
-        let (normal, normal_by_centres) = normal(pair, gradients);
+    pub fn closest(pair: &Pair, [p1, p2]: [&Closest; 2], weight_on_a: f64, overlapping: bool) -> Self {
+        let (normal, normal_by_centres) = normal(pair, &[p1.gradients[0], p2.gradients[1]]);
+        let way = p1.x - p2.x;
         Self {
-            point: p2 + weight_on_a * (p1 - p2),
+            formulation: Formulation::Closest,
+            s: p2.scale.s,
+            s_b: p1.scale.s,
+            lambda: p2.lambda,
+            gap: p2.scale.gap.max(p1.scale.gap),
+            point_bound: p2.bound.max(p1.bound),
+            point: p2.x + weight_on_a * way,
             normal,
             normal_by_centres,
-            surface: overlapping.then(|| (*p1, *p2, (p1 - p2).norm())),
+            surface: overlapping.then(|| (p1.x, p2.x, way.norm())),
+        }
+    }
+
+    /// In world axes; what is not of the geometry is taken from `call`.
+    #[inline(always)]
+    pub fn placed(&self, pair: &Pair, pose_a: &Pose, pose_b: &Pose, call: Contact) -> Contact {
+        let branch_b = pose_b.rotate(&self.point);
+        let by_centres = if self.normal_by_centres { Flags::NORMAL_BY_CENTRES } else { Flags::default() };
+        let contact = Contact {
+            formulation: self.formulation,
+            flags: call.flags.with(by_centres),
+            s: self.s,
+            s_b: self.s_b,
+            weight: self.lambda / (1.0 + self.lambda),
+            gap: self.gap,
+            point_bound: self.point_bound,
+            normal: pose_b.rotate(&self.normal),
+            branch_b,
+            branch_a: pose_a.rotate(&pair.in_a(&self.point)),
+            point: pose_b.position + branch_b,
+            ..call
+        };
+        match self.surface {
+            Some((on_a, on_b, overlap)) => Contact {
+                kind: Kind::Overlapping,
+                distance: f64::NAN,
+                overlap,
+                point_on_a: pose_b.position + pose_b.rotate(&on_a),
+                point_on_b: pose_b.position + pose_b.rotate(&on_b),
+                ..contact
+            },
+            None => contact,
         }
     }
 }
 
 impl Contact {
-    /// A contact of which only the proof of separation is known.
-    pub(crate) fn separated(formulation: Formulation, s: f64) -> Self {
-        let nan = Vector3::repeat(f64::NAN);
-        let mut flags = Flags::default();
-        flags.insert(Flags::REJECTED);
+    /// A pair of which nothing is known yet.
+    pub(crate) const UNKNOWN: Self = {
+        let nan = Vector3::new(f64::NAN, f64::NAN, f64::NAN);
         Self {
             kind: Kind::Separated,
-            formulation,
+            formulation: Formulation::Midway,
             back_end: BackEnd::Fast,
-            flags,
+            flags: Flags(0),
             iterations: 0,
-            s,
+            s: f64::NAN,
             s_b: f64::NAN,
             weight: f64::NAN,
             gap: f64::NAN,
@@ -192,22 +245,11 @@ impl Contact {
             point_on_a: nan,
             point_on_b: nan,
         }
-    }
+    };
 
-    /// Fills in the geometry, taken to world axes last.
-    pub(crate) fn place(&mut self, local: &LocalContact, pair: &Pair, pose_a: &Pose, pose_b: &Pose) {
-        self.normal = pose_b.rotate(&local.normal);
-        self.branch_b = pose_b.rotate(&local.point);
-        self.branch_a = pose_a.rotate(&pair.in_a(&local.point));
-        self.point = pose_b.position + self.branch_b;
-        if local.normal_by_centres {
-            self.flags.insert(Flags::NORMAL_BY_CENTRES);
-        }
-        if let Some((on_a, on_b, overlap)) = local.surface {
-            self.overlap = overlap;
-            self.point_on_a = pose_b.position + pose_b.rotate(&on_a);
-            self.point_on_b = pose_b.position + pose_b.rotate(&on_b);
-        }
+    /// A contact of which only the proof of separation is known.
+    pub(crate) fn separated(formulation: Formulation, s: f64) -> Self {
+        Self { formulation, flags: Flags::REJECTED, s, ..Self::UNKNOWN }
     }
 }
 

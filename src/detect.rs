@@ -1,17 +1,17 @@
 //! The whole of contact detection: reject, solve, prove, describe.
 
-use crate::certificate::Certified;
-use crate::contact::{Contact, Flags, Kind, LocalContact};
-use crate::expansion::Start;
+use crate::contact::{Contact, Flags, LocalContact};
+use crate::expansion::{Expansion, Start};
 use crate::memory::{Memory, Remembered};
-use crate::outcome::Ending;
+use crate::outcome::{Ending, Outcome};
 use crate::pair::Pair;
 use crate::particle::Particle;
 use crate::pose::Pose;
 use crate::reject::{self, Apart};
-use crate::search::{Answer, Search};
+use crate::search::Search;
 use crate::settings::{BackEnd, Formulation, Settings, SettingsError};
 use crate::target::Target;
+use nalgebra::Vector3;
 use thiserror::Error;
 
 /// Why there is no answer.
@@ -66,24 +66,29 @@ pub(crate) fn solved(
     settings: &Settings,
     memory: Option<&mut Memory>,
 ) -> Result<Contact, DetectError> {
-    let last = memory.as_deref().and_then(|memory| memory.last);
     let mut search = Search::new(pair, settings);
-    let start = last.map(|last| Start { x: last.x, lambda: last.lambda, near: true });
-    if start.is_some() && settings.back_end == BackEnd::Fast {
-        search.flags.insert(Flags::WARM);
-    }
-    let midway = search.midway(start)?;
+    let start = match memory.as_deref().and_then(|memory| memory.last) {
+        Some(last) => {
+            if settings.back_end == BackEnd::Fast {
+                search.flags.insert(Flags::WARM);
+            }
+            Start { x: last.x, lambda: last.lambda, near: true }
+        }
+        None => search.cold(),
+    };
+    let mut here = search.expansion(&start, Target::Midway);
+    let midway = search.midway(&start, &mut here)?;
     let scale = search.certify(&midway, Target::Midway);
-    let separated = midway.outcome.ending == Ending::Separated;
+    let separated = midway.ending == Ending::Separated;
     let least = Settings::default().flat_regularisation;
     if !separated && scale.s >= 1.0 && scale.low < 1.0 && settings.flat_regularisation > least {
         // Where the bulge of a raised regularisation may hide an overlap, the particles as they are decide.
         let settings = Settings { flat_regularisation: least, ..*settings };
         return solved(pair, [pose_a, pose_b], &settings, memory);
     }
+    let overlapping = !separated && scale.s < 1.0;
     if let Some(memory) = memory {
-        let overlapping = !separated && scale.s < 1.0;
-        memory.last = Some(Remembered { x: midway.outcome.x, lambda: midway.outcome.lambda, overlapping });
+        memory.last = Some(Remembered { x: midway.x, lambda: midway.lambda, overlapping });
     }
     if separated {
         let mut contact = Contact::separated(settings.formulation, scale.low.max(1.0));
@@ -91,15 +96,26 @@ pub(crate) fn solved(
         (contact.iterations, contact.back_end) = (search.iterations, search.answered);
         return Ok(contact);
     }
-    let mut contact = Contact::separated(settings.formulation, scale.s);
-    if scale.s < 1.0 {
-        (contact.kind, contact.distance) = (Kind::Overlapping, f64::NAN);
-    }
-    let local = describe(&mut search, settings, pair, &midway, scale, &mut contact)?;
-    contact.flags = search.flags;
-    (contact.iterations, contact.back_end) = (search.iterations, search.answered);
-    contact.place(&local, pair, pose_a, pose_b);
-    Ok(contact)
+    let asked = settings.formulation;
+    let found = if asked == Formulation::Closest {
+        closest(&mut search, settings, (&midway, &here), overlapping)?
+    } else {
+        None
+    };
+    let local = match found {
+        Some(local) => local,
+        None => {
+            if asked == Formulation::Closest {
+                search.flags.insert(Flags::SLACK);
+            }
+            let bound = search.bound(&midway, &here, Target::Midway);
+            let pieces = |n: &Vector3<f64>| search.pieces(&midway, &here, n);
+            LocalContact::midway(pair, &midway, scale, bound, pieces, overlapping)
+                .ok_or_else(|| DetectError::Failed { conic: "the surface was not found along the normal".into() })?
+        }
+    };
+    let Search { flags, iterations, answered, .. } = search;
+    Ok(local.placed(pair, pose_a, pose_b, Contact { flags, iterations, back_end: answered, ..Contact::UNKNOWN }))
 }
 
 /// A cheap proof of separation, if one succeeds and will do.
@@ -116,39 +132,14 @@ pub(crate) fn rejected(pair: &Pair, settings: &Settings, memory: Option<&Memory>
     }
 }
 
-/// The geometry that the settings ask for, from the solution of midway; what else is known goes into `contact`.
-fn describe(
+/// The contact by both closest points, if there are both; midway lies between them.
+fn closest(
     search: &mut Search,
     settings: &Settings,
-    pair: &Pair,
-    midway: &Answer,
-    scale: Certified,
-    contact: &mut Contact,
-) -> Result<LocalContact, DetectError> {
-    let overlapping = contact.kind == Kind::Overlapping;
-    if settings.formulation == Formulation::Closest {
-        let of_a = search.constrained(Target::OnB, Some(midway))?;
-        let of_b = if of_a.is_some() { search.constrained(Target::OnA, Some(midway))? } else { None };
-        if let (Some((p2, of_a)), Some((p1, of_b))) = (of_a, of_b) {
-            (contact.s, contact.s_b) = (of_a.s, of_b.s);
-            contact.gap = of_a.gap.max(of_b.gap);
-            contact.point_bound = search.bound(&p2, Target::OnB).max(search.bound(&p1, Target::OnA));
-            contact.weight = share(p2.outcome.lambda);
-            let gradients = [p1.outcome.gradients[0], p2.outcome.gradients[1]];
-            let points = [&p1.outcome.x, &p2.outcome.x];
-            return Ok(LocalContact::closest(pair, points, &gradients, settings.weight_on_a, overlapping));
-        }
-        search.flags.insert(Flags::SLACK);
-        contact.formulation = Formulation::Midway;
-    }
-    contact.gap = scale.gap;
-    contact.weight = share(midway.outcome.lambda);
-    contact.point_bound = search.bound(midway, Target::Midway);
-    LocalContact::midway(pair, &midway.outcome, |n| search.pieces(midway, n), overlapping)
-        .ok_or_else(|| DetectError::Failed { conic: "the surface was not found along the normal".into() })
-}
-
-/// The weight u of B from the ratio λ = u/(1−u).
-fn share(lambda: f64) -> f64 {
-    lambda / (1.0 + lambda)
+    midway: (&Outcome, &Expansion),
+    overlapping: bool,
+) -> Result<Option<LocalContact>, DetectError> {
+    let Some(p2) = search.constrained(Target::OnB, Some(midway))? else { return Ok(None) };
+    let Some(p1) = search.constrained(Target::OnA, Some(midway))? else { return Ok(None) };
+    Ok(Some(LocalContact::closest(search.pair, [&p1, &p2], settings.weight_on_a, overlapping)))
 }

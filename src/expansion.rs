@@ -44,6 +44,8 @@ pub(crate) struct Expansion {
     pub locals: [Local; 2],
     pub q_a: Quadratic,
     pub q_b: Quadratic,
+    /// Weights of the planes in them, where the safe solver made them lower than they are.
+    pub softened: Option<[f64; 2]>,
 }
 
 /// The factorisation that the shapes of a pair call for.
@@ -59,21 +61,14 @@ pub(crate) fn softest(a: &Body, b: &Body) -> (f64, f64) {
 }
 
 impl Expansion {
-    pub const BLANK: Self = Self {
-        x: Vector3::new(0.0, 0.0, 0.0),
-        axes: None,
-        locals: [Local::BLANK; 2],
-        q_a: Quadratic::ZERO,
-        q_b: Quadratic::ZERO,
-    };
-
     /// At a point, with planes counting from their own blur.
+    #[inline(always)]
     pub fn at(bodies: [&Body; 2], start: &Start, target: Target, factorisation: Factorisation) -> Self {
         let locals = bodies.map(|body| body.locate(&start.x, 0.0));
         Self::of(bodies, start.x, locals, target.weights(start.lambda), factorisation)
     }
 
-    #[inline]
+    #[inline(always)]
     pub fn of(
         bodies: [&Body; 2],
         x: Vector3<f64>,
@@ -87,7 +82,7 @@ impl Expansion {
         };
         let q_a = bodies[0].at(&locals[0], axes.as_ref());
         let q_b = bodies[1].at(&locals[1], axes.as_ref());
-        Self { x, axes, locals, q_a, q_b }
+        Self { x, axes, locals, q_a, q_b, softened: None }
     }
 
     /// About a point, in safe axes, with the planes that count in `places`.
@@ -100,7 +95,7 @@ impl Expansion {
     ) -> Self {
         let axes = Some(frame::aligned(bodies, weights, places));
         let [q_a, q_b] = [0, 1].map(|i| bodies[i].at(&places[i], axes.as_ref()));
-        Self { x, axes, locals, q_a, q_b }
+        Self { x, axes, locals, q_a, q_b, softened: None }
     }
 
     /// A direction of the solver's frame in the axes of the quadratics.
@@ -121,7 +116,8 @@ impl Expansion {
     pub fn pieces(&self, bodies: [&Body; 2], x: &Vector3<f64>, n: &Vector3<f64>) -> [Piece; 2] {
         let (n, moved) = (self.to_axes(n), (x - self.x).norm());
         let piece = |body: &Body, q: &Quadratic| {
-            let exact = body.is_plain() && q.expansion <= NEARBY;
+            // Quadratics of a softened problem tell no more than the way.
+            let exact = body.is_plain() && self.softened.is_none() && q.expansion <= NEARBY;
             let reach = if exact { body.stays_for(q) - moved } else { 0.0 };
             Piece { curvature: q.hessian.times(&n).dot(&n), reach }
         };

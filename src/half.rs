@@ -49,9 +49,9 @@ pub fn closest_point(
     };
     let mut search = Search::new(&pair, settings);
     let found = search.constrained(target, None)?;
-    Ok(found.map(|(answer, scale)| {
-        let branch_b = pose_b.rotate(&answer.outcome.x);
-        let point_bound = search.bound(&answer, target);
-        Half { s: scale.s, gap: scale.gap, point: pose_b.position + branch_b, branch_b, point_bound }
+    Ok(found.map(|found| {
+        let branch_b = pose_b.rotate(&found.x);
+        let (s, gap, point) = (found.scale.s, found.scale.gap, pose_b.position + branch_b);
+        Half { s, gap, point, branch_b, point_bound: found.bound }
     }))
 }

@@ -288,6 +288,7 @@ impl Optimum {
     }
 
     /// How the optimum answers to small changes of the data, with least curvatures `soft` of A and B.
+    #[inline(always)]
     pub fn response(&self, target: Target, soft: (f64, f64)) -> Option<Response> {
         if !(self.rate > 0.0) {
             return None;

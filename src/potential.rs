@@ -35,16 +35,6 @@ impl Quadratic {
     pub(crate) fn terms(&self, v: &Vector3<f64>) -> f64 {
         self.expansion + 1.5 * v.component_mul(v).dot(&self.hessian.diagonal())
     }
-
-    pub(crate) const ZERO: Self = Self {
-        value: 0.0,
-        expansion: 0.0,
-        gradient: Vector3::new(0.0, 0.0, 0.0),
-        hessian: Symmetric { xx: 0.0, yx: 0.0, yy: 0.0, zx: 0.0, zy: 0.0, zz: 0.0 },
-        pull: 0.0,
-        count: 0,
-        clear: 0.0,
-    };
 }
 
 /// S and ∇S at a point.

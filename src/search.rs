@@ -16,7 +16,7 @@ use nalgebra::Vector3;
 
 /// One call: the pair, what is asked, and what it has cost so far.
 pub(crate) struct Search<'a> {
-    pair: &'a Pair<'a>,
+    pub pair: &'a Pair<'a>,
     body_a: Body<'a>,
     body_b: Body<'a>,
     settings: &'a Settings,
@@ -25,19 +25,15 @@ pub(crate) struct Search<'a> {
     pub answered: BackEnd,
 }
 
-/// An answer, with the quadratics that it is the optimum of, or at its point where the cone program gave it.
-pub(crate) struct Answer {
-    pub outcome: Outcome,
-    pub expansion: Expansion,
-    /// Weights of the planes in the problem that it answers, where the safe solver gave it.
-    pub softened: Option<[f64; 2]>,
-}
-
-impl Answer {
-    /// Where a neighbouring problem of the same pair may begin.
-    fn start(&self) -> Start {
-        Start { x: self.outcome.x, lambda: self.outcome.lambda, near: true }
-    }
+/// One of the closest points.
+pub(crate) struct Closest {
+    pub x: Vector3<f64>,
+    /// Ratio of weights λ = u/(1−u).
+    pub lambda: f64,
+    pub gradients: [Vector3<f64>; 2],
+    pub scale: Certified,
+    /// Bound on the distance to the optimum.
+    pub bound: f64,
 }
 
 impl<'a> Search<'a> {
@@ -46,22 +42,36 @@ impl<'a> Search<'a> {
         Self { pair, body_a, body_b, settings, iterations: 0, flags: Flags::default(), answered: settings.back_end }
     }
 
-    /// Midway, from a start if there is one.
+    /// Where to begin if nothing is known, and both quadratics there.
+    pub fn cold(&self) -> Start {
+        start::cold(self.pair, &self.body_a, &self.body_b)
+    }
+
+    /// Both quadratics where a search for a target begins.
     #[inline(always)]
-    pub fn midway(&mut self, start: Option<Start>) -> Result<Answer, ConicError> {
-        self.solve(Target::Midway, start, None)
+    pub fn expansion(&self, start: &Start, target: Target) -> Expansion {
+        Expansion::at([&self.body_a, &self.body_b], start, target, self.usual())
+    }
+
+    /// Midway from the quadratics at a start; those of the answer are left in `here`.
+    #[inline(always)]
+    pub fn midway(&mut self, start: &Start, here: &mut Expansion) -> Result<Outcome, ConicError> {
+        match self.at_once(Target::Midway, start.lambda, here) {
+            Some(outcome) => Ok(outcome),
+            None => self.climb(Target::Midway, start, self.flags.contains(Flags::WARM), here),
+        }
     }
 
     /// One of the two problems of closest, or `None` where its constraint is slack: the optimum is then the
     /// minimum of the other particle, for k > 0 its centre, for k = 0 anywhere in its core, and no contact
     /// point. Midway has no such case.
     ///
-    /// `midway` lies near it on the same curve, mostly on the same planes.
+    /// `midway`, with its quadratics, lies near it on the same curve, mostly on the same planes.
     pub fn constrained(
         &mut self,
         target: Target,
-        midway: Option<&Answer>,
-    ) -> Result<Option<(Answer, Certified)>, ConicError> {
+        midway: Option<(&Outcome, &Expansion)>,
+    ) -> Result<Option<Closest>, ConicError> {
         let centre_inside = match target {
             Target::OnB => self.pair.b.potential(&self.pair.centre) < 0.0,
             _ => self.pair.a.potential(&self.body_a.local(&self.body_b.centre())) < 0.0,
@@ -69,120 +79,109 @@ impl<'a> Search<'a> {
         if centre_inside {
             return Ok(None);
         }
-        // The quadratics of a softened problem are those of no other.
-        let left = midway.filter(|midway| midway.softened.is_none()).map(|midway| &midway.expansion);
-        let answer = self.solve(target, midway.map(Answer::start), left)?;
-        let scale = self.certify(&answer, target);
-        // A scale that cannot be told from 0 belongs to a core.
-        Ok((scale.s > scale.gap).then_some((answer, scale)))
-    }
-
-    /// The scale s of an answer, and the bound on its error.
-    pub fn certify(&self, answer: &Answer, target: Target) -> Certified {
-        certificate::scale(&answer.outcome, &self.body_a, &self.body_b, target)
-    }
-
-    /// S_A and S_B along a direction from the point of an answer.
-    pub fn pieces(&self, answer: &Answer, n: &Vector3<f64>) -> [Piece; 2] {
-        let pieces = answer.expansion.pieces([&self.body_a, &self.body_b], &answer.outcome.x, n);
-        // Quadratics of a softened problem tell no more than the way.
-        if answer.softened.is_some() { pieces.map(|piece| Piece { reach: 0.0, ..piece }) } else { pieces }
-    }
-
-    /// Bound on the distance from the point of an answer to the optimum.
-    pub fn bound(&self, answer: &Answer, target: Target) -> f64 {
-        let bound = |a: &Body, b: &Body| certificate::distance(&answer.outcome, &answer.expansion, a, b, target);
-        match answer.softened {
-            None => bound(&self.body_a, &self.body_b),
-            Some([w_a, w_b]) => bound(&self.body_a.softened(w_a), &self.body_b.softened(w_b)),
-        }
-    }
-
-    /// The ladder: from the start at hand, cold, by the safe solver, and by the cone program.
-    #[inline(always)]
-    fn solve(&mut self, target: Target, start: Option<Start>, left: Option<&Expansion>) -> Result<Answer, ConicError> {
-        let (bodies, usual) = ([&self.body_a, &self.body_b], expansion::factorisation(&self.body_a, &self.body_b));
-        if self.settings.back_end != BackEnd::Fast {
-            return self.by_cone_program(target, usual);
-        }
-        let first = start.unwrap_or_else(|| start::cold(self.pair, &self.body_a, &self.body_b));
-        let expansion = match left {
-            Some(expansion) => *expansion,
-            None => Expansion::at(bodies, &first, target, usual),
+        let start = match midway {
+            Some((midway, _)) => Start { x: midway.x, lambda: midway.lambda, near: true },
+            None => self.cold(),
         };
-        match spine::at_once(bodies, &self.goal(target), &first, &expansion) {
-            Some(outcome) => {
-                self.iterations += 1;
-                if outcome.ending == Ending::RoundingLimited {
-                    self.flags.insert(Flags::ROUNDING_LIMITED);
-                }
-                Ok(Answer { outcome, expansion, softened: None })
+        let own;
+        let here = match midway {
+            // The quadratics of a softened problem are those of no other.
+            Some((_, expansion)) if expansion.softened.is_none() => expansion,
+            _ => {
+                own = self.expansion(&start, target);
+                &own
             }
-            None => self.climb(target, &first, start.is_some(), usual, expansion),
+        };
+        if let Some(outcome) = self.at_once(target, start.lambda, here) {
+            return Ok(self.closest(target, &outcome, here));
         }
+        let mut here = *here;
+        let outcome = self.climb(target, &start, midway.is_some(), &mut here)?;
+        Ok(self.closest(target, &outcome, &here))
     }
 
-    /// The ladder from quadratics on.
+    fn closest(&self, target: Target, outcome: &Outcome, here: &Expansion) -> Option<Closest> {
+        let scale = self.certify(outcome, target);
+        let Outcome { x, lambda, gradients, .. } = *outcome;
+        // A scale that cannot be told from 0 belongs to a core.
+        (scale.s > scale.gap).then(|| Closest { x, lambda, gradients, scale, bound: self.bound(outcome, here, target) })
+    }
+
+    /// The scale s of an outcome, and the bound on its error.
+    #[inline]
+    pub fn certify(&self, outcome: &Outcome, target: Target) -> Certified {
+        certificate::scale(outcome, &self.body_a, &self.body_b, target)
+    }
+
+    /// S_A and S_B along a direction from the point of an outcome.
+    #[inline]
+    pub fn pieces(&self, outcome: &Outcome, here: &Expansion, n: &Vector3<f64>) -> [Piece; 2] {
+        here.pieces([&self.body_a, &self.body_b], &outcome.x, n)
+    }
+
+    /// Bound on the distance from the point of an outcome to the optimum.
+    #[inline]
+    pub fn bound(&self, outcome: &Outcome, here: &Expansion, target: Target) -> f64 {
+        certificate::distance(outcome, here, &self.body_a, &self.body_b, target)
+    }
+
+    fn usual(&self) -> Factorisation {
+        expansion::factorisation(&self.body_a, &self.body_b)
+    }
+
+    /// The answer of the first step, if that is all that it takes.
+    #[inline(always)]
+    fn at_once(&mut self, target: Target, lambda: f64, here: &Expansion) -> Option<Outcome> {
+        if self.settings.back_end != BackEnd::Fast {
+            return None;
+        }
+        let outcome = spine::at_once([&self.body_a, &self.body_b], &self.goal(target), lambda, here)?;
+        self.count(&outcome);
+        Some(outcome)
+    }
+
+    /// The ladder: from the start at hand, cold if that was `near` only, by the safe solver, and by the cone program.
     #[inline(never)]
     fn climb(
         &mut self,
         target: Target,
-        first: &Start,
-        warm: bool,
-        usual: Factorisation,
-        expansion: Expansion,
-    ) -> Result<Answer, ConicError> {
-        let mut answer = Answer { outcome: Outcome::UNKNOWN, expansion, softened: None };
-        self.rung(target, first, usual, &mut answer);
-        if answer.outcome.ending == Ending::Stuck {
-            self.further(target, warm, usual, &mut answer);
-        }
-        if answer.outcome.ending == Ending::Stuck {
-            self.flags.insert(Flags::FELL_BACK);
-            return self.by_cone_program(target, usual);
-        }
-        if answer.outcome.ending == Ending::RoundingLimited {
-            self.flags.insert(Flags::ROUNDING_LIMITED);
-        }
-        Ok(answer)
-    }
-
-    #[cold]
-    fn by_cone_program(&mut self, target: Target, usual: Factorisation) -> Result<Answer, ConicError> {
-        self.answered = BackEnd::Conic;
-        let outcome = self.conic(target)?;
-        let start = Start { x: outcome.x, lambda: outcome.lambda, near: true };
-        let expansion = Expansion::at([&self.body_a, &self.body_b], &start, target, usual);
-        Ok(Answer { outcome, expansion, softened: None })
-    }
-
-    /// The rungs after the first: cold, and by the safe solver.
-    #[cold]
-    fn further(&mut self, target: Target, warm: bool, usual: Factorisation, answer: &mut Answer) {
-        if warm {
-            let cold = start::cold(self.pair, &self.body_a, &self.body_b);
-            answer.expansion = Expansion::at([&self.body_a, &self.body_b], &cold, target, usual);
-            self.rung(target, &cold, usual, answer);
-        }
-        if answer.outcome.ending == Ending::Stuck {
-            let cold = start::on_centre_line(self.pair, &self.body_a, &self.body_b);
-            let bodies = [&self.body_a, &self.body_b];
-            let found = anchored::solve(bodies, &self.goal(target), &cold, &mut answer.expansion);
-            self.iterations += found.models;
-            answer.outcome = found.outcome;
-            if answer.outcome.ending != Ending::Stuck {
-                answer.softened = Some(found.plane_weights);
-                self.flags.insert(Flags::SAFER);
+        start: &Start,
+        near: bool,
+        here: &mut Expansion,
+    ) -> Result<Outcome, ConicError> {
+        let (mut start, usual) = (*start, self.usual());
+        if self.settings.back_end == BackEnd::Fast {
+            let goal = self.goal(target);
+            let (a, b) = (&self.body_a, &self.body_b);
+            let mut outcome = spine::solve(a, b, &goal, &start, usual, here);
+            if outcome.ending == Ending::Stuck && near {
+                self.iterations += outcome.iterations;
+                start = self.cold();
+                *here = self.expansion(&start, target);
+                outcome = spine::solve(a, b, &goal, &start, usual, here);
+            }
+            if outcome.ending == Ending::Stuck {
+                self.iterations += outcome.iterations;
+                outcome = anchored::solve([a, b], &goal, &start::on_centre_line(self.pair, a, b), here);
+                self.flags.insert(if outcome.ending == Ending::Stuck { Flags::FELL_BACK } else { Flags::SAFER });
+            }
+            self.count(&outcome);
+            if outcome.ending != Ending::Stuck {
+                return Ok(outcome);
             }
         }
+        self.answered = BackEnd::Conic;
+        let outcome = self.conic(target)?;
+        *here = self.expansion(&Start { x: outcome.x, lambda: outcome.lambda, near: true }, target);
+        Ok(outcome)
     }
 
-    /// The fast solver from the quadratics of an answer on.
-    fn rung(&mut self, target: Target, start: &Start, factorisation: Factorisation, answer: &mut Answer) {
-        let goal = self.goal(target);
-        answer.outcome =
-            spine::solve(&self.body_a, &self.body_b, &goal, start, factorisation, &mut answer.expansion);
-        self.iterations += answer.outcome.iterations;
+    #[inline(always)]
+    fn count(&mut self, outcome: &Outcome) {
+        self.iterations += outcome.iterations;
+        if outcome.ending == Ending::RoundingLimited {
+            self.flags.insert(Flags::ROUNDING_LIMITED);
+        }
     }
 
     fn goal(&self, target: Target) -> Goal {

@@ -51,10 +51,10 @@ pub(crate) struct Goal {
 /// The answer where the first step is the last: the planes of the quadratics stay on, no other is met, and the bounds
 /// meet. So it is for nearly all pairs whose start is from memory or from the polyhedra.
 #[inline(always)]
-pub(crate) fn at_once(bodies: [&Body; 2], goal: &Goal, start: &Start, here: &Expansion) -> Option<Outcome> {
+pub(crate) fn at_once(bodies: [&Body; 2], goal: &Goal, lambda: f64, here: &Expansion) -> Option<Outcome> {
     let [a, b] = bodies;
     let model = Model::new(&here.q_a, &here.q_b, expansion::softest(a, b), goal.target);
-    let found = model.solve(start.lambda, 0.0)?;
+    let found = model.solve(lambda, 0.0)?;
     let optimum = if found.settled { found } else { model.settle(found)? };
     let step = here.step(bodies, optimum);
     if step.planes != Planes::Exact || !step.optimum.settled {
