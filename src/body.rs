@@ -1,6 +1,7 @@
 //! A particle placed in the frame in which a pair is solved.
 
 use crate::local::{Local, Place};
+use crate::number::larger;
 use crate::pair::Pair;
 use crate::particle::Particle;
 use crate::potential::{self, OnLine, Quadratic};
@@ -39,7 +40,7 @@ impl<'a> Body<'a> {
             centre,
             twice_centre: 2.0 * centre.norm(),
             plane_weight: particle.plane_weight,
-            sphere_weight: particle.sphere_weight.max(least_sphericity / particle.bounding_radius().powi(2)),
+            sphere_weight: larger(particle.sphere_weight, least_sphericity / particle.bounding_radius().powi(2)),
         };
         (body(pair.a, pair.rotation, true, pair.centre), body(pair.b, Matrix3::identity(), false, Vector3::zeros()))
     }
@@ -84,7 +85,7 @@ impl<'a> Body<'a> {
         let lengths = x.norm() + self.twice_centre;
         let shift = ROUNDING * f64::EPSILON * lengths;
         let blur = bounds.longest_normal * shift + ROUNDING * f64::EPSILON * bounds.offset_within(lengths + early);
-        Local::new(self.local(x), shift, blur, early.max(blur))
+        Local::new(self.local(x), shift, blur, larger(early, blur))
     }
 
     /// (Regularised) S with derivatives in the axes of `frame` (columns: axes in the solver frame), or of the solver

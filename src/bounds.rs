@@ -3,6 +3,7 @@
 use crate::linear_program;
 use crate::particle::Particle;
 use crate::pose::Pose;
+use crate::number::{larger, smaller};
 use nalgebra::{Matrix3, Vector3};
 
 /// What surely holds a particle, local frame; for a particle of the plane, its cut at z = 0.
@@ -75,7 +76,7 @@ impl Bounds {
     /// their rounding is nobody's.
     #[inline]
     pub fn offset_within(&self, distance: f64) -> f64 {
-        self.longest_offset.min(self.longest_normal * distance + (-self.least_offset).max(0.0))
+        smaller(self.longest_offset, self.longest_normal * distance + larger(-self.least_offset, 0.0))
     }
 }
 

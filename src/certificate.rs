@@ -8,6 +8,7 @@
 
 use crate::body::Body;
 use crate::expansion::{self, Expansion, Factorisation, Start};
+use crate::number::{larger, smaller};
 use crate::outcome::{Ending, Outcome};
 use crate::target::Target;
 use crate::verdict::Planes;
@@ -29,15 +30,15 @@ pub(crate) struct Certified {
 pub(crate) fn scale(outcome: &Outcome, a: &Body, b: &Body, target: Target) -> Certified {
     let weighted = |of_a, of_b| target.dual_weighted(of_a, of_b, outcome.lambda);
     // Regularised S exceeds S by at most this where the optimum can be.
-    let level = outcome.upper.max(1.0);
+    let level = larger(outcome.upper, 1.0);
     let most = weighted(a.most_surplus(level), b.most_surplus(level));
-    let square = (outcome.estimate - weighted(a.surplus(&outcome.x), b.surplus(&outcome.x))).max(0.0);
-    let low = (outcome.lower - most - outcome.rounding).max(0.0);
-    let high = outcome.upper.max(outcome.lower).max(square) + outcome.rounding;
-    let low = low.min(square);
+    let square = larger(outcome.estimate - weighted(a.surplus(&outcome.x), b.surplus(&outcome.x)), 0.0);
+    let low = larger(outcome.lower - most - outcome.rounding, 0.0);
+    let high = larger(larger(outcome.upper, outcome.lower), square) + outcome.rounding;
+    let low = smaller(low, square);
     let s = square.sqrt();
     let low = low.sqrt() * (1.0 - f64::EPSILON);
-    Certified { s, gap: (high.sqrt() - s).max(s - low) + f64::EPSILON * s + UNDERFLOW, low }
+    Certified { s, gap: larger(high.sqrt() - s, s - low) + f64::EPSILON * s + UNDERFLOW, low }
 }
 
 /// Root of the least normal number: an s below it has a square that is lost.
@@ -70,7 +71,7 @@ fn distance_of(outcome: &Outcome, expansion: &Expansion, a: &Body, b: &Body, tar
     let turn = TURN * f64::EPSILON * response.per_slope(a.particle.dimensions);
     // The two sides meet to the rounding of what they are summed from.
     let (side_a, side_b) = target.changes(expansion.q_a.expansion, expansion.q_b.expansion);
-    let sides = SIDES * f64::EPSILON * (side_a + side_b + outcome.upper.max(1.0));
+    let sides = SIDES * f64::EPSILON * (side_a + side_b + larger(outcome.upper, 1.0));
     let in_axes = expansion.to_axes(&step);
     let mut sum = response.unsolved() + response.to_value(sides);
     for (i, (body, q, weight)) in

@@ -2,6 +2,7 @@
 
 use crate::certificate::Certified;
 use crate::expansion::Piece;
+use crate::number::larger;
 use crate::outcome::Outcome;
 use crate::pair::Pair;
 use crate::pose::Pose;
@@ -119,8 +120,17 @@ pub(crate) struct LocalContact {
     point: Vector3<f64>,
     normal: Vector3<f64>,
     normal_by_centres: bool,
-    /// On A, on B, and their distance; `None` when separated.
-    surface: Option<(Vector3<f64>, Vector3<f64>, f64)>,
+    /// `None` when separated.
+    surface: Option<Surface>,
+}
+
+/// Where the surfaces are.
+#[derive(Clone, Copy, Debug)]
+enum Surface {
+    /// So far from the contact point along the normal, and against it.
+    Along(f64, f64),
+    /// P1 and P2.
+    At(Vector3<f64>, Vector3<f64>),
 }
 
 impl LocalContact {
@@ -150,8 +160,7 @@ impl LocalContact {
             let to_b = way(outcome.values[1], of_b, -gradients[1].dot(&normal), &|guess| {
                 surface::distance_near(pair.b, x, &-normal, guess)
             })?;
-            // Where s < 1 by rounding alone, so may be the sum.
-            Some((x + to_a * normal, x - to_b * normal, (to_a + to_b).max(0.0)))
+            Some(Surface::Along(to_a, to_b))
         } else {
             None
         };
@@ -184,14 +193,15 @@ impl LocalContact {
             point: p2.x + weight_on_a * way,
             normal,
             normal_by_centres,
-            surface: overlapping.then(|| (p1.x, p2.x, way.norm())),
+            surface: overlapping.then_some(Surface::At(p1.x, p2.x)),
         }
     }
 
     /// In world axes; what is not of the geometry is taken from `call`.
     #[inline(always)]
-    pub fn placed(&self, pair: &Pair, pose_a: &Pose, pose_b: &Pose, call: Contact) -> Contact {
-        let branch_b = pose_b.rotate(&self.point);
+    pub fn placed(&self, pair: &Pair, pose_b: &Pose, call: Contact) -> Contact {
+        let (normal, branch_b) = (pose_b.rotate(&self.normal), pose_b.rotate(&self.point));
+        let point = pose_b.position + branch_b;
         let by_centres = if self.normal_by_centres { Flags::NORMAL_BY_CENTRES } else { Flags::default() };
         let contact = Contact {
             formulation: self.formulation,
@@ -201,23 +211,25 @@ impl LocalContact {
             weight: self.lambda / (1.0 + self.lambda),
             gap: self.gap,
             point_bound: self.point_bound,
-            normal: pose_b.rotate(&self.normal),
+            normal,
             branch_b,
-            branch_a: pose_a.rotate(&pair.in_a(&self.point)),
-            point: pose_b.position + branch_b,
+            // From the centre of A before anything is rotated: a short branch keeps its digits.
+            branch_a: pose_b.rotate(&(self.point - pair.centre)),
+            point,
             ..call
         };
-        match self.surface {
-            Some((on_a, on_b, overlap)) => Contact {
-                kind: Kind::Overlapping,
-                distance: f64::NAN,
-                overlap,
-                point_on_a: pose_b.position + pose_b.rotate(&on_a),
-                point_on_b: pose_b.position + pose_b.rotate(&on_b),
-                ..contact
-            },
-            None => contact,
-        }
+        let (point_on_a, point_on_b, overlap) = match self.surface {
+            None => return contact,
+            // Where s < 1 by rounding alone, so may be the sum.
+            Some(Surface::Along(to_a, to_b)) => {
+                let (on_a, on_b) = (branch_b + to_a * normal, branch_b - to_b * normal);
+                (pose_b.position + on_a, pose_b.position + on_b, larger(to_a + to_b, 0.0))
+            }
+            Some(Surface::At(p1, p2)) => {
+                (pose_b.position + pose_b.rotate(&p1), pose_b.position + pose_b.rotate(&p2), (p1 - p2).norm())
+            }
+        };
+        Contact { kind: Kind::Overlapping, distance: f64::NAN, overlap, point_on_a, point_on_b, ..contact }
     }
 }
 

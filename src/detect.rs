@@ -54,7 +54,7 @@ pub fn detect(
         let flags = proof.by.with(Flags::REJECTED);
         return Ok(Contact { flags, distance: proof.distance, ..Contact::separated(settings.formulation, 1.0) });
     }
-    solved(&pair, [pose_a, pose_b], settings, memory)
+    solved(&pair, pose_b, settings, memory)
 }
 
 /// The contact of a pair that no cheap proof holds apart. In a frame of its own: it is large, and most pairs of a scene
@@ -62,7 +62,7 @@ pub fn detect(
 #[inline(never)]
 pub(crate) fn solved(
     pair: &Pair,
-    [pose_a, pose_b]: [&Pose; 2],
+    pose_b: &Pose,
     settings: &Settings,
     memory: Option<&mut Memory>,
 ) -> Result<Contact, DetectError> {
@@ -84,7 +84,7 @@ pub(crate) fn solved(
     if !separated && scale.s >= 1.0 && scale.low < 1.0 && settings.flat_regularisation > least {
         // Where the bulge of a raised regularisation may hide an overlap, the particles as they are decide.
         let settings = Settings { flat_regularisation: least, ..*settings };
-        return solved(pair, [pose_a, pose_b], &settings, memory);
+        return solved(pair, pose_b, &settings, memory);
     }
     let overlapping = !separated && scale.s < 1.0;
     if let Some(memory) = memory {
@@ -115,7 +115,7 @@ pub(crate) fn solved(
         }
     };
     let Search { flags, iterations, answered, .. } = search;
-    Ok(local.placed(pair, pose_a, pose_b, Contact { flags, iterations, back_end: answered, ..Contact::UNKNOWN }))
+    Ok(local.placed(pair, pose_b, Contact { flags, iterations, back_end: answered, ..Contact::UNKNOWN }))
 }
 
 /// A cheap proof of separation, if one succeeds and will do.

@@ -4,6 +4,7 @@ use crate::body::Body;
 use crate::frame;
 use crate::local::{Local, Place};
 use crate::model::{Model, Optimum};
+use crate::number::{larger, smaller};
 use crate::potential::Quadratic;
 use crate::target::Target;
 use crate::verdict::{Planes, Verdict};
@@ -50,8 +51,8 @@ pub(crate) struct Expansion {
 
 /// The factorisation that the shapes of a pair call for.
 pub(crate) fn factorisation(a: &Body, b: &Body) -> Factorisation {
-    let stiff = a.plane_curvature().max(b.plane_curvature());
-    let soft = a.sphere_curvature().min(b.sphere_curvature());
+    let stiff = larger(a.plane_curvature(), b.plane_curvature());
+    let soft = smaller(a.sphere_curvature(), b.sphere_curvature());
     if stiff <= PLAIN_STIFFNESS * soft { Factorisation::Plain } else { Factorisation::Aligned }
 }
 
@@ -64,7 +65,8 @@ impl Expansion {
     /// At a point, with planes counting from their own blur.
     #[inline(always)]
     pub fn at(bodies: [&Body; 2], start: &Start, target: Target, factorisation: Factorisation) -> Self {
-        let locals = bodies.map(|body| body.locate(&start.x, 0.0));
+        let [a, b] = bodies;
+        let locals = [a.locate(&start.x, 0.0), b.locate(&start.x, 0.0)];
         Self::of(bodies, start.x, locals, target.weights(start.lambda), factorisation)
     }
 

@@ -13,6 +13,7 @@
 //!
 //! so that v₁ and v₂ give m to the fourth order, and each search multiplies the number of right digits by five.
 
+use crate::number::larger;
 use crate::potential::Quadratic;
 use crate::symmetric::{Factor, Symmetric};
 use crate::target::Target;
@@ -148,7 +149,7 @@ impl<'a> Model<'a> {
         let (mut last, mut slow) = (f64::INFINITY, 0);
         for _ in 0..MOST_SEARCHES {
             let (growing, falling) = self.target.sides(found.values.0, found.values.1);
-            let (difference, larger) = (growing - falling, growing.max(falling));
+            let (difference, larger) = (growing - falling, larger(growing, falling));
             if !difference.is_finite() {
                 return None;
             }
@@ -305,7 +306,7 @@ impl Optimum {
             to_slope,
             traces,
             per_value: self.along.norm() / self.rate,
-            to_all_planes: of_planes.max(0.0),
+            to_all_planes: larger(of_planes, 0.0),
             slope: self.slope(target),
             values: self.values.into(),
         })
@@ -373,7 +374,7 @@ impl Response {
         let (weight, rate) = if body == 0 { (a, alpha) } else { (b, beta) };
         let count = f64::from(q.count);
         let turned = (2.0 * plane_weight * weight * count * self.to_all_planes).sqrt();
-        let raised = rate.abs() * self.per_value * (count * plane_weight * self.values[body].max(0.0)).sqrt();
+        let raised = rate.abs() * self.per_value * (count * plane_weight * larger(self.values[body], 0.0)).sqrt();
         turned + 2.0 * raised
     }
 

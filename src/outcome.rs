@@ -3,6 +3,7 @@
 use crate::body::Body;
 use crate::expansion::{self, Expansion, Step};
 use crate::model::{Optimum, Response};
+use crate::number::larger;
 use crate::potential::Quadratic;
 use crate::target::Target;
 use crate::verdict::Planes;
@@ -117,7 +118,7 @@ pub(crate) enum Ending {
 /// while the weights stay what they are. `None` where the rounding itself decides about the weights.
 fn swayed(target: Target, optimum: &Optimum, (of_a, of_b): (f64, f64)) -> Option<f64> {
     let (change_a, change_b) = target.changes(of_a, of_b);
-    let swing = change_a.max(change_b) / optimum.rate(target).abs();
+    let swing = larger(change_a, change_b) / optimum.rate(target).abs();
     (swing < 0.25).then(|| target.dual_weighted(of_a, of_b, optimum.lambda) * (1.0 + 4.0 * swing))
 }
 

@@ -3,6 +3,7 @@
 //! Everything here takes the point y in the particle's local frame. S is piecewise quadratic, so
 //! that value, gradient and Hessian at a point describe it exactly until a plane switches.
 
+use crate::number::{larger, smaller};
 use crate::particle::Particle;
 use crate::symmetric::Symmetric;
 use nalgebra::Vector3;
@@ -94,11 +95,11 @@ pub(crate) fn turned(
     let mut clear = f64::INFINITY;
     let most_left_out = particle.visit_near(y, early, |i, n, excess| {
         if !counts(i, excess) {
-            clear = if -excess < clear { -excess } else { clear };
+            clear = smaller(-excess, clear);
         } else {
-            clear = if excess < clear { excess } else { clear };
+            clear = smaller(excess, clear);
             let n = turn(n);
-            let reached = excess.max(0.0);
+            let reached = larger(excess, 0.0);
             square += reached * reached;
             not_yet += (excess - reached) * (excess - reached);
             linear += reached;
@@ -116,7 +117,7 @@ pub(crate) fn turned(
         hessian: squares.scaled(w2, m2),
         pull: w2 * linear,
         count,
-        clear: clear.min(-most_left_out),
+        clear: smaller(clear, -most_left_out),
     }
 }
 

@@ -10,6 +10,7 @@ use crate::expansion::{self, Expansion, Factorisation, Start};
 use crate::line::{self, Merit};
 use crate::local::Local;
 use crate::model::Model;
+use crate::number::{larger, smaller};
 use crate::outcome::{Ending, Outcome};
 use crate::target::Target;
 use crate::verdict::Planes;
@@ -70,7 +71,7 @@ pub(crate) fn at_once(bodies: [&Body; 2], goal: &Goal, lambda: f64, here: &Expan
 
 /// What the regularisation itself leaves open.
 fn flat([a, b]: [&Body; 2]) -> f64 {
-    a.most_surplus(1.0).max(b.most_surplus(1.0))
+    larger(a.most_surplus(1.0), b.most_surplus(1.0))
 }
 
 /// How good the bounds of an outcome are.
@@ -89,7 +90,7 @@ struct Proof {
 impl Proof {
     #[inline(always)]
     fn of(outcome: &Outcome, goal: &Goal, bodies: [&Body; 2], here: &Expansion, length: f64) -> Self {
-        let reach = bodies[0].particle.bounding_radius().min(bodies[1].particle.bounding_radius());
+        let reach = smaller(bodies[0].particle.bounding_radius(), bodies[1].particle.bounding_radius());
         let (gap, short) = (outcome.gap(), length <= SHORT * reach);
         // What rounding leaves at the optimum itself.
         let least = goal.target.dual_weighted(

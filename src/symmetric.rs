@@ -1,5 +1,6 @@
 //! Symmetric 3×3 matrices by their lower half, and their factorisation.
 
+use crate::number::larger;
 use nalgebra::{Matrix3, Vector3};
 
 /// A symmetric 3×3 matrix.
@@ -100,12 +101,12 @@ impl Factor {
     /// `None` when something is not finite.
     #[inline]
     pub fn of(h: &Symmetric, least: f64) -> Option<Self> {
-        let i0 = 1.0 / h.xx.max(least);
+        let i0 = 1.0 / larger(h.xx, least);
         let (l10, l20) = (h.yx * i0, h.zx * i0);
-        let i1 = 1.0 / (h.yy - l10 * h.yx).max(least);
+        let i1 = 1.0 / larger(h.yy - l10 * h.yx, least);
         let c21 = h.zy - l20 * h.yx;
         let l21 = c21 * i1;
-        let i2 = 1.0 / (h.zz - l20 * h.zx - l21 * c21).max(least);
+        let i2 = 1.0 / larger(h.zz - l20 * h.zx - l21 * c21, least);
         // A sum is finite only if all its terms are.
         (least > 0.0 && (i0 + i1 + i2).is_finite()).then_some(Self { l10, l20, l21, inverse_d: [i0, i1, i2] })
     }

@@ -4,6 +4,8 @@
 //! a = 1 − θ, b = θ; on B: a = 1, b = θ; on A: a = θ, b = 1. What is passed around is the ratio λ = b/a, which keeps
 //! its digits where one weight is all but zero.
 
+use crate::number::larger;
+
 /// Which point of the curve is wanted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Target {
@@ -57,9 +59,9 @@ impl Target {
     #[inline]
     pub fn merit(self, s_a: f64, s_b: f64, lambda: f64) -> f64 {
         match self {
-            Self::Midway => s_a.max(s_b),
-            Self::OnB => s_a + PRICE * lambda * (s_b - 1.0).max(0.0),
-            Self::OnA => s_b + PRICE / lambda * (s_a - 1.0).max(0.0),
+            Self::Midway => larger(s_a, s_b),
+            Self::OnB => s_a + PRICE * lambda * larger(s_b - 1.0, 0.0),
+            Self::OnA => s_b + PRICE / lambda * larger(s_a - 1.0, 0.0),
         }
     }
 
@@ -67,7 +69,7 @@ impl Target {
     #[inline]
     pub fn merit_rounding(self, error_a: f64, error_b: f64, lambda: f64) -> f64 {
         match self {
-            Self::Midway => error_a.max(error_b),
+            Self::Midway => larger(error_a, error_b),
             Self::OnB => error_a + PRICE * lambda * error_b,
             Self::OnA => error_b + PRICE / lambda * error_a,
         }
