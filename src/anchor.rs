@@ -115,7 +115,7 @@ impl Anchor<'_> {
                 return None;
             }
             let model = Model::new(&at_lambda.expansion.q_a, &at_lambda.expansion.q_b, soft, self.target);
-            let better = model.search(at_lambda.step.optimum, enough * growing.max(falling))?;
+            let better = model.search(at_lambda.step.optimum.lambda, enough * growing.max(falling))?;
             let saddle = self.judge(&at_lambda.expansion, better, &on);
             let done = better.settled
                 || self.target.mismatch(better.values.0, better.values.1) <= enough * growing.max(falling);

@@ -143,7 +143,7 @@ impl Expansion {
         let model = Model::new(&self.q_a, &self.q_b, softest(bodies[0], bodies[1]), target);
         let step = self.step(bodies, model.solve(guess, enough)?);
         if step.planes == Planes::Exact && !step.optimum.settled {
-            return Some(self.step(bodies, model.settle(step.optimum)?));
+            return Some(self.step(bodies, model.search(step.optimum.lambda, 0.0)?));
         }
         Some(step)
     }

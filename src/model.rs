@@ -26,8 +26,9 @@ pub(crate) struct Model<'a> {
     /// Least curvatures of A and B in any direction (their spheres').
     soft: (f64, f64),
     target: Target,
-    /// D.
+    /// D, and α·q_A + β·q_B at the point of expansion.
     turning: Symmetric,
+    turned: f64,
     /// Rounding of the mismatch that comes from the values at the point of expansion.
     noise: f64,
 }
@@ -46,12 +47,26 @@ pub(crate) struct Optimum {
     pub lambda: f64,
     /// Whether λ is as good as rounding allows.
     pub settled: bool,
-    /// Of H; at λ itself if `exact`, else very near.
+    /// Of H, at λ or very near.
     factor: Factor,
-    exact: bool,
     /// dv/dθ and dm/dθ.
     along: Vector3<f64>,
     rate: f64,
+}
+
+/// The point of the curve at some λ: as much as the search for λ takes.
+#[derive(Clone, Copy)]
+struct Probe {
+    lambda: f64,
+    weights: (f64, f64),
+    step: Vector3<f64>,
+    factor: Factor,
+    along: Vector3<f64>,
+    rate: f64,
+    /// m.
+    mismatch: f64,
+    /// q_A and q_B, to what a·q_A + b·q_B loses.
+    values: (f64, f64),
 }
 
 /// Most searches for λ; a handful is enough where rounding does not interfere.
@@ -91,65 +106,82 @@ impl<'a> Model<'a> {
     pub fn new(q_a: &'a Quadratic, q_b: &'a Quadratic, soft: (f64, f64), target: Target) -> Self {
         let (alpha, beta) = target.turning();
         let turning = q_a.hessian.weighted(alpha, &q_b.hessian, beta);
+        let turned = alpha * q_a.expansion + beta * q_b.expansion;
         let (of_a, of_b) = target.changes(q_a.expansion, q_b.expansion);
-        Self { q_a, q_b, soft, target, turning, noise: 2.0 * f64::EPSILON * (of_a + of_b) }
+        Self { q_a, q_b, soft, target, turning, turned, noise: 2.0 * f64::EPSILON * (of_a + of_b) }
     }
 
     /// Searches λ from a guess until the mismatch of the two sides is `enough`; 0 for as good as rounding allows.
     /// `None` when a factorisation breaks down.
     #[inline(always)]
     pub fn solve(&self, guess: f64, enough: f64) -> Option<Optimum> {
-        self.search(self.at(guess.clamp(LAMBDA_RANGE.0, LAMBDA_RANGE.1))?, enough)
-    }
-
-    /// Goes on from an optimum that was not settled.
-    #[inline(always)]
-    pub fn settle(&self, rough: Optimum) -> Option<Optimum> {
-        let first = if rough.exact { rough } else { self.at(rough.lambda)? };
-        self.search(first, 0.0)
+        self.search(guess.clamp(LAMBDA_RANGE.0, LAMBDA_RANGE.1), enough)
     }
 
     /// The optimum at a given λ.
-    #[inline(always)]
     pub fn at(&self, lambda: f64) -> Option<Optimum> {
-        let (a, b) = self.target.weights(lambda);
+        Some(self.optimum(&self.probe(lambda)?))
+    }
+
+    /// With H v = −g the weighted sum is ½ g·v more than at the point of expansion, and D v gives the other sum: q_A and
+    /// q_B follow from the two.
+    #[inline(always)]
+    fn probe(&self, lambda: f64) -> Option<Probe> {
+        let weights @ (a, b) = self.target.weights(lambda);
         let h = self.q_a.hessian.weighted(a, &self.q_b.hessian, b);
         let factor = Factor::of(&h, a * self.soft.0 + b * self.soft.1)?;
-        let step = -factor.solve(&(a * self.q_a.gradient + b * self.q_b.gradient));
-        let found = self.after(step, lambda, factor);
-        let (alpha, beta) = self.target.turning();
-        let w0 = alpha * found.gradients[0] + beta * found.gradients[1];
+        let g = a * self.q_a.gradient + b * self.q_b.gradient;
+        let step = -factor.solve(&g);
+        let before = self.of_turning(&self.q_a.gradient, &self.q_b.gradient);
+        let w0 = before + self.turning.times(&step);
         let along = -factor.solve(&w0);
-        Some(Optimum { along, rate: -w0.dot(&along), exact: true, ..found })
+        let turning = self.turned + 0.5 * step.dot(&(before + w0));
+        let fixed = a * self.q_a.expansion + b * self.q_b.expansion + 0.5 * step.dot(&g);
+        let (values, mismatch) = (self.target.apart(fixed, turning, weights), self.target.level() - turning);
+        Some(Probe { lambda, weights, step, factor, along, rate: -w0.dot(&along), mismatch, values })
+    }
+
+    /// α·x + β·y.
+    #[inline(always)]
+    fn of_turning(&self, x: &Vector3<f64>, y: &Vector3<f64>) -> Vector3<f64> {
+        match self.target {
+            Target::Midway => y - x,
+            Target::OnB => *y,
+            Target::OnA => *x,
+        }
+    }
+
+    /// The optimum at a point of the curve.
+    #[inline(always)]
+    fn optimum(&self, probe: &Probe) -> Optimum {
+        self.after(probe.step, probe.lambda, probe)
     }
 
     /// What a step and a λ are worth that another model found.
     pub fn held(&self, step: Vector3<f64>, lambda: f64) -> Option<Optimum> {
-        let at = self.at(lambda)?;
-        let found = self.after(step, lambda, at.factor);
-        Some(Optimum { along: at.along, rate: at.rate, exact: true, settled: true, ..found })
+        Some(Optimum { settled: true, ..self.after(step, lambda, &self.probe(lambda)?) })
     }
 
-    /// The quadratics after a step.
+    /// The quadratics after a step, which lies on the curve near a probe.
     #[inline(always)]
-    fn after(&self, step: Vector3<f64>, lambda: f64, factor: Factor) -> Optimum {
+    fn after(&self, step: Vector3<f64>, lambda: f64, near: &Probe) -> Optimum {
         let gradients = [self.q_a, self.q_b].map(|q| q.gradient + q.hessian.times(&step));
         let value = |q: &Quadratic, g: &Vector3<f64>| q.expansion + 0.5 * step.dot(&(q.gradient + g));
         let values = (value(self.q_a, &gradients[0]), value(self.q_b, &gradients[1]));
-        let along = Vector3::zeros();
-        Optimum { step, gradients, values, lambda, settled: false, factor, exact: false, along, rate: 0.0 }
+        let Probe { factor, along, rate, .. } = *near;
+        Optimum { step, gradients, values, lambda, settled: false, factor, along, rate }
     }
 
-    /// Searches λ from an optimum on.
+    /// Searches λ from one that is in its range.
     #[inline(always)]
-    pub fn search(&self, first: Optimum, enough: f64) -> Option<Optimum> {
-        let mut found = first;
+    pub fn search(&self, first: f64, enough: f64) -> Option<Optimum> {
+        let mut found = self.probe(first)?;
         let (nearest, farthest) = (found.lambda / FARTHEST, found.lambda * FARTHEST);
         let (mut low, mut high) = (nearest, farthest);
         let (mut last, mut slow) = (f64::INFINITY, 0);
         for _ in 0..MOST_SEARCHES {
             let (growing, falling) = self.target.sides(found.values.0, found.values.1);
-            let (difference, larger) = (growing - falling, larger(growing, falling));
+            let (difference, larger) = (self.target.difference(found.mismatch), larger(growing, falling));
             if !difference.is_finite() {
                 return None;
             }
@@ -157,9 +189,9 @@ impl<'a> Model<'a> {
             let noise = self.noise + 4.0 * f64::EPSILON * larger;
             slow = if difference.abs() > 0.5 * last { slow + 1 } else { 0 };
             let stalled = difference.abs() <= STALLING * larger && slow >= MOST_SLOW;
-            found.settled = difference.abs() <= noise || stalled;
-            if found.settled || difference.abs() <= enough {
-                return Some(found);
+            let settled = difference.abs() <= noise || stalled;
+            if settled || difference.abs() <= enough {
+                return Some(Optimum { settled, ..self.optimum(&found) });
             }
             last = difference.abs();
             if difference > 0.0 {
@@ -167,8 +199,7 @@ impl<'a> Model<'a> {
             } else {
                 low = found.lambda;
             }
-            let weights = self.target.weights(found.lambda);
-            let next = match self.series(&found, difference, weights) {
+            let next = match self.series(&found) {
                 Some(series) if series.share <= VERY_NEAR || (series.share <= NEAR && enough > 0.0) => {
                     let further = self.along(&found, &series);
                     let left = self.target.mismatch(further.values.0, further.values.1);
@@ -179,7 +210,7 @@ impl<'a> Model<'a> {
                     series.lambda
                 }
                 Some(series) if series.share <= NEAR => series.lambda,
-                _ => self.far(&found, weights, growing, falling),
+                _ => self.far(&found, growing, falling),
             };
             // Beyond what is known of the curve: to its end, and no further.
             let next = if next >= high && high == farthest {
@@ -193,25 +224,23 @@ impl<'a> Model<'a> {
             };
             if next == found.lambda {
                 // No λ does better. At an end of the range there may be a better one, for other quadratics.
-                return Some(Optimum { settled: next != nearest && next != farthest, ..found });
+                return Some(Optimum { settled: next != nearest && next != farthest, ..self.optimum(&found) });
             }
-            found = self.at(next)?;
+            found = self.probe(next)?;
         }
-        Some(found)
+        Some(self.optimum(&found))
     }
 
     /// Root of m(δ) to the fourth order, by reversion of the series; `None` where it would move a weight by more
     /// than half.
     #[inline(always)]
-    fn series(&self, found: &Optimum, difference: f64, (a, b): (f64, f64)) -> Option<Series> {
-        let (v1, inverse) = (&found.along, 1.0 / found.rate);
+    fn series(&self, found: &Probe) -> Option<Series> {
+        let (v1, inverse, (a, b)) = (&found.along, 1.0 / found.rate, found.weights);
         let w1 = self.turning.times(v1);
         let v2 = -found.factor.solve(&w1);
         let w2 = self.turning.times(&v2);
         let (m2, m3, m4) = (-1.5 * v1.dot(&w1), -2.0 * v2.dot(&w1), -2.5 * v2.dot(&w2));
-        // m and the difference of the sides are the same number, but for the sign where λ falls as θ grows.
-        let mismatch = if self.target == Target::OnA { -difference } else { difference };
-        let y = -mismatch * inverse;
+        let y = -found.mismatch * inverse;
         let (c2, c3, c4) = (m2 * inverse * y, m3 * inverse * y * y, m4 * inverse * y * y * y);
         let delta = y * (1.0 - c2 + (2.0 * c2 * c2 - c3) + (5.0 * c2 * (c3 - c2 * c2) - c4));
         let (alpha, beta) = self.target.turning();
@@ -222,11 +251,11 @@ impl<'a> Model<'a> {
 
     /// The optimum at the end of a series, without another factorisation.
     #[inline(always)]
-    fn along(&self, found: &Optimum, series: &Series) -> Optimum {
+    fn along(&self, found: &Probe, series: &Series) -> Optimum {
         let v3 = -found.factor.solve(&series.w2);
         let delta = series.delta;
         let step = found.step + delta * (found.along + delta * (series.v2 + delta * v3));
-        Optimum { along: found.along, rate: found.rate, ..self.after(step, series.lambda, found.factor) }
+        self.after(step, series.lambda, found)
     }
 
     /// Whether the slope a·g_A + b·g_B is zero to rounding. In a pair that is alike on both sides the terms of the mismatch
@@ -240,9 +269,10 @@ impl<'a> Model<'a> {
 
     /// The next λ where the series is of no use: far off, the logarithms of both sides are nearly linear in ln λ.
     #[cold]
-    fn far(&self, found: &Optimum, weights: (f64, f64), growing: f64, falling: f64) -> f64 {
-        let per_logarithm = self.target.per_logarithm(weights);
-        let [rate_a, rate_b] = found.gradients.map(|g| per_logarithm * g.dot(&found.along));
+    fn far(&self, found: &Probe, growing: f64, falling: f64) -> f64 {
+        // The weighted sum stays what it is on the curve, to first order.
+        let turning = -self.target.per_logarithm(found.weights) * found.rate;
+        let (rate_a, rate_b) = self.target.apart(0.0, turning, found.weights);
         let (rate_growing, rate_falling) = self.target.changes(rate_a, rate_b);
         let change = if growing.min(falling) > 0.0 {
             (falling / growing).ln() / (rate_growing / growing - rate_falling / falling)

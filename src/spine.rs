@@ -55,9 +55,7 @@ pub(crate) struct Goal {
 pub(crate) fn at_once(bodies: [&Body; 2], goal: &Goal, lambda: f64, here: &Expansion) -> Option<Outcome> {
     let [a, b] = bodies;
     let model = Model::new(&here.q_a, &here.q_b, expansion::softest(a, b), goal.target);
-    let found = model.solve(lambda, 0.0)?;
-    let optimum = if found.settled { found } else { model.settle(found)? };
-    let step = here.step(bodies, optimum);
+    let step = here.step(bodies, model.solve(lambda, 0.0)?);
     if step.planes != Planes::Exact || !step.optimum.settled {
         return None;
     }

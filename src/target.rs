@@ -103,6 +103,28 @@ impl Target {
         }
     }
 
+    /// c in the mismatch m = c − (α·S_A + β·S_B).
+    #[inline]
+    pub fn level(self) -> f64 {
+        if self == Self::Midway { 0.0 } else { 1.0 }
+    }
+
+    /// The first of the two numbers less the second, from m: λ falls as θ grows for a point on A.
+    #[inline]
+    pub fn difference(self, mismatch: f64) -> f64 {
+        if self == Self::OnA { -mismatch } else { mismatch }
+    }
+
+    /// S_A and S_B from a·S_A + b·S_B and α·S_A + β·S_B.
+    #[inline]
+    pub fn apart(self, fixed: f64, turning: f64, (a, b): (f64, f64)) -> (f64, f64) {
+        match self {
+            Self::Midway => (fixed - b * turning, fixed + a * turning),
+            Self::OnB => (fixed - b * turning, turning),
+            Self::OnA => (turning, fixed - a * turning),
+        }
+    }
+
     /// How far the two numbers are from being equal.
     #[inline]
     pub fn mismatch(self, s_a: f64, s_b: f64) -> f64 {
