@@ -157,6 +157,7 @@ pub(crate) fn judge(x: &Vector3<f64>, lambda: f64, s: f64, a: &Body, b: &Body, t
         iterations: 0,
         ending: Ending::Converged,
         sure: false,
+        rate: 0.0,
         response: None,
     }
 }

@@ -9,6 +9,9 @@ use crate::target::Target;
 use crate::verdict::Planes;
 use nalgebra::Vector3;
 
+/// Largest change of ln λ that a first guess makes.
+const FAR: f64 = 3.0;
+
 /// Where the solver ended; everything in the solver's frame, potentials as regularised.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Outcome {
@@ -30,6 +33,8 @@ pub(crate) struct Outcome {
     pub ending: Ending,
     /// Whether every plane of the quadratics pushes beyond doubt.
     pub sure: bool,
+    /// How fast the two sides of the target part with ln λ, where known; else 0.
+    pub rate: f64,
     /// How the optimum answers to changes of its data, where it is that of known quadratics.
     pub response: Option<Response>,
 }
@@ -48,6 +53,7 @@ impl Outcome {
         iterations: 0,
         ending: Ending::Stuck,
         sure: false,
+        rate: 0.0,
         response: None,
     };
 
@@ -84,7 +90,25 @@ impl Outcome {
             iterations: 0,
             ending: Ending::Stuck,
             sure,
+            rate: optimum.rate(target),
             response: optimum.response(target, soft),
+        }
+    }
+
+    /// Near the λ of a closest point, seen from midway: along their common curve ln S of either body is nearly linear in ln λ.
+    /// Rational functions will do for the logarithm and its inverse.
+    pub fn towards(&self, target: Target) -> f64 {
+        let weights = Target::Midway.weights(self.lambda);
+        let (rate_a, rate_b) = Target::Midway.apart(0.0, -self.rate, weights);
+        let (s, rate) = if target == Target::OnB { (self.values[1], rate_b) } else { (self.values[0], rate_a) };
+        let logarithm = 3.0 * (s - 1.0) * (s + 1.0) / (s * s + 4.0 * s + 1.0);
+        let change = -logarithm * s / rate;
+        // NaN and what is far fail the test.
+        if change.abs() < FAR {
+            let even = 12.0 + change * change;
+            self.lambda * (even + 6.0 * change) / (even - 6.0 * change)
+        } else {
+            self.lambda
         }
     }
 

@@ -67,6 +67,7 @@ impl<'a> Search<'a> {
     /// point. Midway has no such case.
     ///
     /// `midway`, with its quadratics, lies near it on the same curve, mostly on the same planes.
+    #[inline(always)]
     pub fn constrained(
         &mut self,
         target: Target,
@@ -80,7 +81,7 @@ impl<'a> Search<'a> {
             return Ok(None);
         }
         let start = match midway {
-            Some((midway, _)) => Start { x: midway.x, lambda: midway.lambda, near: true },
+            Some((midway, _)) => Start { x: midway.x, lambda: midway.towards(target), near: true },
             None => self.cold(),
         };
         let own;
