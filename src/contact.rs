@@ -268,7 +268,7 @@ impl Contact {
 /// Unit normal from A to B in the frame of B, from ∇S_A and ∇S_B; and whether it had to be taken from the centres
 /// because both vanish.
 fn normal(pair: &Pair, gradients: &[Vector3<f64>; 2]) -> (Vector3<f64>, bool) {
-    let [outward_a, outward_b] = gradients.map(|g| g.try_normalize(0.0));
+    let (outward_a, outward_b) = (gradients[0].try_normalize(0.0), gradients[1].try_normalize(0.0));
     let combined = match (outward_a, outward_b) {
         (Some(a), Some(b)) => (a - b).try_normalize(1e-3).or(Some(a)),
         (Some(a), None) => Some(a),

@@ -168,7 +168,8 @@ impl Expansion {
     pub fn doubt(&self, bodies: [&Body; 2], target: Target, step: &Step, upper: f64, negligible: f64) -> (f64, bool) {
         let ((a, b), soft) = (target.weights(step.optimum.lambda), softest(bodies[0], bodies[1]));
         let rounding = a * step.optimum.rounding_of_slope(&self.q_a) + b * step.optimum.rounding_of_slope(&self.q_b);
-        let [of_a, of_b] = [0, 1].map(|i| step.verdicts[i].doubtful_slope(bodies[i], [a, b][i], rounding));
+        let of_a = step.verdicts[0].doubtful_slope(bodies[0], a, rounding);
+        let of_b = step.verdicts[1].doubtful_slope(bodies[1], b, rounding);
         let slope = step.optimum.slope(target).norm() + of_a + of_b;
         let by_curvature = 0.5 * slope * slope / (a * soft.0 + b * soft.1);
         let wide = by_curvature > negligible;

@@ -165,7 +165,8 @@ impl<'a> Model<'a> {
     /// The quadratics after a step, which lies on the curve near a probe.
     #[inline(always)]
     fn after(&self, step: Vector3<f64>, lambda: f64, near: &Probe) -> Optimum {
-        let gradients = [self.q_a, self.q_b].map(|q| q.gradient + q.hessian.times(&step));
+        let gradient = |q: &Quadratic| q.gradient + q.hessian.times(&step);
+        let gradients = [gradient(self.q_a), gradient(self.q_b)];
         let value = |q: &Quadratic, g: &Vector3<f64>| q.expansion + 0.5 * step.dot(&(q.gradient + g));
         let values = (value(self.q_a, &gradients[0]), value(self.q_b, &gradients[1]));
         let Probe { factor, along, rate, .. } = *near;

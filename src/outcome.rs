@@ -81,7 +81,7 @@ impl Outcome {
         Self {
             x: here.x + step.v,
             lambda,
-            gradients: optimum.gradients.map(|g| here.to_solver(&g)),
+            gradients: [here.to_solver(&optimum.gradients[0]), here.to_solver(&optimum.gradients[1])],
             values: [s_a, s_b],
             estimate,
             lower: estimate - doubt,

@@ -89,7 +89,7 @@ pub(crate) fn turned(
     early: f64,
     counts: impl Fn(usize, f64) -> bool,
 ) -> Quadratic {
-    let (mut square, mut not_yet, mut linear, mut count) = (0.0, 0.0, 0.0, 0);
+    let (mut square, mut all, mut linear, mut count) = (0.0, 0.0, 0.0, 0);
     let mut g = Vector3::zeros();
     let mut squares = Symmetric::default();
     let mut clear = f64::INFINITY;
@@ -101,7 +101,7 @@ pub(crate) fn turned(
             let n = turn(n);
             let reached = larger(excess, 0.0);
             square += reached * reached;
-            not_yet += (excess - reached) * (excess - reached);
+            all += excess * excess;
             linear += reached;
             count += 1;
             g += excess * n;
@@ -109,10 +109,10 @@ pub(crate) fn turned(
         }
     });
     let (w2, m2) = (2.0 * plane_weight, 2.0 * sphere_weight);
-    let value = plane_weight * square + sphere_weight * y.norm_squared();
+    let of_sphere = sphere_weight * y.norm_squared();
     Quadratic {
-        value,
-        expansion: value + plane_weight * not_yet,
+        value: plane_weight * square + of_sphere,
+        expansion: plane_weight * all + of_sphere,
         gradient: w2 * g + m2 * turn(*y),
         hessian: squares.scaled(w2, m2),
         pull: w2 * linear,

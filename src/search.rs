@@ -14,6 +14,9 @@ use crate::start;
 use crate::target::Target;
 use nalgebra::Vector3;
 
+/// S at a point that is outside whatever rounding did to it.
+const CLEARLY: f64 = 2.0;
+
 /// One call: the pair, what is asked, and what it has cost so far.
 pub(crate) struct Search<'a> {
     pub pair: &'a Pair<'a>,
@@ -73,12 +76,14 @@ impl<'a> Search<'a> {
         target: Target,
         midway: Option<(&Outcome, &Expansion)>,
     ) -> Result<Option<Closest>, ConicError> {
-        let centre_inside = match target {
-            Target::OnB => self.pair.b.potential(&self.pair.centre) < 0.0,
-            _ => self.pair.a.potential(&self.body_a.local(&self.body_b.centre())) < 0.0,
-        };
-        if centre_inside {
-            return Ok(None);
+        if !midway.is_some_and(|(midway, here)| self.centre_is_outside(target, midway, here)) {
+            let centre_inside = match target {
+                Target::OnB => self.pair.b.potential(&self.pair.centre) < 0.0,
+                _ => self.pair.a.potential(&self.body_a.local(&self.body_b.centre())) < 0.0,
+            };
+            if centre_inside {
+                return Ok(None);
+            }
         }
         let start = match midway {
             Some((midway, _)) => Start { x: midway.x, lambda: midway.towards(target), near: true },
@@ -99,6 +104,17 @@ impl<'a> Search<'a> {
         let mut here = *here;
         let outcome = self.climb(target, &start, midway.is_some(), &mut here)?;
         Ok(self.closest(target, &outcome, &here))
+    }
+
+    /// Whether the tangent of one potential at midway, which lies below it, is clearly above 1 at the other's centre.
+    #[inline(always)]
+    fn centre_is_outside(&self, target: Target, midway: &Outcome, here: &Expansion) -> bool {
+        let (i, body, centre) = match target {
+            Target::OnB => (1, &self.body_b, self.body_a.centre()),
+            _ => (0, &self.body_a, self.body_b.centre()),
+        };
+        let tangent = midway.values[i] + midway.gradients[i].dot(&(centre - midway.x));
+        body.is_plain() && here.softened.is_none() && tangent > CLEARLY
     }
 
     fn closest(&self, target: Target, outcome: &Outcome, here: &Expansion) -> Option<Closest> {
