@@ -24,7 +24,7 @@ pub struct Arguments {
     /// Threads; 0: as many as there are cores.
     #[arg(long, default_value_t = 0)]
     pub threads: usize,
-    /// Random walks of 1,000 steps; by default one for each 10,000 poses, and as many fewer as are settled.
+    /// Random walks of 1,000 steps; by default one for each 10,000 poses.
     #[arg(long)]
     pub walks: Option<u64>,
     /// Leave the continuity sweeps out.

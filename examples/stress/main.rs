@@ -91,7 +91,7 @@ fn run(arguments: &Arguments) -> Result<u64, String> {
     let bar = progress("poses", arguments.poses);
     tally.merge(pairs::run(&range, threads, &stop, &bar));
     bar.finish_and_clear();
-    let walks = arguments.walks.unwrap_or(arguments.poses / 10_000 / settle_every);
+    let walks = arguments.walks.unwrap_or(arguments.poses / 10_000);
     let bar = progress("steps of walks", walks * walks::STEPS);
     tally.merge(walks::run(arguments.seed, walks, threads, &stop, &bar));
     bar.finish_and_clear();
