@@ -33,7 +33,7 @@ Variables, as in "make demo STEPS=1000 BODIES=50":
   QUICK=1           side-by-side: a little of everything, in seconds
   POSES=1000000     stress: number of poses
   SEED=1            stress: the pairs depend on it
-  SETTLE=1          stress: settle one pose in so many in 32 digits, and those in doubt; POSES=100000000 SETTLE=200 takes an hour
+  SETTLE=1          stress: settle one pose in so many in 32 digits, and those in doubt; POSES=100000000 SETTLE=200 takes 45 minutes
   FUZZ_SECONDS=60   fuzz: how long each target
   VERBOSE=1         test: show the output of every stage, not only of those that fail
   CARGO_TARGET_DIR  where cargo builds (default: target)
