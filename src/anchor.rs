@@ -31,6 +31,11 @@ const MOST_TRIALS: u32 = 40;
 /// ln λ stays within ±this; beyond, one body's weight is lost in rounding altogether.
 const FARTHEST: f64 = 92.0;
 
+/// Mismatch, relative to what the regularisation adds, that is not worth many values of λ; and how many in a row may
+/// leave it what it is while the bracket shrinks. Where both cores overlap, faces of k = 0 let the minimiser jump with λ.
+const IDLE: f64 = 1e-3;
+const MOST_IDLE: u32 = 4;
+
 /// Farthest move of ln λ while only one end of the bracket is known.
 const STRIDE: f64 = 7.0;
 
@@ -101,6 +106,8 @@ impl Anchor<'_> {
         let mut v = Vector3::zeros();
         let (mut width, mut failed) = (f64::INFINITY, 0);
         let soft = expansion::softest(self.bodies[0], self.bodies[1]);
+        let flat = self.bodies[0].most_surplus(1.0).max(self.bodies[1].most_surplus(1.0));
+        let (mut least, mut idle) = (f64::INFINITY, 0);
         for round in 0..MOST_WEIGHTS {
             let at_lambda = self.minimise(at.exp(), &mut v, models)?;
             let on = v;
@@ -127,7 +134,11 @@ impl Anchor<'_> {
             } else {
                 (low, found_low) = (at, true);
             }
+            let gained = difference.abs() < 0.5 * least;
+            idle = if found_low && found_high && !gained && difference.abs() <= IDLE * flat { idle + 1 } else { 0 };
+            least = if gained { difference.abs() } else { least };
             let ended = match (found_low, found_high) {
+                _ if idle > MOST_IDLE => true,
                 (true, true) => high - low <= 4.0 * f64::EPSILON * (1.0 + at.abs()),
                 // At the end of its range: the other body has the say no more.
                 (true, false) => low >= FARTHEST,

@@ -5,6 +5,8 @@ mod cases;
 #[path = "../examples/stress/clock.rs"]
 #[allow(dead_code)]
 mod clock;
+#[path = "../examples/stress/double.rs"]
+mod double;
 #[path = "../benches/scene/evaluation.rs"]
 #[allow(dead_code)]
 mod evaluation;
@@ -14,6 +16,8 @@ mod judge;
 mod line;
 #[path = "../examples/stress/pairs.rs"]
 mod pairs;
+#[path = "stress/planted.rs"]
+mod planted;
 #[path = "../benches/scene/random.rs"]
 #[allow(dead_code)]
 mod random;
@@ -60,7 +64,7 @@ fn check(tally: &Tally, tries: u64) {
 #[test]
 fn random_pairs_of_all_families() {
     const POSES: u64 = 16_000;
-    let range = pairs::Range { seed: 1, first: 0, count: POSES, family: None };
+    let range = pairs::Range { seed: 1, first: 0, count: POSES, family: None, settle_every: 1 };
     let tally = pairs::run(&range, THREADS, &AtomicBool::new(false), &ProgressBar::hidden());
     assert_eq!(tally.pairs, POSES);
     // A judge that settles nothing would find nothing.

@@ -4,7 +4,7 @@
 //! change of frame, bounds on rounding and whatever else a solver needs are not in it.
 
 use nalgebra::Vector3;
-use potential_particles::Particle;
+use potential_particles::{Particle, Plane};
 
 /// Planes in one array for each coefficient, and the weights of planes and sphere.
 pub struct Plain {
@@ -28,12 +28,17 @@ impl Plain {
     /// A particle with 0 < k < 1.
     pub fn new(particle: &Particle) -> Self {
         let (r, k, shadow) = (particle.rounding_radius(), particle.sphericity(), particle.shadow_radius());
-        let column = |pick: fn(&Vector3<f64>) -> f64| particle.planes().map(|plane| pick(&plane.normal)).collect();
+        Self::of(particle.planes().collect(), r, k, shadow)
+    }
+
+    /// Of planes that need not close.
+    pub fn of(planes: Vec<Plane>, r: f64, k: f64, shadow: f64) -> Self {
+        let column = |pick: fn(&Vector3<f64>) -> f64| planes.iter().map(|plane| pick(&plane.normal)).collect();
         Self {
             a: column(|n| n.x),
             b: column(|n| n.y),
             c: column(|n| n.z),
-            d: particle.planes().map(|plane| plane.offset).collect(),
+            d: planes.iter().map(|plane| plane.offset).collect(),
             plane_weight: (1.0 - k) / (r * r),
             sphere_weight: k / (shadow * shadow),
         }

@@ -15,9 +15,12 @@ pub struct Arguments {
     /// The pairs depend on this number and their index only.
     #[arg(long, default_value_t = 1)]
     pub seed: u64,
-    /// Index of the first pose.
-    #[arg(long, default_value_t = 0)]
-    pub first: u64,
+    /// Index of the first pose; by default 0, and with --settle-every 10^13, from where on 512 poses share their shapes.
+    #[arg(long)]
+    pub first: Option<u64>,
+    /// Settle one pose in this many in 32 digits, and those that look doubtful; the others are judged by definition.
+    #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u64).range(1..))]
+    pub settle_every: u64,
     /// Threads; 0: as many as there are cores.
     #[arg(long, default_value_t = 0)]
     pub threads: usize,

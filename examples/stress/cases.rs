@@ -11,6 +11,26 @@ use potential_particles::{Particle, Plane, Pose, surface};
 /// Poses of the same two shapes.
 pub const POSES_A_PAIR: u64 = 8;
 
+/// From this index on shapes last longer: to make two of them costs as much as to judge some thirty poses.
+pub const BULK: u64 = 10_000_000_000_000;
+const POSES_A_PAIR_IN_BULK: u64 = 512;
+
+/// The two shapes of pair `index`, by number.
+pub fn group_of(index: u64) -> u64 {
+    if index < BULK { index / POSES_A_PAIR } else { BULK / POSES_A_PAIR + (index - BULK) / POSES_A_PAIR_IN_BULK }
+}
+
+/// Index into [`FAMILIES`].
+pub fn family_of(index: u64) -> usize {
+    (group_of(index) % FAMILIES.len() as u64) as usize
+}
+
+/// The first pair after `index` of two other shapes.
+pub fn next_group(index: u64) -> u64 {
+    let (from, poses) = if index < BULK { (0, POSES_A_PAIR) } else { (BULK, POSES_A_PAIR_IN_BULK) };
+    index + poses - (index - from) % poses
+}
+
 /// Where a body is.
 #[derive(Clone, Copy, Debug)]
 pub struct Place {
@@ -69,7 +89,7 @@ const fn both(recipe: Recipe) -> [Recipe; 2] {
     [recipe, recipe]
 }
 
-/// In this order: pair i is of family (i / poses a pair) modulo their number.
+/// In this order: the shapes of group g are of family g modulo their number.
 pub static FAMILIES: [Family; 20] = [
     Family { name: "generic", ..BASE },
     Family { name: "few planes", recipes: both(Recipe { hull: Hull::Few, ..USUAL }), ..BASE },
@@ -129,7 +149,6 @@ pub struct Shapes {
 /// One pair at its poses.
 pub struct Case<'a> {
     pub shapes: &'a Shapes,
-    pub index: u64,
     pub at_a: Place,
     pub at_b: Place,
 }
@@ -149,8 +168,7 @@ pub fn stream(seed: u64, kind: u64, index: u64) -> Random {
 impl Shapes {
     /// The shapes of pair `index`.
     pub fn of(seed: u64, index: u64) -> Self {
-        let group = index / POSES_A_PAIR;
-        let family = (group % FAMILIES.len() as u64) as usize;
+        let (group, family) = (group_of(index), family_of(index));
         let mut random = stream(seed, 1, group);
         let recipes = &FAMILIES[family].recipes;
         let (mut a, mut b) = (particle(&recipes[0], &mut random), particle(&recipes[1], &mut random));
@@ -176,7 +194,7 @@ pub fn scaled(particle: &Particle, unit: f64) -> Particle {
 impl<'a> Case<'a> {
     /// Pair `index`; `shapes` must be its own.
     pub fn of(shapes: &'a Shapes, seed: u64, index: u64) -> Self {
-        assert_eq!(shapes.group, index / POSES_A_PAIR);
+        assert_eq!(shapes.group, group_of(index));
         let family = &FAMILIES[shapes.family];
         let mut random = stream(seed, 2, index);
         let orientation_a = orientation(family.turned, &mut random);
@@ -190,7 +208,7 @@ impl<'a> Case<'a> {
             Vector3::zeros()
         };
         let at = |position: Vector3<f64>, orientation| Place { position: position.into(), orientation };
-        Self { shapes, index, at_a: at(origin, orientation_a), at_b: at(origin + relative, orientation_b) }
+        Self { shapes, at_a: at(origin, orientation_a), at_b: at(origin + relative, orientation_b) }
     }
 
     pub fn family(&self) -> &'static str {

@@ -6,14 +6,17 @@ mod definition;
 mod solutions;
 
 use crate::cases::{Case, Place, scaled};
-use crate::clock::{Call, Cost};
+use crate::clock::{self, Call, Clock};
+use crate::double::{Placed, Shape};
 use crate::random::Random;
-use crate::reference::{Body, Wanted, optimum};
-use definition::{carried, flips, in_other_units, surfaces, swapped, well_formed};
+use crate::reference::Body;
+use definition::{carried, enclosed, flips, in_other_units, surfaces, swapped, well_formed};
 use nalgebra::Vector3;
-use potential_particles::{BackEnd, Contact, Flags, Formulation, Memory, Particle, Pose, Settings, detect};
+use potential_particles::{BackEnd, Contact, DetectError, Flags, Formulation, Memory, Particle, Pose, Settings};
 use serde::Serialize;
-use solutions::{by_cone_program, closest, midway, warm};
+use solutions::{by_cone_program, closest, settle, warm};
+use std::cell::OnceCell;
+use std::collections::BTreeSet;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 /// What can be wrong.
@@ -86,12 +89,37 @@ pub const PATHS: [&str; 8] = [
     "fell back to the cone program",
 ];
 
+/// From here on, paths that few pairs take.
+const SAFER: usize = 6;
+
+/// Why a pair whose turn it is not is put to the second solver all the same.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Doubt {
+    /// The gap is larger than rounding seems to explain.
+    Gap,
+    /// s, as far as doubles tell at the point, is no more than near the answer.
+    Enclosure,
+    /// Two answers to the same question use up most of their bounds.
+    Disagreement,
+    /// Solved by the safer factorisation or the cone program.
+    Path,
+    /// Something failed already.
+    Failed,
+}
+
 #[derive(Default)]
 pub struct Verdict {
     pub failures: Vec<(Failure, String)>,
+    pub doubts: BTreeSet<Doubt>,
+    /// Put to the second solver.
+    pub settled: bool,
     pub measures: Measures,
     pub paths: Vec<(Call, usize)>,
+    /// Seconds.
     pub costs: Vec<(Call, f64)>,
+    /// Seconds of one evaluation of the pair.
+    pub evaluation: f64,
     /// Midway, closest P2 or P1 that the reference could not settle.
     pub unjudged: u32,
     pub judged: u32,
@@ -111,10 +139,36 @@ impl Verdict {
             self.fail(failure, detail());
         }
     }
+
+    fn doubt(&mut self, doubtful: bool, doubt: Doubt) {
+        if doubtful {
+            self.doubts.insert(doubt);
+        }
+    }
 }
 
-/// How many pairs share one visit to the cone program, and the most planes it is bothered with.
-const CONIC_EVERY: u64 = 500;
+/// What is asked of the judge for one pair.
+#[derive(Clone, Copy, Debug)]
+pub struct Trial {
+    /// Whether the second solver is asked, and closest judged, whatever the answer looks like.
+    pub settle: bool,
+    /// Whether the cone program is asked.
+    pub conic: bool,
+}
+
+impl Trial {
+    #[allow(dead_code)]
+    pub const WHOLE: Self = Self { settle: true, conic: true };
+    /// What every pair goes through in bulk.
+    #[allow(dead_code)]
+    pub const BY_DEFINITION: Self = Self { settle: false, conic: false };
+}
+
+/// What is judged; any other solver must be found out.
+pub type Solver =
+    fn(&Particle, &Pose, &Particle, &Pose, &Settings, Option<&mut Memory>) -> Result<Contact, DetectError>;
+
+/// The most planes that the cone program is bothered with.
 const CONIC_PLANES: usize = 80;
 
 pub const FULL: Settings = Settings {
@@ -126,24 +180,32 @@ pub const FULL: Settings = Settings {
     flat_regularisation: 1e-13,
 };
 
-/// The two bodies of a case in another unit, made once for all its poses.
-pub struct Units {
+/// What all poses of two shapes share: the shapes in another unit, and as the judge sees them.
+pub struct Shared {
     exponent: i32,
-    pub a: Particle,
-    pub b: Particle,
+    in_other_units: [Particle; 2],
+    shapes: [Shape; 2],
+    evaluation: f64,
 }
 
-impl Units {
+impl Shared {
     pub fn of(a: &Particle, b: &Particle, random: &mut Random) -> Self {
         let exponent = random.whole(0, 61) as i32 - 30;
         let unit = 2f64.powi(exponent);
-        Self { exponent, a: scaled(a, unit), b: scaled(b, unit) }
+        // The planes of a sphere count for nothing.
+        let planes = |p: &Particle| if p.sphericity() == 1.0 { 0 } else { p.plane_count() };
+        Self {
+            exponent,
+            in_other_units: [scaled(a, unit), scaled(b, unit)],
+            shapes: [Shape::of(a), Shape::of(b)],
+            evaluation: clock::evaluation([planes(a), planes(b)]),
+        }
     }
 }
 
-pub fn judge(case: &Case, units: &Units, random: &mut Random) -> Verdict {
-    let mut verdict = Verdict::default();
-    let judged = catch_unwind(AssertUnwindSafe(|| all(case, units, random, &mut verdict)));
+pub fn judge(case: &Case, shared: &Shared, trial: Trial, solver: Solver, random: &mut Random) -> Verdict {
+    let mut verdict = Verdict { evaluation: shared.evaluation, ..Verdict::default() };
+    let judged = catch_unwind(AssertUnwindSafe(|| all(case, shared, trial, solver, random, &mut verdict)));
     if let Err(panic) = judged {
         let text =
             panic.downcast_ref::<String>().cloned().or_else(|| panic.downcast_ref::<&str>().map(|s| (*s).into()));
@@ -161,15 +223,24 @@ struct Scene<'a> {
     length: f64,
     /// Of the coordinates in the world.
     far: f64,
+    solver: Solver,
+    /// In doubles, and in 32 digits where doubles do not tell.
+    placed: [Placed<'a>; 2],
+    case: &'a Case<'a>,
+    wide: OnceCell<[Body<'a>; 2]>,
 }
 
 impl Scene<'_> {
     fn detect(&self, at_b: &Pose, settings: &Settings, memory: Option<&mut Memory>) -> Result<Contact, String> {
-        detect(self.a, &self.at_a, self.b, at_b, settings, memory).map_err(|error| error.to_string())
+        (self.solver)(self.a, &self.at_a, self.b, at_b, settings, memory).map_err(|error| error.to_string())
     }
 
     fn moved(&self, by: Vector3<f64>) -> Pose {
         Pose { position: self.at_b.position + by, ..self.at_b }
+    }
+
+    fn bodies(&self) -> &[Body<'_>; 2] {
+        self.wide.get_or_init(|| bodies(self.case))
     }
 }
 
@@ -178,14 +249,24 @@ const EPS: f64 = f64::EPSILON;
 /// A gap this many times what the rounding of lengths explains proves too little.
 const LOOSE: f64 = 1e4;
 
-fn all(case: &Case, units: &Units, random: &mut Random, verdict: &mut Verdict) -> Option<()> {
+fn all(
+    case: &Case,
+    shared: &Shared,
+    trial: Trial,
+    solver: Solver,
+    random: &mut Random,
+    verdict: &mut Verdict,
+) -> Option<()> {
     let (a, b) = (&case.shapes.a, &case.shapes.b);
     let (at_a, at_b) = (case.at_a.pose(), case.at_b.pose());
     let branch = (at_b.position - at_a.position).norm();
     let length = branch + a.bounding_radius() + b.bounding_radius();
-    let scene = Scene { a, b, at_a, at_b, length, far: at_a.position.amax().max(at_b.position.amax()) };
+    let far = at_a.position.amax().max(at_b.position.amax());
+    let [shape_a, shape_b] = &shared.shapes;
+    let placed = [Placed::new(shape_a, &at_a, &at_b.position), Placed::new(shape_b, &at_b, &at_b.position)];
+    let scene = Scene { a, b, at_a, at_b, length, far, solver, placed, case, wide: OnceCell::new() };
 
-    let mut clock = Cost::default();
+    let mut clock = Clock::new(shared.evaluation);
     let answer = clock.time(Call::Full, || scene.detect(&at_b, &FULL, None));
     let contact = match answer {
         Ok(contact) => contact,
@@ -198,28 +279,10 @@ fn all(case: &Case, units: &Units, random: &mut Random, verdict: &mut Verdict) -
     verdict.rounding_limited = contact.flags.contains(Flags::ROUNDING_LIMITED);
     verdict.measures.gap = contact.gap / contact.s.max(1.0);
     well_formed(verdict, &scene, &contact);
-
-    let bodies = bodies(case);
     let start = at_b_relative(&scene, &contact.point, &contact.branch_b);
-    let lambda = contact.weight / (1.0 - contact.weight);
-    let truth = optimum(&bodies[0], &bodies[1], Wanted::Midway, &start, lambda);
-    match truth {
-        Some(truth) if truth.most - truth.least <= 0.1 * contact.gap + 1e-300 => {
-            verdict.judged += 1;
-            midway(verdict, &scene, &contact, &bodies, &truth, &start);
-        }
-        Some(truth) => {
-            verdict.unjudged += 1;
-            // Not settled, but what is proved still counts.
-            let outside = contact.s + contact.gap < truth.least || contact.s - contact.gap > truth.most;
-            verdict.check(!outside, Failure::BoundOfS, || {
-                format!("s={:e} ± {:e}, but in [{:e}, {:e}]", contact.s, contact.gap, truth.least, truth.most)
-            });
-        }
-        None => verdict.unjudged += 1,
-    }
-    surfaces(verdict, &scene, &contact, &bodies);
-    flips(verdict, &scene, &contact, &bodies, &start)?;
+    enclosed(verdict, &scene, &contact, &start);
+    surfaces(verdict, &scene, &contact);
+    flips(verdict, &scene, &contact, &start, trial.settle);
     let quick = clock.time(Call::Quick, || scene.detect(&at_b, &Settings::default(), None));
     match quick {
         Ok(quick) => {
@@ -236,11 +299,22 @@ fn all(case: &Case, units: &Units, random: &mut Random, verdict: &mut Verdict) -
         Err(error) => verdict.fail(Failure::Error, format!("default settings: {error}")),
     }
     swapped(verdict, &scene, &contact);
-    carried(verdict, case, &scene, &contact, &bodies, random);
-    in_other_units(verdict, &scene, &contact, units);
+    carried(verdict, case, &scene, &contact, random);
+    in_other_units(verdict, &scene, &contact, shared);
     warm(verdict, &scene, &contact, &mut clock, random);
-    closest(verdict, &scene, &contact, &bodies, &mut clock);
-    if case.index.is_multiple_of(CONIC_EVERY) && a.plane_count() + b.plane_count() <= CONIC_PLANES {
+
+    let unusual = verdict.paths.iter().any(|(_, path)| *path >= SAFER);
+    verdict.doubt(unusual, Doubt::Path);
+    verdict.doubt(!verdict.failures.is_empty(), Doubt::Failed);
+    verdict.settled = trial.settle || !verdict.doubts.is_empty();
+    if verdict.settled {
+        settle(verdict, &scene, &contact, &start);
+    }
+    // Whatever the answer of midway looks like, so that the times of closest are those of any pair.
+    if trial.settle {
+        closest(verdict, &scene, &contact, &mut clock);
+    }
+    if trial.conic && a.plane_count() + b.plane_count() <= CONIC_PLANES {
         by_cone_program(verdict, &scene, &contact);
     }
     verdict.costs = clock.costs;

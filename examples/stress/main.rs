@@ -8,6 +8,7 @@
 mod arguments;
 mod cases;
 mod clock;
+mod double;
 #[path = "../../benches/scene/evaluation.rs"]
 #[allow(dead_code)]
 mod evaluation;
@@ -31,7 +32,7 @@ mod walks;
 mod wide;
 
 use arguments::Arguments;
-use cases::FAMILIES;
+use cases::{BULK, FAMILIES};
 use clap::Parser;
 use indicatif::{ProgressBar, ProgressStyle};
 use report::Findings;
@@ -80,9 +81,12 @@ fn run(arguments: &Arguments) -> Result<u64, String> {
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
     let threads = if arguments.threads == 0 { cores } else { arguments.threads };
     let begin = Instant::now();
-    let evaluation = clock::evaluation();
+    // Measured while nothing else runs.
+    let evaluation = clock::evaluation([5, 5]);
 
-    let range = pairs::Range { seed: arguments.seed, first: arguments.first, count: arguments.poses, family };
+    let settle_every = arguments.settle_every;
+    let first = arguments.first.unwrap_or(if settle_every > 1 { BULK } else { 0 });
+    let range = pairs::Range { seed: arguments.seed, first, count: arguments.poses, family, settle_every };
     let mut tally = Tally::default();
     let bar = progress("poses", arguments.poses);
     tally.merge(pairs::run(&range, threads, &stop, &bar));
@@ -100,7 +104,8 @@ fn run(arguments: &Arguments) -> Result<u64, String> {
 
     let findings = Findings {
         seed: arguments.seed,
-        first: arguments.first,
+        first,
+        settle_every,
         wanted: arguments.poses,
         interrupted: stop.load(Ordering::Relaxed),
         seconds: begin.elapsed().as_secs_f64(),
@@ -116,6 +121,6 @@ fn run(arguments: &Arguments) -> Result<u64, String> {
 }
 
 fn progress(what: &'static str, length: u64) -> ProgressBar {
-    let template = format!("{{bar:40}} {{pos}} of {{len}} {what}  {{eta}} left");
+    let template = format!("{{bar:40}} {{human_pos}} of {{human_len}} {what}  {{per_sec}}  {{eta}} left");
     ProgressBar::new(length).with_style(ProgressStyle::with_template(&template).expect("a valid template"))
 }

@@ -1,15 +1,16 @@
 //! The first part: many pairs, each judged on its own, by several threads.
 
-use crate::cases::{Case, FAMILIES, POSES_A_PAIR, Shapes, stream};
-use crate::judge::{Units, Verdict, judge};
+use crate::cases::{Case, Shapes, family_of, next_group, stream};
+use crate::judge::{Shared, Trial, Verdict, judge};
 use crate::line::Line;
 use crate::tally::{Found, Tally};
 use indicatif::ProgressBar;
+use potential_particles::detect;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
 /// Pairs that a thread takes at once.
-const BLOCK: u64 = 64 * POSES_A_PAIR;
+const BLOCK: u64 = 512;
 
 /// Which pairs.
 pub struct Range {
@@ -17,6 +18,24 @@ pub struct Range {
     pub first: u64,
     pub count: u64,
     pub family: Option<usize>,
+    /// One pair in this many is put to the second solver whatever its answer looks like.
+    pub settle_every: u64,
+}
+
+/// One pair in this many visits the cone program, or one in this many of those that are settled in any case.
+const CONIC_EVERY: f64 = 500.0;
+const CONIC_EVERY_SETTLED: f64 = 25.0;
+
+impl Range {
+    /// Drawn anew for each pair: a fixed step would meet some families only.
+    fn trial(&self, index: u64) -> Trial {
+        let mut random = stream(self.seed, 6, index);
+        let every = self.settle_every as f64;
+        Trial {
+            settle: random.uniform() * every < 1.0,
+            conic: random.uniform() * CONIC_EVERY.max(CONIC_EVERY_SETTLED * every) < 1.0,
+        }
+    }
 }
 
 pub fn run(range: &Range, threads: usize, stop: &AtomicBool, progress: &ProgressBar) -> Tally {
@@ -45,13 +64,13 @@ pub fn run(range: &Range, threads: usize, stop: &AtomicBool, progress: &Progress
 fn block(range: &Range, begin: u64, end: u64, tally: &mut Tally) {
     let mut index = begin;
     while index < end {
-        let group_end = ((index / POSES_A_PAIR + 1) * POSES_A_PAIR).min(end);
-        let family = (index / POSES_A_PAIR) as usize % FAMILIES.len();
+        let group_end = next_group(index).min(end);
+        let family = family_of(index);
         if range.family.is_none_or(|wanted| wanted == family) {
             let shapes = Shapes::of(range.seed, index);
-            let units = Units::of(&shapes.a, &shapes.b, &mut stream(range.seed, 3, shapes.group));
+            let shared = Shared::of(&shapes.a, &shapes.b, &mut stream(range.seed, 3, shapes.group));
             for index in index..group_end {
-                let verdict = one(&shapes, &units, range.seed, index);
+                let verdict = one(&shapes, &shared, range.seed, index, range.trial(index));
                 tally.add(index, family, &verdict);
                 for (failure, detail) in verdict.failures {
                     let case = Case::of(&shapes, range.seed, index);
@@ -65,7 +84,7 @@ fn block(range: &Range, begin: u64, end: u64, tally: &mut Tally) {
 }
 
 /// The verdict on one pair.
-pub fn one(shapes: &Shapes, units: &Units, seed: u64, index: u64) -> Verdict {
+pub fn one(shapes: &Shapes, shared: &Shared, seed: u64, index: u64, trial: Trial) -> Verdict {
     let case = Case::of(shapes, seed, index);
-    judge(&case, units, &mut stream(seed, 4, index))
+    judge(&case, shared, trial, detect, &mut stream(seed, 4, index))
 }

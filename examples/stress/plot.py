@@ -63,7 +63,7 @@ def main():
         worst = family["gap"]["worst"]
         if worst:
             errors.plot([worst], [place], "x", color="#e07b00", ms=5)
-    for axes, label in ((errors, "error of s over max(s, 1)"), (times, "time, evaluations (midway, cold, solved to the end)")):
+    for axes, label in ((errors, "error of s over max(s, 1)"), (times, "evaluations of the pair itself (midway, cold, to the end)")):
         axes.set_xscale("log")
         axes.set_xlabel(label)
         axes.grid(axis="x", alpha=0.3)
@@ -79,7 +79,7 @@ def main():
             tails.step(edges, shares, where="post", label=call["call"])
     tails.set_xscale("log")
     tails.set_yscale("log")
-    tails.set_xlabel("time, evaluations")
+    tails.set_xlabel("evaluations of the pair itself")
     tails.set_ylabel("share of calls that take longer")
     tails.grid(alpha=0.3)
     tails.legend(fontsize=7)

@@ -39,8 +39,6 @@ pub struct Local {
     pub value: Wide,
     pub gradient: Wide3,
     pub hessian: Wide6,
-    /// 2(1−k)/r² Σ⟨n·x − d⟩: what one unit of length, by which all planes are wrong, does to S.
-    pub pull: f64,
 }
 
 impl Local {
@@ -101,7 +99,6 @@ impl<'a> Body<'a> {
         let far = 1e-12 * plain.norm() * self.longest;
         let mut square = Wide::ZERO;
         let mut pull = Wide3::default();
-        let mut excesses = 0.0;
         let mut bend: Wide6 = [Wide::ZERO; 6];
         for ((n, d), turned) in self.planes.iter().zip(&self.turned) {
             if turned.dot(&plain) - d < -far - 1e-12 * d.abs() {
@@ -114,7 +111,6 @@ impl<'a> Body<'a> {
                 continue;
             }
             square += excess * excess;
-            excesses += excess.f64();
             pull = pull.plus(&n.times(excess));
             for (entry, (i, j)) in bend.iter_mut().zip([(0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (2, 0)]) {
                 *entry += n.0[i] * n.0[j];
@@ -129,7 +125,6 @@ impl<'a> Body<'a> {
             value: self.plane_weight * square + self.sphere_weight * from.dot(&from),
             gradient: pull.times(w).plus(&from.times(k)),
             hessian,
-            pull: w.f64() * excesses,
         }
     }
 

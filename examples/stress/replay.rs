@@ -1,7 +1,7 @@
 //! One pair again, with everything that is known about it.
 
 use crate::cases::{Case, Shapes, stream};
-use crate::judge::{FULL, Units, bodies};
+use crate::judge::{FULL, Shared, Trial, bodies};
 use crate::line::Line;
 use crate::pairs;
 use crate::reference::{Wanted, optimum};
@@ -11,7 +11,7 @@ use std::process::ExitCode;
 pub fn one(seed: u64, index: u64) -> ExitCode {
     let shapes = Shapes::of(seed, index);
     let case = Case::of(&shapes, seed, index);
-    let units = Units::of(&shapes.a, &shapes.b, &mut stream(seed, 3, shapes.group));
+    let shared = Shared::of(&shapes.a, &shapes.b, &mut stream(seed, 3, shapes.group));
     println!("seed {seed}, index {index}, {}", case.family());
     match detect(&shapes.a, &case.at_a.pose(), &shapes.b, &case.at_b.pose(), &FULL, None) {
         Ok(contact) => {
@@ -36,8 +36,8 @@ pub fn one(seed: u64, index: u64) -> ExitCode {
         }
         Err(error) => println!("{error}"),
     }
-    let verdict = pairs::one(&shapes, &units, seed, index);
-    println!("{:#?}", verdict.measures);
+    let verdict = pairs::one(&shapes, &shared, seed, index, Trial::WHOLE);
+    println!("{:#?}\ndoubts without the second solver: {:?}", verdict.measures, verdict.doubts);
     for (failure, detail) in &verdict.failures {
         println!("{failure:?}: {detail}");
     }

@@ -1,8 +1,8 @@
 //! What was found: a table for the terminal, summary.json, and the pairs themselves.
 
-use crate::cases::{Case, FAMILIES, Shapes};
+use crate::cases::{Case, FAMILIES, Shapes, family_of};
 use crate::clock::{CALLS, Call};
-use crate::judge::{Failure, PATHS};
+use crate::judge::{Doubt, Failure, PATHS};
 use crate::line::Line;
 use crate::machine::Machine;
 use crate::sweeps::Sweep;
@@ -18,6 +18,7 @@ pub struct Findings {
     pub seed: u64,
     pub first: u64,
     pub wanted: u64,
+    pub settle_every: u64,
     pub interrupted: bool,
     pub seconds: f64,
     /// Seconds of one evaluation of S, ∇S and ∇²S of both particles, 5 + 5 planes.
@@ -39,14 +40,19 @@ struct Summary<'a> {
     walk_steps: u64,
     failures: u64,
     failures_by_kind: &'a BTreeMap<Failure, u64>,
+    settle_every: u64,
+    /// Pairs put to the second solver, and why those whose turn it was not.
+    put_to_second_solver: u64,
+    doubts: &'a BTreeMap<Doubt, u64>,
     /// Answers of midway and closest checked against 32 digits, and those that these could not settle.
     settled: u64,
     unsettled: u64,
     rounding_limited: f64,
     other_digits_in_other_units: u64,
     cone_program: Cone,
+    /// Of 5 + 5 planes; each pair has its own.
     evaluation_ns: f64,
-    /// Longest call solved to the end over the median one.
+    /// Longest midway solved to the end over the median one, each in evaluations of its own pair.
     slowest_over_median: f64,
     calls: Vec<Calls<'a>>,
     families: Vec<FamilySummary<'a>>,
@@ -65,15 +71,33 @@ struct Cone {
 struct Calls<'a> {
     call: &'a str,
     count: u64,
-    /// In evaluations.
+    /// In evaluations of the pair itself.
+    median: f64,
+    p99: f64,
+    p99_99: f64,
+    slowest: f64,
+    slowest_over_median: f64,
+    slowest_index: u64,
+    microseconds: Microseconds,
+    slowest_family: &'a str,
+    paths: BTreeMap<&'a str, u64>,
+    histogram: Vec<(f64, u64)>,
+}
+
+#[derive(Serialize)]
+struct Microseconds {
     median: f64,
     p99: f64,
     p99_99: f64,
     slowest: f64,
     slowest_index: u64,
-    slowest_family: &'a str,
-    paths: BTreeMap<&'a str, u64>,
-    histogram: Vec<(f64, u64)>,
+}
+
+impl Microseconds {
+    fn of(seconds: &Distribution) -> Self {
+        let [median, p99, p99_99] = [0.5, 0.99, 0.9999].map(|share| 1e6 * seconds.quantile(share));
+        Self { median, p99, p99_99, slowest: 1e6 * seconds.most, slowest_index: seconds.worst }
+    }
 }
 
 #[derive(Serialize)]
@@ -104,17 +128,13 @@ struct Spread {
 
 impl Spread {
     fn of(distribution: &Distribution) -> Self {
-        Self::scaled(distribution, 1.0)
-    }
-
-    fn scaled(distribution: &Distribution, unit: f64) -> Self {
-        let finite = |v: f64| v.is_finite().then_some(v / unit);
+        let finite = |v: f64| v.is_finite().then_some(v);
         Self { median: finite(distribution.quantile(0.5)), worst: finite(distribution.most), index: distribution.worst }
     }
 }
 
-fn histogram(distribution: &Distribution, unit: f64) -> Vec<(f64, u64)> {
-    distribution.filled().map(|(edge, count)| (edge / unit, count)).collect()
+fn over_median(distribution: &Distribution) -> f64 {
+    distribution.most / distribution.quantile(0.5)
 }
 
 impl Findings {
@@ -133,35 +153,29 @@ impl Findings {
             if time.count > 0 {
                 let shapes = Shapes::of(self.seed, time.worst);
                 let case = Case::of(&shapes, self.seed, time.worst);
-                let units = time.most / self.evaluation;
-                let what = format!("seed {} index {}: {name}: {units:.0} evaluations", self.seed, time.worst);
+                let what = format!("seed {} index {}: {name}: {:.0} evaluations", self.seed, time.worst, time.most);
                 writeln!(slowest, "{}", serde_json::to_string(&Line::of(&case, what)).map_err(io::Error::other)?)?;
             }
         }
         Ok(())
     }
 
-    fn slowest_over_median(&self) -> f64 {
-        let time = self.tally.time(Call::Full);
-        time.most / time.quantile(0.5)
-    }
-
     fn summary(&self) -> Summary<'_> {
         let t = &self.tally;
-        let calls = CALLS.iter().zip(&t.times).zip(&t.paths).map(|(((_, call), time), paths)| {
-            let units = |seconds: f64| seconds / self.evaluation;
-            Calls {
-                call,
-                count: time.count,
-                median: units(time.quantile(0.5)),
-                p99: units(time.quantile(0.99)),
-                p99_99: units(time.quantile(0.9999)),
-                slowest: units(time.most),
-                slowest_index: time.worst,
-                slowest_family: FAMILIES[family_of(time.worst)].name,
-                paths: PATHS.iter().copied().zip(paths.iter().copied()).filter(|(_, count)| *count > 0).collect(),
-                histogram: histogram(time, self.evaluation),
-            }
+        let calls = CALLS.iter().zip(t.times.iter().zip(&t.seconds)).zip(&t.paths);
+        let calls = calls.map(|(((_, call), (time, seconds)), paths)| Calls {
+            call,
+            count: time.count,
+            median: time.quantile(0.5),
+            p99: time.quantile(0.99),
+            p99_99: time.quantile(0.9999),
+            slowest: time.most,
+            slowest_over_median: over_median(time),
+            slowest_index: time.worst,
+            microseconds: Microseconds::of(seconds),
+            slowest_family: FAMILIES[family_of(time.worst)].name,
+            paths: PATHS.iter().copied().zip(paths.iter().copied()).filter(|(_, count)| *count > 0).collect(),
+            histogram: time.filled().collect(),
         });
         let family = |(name, of): (&'static str, &OfFamily)| FamilySummary {
             family: name,
@@ -175,9 +189,9 @@ impl Findings {
             point_error: Spread::of(&of.point_error),
             normal_error: Spread::of(&of.normal_error),
             gap_over_rounding: Spread::of(&of.looseness),
-            time: Spread::scaled(&of.time, self.evaluation),
-            error_histogram: histogram(&of.error, 1.0),
-            time_histogram: histogram(&of.time, self.evaluation),
+            time: Spread::of(&of.time),
+            error_histogram: of.error.filled().collect(),
+            time_histogram: of.time.filled().collect(),
         };
         Summary {
             poses: t.pairs,
@@ -189,13 +203,16 @@ impl Findings {
             walk_steps: t.walk_steps,
             failures: t.failures(),
             failures_by_kind: &t.failures,
+            settle_every: self.settle_every,
+            put_to_second_solver: t.settled,
+            doubts: &t.doubts,
             settled: t.judged,
             unsettled: t.unjudged,
             rounding_limited: t.rounding_limited as f64 / t.pairs.max(1) as f64,
             other_digits_in_other_units: t.unit_digits,
             cone_program: Cone { answered: t.conic[0], gave_up: t.conic[1] },
             evaluation_ns: 1e9 * self.evaluation,
-            slowest_over_median: self.slowest_over_median(),
+            slowest_over_median: over_median(t.time(Call::Full)),
             calls: calls.collect(),
             families: FAMILIES.iter().map(|f| f.name).zip(&t.families).map(family).collect(),
             sweeps: &self.sweeps,
@@ -212,9 +229,8 @@ impl Findings {
         );
         println!("|---|---|---|---|---|---|---|---|---|---|---|---|");
         for (family, of) in FAMILIES.iter().zip(&t.families).filter(|(_, of)| of.pairs > 0) {
-            let unit = |seconds: f64| format!("{:.0}", seconds / self.evaluation);
             println!(
-                "| {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {} |",
+                "| {} | {} | {} | {} | {} | {} | {} | {} | {} | {:.0} | {:.0} | {:.0} |",
                 family.name,
                 of.pairs,
                 of.failures,
@@ -224,15 +240,16 @@ impl Findings {
                 number(of.error.most),
                 number(of.point_error.quantile(0.5)),
                 number(of.point_error.most),
-                unit(of.time.quantile(0.5)),
-                unit(of.time.quantile(0.9999)),
-                unit(of.time.most),
+                of.time.quantile(0.5),
+                of.time.quantile(0.9999),
+                of.time.most,
             );
         }
-        println!("\n| call | count | median | p99 | p99.99 | slowest | its pair | paths |");
-        println!("|---|---|---|---|---|---|---|---|");
-        for (((_, name), time), paths) in CALLS.iter().zip(&t.times).zip(&t.paths) {
-            let unit = |share: f64| time.quantile(share) / self.evaluation;
+        println!(
+            "\n| call | count | median | p99 | p99.99 | slowest | its pair | slowest / median | µs: median | p99 | p99.99 | slowest | its pair | paths |"
+        );
+        println!("|---|---|---|---|---|---|---|---|---|---|---|---|---|---|");
+        for (((_, name), (time, seconds)), paths) in CALLS.iter().zip(t.times.iter().zip(&t.seconds)).zip(&t.paths) {
             let share = |count: &u64| 100.0 * *count as f64 / time.count.max(1) as f64;
             let paths: Vec<String> = PATHS
                 .iter()
@@ -240,14 +257,21 @@ impl Findings {
                 .filter(|(_, count)| **count > 0)
                 .map(|(path, count)| format!("{path} {:.3} %", share(count)))
                 .collect();
+            let absolute = Microseconds::of(seconds);
             println!(
-                "| {name} | {} | {:.0} | {:.0} | {:.0} | {:.0} | {} | {} |",
+                "| {name} | {} | {:.0} | {:.0} | {:.0} | {:.0} | {} | {:.0} | {:.1} | {:.1} | {:.1} | {:.1} | {} | {} |",
                 time.count,
-                unit(0.5),
-                unit(0.99),
-                unit(0.9999),
-                time.most / self.evaluation,
+                time.quantile(0.5),
+                time.quantile(0.99),
+                time.quantile(0.9999),
+                time.most,
                 time.worst,
+                over_median(time),
+                absolute.median,
+                absolute.p99,
+                absolute.p99_99,
+                absolute.slowest,
+                absolute.slowest_index,
                 paths.join(", ")
             );
         }
@@ -263,10 +287,12 @@ impl Findings {
             }
         }
         println!(
-            "\nOne evaluation: {:.1} ns. Slowest over median, solved to the end: {:.0}. Against 32 digits: {} answers \
-             settled, {} not. Cone program: {} agreed or were judged, {} gave up. Walks: {} steps.",
+            "\nTimes in evaluations of the pair itself; one of 5 + 5 planes takes {:.1} ns. Put to the second solver: {} \
+             of {} pairs, doubtful {:?}. Against 32 digits: {} answers settled, {} not. Cone program: {} agreed or were judged, {} gave up. Walks: {} steps.",
             1e9 * self.evaluation,
-            self.slowest_over_median(),
+            t.settled,
+            t.pairs,
+            t.doubts,
             t.judged,
             t.unjudged,
             t.conic[0],
@@ -289,10 +315,6 @@ impl Findings {
 }
 
 const MOST_PRINTED: usize = 30;
-
-fn family_of(index: u64) -> usize {
-    (index / crate::cases::POSES_A_PAIR) as usize % FAMILIES.len()
-}
 
 fn number(value: f64) -> String {
     if value.is_finite() { format!("{value:.1e}") } else { "-".into() }

@@ -2,7 +2,7 @@
 
 use crate::cases::FAMILIES;
 use crate::clock::{CALLS, Call};
-use crate::judge::{Failure, PATHS, Verdict};
+use crate::judge::{Doubt, Failure, PATHS, Verdict};
 use crate::line::Line;
 use std::collections::BTreeMap;
 
@@ -81,6 +81,7 @@ pub struct OfFamily {
     pub point_bound: Distribution,
     pub normal_error: Distribution,
     pub looseness: Distribution,
+    /// Evaluations of the pair itself.
     pub time: Distribution,
     pub fell_back: u64,
     pub safer: u64,
@@ -110,8 +111,14 @@ pub struct Tally {
     pub families: Vec<OfFamily>,
     pub failures: BTreeMap<Failure, u64>,
     pub found: Vec<Found>,
+    /// Evaluations of the pair itself, by call.
     pub times: Vec<Distribution>,
+    pub seconds: Vec<Distribution>,
     pub paths: Vec<[u64; PATHS.len()]>,
+    /// Pairs put to the second solver.
+    pub settled: u64,
+    pub doubts: BTreeMap<Doubt, u64>,
+    /// Answers that it could judge, and could not.
     pub judged: u64,
     pub unjudged: u64,
     pub unit_digits: u64,
@@ -131,7 +138,10 @@ impl Default for Tally {
             failures: BTreeMap::new(),
             found: Vec::new(),
             times: vec![Distribution::default(); CALLS.len()],
+            seconds: vec![Distribution::default(); CALLS.len()],
             paths: vec![[0; PATHS.len()]; CALLS.len()],
+            settled: 0,
+            doubts: BTreeMap::new(),
             judged: 0,
             unjudged: 0,
             unit_digits: 0,
@@ -165,12 +175,18 @@ impl Tally {
             }
         }
         of.unjudged += u64::from(verdict.unjudged > 0);
+        self.settled += u64::from(verdict.settled);
+        for doubt in &verdict.doubts {
+            *self.doubts.entry(*doubt).or_default() += 1;
+        }
         self.judged += u64::from(verdict.judged);
         self.unjudged += u64::from(verdict.unjudged);
         for (call, seconds) in &verdict.costs {
-            self.times[place_of(*call)].add(*seconds, index);
+            let evaluations = seconds / verdict.evaluation;
+            self.times[place_of(*call)].add(evaluations, index);
+            self.seconds[place_of(*call)].add(*seconds, index);
             if *call == Call::Full {
-                of.time.add(*seconds, index);
+                of.time.add(evaluations, index);
             }
         }
         for (call, path) in &verdict.paths {
@@ -230,10 +246,17 @@ impl Tally {
         for (mine, others) in self.times.iter_mut().zip(&other.times) {
             mine.merge(others);
         }
+        for (mine, others) in self.seconds.iter_mut().zip(&other.seconds) {
+            mine.merge(others);
+        }
         for (mine, others) in self.paths.iter_mut().zip(&other.paths) {
             for (count, more) in mine.iter_mut().zip(others) {
                 *count += more;
             }
+        }
+        self.settled += other.settled;
+        for (doubt, count) in other.doubts {
+            *self.doubts.entry(doubt).or_default() += count;
         }
         self.judged += other.judged;
         self.unjudged += other.unjudged;

@@ -39,7 +39,7 @@ pub fn run(seed: u64, walks: u64, threads: usize, stop: &AtomicBool, progress: &
 
 /// Walk `walk`: what is found is added to the tally, with the walk for an index.
 pub fn one(seed: u64, walk: u64, tally: &mut Tally) {
-    // Past any pair of the first part, so that the shapes are others.
+    // Past any pair of the first part of eight poses, so that the shapes are others; below those of more poses.
     let index =
         (1 << 40) / POSES_A_PAIR / FAMILIES.len() as u64 * POSES_A_PAIR * FAMILIES.len() as u64 + walk * POSES_A_PAIR;
     let shapes = Shapes::of(seed, index);

@@ -2,7 +2,7 @@
 //! the cause.
 
 use crate::cases::{Case, stream};
-use crate::judge::{Failure, Units, judge};
+use crate::judge::{Failure, Shared, Trial, judge};
 use crate::line::Line;
 use nalgebra::Vector3;
 use potential_particles::{Particle, Plane, Pose, Settings, detect};
@@ -23,9 +23,9 @@ fn judged_by(name: &str, kinds: &[Failure], seed: u64, index: u64) {
         .unwrap_or_else(|| panic!("no pair is called {name}"));
     let shapes = line.shapes().expect("two particles");
     let [at_a, at_b] = line.places();
-    let case = Case { shapes: &shapes, index: 0, at_a, at_b };
-    let units = Units::of(&shapes.a, &shapes.b, &mut stream(seed, 3, 0));
-    let verdict = judge(&case, &units, &mut stream(seed, 4, index));
+    let case = Case { shapes: &shapes, at_a, at_b };
+    let shared = Shared::of(&shapes.a, &shapes.b, &mut stream(seed, 3, 0));
+    let verdict = judge(&case, &shared, Trial::WHOLE, detect, &mut stream(seed, 4, index));
     let failures: Vec<_> = verdict.failures.iter().filter(|(failure, _)| kinds.contains(failure)).collect();
     assert!(failures.is_empty(), "{name}: {failures:?}");
 }

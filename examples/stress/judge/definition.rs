@@ -1,13 +1,14 @@
 //! What every right answer must satisfy, whatever the truth is.
 
-use super::solutions::same;
-use super::{EPS, FULL, Failure, Scene, Units, Verdict};
+use super::solutions::{explained, same};
+use super::{Doubt, EPS, FULL, Failure, LOOSE, Scene, Shared, Verdict};
 use crate::cases::{Case, Place};
+use crate::double::Placed;
 use crate::random::Random;
 use crate::reference::Body;
 use crate::wide::{Wide, Wide3};
-use nalgebra::{Quaternion, UnitQuaternion, Vector3};
-use potential_particles::{Contact, Formulation, Kind, Pose, detect};
+use nalgebra::{Matrix3, Quaternion, UnitQuaternion, Vector3};
+use potential_particles::{Contact, Formulation, Kind, Pose, Settings};
 
 pub(super) fn well_formed(verdict: &mut Verdict, scene: &Scene, c: &Contact) {
     let finite = |v: &Vector3<f64>| v.iter().all(|c| c.is_finite());
@@ -37,16 +38,85 @@ pub(super) fn well_formed(verdict: &mut Verdict, scene: &Scene, c: &Contact) {
     verdict.check(fine && consistent, Failure::Malformed, || format!("{c:?}"));
 }
 
-pub(super) fn surfaces(verdict: &mut Verdict, scene: &Scene, contact: &Contact, bodies: &[Body; 2]) {
+/// Relative to s or 1: nearer than this doubles need not come.
+const NEAR: f64 = 1e-6;
+/// The same, in what the rounding of lengths does to s².
+const ROUGHLY: f64 = 1e2;
+/// Share of the curvature in all that is added in each direction.
+const HOLD: f64 = 1e-15;
+/// Share of what is allowed beyond which the second solver is asked.
+pub(super) const NEARLY: f64 = 0.5;
+/// The same of a gap that is too loose; lower, since the point is not quite that of the truth.
+const NEARLY_LOOSE: f64 = 0.1;
+/// Steps by which the linear functions are levelled.
+const MOST_STEPS: usize = 4;
+
+/// What doubles prove at the answer's point: s² is at most the larger S there, and at least what linear functions below
+/// both bodies have in common; both but for a bound on rounding. Where that is near the answer, and its gap is what
+/// rounding explains, nothing is in doubt.
+pub(super) fn enclosed(verdict: &mut Verdict, scene: &Scene, contact: &Contact, start: &Vector3<f64>) {
+    let (s, gap) = (contact.s, contact.gap);
+    let weights = [1.0 - contact.weight, contact.weight];
+    let risen = scene.placed.each_ref().map(|body| body.risen(start, EPS * scene.length));
+    let rounding = explained(scene, s.max(1.0), contact.weight, risen);
+    verdict.doubt(!(gap * (2.0 * s + gap) <= NEARLY_LOOSE * LOOSE * rounding), Doubt::Gap);
+
+    let (mut least, mut most) = (0.0_f64, f64::INFINITY);
+    let mut near = false;
+    let mut step = Vector3::zeros();
+    for _ in 0..MOST_STEPS {
+        let locals = scene.placed.each_ref().map(|body| body.near(start, &step));
+        let [a, b] = &locals;
+        most = most.min((a.value + a.error).max(b.value + b.error));
+        let slope = weights[0] * a.slope + weights[1] * b.slope;
+        let lost = weights[0] * a.slope_error + weights[1] * b.slope_error + 4.0 * EPS * slope.norm();
+        let value = weights[0] * (a.below - a.below_error) + weights[1] * (b.below - b.below_error);
+        let reach = scene.placed.each_ref().map(|body| body.farthest(start, most));
+        let reach = reach[0].min(reach[1]) * (1.0 + 1e-10);
+        least = least.max(value - 4.0 * EPS * value.abs() - (slope.norm() + lost) * reach);
+        // Where s vanishes its square is what is known; and no one knows more than rounding allows.
+        near = most.sqrt() - least.sqrt() <= NEAR * s.max(1.0) + gap || most - least <= ROUGHLY * rounding;
+        if near {
+            break;
+        }
+        // Newton's step levels the sum, where the planes stay, and what λ would do on top makes both S equal, with what
+        // rounding could add to each.
+        let [of_a, of_b] = [0, 1].map(|i| weights[i] * scene.placed[i].hessian(&(start + step)));
+        let sum: Matrix3<f64> = of_a + of_b;
+        // Planes alone may leave a direction free.
+        let held = sum + Matrix3::from_diagonal_element(HOLD * sum.trace());
+        let Some(factors) = held.cholesky() else { break };
+        let level = factors.solve(&slope);
+        let apart = a.slope - b.slope;
+        let way = factors.solve(&apart);
+        let behind = (a.value + a.error - a.slope.dot(&level)) - (b.value + b.error - b.slope.dot(&level));
+        let share = behind / apart.dot(&way);
+        step -= level;
+        if share.is_finite() {
+            let aside = step - share * way;
+            let [a, b] = scene.placed.each_ref().map(|body| body.near(start, &aside));
+            most = most.min((a.value + a.error).max(b.value + b.error));
+        }
+    }
+    let (below, above) = (least.sqrt() * (1.0 - 2.0 * EPS), most.sqrt() * (1.0 + 2.0 * EPS));
+    verdict.check(!(s - gap > above), Failure::BoundOfS, || format!("s={s:e} ± {gap:e}, but at most {above:e}"));
+    verdict.check(!(s + gap < below), Failure::BoundOfS, || format!("s={s:e} ± {gap:e}, but at least {below:e}"));
+    verdict.doubt(!near, Doubt::Enclosure);
+}
+
+pub(super) fn surfaces(verdict: &mut Verdict, scene: &Scene, contact: &Contact) {
     if contact.kind != Kind::Overlapping {
         return;
     }
     let allowed = 32.0 * EPS * scene.length + 2.0 * EPS * scene.far + closest_slack(contact);
     let n = contact.normal;
-    for (body, point, outwards, name) in
-        [(&bodies[0], contact.point_on_a, n, "A"), (&bodies[1], contact.point_on_b, -n, "B")]
-    {
+    for (i, point, outwards, name) in [(0, contact.point_on_a, n, "A"), (1, contact.point_on_b, -n, "B")] {
         let point = point - scene.at_b.position;
+        let (off, doubt) = scene.placed[i].at(&point).off_surface();
+        if off + doubt <= allowed {
+            continue;
+        }
+        let body = &scene.bodies()[i];
         let off = off_surface(body, &point);
         // Where s bends within the rounding of the point, the first order says nothing: then there has to be a point inside
         // and one outside within that.
@@ -73,58 +143,100 @@ fn closest_slack(contact: &Contact) -> f64 {
 
 /// Moves B along the normal: by a little less than the overlap the surface points keep a common segment; beyond the
 /// tangent planes of both at P3 nothing is common.
-pub(super) fn flips(
-    verdict: &mut Verdict,
-    scene: &Scene,
-    contact: &Contact,
-    bodies: &[Body; 2],
-    start: &Vector3<f64>,
-) -> Option<()> {
+pub(super) fn flips(verdict: &mut Verdict, scene: &Scene, contact: &Contact, start: &Vector3<f64>, thorough: bool) {
     let n = contact.normal;
     let rounding = 64.0 * EPS * scene.length + 4.0 * EPS * scene.far;
-    let answer = |by: f64| scene.detect(&scene.moved(by * n), &FULL, None);
-    if contact.kind == Kind::Overlapping {
-        let less = contact.overlap * (1.0 - 1e-3) - rounding;
-        if less > 0.0 {
-            match answer(less) {
-                Ok(after) => {
-                    let right = after.kind == Kind::Overlapping || after.s - after.gap <= 1.0;
-                    verdict.check(right, Failure::FlipsEarly, || {
-                        format!("moved by {less:e} of {:e}: s={:e} ± {:e}", contact.overlap, after.s, after.gap)
-                    });
-                }
-                Err(error) => verdict.fail(Failure::Error, format!("moved by {less:e}: {error}")),
-            }
+    let less = contact.overlap * (1.0 - 1e-3) - rounding;
+    if contact.kind == Kind::Overlapping
+        && less > 0.0
+        && let Some(after) = moved(verdict, scene, less * n, Kind::Overlapping, thorough)
+    {
+        let right = after.kind == Kind::Overlapping || after.s - after.gap <= 1.0;
+        verdict.check(right, Failure::FlipsEarly, || {
+            format!("moved by {less:e} of {:e}: s={:e} ± {:e}", contact.overlap, after.s, after.gap)
+        });
+    }
+    let apart = rounding + tangents(scene, contact, start);
+    let apart = apart + 1e-3 * apart.abs();
+    if apart.is_finite()
+        && apart.abs() < 4.0 * scene.length
+        && let Some(after) = moved(verdict, scene, apart * n, Kind::Separated, thorough)
+    {
+        let right = after.kind == Kind::Separated || after.s + after.gap >= 1.0;
+        verdict.check(right, Failure::FlipsLate, || {
+            format!("moved by {apart:e}, overlap {:e}: s={:e} ± {:e}", contact.overlap, after.s, after.gap)
+        });
+    }
+}
+
+/// The answer after a move, solved to the end where default settings do not find the kind that is expected, or where
+/// all is asked for.
+fn moved(verdict: &mut Verdict, scene: &Scene, by: Vector3<f64>, kind: Kind, thorough: bool) -> Option<Contact> {
+    let at_b = scene.moved(by);
+    let mut answer = |settings: &Settings| match scene.detect(&at_b, settings, None) {
+        Ok(after) => Some(after),
+        Err(error) => {
+            verdict.fail(Failure::Error, format!("moved by {:e}: {error}", by.norm()));
+            None
+        }
+    };
+    if thorough {
+        return answer(&FULL);
+    }
+    let quick = answer(&Settings::default())?;
+    if quick.kind == kind {
+        return Some(quick);
+    }
+    let full = answer(&FULL)?;
+    verdict.check(quick.kind == full.kind || (full.s - 1.0).abs() <= full.gap, Failure::Reject, || {
+        format!(
+            "moved by {:e}: quick {:?} {:?}, full s={:e} ± {:e}",
+            by.norm(),
+            quick.kind,
+            quick.flags,
+            full.s,
+            full.gap
+        )
+    });
+    Some(full)
+}
+
+/// How far both bodies together reach beyond P3 along the normal: their tangent planes, tilted by what the normal is
+/// off. In doubles where rounding adds no more than the slack there is, else in 32 digits.
+fn tangents(scene: &Scene, contact: &Contact, start: &Vector3<f64>) -> f64 {
+    let directions = [contact.normal, -contact.normal];
+    let farthest = [0, 1].map(|i| {
+        let body = &scene.placed[i];
+        (start - body.centre()).norm() + body.bounding_radius()
+    });
+    let (mut sum, mut doubt) = (0.0, 0.0);
+    for i in 0..2 {
+        let local = scene.placed[i].at(start);
+        let steep = local.gradient.norm();
+        let lost = local.gradient_error / steep;
+        let reach = (1.0 - local.value) / steep;
+        sum += reach + (local.gradient / steep - directions[i]).norm() * farthest[i];
+        doubt += local.error / steep + 2.0 * lost * (reach.abs() + farthest[i]);
+        if !(lost < 0.25) {
+            doubt = f64::INFINITY;
         }
     }
+    if doubt <= 1e-4 * sum.abs() + EPS * scene.length {
+        return sum + doubt;
+    }
     let x = Wide3::from(*start);
-    let mut apart = rounding;
-    for (body, direction) in [(&bodies[0], n), (&bodies[1], -n)] {
+    let mut sum = 0.0;
+    for (i, body) in scene.bodies().iter().enumerate() {
         let local = body.at(&x);
         let steep = local.gradient.norm().f64();
         let outward = local.gradient.f64() / steep;
-        // How far the body reaches beyond P3 along the normal: its tangent plane, tilted by what the normal is off.
-        let reach = (Wide::ONE - local.value).f64() / steep;
-        let farthest = (start - body.centre()).norm() + body.particle.bounding_radius();
-        apart += reach + (outward - direction).norm() * farthest;
+        sum += (Wide::ONE - local.value).f64() / steep + (outward - directions[i]).norm() * farthest[i];
     }
-    apart += 1e-3 * apart.abs();
-    if apart.is_finite() && apart.abs() < 4.0 * scene.length {
-        match answer(apart) {
-            Ok(after) => {
-                let right = after.kind == Kind::Separated || after.s + after.gap >= 1.0;
-                verdict.check(right, Failure::FlipsLate, || {
-                    format!("moved by {apart:e}, overlap {:e}: s={:e} ± {:e}", contact.overlap, after.s, after.gap)
-                });
-            }
-            Err(error) => verdict.fail(Failure::Error, format!("moved by {apart:e}: {error}")),
-        }
-    }
-    Some(())
+    sum
 }
 
 pub(super) fn swapped(verdict: &mut Verdict, scene: &Scene, one: &Contact) {
-    let answer = detect(scene.b, &scene.at_b, scene.a, &scene.at_a, &FULL, None);
+    let answer = (scene.solver)(scene.b, &scene.at_b, scene.a, &scene.at_a, &FULL, None);
     match answer {
         Ok(other) => {
             // What was B is A now.
@@ -135,14 +247,7 @@ pub(super) fn swapped(verdict: &mut Verdict, scene: &Scene, one: &Contact) {
     }
 }
 
-pub(super) fn carried(
-    verdict: &mut Verdict,
-    case: &Case,
-    scene: &Scene,
-    before: &Contact,
-    bodies: &[Body; 2],
-    random: &mut Random,
-) {
+pub(super) fn carried(verdict: &mut Verdict, case: &Case, scene: &Scene, before: &Contact, random: &mut Random) {
     let q = [random.normal(), random.normal(), random.normal(), random.normal()];
     let turn = UnitQuaternion::from_quaternion(Quaternion::new(q[0], q[1], q[2], q[3]));
     let shift = scene.length * random.direction();
@@ -152,10 +257,10 @@ pub(super) fn carried(
         let position = turn * Vector3::from(place.position) + shift;
         Pose::new(position.into(), [q.w, q.i, q.j, q.k]).expect("a pose turned is a pose")
     };
-    match detect(scene.a, &carry(&case.at_a), scene.b, &carry(&case.at_b), &FULL, None) {
+    match (scene.solver)(scene.a, &carry(&case.at_a), scene.b, &carry(&case.at_b), &FULL, None) {
         Ok(after) => {
             let rounding = 16.0 * EPS * (scene.length + scene.far);
-            let allowed = before.gap + after.gap + steepness(bodies, &before.branch_b) * rounding;
+            let allowed = before.gap + after.gap + steepness(scene, &before.branch_b) * rounding;
             // Where s vanishes its square is what moves smoothly.
             let squares = (before.s * before.s - after.s * after.s).abs();
             let right = (before.s - after.s).abs() <= allowed || squares <= allowed * allowed;
@@ -168,29 +273,27 @@ pub(super) fn carried(
 }
 
 /// What the rounding of lengths does to s, both ways of rounding counted.
-fn steepness(bodies: &[Body; 2], at: &Vector3<f64>) -> f64 {
-    let x = Wide3::from(*at);
-    bodies
-        .iter()
-        .map(|body| {
-            let local = body.at(&x);
-            (local.pull + local.gradient.norm().f64()) / (2.0 * local.value.sqrt().f64()).max(f64::MIN_POSITIVE)
-        })
-        .fold(0.0, f64::max)
+fn steepness(scene: &Scene, at: &Vector3<f64>) -> f64 {
+    let steep = |body: &Placed| {
+        let local = body.at(at);
+        (local.pull + local.gradient.norm()) / (2.0 * local.value.sqrt()).max(f64::MIN_POSITIVE)
+    };
+    scene.placed.iter().map(steep).fold(0.0, f64::max)
 }
 
-pub(super) fn in_other_units(verdict: &mut Verdict, scene: &Scene, before: &Contact, units: &Units) {
-    let unit = 2f64.powi(units.exponent);
+pub(super) fn in_other_units(verdict: &mut Verdict, scene: &Scene, before: &Contact, shared: &Shared) {
+    let unit = 2f64.powi(shared.exponent);
+    let [a, b] = &shared.in_other_units;
     let place = |pose: &Pose| Pose { position: unit * pose.position, ..*pose };
-    match detect(&units.a, &place(&scene.at_a), &units.b, &place(&scene.at_b), &FULL, None) {
+    match (scene.solver)(a, &place(&scene.at_a), b, &place(&scene.at_b), &FULL, None) {
         Ok(after) => {
             let same = after.s == before.s && after.branch_b == unit * before.branch_b && after.normal == before.normal;
             verdict.unit_digits = !same;
             let both = before.gap + after.gap;
             verdict.check((before.s - after.s).abs() <= both, Failure::Units, || {
-                format!("unit 2^{}: s={:e} and {:e}, gaps {both:e}", units.exponent, before.s, after.s)
+                format!("unit 2^{}: s={:e} and {:e}, gaps {both:e}", shared.exponent, before.s, after.s)
             });
         }
-        Err(error) => verdict.fail(Failure::Error, format!("unit 2^{}: {error}", units.exponent)),
+        Err(error) => verdict.fail(Failure::Error, format!("unit 2^{}: {error}", shared.exponent)),
     }
 }

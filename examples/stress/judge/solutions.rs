@@ -1,22 +1,36 @@
 //! The answer beside other solutions: in 32 digits, from memory, by closest and by the cone program.
 
-use super::definition::surfaces;
-use super::{EPS, FULL, Failure, LOOSE, Scene, Verdict, path};
-use crate::clock::{Call, Cost};
+use super::definition::{NEARLY, surfaces};
+use super::{Doubt, EPS, FULL, Failure, LOOSE, Scene, Verdict, path};
+use crate::clock::{Call, Clock};
 use crate::random::Random;
-use crate::reference::{Body, Optimum, Wanted, optimum};
+use crate::reference::{Optimum, Wanted, optimum};
 use crate::wide::Wide3;
 use nalgebra::Vector3;
 use potential_particles::{BackEnd, Contact, Flags, Formulation, Kind, Memory, Particle, Settings};
 
-pub(super) fn midway(
-    verdict: &mut Verdict,
-    scene: &Scene,
-    contact: &Contact,
-    bodies: &[Body; 2],
-    truth: &Optimum,
-    start: &Vector3<f64>,
-) {
+/// Asks the second solver, from a start near the answer.
+pub(super) fn settle(verdict: &mut Verdict, scene: &Scene, contact: &Contact, start: &Vector3<f64>) {
+    let [a, b] = scene.bodies();
+    let lambda = contact.weight / (1.0 - contact.weight);
+    match optimum(a, b, Wanted::Midway, start, lambda) {
+        Some(truth) if truth.most - truth.least <= 0.1 * contact.gap + 1e-300 => {
+            verdict.judged += 1;
+            midway(verdict, scene, contact, &truth, start);
+        }
+        Some(truth) => {
+            verdict.unjudged += 1;
+            // Not settled, but what is proved still counts.
+            let outside = contact.s + contact.gap < truth.least || contact.s - contact.gap > truth.most;
+            verdict.check(!outside, Failure::BoundOfS, || {
+                format!("s={:e} ± {:e}, but in [{:e}, {:e}]", contact.s, contact.gap, truth.least, truth.most)
+            });
+        }
+        None => verdict.unjudged += 1,
+    }
+}
+
+fn midway(verdict: &mut Verdict, scene: &Scene, contact: &Contact, truth: &Optimum, start: &Vector3<f64>) {
     let (s, gap) = (contact.s, contact.gap);
     let scale = truth.most.max(1.0);
     let off = (s - truth.most).abs().min((s - truth.least).abs());
@@ -33,11 +47,9 @@ pub(super) fn midway(
     let wrong = if overlapping { truth.least > 1.0 + gap } else { truth.most < 1.0 - gap };
     verdict.check(!wrong, Failure::WrongSide, || format!("{:?}, s={s:e}, truth {:e}", contact.kind, truth.most));
 
-    // The least that rounding lengths of this size does to s², and the tolerance asked for.
     let u = truth.lambda.f64() / (1.0 + truth.lambda.f64());
-    let [a, b] = [0, 1].map(|i| bodies[i].risen(&truth.x, EPS * scene.length));
-    let explained = 1e-12 * scale * scale + (1.0 - u) * a + u * b + flat_share(scene, truth);
-    let looseness = gap * (2.0 * s + gap) / explained;
+    let risen = scene.bodies().each_ref().map(|body| body.risen(&truth.x, EPS * scene.length));
+    let looseness = gap * (2.0 * s + gap) / explained(scene, scale, u, risen);
     verdict.measures.looseness = Some(looseness);
     verdict.check(looseness <= LOOSE, Failure::LooseBound, || {
         format!("s={s:e} ± {gap:e}, truth {:e}: {looseness:.1e} times what rounding explains", truth.most)
@@ -65,14 +77,16 @@ pub(super) fn midway(
     }
 }
 
-/// What the regularisation of flat faces adds to the gap of s².
-fn flat_share(scene: &Scene, truth: &Optimum) -> f64 {
+/// The least that rounding lengths of this size does to s², the tolerance asked for, and what the regularisation of flat
+/// faces adds. `scale` is s or 1; both S rise by `risen` when the planes move in by the rounding of a length.
+pub(super) fn explained(scene: &Scene, scale: f64, weight: f64, [a, b]: [f64; 2]) -> f64 {
     let missing = |p: &Particle| (FULL.flat_regularisation - p.sphericity()).max(0.0);
-    2.0 * (missing(scene.a) + missing(scene.b)) * truth.most.max(1.0).powi(2)
+    let flat = 2.0 * (missing(scene.a) + missing(scene.b));
+    (1e-12 + flat) * scale * scale + (1.0 - weight) * a + weight * b
 }
 
 /// Remembers a pose a step away, or another pair, and solves this one.
-pub(super) fn warm(verdict: &mut Verdict, scene: &Scene, cold: &Contact, clock: &mut Cost, random: &mut Random) {
+pub(super) fn warm(verdict: &mut Verdict, scene: &Scene, cold: &Contact, clock: &mut Clock, random: &mut Random) {
     let small = scene.a.bounding_radius().min(scene.b.bounding_radius());
     let step = small * 10f64.powf(-6.0 + 5.0 * random.uniform());
     let mut memory = Memory::default();
@@ -109,9 +123,11 @@ pub(super) fn same(verdict: &mut Verdict, failure: Failure, one: &Contact, other
     let off = (one.branch_b - other.branch_b).norm();
     let allowed = one.point_bound + other.point_bound + 8.0 * EPS * scene.length;
     verdict.check(flat || off <= allowed, failure, || format!("points {off:e} apart, bounds {allowed:e}"));
+    let much = !((one.s - other.s).abs() <= NEARLY * both + 4.0 * EPS * one.s) || !(flat || off <= NEARLY * allowed);
+    verdict.doubt(much, Doubt::Disagreement);
 }
 
-pub(super) fn closest(verdict: &mut Verdict, scene: &Scene, midway: &Contact, bodies: &[Body; 2], clock: &mut Cost) {
+pub(super) fn closest(verdict: &mut Verdict, scene: &Scene, midway: &Contact, clock: &mut Clock) {
     let settings = |weight_on_a| Settings { formulation: Formulation::Closest, weight_on_a, ..FULL };
     let answer = clock.time(Call::Closest, || scene.detect(&scene.at_b, &settings(0.0), None));
     let (on_b, on_a) = match (answer, scene.detect(&scene.at_b, &settings(1.0), None)) {
@@ -131,7 +147,8 @@ pub(super) fn closest(verdict: &mut Verdict, scene: &Scene, midway: &Contact, bo
         });
         return;
     }
-    surfaces(verdict, scene, &on_b, bodies);
+    surfaces(verdict, scene, &on_b);
+    let bodies = scene.bodies();
     let flat = scene.a.sphericity().min(scene.b.sphericity()) < 1e-12;
     let lambda = on_b.weight / (1.0 - on_b.weight);
     for (wanted, contact, s) in [(Wanted::OnB, &on_b, on_b.s), (Wanted::OnA, &on_a, on_a.s_b)] {
