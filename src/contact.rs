@@ -139,8 +139,14 @@ impl LocalContact {
             let to_b = way(outcome.values[1], of_b, -gradients[1].dot(&normal), &|guess| {
                 surface::distance_near(pair.b, x, &-normal, guess)
             })?;
-            // Where s < 1 by rounding alone, so may be the sum.
-            Some((x + to_a * normal, x - to_b * normal, (to_a + to_b).max(0.0)))
+            let overlap = to_a + to_b;
+            if overlap < 0.0 {
+                // Where s < 1 by less than the rounding of the point, the surfaces seem to have passed: they meet half way.
+                let touch = x + 0.5 * (to_a - to_b) * normal;
+                Some((touch, touch, 0.0))
+            } else {
+                Some((x + to_a * normal, x - to_b * normal, overlap))
+            }
         } else {
             None
         };

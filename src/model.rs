@@ -47,6 +47,8 @@ pub(crate) struct Optimum {
     pub settled: bool,
     /// Of H; at λ itself if `exact`, else very near.
     factor: Factor,
+    /// The λ of the factor.
+    factored: f64,
     exact: bool,
     /// dv/dθ and dm/dθ.
     along: Vector3<f64>,
@@ -136,7 +138,18 @@ impl<'a> Model<'a> {
         let value = |q: &Quadratic, g: &Vector3<f64>| q.expansion + 0.5 * step.dot(&(q.gradient + g));
         let values = (value(self.q_a, &gradients[0]), value(self.q_b, &gradients[1]));
         let along = Vector3::zeros();
-        Optimum { step, gradients, values, lambda, settled: false, factor, exact: false, along, rate: 0.0 }
+        Optimum {
+            step,
+            gradients,
+            values,
+            lambda,
+            settled: false,
+            factor,
+            factored: lambda,
+            exact: false,
+            along,
+            rate: 0.0,
+        }
     }
 
     /// Searches λ from an optimum on.
@@ -225,7 +238,8 @@ impl<'a> Model<'a> {
         let v3 = -found.factor.solve(&series.w2);
         let delta = series.delta;
         let step = found.step + delta * (found.along + delta * (series.v2 + delta * v3));
-        Optimum { along: found.along, rate: found.rate, ..self.after(step, series.lambda, found.factor) }
+        let after = self.after(step, series.lambda, found.factor);
+        Optimum { along: found.along, rate: found.rate, factored: found.factored, ..after }
     }
 
     /// Whether the slope a·g_A + b·g_B is zero to rounding. In a pair that is alike on both sides the terms of the mismatch
@@ -296,7 +310,7 @@ impl Optimum {
         let mut squares = Symmetric::default();
         squares.add_square(&self.along);
         let to_slope = squares.weighted(1.0 / self.rate, &inverse, -1.0);
-        let (a, b) = target.weights(self.lambda);
+        let (a, b) = target.weights(self.factored);
         // tr(M H M) = −tr M, less the spheres' share of H; the difference is known to the rounding of its terms.
         let (trace, traces) = (-to_slope.trace(), [inverse.trace(), inverse.xx + inverse.yy]);
         let of_planes = trace - (a * soft.0 + b * soft.1) * to_slope.square() + TRACE_ROUNDING * traces[0];

@@ -14,6 +14,13 @@ use crate::start;
 use crate::target::Target;
 use nalgebra::Vector3;
 
+/// A gap this many times what the rounding of its place explains is one that another proof may narrow.
+const LOOSE: f64 = 100.0;
+
+/// Most second proofs, and the share of the gap that one has to leave for the next to be tried.
+const MOST_PROOFS: u32 = 3;
+const WORTH: f64 = 0.5;
+
 /// One call: the pair, what is asked, and what it has cost so far.
 pub(crate) struct Search<'a> {
     pair: &'a Pair<'a>,
@@ -121,7 +128,7 @@ impl<'a> Search<'a> {
             }
             if answer.outcome.ending != Ending::Stuck {
                 if answer.outcome.ending == Ending::RoundingLimited {
-                    self.flags.insert(Flags::ROUNDING_LIMITED);
+                    self.sharpen(target, usual, answer);
                 }
                 return Ok(());
             }
@@ -143,15 +150,69 @@ impl<'a> Search<'a> {
         }
         if answer.outcome.ending == Ending::Stuck {
             let cold = start::on_centre_line(self.pair, &self.body_a, &self.body_b);
-            let bodies = [&self.body_a, &self.body_b];
-            let found = anchored::solve(bodies, &self.goal(target), &cold, &mut answer.expansion);
-            self.iterations += found.models;
-            answer.outcome = found.outcome;
+            self.safely(target, &cold, answer);
             if answer.outcome.ending != Ending::Stuck {
-                answer.softened = Some(found.plane_weights);
                 self.flags.insert(Flags::SAFER);
             }
         }
+    }
+
+    /// An answer whose gap is more than the tolerance: where that is also far more than the rounding of its place explains,
+    /// the planes that it stands on are in doubt, and a second proof is sought: from there, by the safe solver, and without the
+    /// planes of doubtful sign.
+    #[cold]
+    fn sharpen(&mut self, target: Target, usual: Factorisation, answer: &mut Answer) {
+        for _ in 0..MOST_PROOFS {
+            if !self.is_loose(answer, target) {
+                break;
+            }
+            let (gap, from) = (answer.outcome.gap(), answer.start());
+            let mut second = Answer::BLANK;
+            self.rung(target, &from, None, usual, &mut second);
+            keep_better(answer, second);
+            if self.is_loose(answer, target) {
+                let mut second = Answer::BLANK;
+                self.safely(target, &from, &mut second);
+                keep_better(answer, second);
+            }
+            if self.is_loose(answer, target) && !answer.outcome.sure {
+                let lower = certificate::without_doubtful(&answer.outcome, [&self.body_a, &self.body_b], target);
+                let outcome = &mut answer.outcome;
+                outcome.lower = outcome.lower.max(lower + outcome.rounding);
+            }
+            if answer.outcome.gap() > WORTH * gap {
+                break;
+            }
+        }
+        if answer.outcome.ending == Ending::RoundingLimited {
+            self.flags.insert(Flags::ROUNDING_LIMITED);
+        }
+        if answer.softened.is_some() {
+            self.flags.insert(Flags::SAFER);
+        }
+    }
+
+    /// Whether the gap is far more than the rounding of the place, the regularisation and the tolerance explain.
+    fn is_loose(&self, answer: &Answer, target: Target) -> bool {
+        let (a, b, outcome) = (&self.body_a, &self.body_b, &answer.outcome);
+        let least = target.dual_weighted(
+            answer.expansion.locals[0].least_rounding(&outcome.gradients[0]),
+            answer.expansion.locals[1].least_rounding(&outcome.gradients[1]),
+            outcome.lambda,
+        );
+        let level = outcome.upper.max(1.0);
+        let flat = target.dual_weighted(a.most_surplus(level), b.most_surplus(level), outcome.lambda);
+        outcome.ending == Ending::RoundingLimited
+            && outcome.gap() > LOOSE * (least + flat + self.settings.gap_tolerance * level)
+    }
+
+    /// By the safe solver.
+    fn safely(&mut self, target: Target, start: &Start, answer: &mut Answer) {
+        let bodies = [&self.body_a, &self.body_b];
+        let found = anchored::solve(bodies, &self.goal(target), start, &mut answer.expansion);
+        self.iterations += found.models;
+        answer.outcome = found.outcome;
+        answer.softened = (answer.outcome.ending != Ending::Stuck).then_some(found.plane_weights);
     }
 
     #[inline(always)]
@@ -192,5 +253,13 @@ impl<'a> Search<'a> {
         let u = solution.weight;
         let outcome = certificate::judge(&solution.x, u / (1.0 - u), solution.s, &self.body_a, &self.body_b, target);
         Ok(Outcome { iterations: solution.iterations, ..outcome })
+    }
+}
+
+/// Keeps the answer with the smaller gap.
+fn keep_better(answer: &mut Answer, second: Answer) {
+    let proved = matches!(second.outcome.ending, Ending::Converged | Ending::RoundingLimited);
+    if proved && second.outcome.gap() < answer.outcome.gap() {
+        *answer = second;
     }
 }

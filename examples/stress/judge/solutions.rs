@@ -35,7 +35,9 @@ pub(super) fn midway(
 
     // The least that rounding lengths of this size does to s², and the tolerance asked for.
     let u = truth.lambda.f64() / (1.0 + truth.lambda.f64());
-    let [a, b] = [0, 1].map(|i| bodies[i].risen(&truth.x, EPS * scene.length));
+    // A point far from both centres is a length as well.
+    let far = |i: usize| (truth.x.f64() - bodies[i].centre()).norm();
+    let [a, b] = [0, 1].map(|i| bodies[i].risen(&truth.x, EPS * scene.length.max(far(i))));
     let explained = 1e-12 * scale * scale + (1.0 - u) * a + u * b + flat_share(scene, truth);
     let looseness = gap * (2.0 * s + gap) / explained;
     verdict.measures.looseness = Some(looseness);
