@@ -222,7 +222,7 @@ impl Anchor<'_> {
                         planes = planes.max(Planes::Pulling);
                         pulled -= after;
                     } else if after < doubt {
-                        doubtful += doubt;
+                        doubtful += doubt + (-after).max(0.0);
                     }
                 } else if after > -self.locals[i].blur {
                     near += 1.0;

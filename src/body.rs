@@ -5,6 +5,7 @@ use crate::number::larger;
 use crate::pair::Pair;
 use crate::particle::Particle;
 use crate::potential::{self, OnLine, Quadratic};
+use crate::symmetric::Symmetric;
 use crate::verdict::Verdict;
 use nalgebra::{Matrix3, Vector3};
 
@@ -137,11 +138,19 @@ impl<'a> Body<'a> {
     }
 
     /// What the rounding of where the planes lie does to S at the end of a step of this length with its verdict, where
-    /// the gradient is this long; with it the rounding of the sums at the point of expansion, carried along.
-    pub fn rounding_after(&self, local: &Local, q: &Quadratic, verdict: &Verdict, step: f64, gradient: f64) -> f64 {
+    /// the gradient is this long; with it the rounding of the sums at the point of expansion, carried along. Apart from it
+    /// what is of second order, and makes S larger only.
+    pub fn rounding_after(
+        &self,
+        local: &Local,
+        q: &Quadratic,
+        verdict: &Verdict,
+        step: f64,
+        gradient: f64,
+    ) -> (f64, f64) {
         let (shift, blur) = self.after(local, step);
-        let planes = (verdict.pull + verdict.near * self.plane_weight * blur) * blur;
-        planes + gradient * shift + q.pull * (blur - local.blur)
+        let first = verdict.pull * blur + gradient * shift + q.pull * (blur - local.blur);
+        (first, verdict.near * self.plane_weight * blur * blur)
     }
 
     /// The shift and the blur at the end of a step of this length.
@@ -157,12 +166,42 @@ impl<'a> Body<'a> {
         ROUNDING * f64::EPSILON * value
     }
 
-    /// The share of the way to the centre on which every plane falls by more than its rounding at the end of a step; more
-    /// than 1 where some plane does not.
-    pub fn share_of_way(&self, local: &Local, step: f64) -> f64 {
-        let (_, blur) = self.after(local, step);
-        let least = self.particle.bounds.least_offset;
-        if least > blur { blur / least + ROUNDING * f64::EPSILON } else { f64::INFINITY }
+    /// The same point with the shift and the blur that it has at the end of a step of this length.
+    pub fn blurred(&self, local: &Local, step: f64) -> Local {
+        let (shift, blur) = self.after(local, step);
+        local.blurred(shift, blur)
+    }
+
+    /// (Regularised) S after a step v from a point, with all planes moved in by their blur and the centre moved away by its
+    /// shift; derivatives in the axes of `frame` or of the solver.
+    pub fn inset(&self, local: &Local, v: &Vector3<f64>, frame: Option<&Matrix3<f64>>) -> Quadratic {
+        let (e, blur) = (self.turn(v), local.blur);
+        let rotation = frame.map_or(self.rotation, |axes| axes.tr_mul(&self.rotation));
+        let far = self.particle.bounds.longest_normal * e.norm() * (1.0 + 1e-14) + blur;
+        let (mut square, mut linear, mut count) = (0.0, 0.0, 0);
+        let (mut g, mut squares) = (Vector3::zeros(), Symmetric::default());
+        self.particle.visit_near(&local.y, far, |_, n, excess| {
+            let depth = excess + n.dot(&e) + blur;
+            if depth > 0.0 {
+                let n = rotation * n;
+                square += depth * depth;
+                linear += depth;
+                count += 1;
+                g += depth * n;
+                squares.add_square(&n);
+            }
+        });
+        let (w2, m2, y) = (2.0 * self.plane_weight, 2.0 * self.sphere_weight, local.y + e);
+        let value = self.plane_weight * square + self.sphere_weight * (y.norm() + local.shift).powi(2);
+        Quadratic {
+            value,
+            expansion: value,
+            gradient: w2 * g + m2 * (rotation * y),
+            hessian: squares.scaled(w2, m2),
+            pull: w2 * linear,
+            count,
+            clear: 0.0,
+        }
     }
 
     /// (Regularised) S at x.

@@ -1,9 +1,9 @@
 //! A polyhedron, a ball and a box that hold a particle: everything cheap tests rely on.
 
 use crate::linear_program;
+use crate::number::{larger, smaller};
 use crate::particle::Particle;
 use crate::pose::Pose;
-use crate::number::{larger, smaller};
 use nalgebra::{Matrix3, Vector3};
 
 /// What surely holds a particle, local frame; for a particle of the plane, its cut at z = 0.

@@ -7,7 +7,7 @@
 //! pull 2(1−k)/r² Σ⟨·⟩ of the planes; that product is the condition number of S, and it is added.
 
 use crate::body::Body;
-use crate::expansion::{self, Expansion, Factorisation, Start};
+use crate::expansion::{self, Expansion, Factorisation, Start, TURN};
 use crate::number::{larger, smaller};
 use crate::outcome::{Ending, Outcome};
 use crate::target::Target;
@@ -92,9 +92,6 @@ fn distance_of(outcome: &Outcome, expansion: &Expansion, a: &Body, b: &Body, tar
 /// Units in the last place by which two sides that meet may still differ.
 const SIDES: f64 = 8.0;
 
-/// Units in the last place by which a rotated normal may be turned.
-const TURN: f64 = 4.0;
-
 /// The merit of x, or of a point on the way to the centre of the body that x should be in and is not: λ may be wrong, and
 /// with it the price of what is missing. s is convex on that way.
 fn feasible(x: &Vector3<f64>, values: [f64; 2], bodies: [&Body; 2], target: Target) -> f64 {
@@ -111,6 +108,35 @@ fn feasible(x: &Vector3<f64>, values: [f64; 2], bodies: [&Body; 2], target: Targ
     let share = (1.0 - s0) / (s - s0);
     values[free].max(bodies[free].value(&(centre + share * (x - centre))))
 }
+
+/// A lower bound without the planes of doubtful sign, rounding taken off, near the point of an outcome.
+///
+/// S is nowhere larger without them. What they may pull costs no more where other planes hold the point than it can move
+/// between those, while the doubt about their sign is counted as if nothing held it.
+pub(crate) fn without_doubtful(outcome: &Outcome, bodies: [&Body; 2], target: Target) -> f64 {
+    let start = Start { x: outcome.x, lambda: outcome.lambda, near: true };
+    let mut expansion = Expansion::at(bodies, &start, target, Factorisation::Aligned);
+    let mut lower = f64::NEG_INFINITY;
+    for _ in 0..MOST_DROPS {
+        let Some(step) = expansion.optimum(bodies, target, outcome.lambda, 0.0) else { break };
+        match step.planes {
+            Planes::Pulling => break,
+            Planes::Dropped => expansion.drop(bodies, &step, target, outcome.lambda, Factorisation::Aligned),
+            Planes::Exact | Planes::Met => {
+                let found = Outcome::of(&expansion, bodies, target, &step);
+                lower = lower.max(found.lower - found.rounding);
+                if found.sure {
+                    break;
+                }
+                expansion.drop_weakest(bodies, &step, target, outcome.lambda, Factorisation::Aligned);
+            }
+        }
+    }
+    lower
+}
+
+/// Most planes that are dropped for a lower bound.
+const MOST_DROPS: u32 = 12;
 
 /// Bounds for a point and a scale s that another solver found, with the ratio of weights λ that came with them.
 ///
@@ -136,7 +162,8 @@ pub(crate) fn judge(x: &Vector3<f64>, lambda: f64, s: f64, a: &Body, b: &Body, t
                 let of_a = optimum.rounding(&expansion.q_a);
                 let of_b = optimum.rounding(&expansion.q_b);
                 let dual = target.dual(optimum.values.0, optimum.values.1, optimum.lambda);
-                let (doubt, _) = expansion.doubt(bodies, target, &step, upper, 0.0);
+                let force = target.dual_weighted(optimum.gradients[0].norm(), optimum.gradients[1].norm(), lambda);
+                let (doubt, _) = expansion.doubt(bodies, target, &step, upper, force, 0.0);
                 lower = lower.max(dual - doubt - target.dual_weighted(of_a, of_b, lambda));
                 break;
             }

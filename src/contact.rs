@@ -2,7 +2,7 @@
 
 use crate::certificate::Certified;
 use crate::expansion::Piece;
-use crate::number::larger;
+use crate::number::{larger, smaller};
 use crate::outcome::Outcome;
 use crate::pair::Pair;
 use crate::pose::Pose;
@@ -160,7 +160,9 @@ impl LocalContact {
             let to_b = way(outcome.values[1], of_b, -gradients[1].dot(&normal), &|guess| {
                 surface::distance_near(pair.b, x, &-normal, guess)
             })?;
-            Some(Surface::Along(to_a, to_b))
+            // Where s < 1 by less than the rounding of the point, the surfaces seem to have passed: they meet half way.
+            let passed = smaller(to_a + to_b, 0.0);
+            Some(Surface::Along(to_a - 0.5 * passed, to_b - 0.5 * passed))
         } else {
             None
         };

@@ -33,6 +33,9 @@ pub(crate) struct Start {
     pub near: bool,
 }
 
+/// Units in the last place by which a rotated normal may be turned.
+pub(crate) const TURN: f64 = 4.0;
+
 /// S up to which a point is so near the surface that a quadratic from there has all its digits on the surface.
 const NEARBY: f64 = 4.0;
 
@@ -113,6 +116,11 @@ impl Expansion {
         }
     }
 
+    /// S of a body after a step, with its planes moved in, in the same axes.
+    pub fn inset(&self, body: &Body, local: &Local, v: &Vector3<f64>) -> Quadratic {
+        body.inset(local, v, self.axes.as_ref())
+    }
+
     /// S_A and S_B along a unit vector of the solver's frame, from the point x on.
     #[inline]
     pub fn pieces(&self, bodies: [&Body; 2], x: &Vector3<f64>, n: &Vector3<f64>) -> [Piece; 2] {
@@ -158,19 +166,48 @@ impl Expansion {
         *self = Self::of(bodies, self.x, self.locals, target.weights(lambda), factorisation);
     }
 
+    /// Drops the plane that pushes least after a step.
+    pub fn drop_weakest(
+        &mut self,
+        bodies: [&Body; 2],
+        step: &Step,
+        target: Target,
+        lambda: f64,
+        factorisation: Factorisation,
+    ) {
+        let (a, b) = target.weights(lambda);
+        let force = |i: usize, weight: f64| weight * bodies[i].plane_curvature() * step.verdicts[i].least;
+        let i = usize::from(force(1, b) < force(0, a));
+        if let Some(place) = bodies[i].shallowest(&self.locals[i], &step.v) {
+            self.locals[i].drop(place);
+        }
+        *self = Self::of(bodies, self.x, self.locals, target.weights(lambda), factorisation);
+    }
+
     /// How far the dual value after a step may lie above a lower bound: the step is not solved exactly, and planes of
     /// doubtful sign may pull after all.
     ///
     /// With a curvature of at least that of the spheres, a slope that is left can hide its square over twice as much. Where
     /// the spheres are all but flat that is more than it can hide between here and the optimum, which lies in
     /// {S ≤ `upper`}. Less than what is `negligible` is not looked at again. Also tells whether no sign is in doubt.
+    ///
+    /// Forces of the length `force` balance to the rounding of their directions only: two faces that look parallel are tilted
+    /// by as much, and far off on them S is less than it is here.
     #[inline(always)]
-    pub fn doubt(&self, bodies: [&Body; 2], target: Target, step: &Step, upper: f64, negligible: f64) -> (f64, bool) {
+    pub fn doubt(
+        &self,
+        bodies: [&Body; 2],
+        target: Target,
+        step: &Step,
+        upper: f64,
+        force: f64,
+        negligible: f64,
+    ) -> (f64, bool) {
         let ((a, b), soft) = (target.weights(step.optimum.lambda), softest(bodies[0], bodies[1]));
         let rounding = a * step.optimum.rounding_of_slope(&self.q_a) + b * step.optimum.rounding_of_slope(&self.q_b);
         let of_a = step.verdicts[0].doubtful_slope(bodies[0], a, rounding);
         let of_b = step.verdicts[1].doubtful_slope(bodies[1], b, rounding);
-        let slope = step.optimum.slope(target).norm() + of_a + of_b;
+        let slope = step.optimum.slope(target).norm() + of_a + of_b + TURN * f64::EPSILON * force;
         let by_curvature = 0.5 * slope * slope / (a * soft.0 + b * soft.1);
         let wide = by_curvature > negligible;
         let doubt =

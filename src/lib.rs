@@ -21,6 +21,7 @@
 //! | `line`, `start` | descent along a line; where a search without memory begins |
 //! | `outcome`, `spine` | where a search ended; the fast solver: Newton on that model, safe steps |
 //! | `anchor`, `anchored` | the safe solver, finite, where the fast one goes in circles |
+//! | `ceiling` | an upper bound that holds wherever rounding may have the planes |
 //! | `certificate` | how far an answer can be from the optimum |
 //! | [`conic`] | the paper's second-order cone programs through clarabel: the reference |
 //! | [`contact`] | point, normal, overlap from a solution |
@@ -35,6 +36,7 @@ mod anchored;
 pub mod area;
 mod body;
 pub mod bounds;
+mod ceiling;
 mod certificate;
 pub mod conic;
 pub mod contact;

@@ -60,6 +60,11 @@ impl Local {
         Self { y, shift, blur, early, ..Self::BLANK }
     }
 
+    /// The same with another rounding.
+    pub fn blurred(&self, shift: f64, blur: f64) -> Self {
+        Self { shift, blur, ..*self }
+    }
+
     pub const BLANK: Self = Self {
         y: Vector3::new(0.0, 0.0, 0.0),
         shift: 0.0,

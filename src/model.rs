@@ -49,6 +49,8 @@ pub(crate) struct Optimum {
     pub settled: bool,
     /// Of H, at λ or very near.
     factor: Factor,
+    /// The λ of the factor.
+    factored: f64,
     /// dv/dθ and dm/dθ.
     along: Vector3<f64>,
     rate: f64,
@@ -169,8 +171,8 @@ impl<'a> Model<'a> {
         let gradients = [gradient(self.q_a), gradient(self.q_b)];
         let value = |q: &Quadratic, g: &Vector3<f64>| q.expansion + 0.5 * step.dot(&(q.gradient + g));
         let values = (value(self.q_a, &gradients[0]), value(self.q_b, &gradients[1]));
-        let Probe { factor, along, rate, .. } = *near;
-        Optimum { step, gradients, values, lambda, settled: false, factor, along, rate }
+        let Probe { factor, along, rate, lambda: factored, .. } = *near;
+        Optimum { step, gradients, values, lambda, settled: false, factor, factored, along, rate }
     }
 
     /// Searches λ from one that is in its range.
@@ -329,7 +331,7 @@ impl Optimum {
         let mut squares = Symmetric::default();
         squares.add_square(&self.along);
         let to_slope = squares.weighted(1.0 / self.rate, &inverse, -1.0);
-        let (a, b) = target.weights(self.lambda);
+        let (a, b) = target.weights(self.factored);
         // tr(M H M) = −tr M, less the spheres' share of H; the difference is known to the rounding of its terms.
         let (trace, traces) = (-to_slope.trace(), [inverse.trace(), inverse.xx + inverse.yy]);
         let of_planes = trace - (a * soft.0 + b * soft.1) * to_slope.square() + TRACE_ROUNDING * traces[0];

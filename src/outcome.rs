@@ -1,6 +1,7 @@
 //! Where a search ended, and how far that can be from the optimum.
 
 use crate::body::Body;
+use crate::ceiling::Ceiling;
 use crate::expansion::{self, Expansion, Step};
 use crate::model::{Optimum, Response};
 use crate::number::larger;
@@ -68,16 +69,18 @@ impl Outcome {
             _ => here.merit(target, lambda),
         };
         let length = step.v.norm();
-        let of_places = |i: usize, q: &Quadratic| {
-            let (local, verdict, slope) = (&here.locals[i], &step.verdicts[i], optimum.gradients[i].norm());
-            bodies[i].rounding_after(local, q, verdict, length, slope)
-        };
+        let steep = [optimum.gradients[0].norm(), optimum.gradients[1].norm()];
+        let of_places =
+            |i: usize, q: &Quadratic| bodies[i].rounding_after(&here.locals[i], q, &step.verdicts[i], length, steep[i]);
         let of_sums = |i: usize, q: &Quadratic, value: f64| bodies[i].rounding_of_value(value) + optimum.rounding(q);
-        let places = [of_places(0, &here.q_a), of_places(1, &here.q_b)];
+        let (first_a, second_a) = of_places(0, &here.q_a);
+        let (first_b, second_b) = of_places(1, &here.q_b);
         let sums = [of_sums(0, &here.q_a, s_a), of_sums(1, &here.q_b, s_b)];
-        let rounding = swayed(target, optimum, (places[0] + sums[0], places[1] + sums[1]))
-            .unwrap_or_else(|| decisive(here, bodies, target, step, places, sums));
-        let (doubt, sure) = here.doubt(bodies, target, step, upper, rounding);
+        let first = [first_a + sums[0], first_b + sums[1]];
+        let rounding = swayed(target, optimum, first, [second_a, second_b])
+            .unwrap_or_else(|| decisive(here, bodies, target, step, first, [second_a, second_b], sums));
+        let force = target.dual_weighted(steep[0], steep[1], lambda);
+        let (doubt, sure) = here.doubt(bodies, target, step, upper, force, rounding);
         Self {
             x: here.x + step.v,
             lambda,
@@ -118,6 +121,14 @@ impl Outcome {
         self.lower - self.rounding - flat > 1.0
     }
 
+    /// What rounding leaves at the optimum itself, with the least that it can do to the places of the planes.
+    #[inline(always)]
+    pub fn least_rounding(&self, here: &Expansion, target: Target) -> f64 {
+        let of_a = here.locals[0].least_rounding(&self.gradients[0]);
+        let of_b = here.locals[1].least_rounding(&self.gradients[1]);
+        target.dual_weighted(of_a, of_b, self.lambda)
+    }
+
     /// Bound on the error of the optimal S.
     #[inline]
     pub fn gap(&self) -> f64 {
@@ -138,41 +149,43 @@ pub(crate) enum Ending {
     Stuck,
 }
 
-/// Bound on the effect of rounding on the optimum, from bounds on that of S_A and S_B: it moves the optimum by its weight,
-/// while the weights stay what they are. `None` where the rounding itself decides about the weights.
-fn swayed(target: Target, optimum: &Optimum, (of_a, of_b): (f64, f64)) -> Option<f64> {
+/// Bound on the effect of rounding on the optimum, from bounds on that of S_A and S_B of first and second order: it moves the
+/// optimum by its weight, while the weights stay what they are. `None` where the rounding itself decides about the weights, or
+/// is more than the planes' depths.
+fn swayed(target: Target, optimum: &Optimum, first: [f64; 2], second: [f64; 2]) -> Option<f64> {
+    let (of_a, of_b) = (first[0] + second[0], first[1] + second[1]);
     let (change_a, change_b) = target.changes(of_a, of_b);
     let swing = larger(change_a, change_b) / optimum.rate(target).abs();
-    (swing < 0.25).then(|| target.dual_weighted(of_a, of_b, optimum.lambda) * (1.0 + 4.0 * swing))
+    let of_first = target.dual_weighted(first[0], first[1], optimum.lambda);
+    let of_all = target.dual_weighted(of_a, of_b, optimum.lambda);
+    (swing < 0.25 && of_all <= DEEP * of_first).then(|| of_all * (1.0 + 4.0 * swing))
 }
 
-/// The same where rounding decides about the weights: from below the weights at hand are as good as any, from above it
-/// is the whole of it at most.
-///
-/// Where the planes of one body lie moves that body, and the point may follow. A way towards its centre, as a share of
-/// the whole way, by which no plane is deeper than before undoes all of it, and changes the other S, which is convex, by
-/// no more than that share of what it changes on the whole way. A small, sharp body at a large one needs that.
+/// How much more than its first order the whole of the rounding may be before it is looked at again.
+const DEEP: f64 = 8.0;
+
+/// The same where rounding decides. S is convex in where the planes lie, and so is the optimum: from below, what is of first
+/// order, with the weights at hand, is all. From above it is the whole of it at most, or what is left where the point
+/// follows the planes ([`crate::ceiling`]). A small, sharp body at a large one needs that.
 #[cold]
 fn decisive(
     here: &Expansion,
     bodies: [&Body; 2],
     target: Target,
     step: &Step,
-    places: [f64; 2],
+    first: [f64; 2],
+    second: [f64; 2],
     sums: [f64; 2],
 ) -> f64 {
     let lambda = step.optimum.lambda;
-    let whole = [places[0] + sums[0], places[1] + sums[1]];
-    let values: [f64; 2] = step.optimum.values.into();
-    let followed = [0, 1].map(|i| {
-        let other = 1 - i;
-        let further = bodies[other].value(&bodies[i].centre()) - values[other];
-        let share = bodies[i].share_of_way(&here.locals[i], step.v.norm());
-        let mut errors = whole;
-        errors[i] = sums[i];
-        errors[other] += share * further.max(0.0);
-        target.merit_rounding(errors[0], errors[1], lambda)
-    });
-    let above = target.merit_rounding(whole[0], whole[1], lambda).min(followed[0]).min(followed[1]);
-    above.max(target.dual_weighted(whole[0], whole[1], lambda))
+    let (s_a, s_b) = step.optimum.values;
+    let below = target.dual_weighted(first[0], first[1], lambda);
+    let whole = target.merit_rounding(first[0] + second[0], first[1] + second[1], lambda);
+    if whole <= below {
+        return below;
+    }
+    let floor = target.dual(s_a, s_b, lambda);
+    let ceiling = Ceiling::over(here, bodies, target, step.v.norm()).lowest(step.v, lambda, floor);
+    let followed = (ceiling - floor).max(0.0) + target.merit_rounding(sums[0], sums[1], lambda);
+    whole.min(followed).max(below)
 }

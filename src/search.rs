@@ -17,6 +17,13 @@ use nalgebra::Vector3;
 /// S at a point that is outside whatever rounding did to it.
 const CLEARLY: f64 = 2.0;
 
+/// A gap this many times what the rounding of its place explains is one that another proof may narrow.
+const LOOSE: f64 = 100.0;
+
+/// Most second proofs, and the share of the gap that one has to leave for the next to be tried.
+const MOST_PROOFS: u32 = 3;
+const WORTH: f64 = 0.5;
+
 /// One call: the pair, what is asked, and what it has cost so far.
 pub(crate) struct Search<'a> {
     pub pair: &'a Pair<'a>,
@@ -153,7 +160,10 @@ impl<'a> Search<'a> {
             return None;
         }
         let outcome = spine::at_once([&self.body_a, &self.body_b], &self.goal(target), lambda, here)?;
-        self.count(&outcome);
+        self.iterations += outcome.iterations;
+        if outcome.ending == Ending::RoundingLimited {
+            self.flags.insert(Flags::ROUNDING_LIMITED);
+        }
         Some(outcome)
     }
 
@@ -166,23 +176,21 @@ impl<'a> Search<'a> {
         near: bool,
         here: &mut Expansion,
     ) -> Result<Outcome, ConicError> {
-        let (mut start, usual) = (*start, self.usual());
         if self.settings.back_end == BackEnd::Fast {
-            let goal = self.goal(target);
-            let (a, b) = (&self.body_a, &self.body_b);
-            let mut outcome = spine::solve(a, b, &goal, &start, usual, here);
+            let mut outcome = self.fast(target, start, here);
             if outcome.ending == Ending::Stuck && near {
-                self.iterations += outcome.iterations;
-                start = self.cold();
-                *here = self.expansion(&start, target);
-                outcome = spine::solve(a, b, &goal, &start, usual, here);
+                let cold = self.cold();
+                *here = self.expansion(&cold, target);
+                outcome = self.fast(target, &cold, here);
             }
             if outcome.ending == Ending::Stuck {
-                self.iterations += outcome.iterations;
-                outcome = anchored::solve([a, b], &goal, &start::on_centre_line(self.pair, a, b), here);
+                let cold = start::on_centre_line(self.pair, &self.body_a, &self.body_b);
+                outcome = self.safe(target, &cold, here);
                 self.flags.insert(if outcome.ending == Ending::Stuck { Flags::FELL_BACK } else { Flags::SAFER });
             }
-            self.count(&outcome);
+            if outcome.ending == Ending::RoundingLimited {
+                self.sharpen(target, &mut outcome, here);
+            }
             if outcome.ending != Ending::Stuck {
                 return Ok(outcome);
             }
@@ -193,12 +201,61 @@ impl<'a> Search<'a> {
         Ok(outcome)
     }
 
-    #[inline(always)]
-    fn count(&mut self, outcome: &Outcome) {
-        self.iterations += outcome.iterations;
+    /// An answer whose gap is more than the tolerance: where that is also far more than the rounding of its place explains,
+    /// the planes that it stands on are in doubt, and a second proof is sought: from there, by the safe solver, and without the
+    /// planes of doubtful sign.
+    #[cold]
+    fn sharpen(&mut self, target: Target, outcome: &mut Outcome, here: &mut Expansion) {
+        for _ in 0..MOST_PROOFS {
+            if !self.is_loose(outcome, here, target) {
+                break;
+            }
+            let (gap, from) = (outcome.gap(), Start { x: outcome.x, lambda: outcome.lambda, near: true });
+            let mut there = self.expansion(&from, target);
+            let second = self.fast(target, &from, &mut there);
+            keep_better((outcome, here), (second, there));
+            if self.is_loose(outcome, here, target) {
+                let second = self.safe(target, &from, &mut there);
+                keep_better((outcome, here), (second, there));
+            }
+            if self.is_loose(outcome, here, target) && !outcome.sure {
+                let lower = certificate::without_doubtful(outcome, [&self.body_a, &self.body_b], target);
+                outcome.lower = outcome.lower.max(lower + outcome.rounding);
+            }
+            if outcome.gap() > WORTH * gap {
+                break;
+            }
+        }
         if outcome.ending == Ending::RoundingLimited {
             self.flags.insert(Flags::ROUNDING_LIMITED);
         }
+        if here.softened.is_some() {
+            self.flags.insert(Flags::SAFER);
+        }
+    }
+
+    /// Whether the gap is far more than the rounding of the place, the regularisation and the tolerance explain.
+    fn is_loose(&self, outcome: &Outcome, here: &Expansion, target: Target) -> bool {
+        let (a, b) = (&self.body_a, &self.body_b);
+        let level = outcome.upper.max(1.0);
+        let flat = target.dual_weighted(a.most_surplus(level), b.most_surplus(level), outcome.lambda);
+        let explained = outcome.least_rounding(here, target) + flat + self.settings.gap_tolerance * level;
+        outcome.ending == Ending::RoundingLimited && outcome.gap() > LOOSE * explained
+    }
+
+    /// By the fast solver, from the quadratics at hand on.
+    fn fast(&mut self, target: Target, start: &Start, here: &mut Expansion) -> Outcome {
+        let (goal, usual) = (self.goal(target), self.usual());
+        let outcome = spine::solve(&self.body_a, &self.body_b, &goal, start, usual, here);
+        self.iterations += outcome.iterations;
+        outcome
+    }
+
+    /// By the safe solver.
+    fn safe(&mut self, target: Target, start: &Start, here: &mut Expansion) -> Outcome {
+        let outcome = anchored::solve([&self.body_a, &self.body_b], &self.goal(target), start, here);
+        self.iterations += outcome.iterations;
+        outcome
     }
 
     fn goal(&self, target: Target) -> Goal {
@@ -220,5 +277,13 @@ impl<'a> Search<'a> {
         let u = solution.weight;
         let outcome = certificate::judge(&solution.x, u / (1.0 - u), solution.s, &self.body_a, &self.body_b, target);
         Ok(Outcome { iterations: solution.iterations, ..outcome })
+    }
+}
+
+/// Keeps the answer with the smaller gap.
+fn keep_better((outcome, here): (&mut Outcome, &mut Expansion), (second, there): (Outcome, Expansion)) {
+    let proved = matches!(second.ending, Ending::Converged | Ending::RoundingLimited);
+    if proved && second.gap() < outcome.gap() {
+        (*outcome, *here) = (second, there);
     }
 }

@@ -64,7 +64,9 @@ pub(crate) fn at_once(bodies: [&Body; 2], goal: &Goal, lambda: f64, here: &Expan
         return Some(Outcome { ending: Ending::Separated, ..outcome });
     }
     let proof = Proof::of(&outcome, goal, bodies, here, step.v.norm());
-    proof.is_final(false).then_some(Outcome { ending: proof.ending(), ..outcome })
+    // What is merely short may be proved again ([`crate::search`]).
+    let good = proof.precise || proof.rounded;
+    (good && proof.is_final(false)).then_some(Outcome { ending: proof.ending(), ..outcome })
 }
 
 /// What the regularisation itself leaves open.
@@ -76,8 +78,10 @@ fn flat([a, b]: [&Body; 2]) -> f64 {
 struct Proof {
     /// They meet within the tolerance.
     precise: bool,
-    /// No other point of expansion will do much better.
-    sharp: bool,
+    /// As near as rounding lets any bounds come.
+    rounded: bool,
+    /// The step was so short that the next one is no more precise.
+    short: bool,
     /// A plane that only seems to push holds the point where it does not belong, whatever it does to s: from nearby its
     /// sign is known.
     decided: bool,
@@ -90,15 +94,10 @@ impl Proof {
     fn of(outcome: &Outcome, goal: &Goal, bodies: [&Body; 2], here: &Expansion, length: f64) -> Self {
         let reach = smaller(bodies[0].particle.bounding_radius(), bodies[1].particle.bounding_radius());
         let (gap, short) = (outcome.gap(), length <= SHORT * reach);
-        // What rounding leaves at the optimum itself.
-        let least = goal.target.dual_weighted(
-            here.locals[0].least_rounding(&outcome.gradients[0]),
-            here.locals[1].least_rounding(&outcome.gradients[1]),
-            outcome.lambda,
-        );
         Self {
             precise: gap <= goal.tolerance * outcome.upper,
-            sharp: short || gap <= AS_SHARP * least,
+            rounded: gap <= AS_SHARP * outcome.least_rounding(here, goal.target),
+            short,
             decided: outcome.sure || short,
             telling: gap <= SHARP * outcome.upper,
         }
@@ -111,7 +110,7 @@ impl Proof {
     /// Whether to look no further. After a step that should have gained more, this is what rounding allows, however much
     /// it is.
     fn is_final(&self, again: bool) -> bool {
-        self.decided && (self.precise || (self.sharp && (self.telling || again)))
+        self.decided && (self.precise || ((self.short || self.rounded) && (self.telling || again)))
     }
 }
 

@@ -74,6 +74,19 @@ impl Body<'_> {
         force / (self.plane_curvature() * self.particle.bounds.longest_normal)
     }
 
+    /// The plane of the quadratic that is least deep after a step.
+    pub fn shallowest(&self, local: &Local, v: &Vector3<f64>) -> Option<usize> {
+        let e = self.turn(v);
+        let (mut weakest, mut least) = (None, f64::INFINITY);
+        self.particle.visit_near(&local.y, local.early, |i, n, excess| {
+            let depth = excess + n.dot(&e);
+            if local.counts(self.particle, i, excess) && depth < least {
+                (weakest, least) = (Some(i), depth);
+            }
+        });
+        weakest
+    }
+
     #[inline(never)]
     fn check_each(&self, local: &Local, q: &Quadratic, v: &Vector3<f64>) -> Verdict {
         let (y, blur, e) = (local.y, local.blur, self.turn(v));
@@ -102,7 +115,8 @@ impl Body<'_> {
                 return;
             }
             if depth >= -doubt.max(weak) {
-                doubtful += doubt.max(-depth);
+                // The depth itself is known to the doubt only.
+                doubtful += doubt + (-depth).max(0.0);
             } else if excess > blur {
                 pulling = true;
             } else if worst.is_none_or(|(_, most)| depth < most) {

@@ -204,6 +204,9 @@ struct Problem<'a> {
 const MOST_STEPS: usize = 300;
 const MOST_WHOLE: usize = 30;
 
+/// Relative to S, two sides that all but meet.
+const MET: f64 = 1e-9;
+
 /// A point with both bodies at it.
 #[derive(Clone, Copy)]
 struct Point {
@@ -388,7 +391,9 @@ impl Problem<'_> {
         let per_lambda = if midway { Wide::ONE + lambda } else { Wide::ONE } * bend;
         let miss = self.miss(&a, &b).abs();
         let off = if self.wanted == Wanted::OnA { miss / (lambda * bend) } else { miss / per_lambda };
-        let doubt = gradient / soft + 4.0 * (off * curve.norm()).f64();
+        // How far λ is off is told by the pieces at hand, and only near the wanted side.
+        let near = miss.f64() <= MET * a.value.f64().max(b.value.f64());
+        let doubt = if near { gradient / soft + 4.0 * (off * curve.norm()).f64() } else { f64::INFINITY };
         Optimum {
             x,
             lambda,

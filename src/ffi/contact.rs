@@ -83,8 +83,7 @@ pub unsafe extern "C" fn pp_contact_detect(
             out.write(pp_contact { formulation, flags, distance, ..REJECTED });
             return Ok(());
         }
-        let contact =
-            solved(&pair, &pose_b, &settings, remembered.as_mut()).map_err(|error| detect_status(&error))?;
+        let contact = solved(&pair, &pose_b, &settings, remembered.as_mut()).map_err(|error| detect_status(&error))?;
         if let (Some(memory), Some(remembered)) = (memory, remembered) {
             memory.state = remembered.into_raw();
         }

@@ -132,6 +132,88 @@ fn the_normal_of_sharp_bodies_is_known() {
     judged("the_normal_of_sharp_bodies_is_known", &[BoundOfPoint, Normal]);
 }
 
+/// A tiny, sharp body in the flank of a large one, λ = 1e14: s of the sharp body changes by all of itself within the rounding of
+/// a length, but the point follows, and the other s hardly changes.
+#[test]
+fn the_gap_is_small_where_the_point_follows_a_sharp_body() {
+    judged("the_gap_is_small_where_the_point_follows_a_sharp_body", &[LooseBound]);
+    judged("the_same_far_from_both_centres", &[LooseBound]);
+    judged("the_same_without_a_sphere", &[LooseBound]);
+}
+
+/// r is below the rounding of a distance to a plane, whose square, over r², was counted although nothing pulls that way.
+#[test]
+fn what_is_of_second_order_widens_the_gap_from_above_only() {
+    judged("what_is_of_second_order_widens_the_gap_from_above_only", &[LooseBound]);
+}
+
+/// Proved over a long step, from where the planes are known to no more than 1e-4 of s; surface points were off by as much.
+#[test]
+fn a_loose_answer_is_proved_again_from_nearby() {
+    judged("a_loose_answer_is_proved_again_from_nearby", &[LooseBound, OffSurface]);
+    judged("that_with_an_overlap_of_nothing", &[LooseBound, OffSurface, Malformed]);
+}
+
+/// P2 was off by a size of the body, far beyond its bound.
+#[test]
+fn a_loose_closest_point_is_sought_again() {
+    judged("a_loose_closest_point_is_sought_again", &[BoundOfPoint, OffSurface]);
+}
+
+/// s_B of 1.8e8, off by 2 %.
+#[test]
+fn a_loose_scale_of_closest_far_apart_is_sought_again() {
+    judged("a_loose_scale_of_closest_far_apart_is_sought_again", &[BoundOfS]);
+}
+
+/// k = 1e-10: a pull too weak to be told from a push was counted as if nothing but the spheres resisted it.
+#[test]
+fn planes_of_doubtful_sign_are_left_out_of_the_bound() {
+    judged("planes_of_doubtful_sign_are_left_out_of_the_bound", &[LooseBound]);
+}
+
+/// k = 0, aligned: s is least at the far end of faces that are tilted by 2e-16, and the gap was that of the middle.
+#[test]
+fn faces_that_look_parallel_are_tilted_by_rounding() {
+    judged("faces_that_look_parallel_are_tilted_by_rounding", &[BoundOfS]);
+}
+
+/// The response of the point was taken with the weights of one λ and the factor of another, and that of planes came out as 0.
+#[test]
+fn the_bound_of_the_point_knows_the_weights_of_its_factor() {
+    judged("the_bound_of_the_point_knows_the_weights_of_its_factor", &[BoundOfPoint]);
+}
+
+/// A plane that may pull was counted for no more than the doubt, though it seemed to pull already.
+#[test]
+fn a_pull_within_the_doubt_may_be_that_much_deeper() {
+    judged("a_pull_within_the_doubt_may_be_that_much_deeper", &[Reject]);
+}
+
+/// Told an overlap of 0, with surface points 4e-10 apart.
+#[test]
+fn surfaces_that_seem_to_have_passed_each_other_meet_half_way() {
+    judged("surfaces_that_seem_to_have_passed_each_other_meet_half_way", &[Malformed]);
+}
+
+/// The judge looked for the surface along the normal, which meets the face of a plate so aslant that it did not get there.
+#[test]
+fn a_thin_plate_is_crossed_at_a_slant() {
+    judged("a_thin_plate_is_crossed_at_a_slant", &[OffSurface]);
+}
+
+/// The judge gave up at S_A = 0.09 instead of 1, and trusted its point to nine digits.
+#[test]
+fn a_judge_that_misses_its_constraint_says_so() {
+    judged("a_judge_that_misses_its_constraint_says_so", &[BoundOfPoint]);
+}
+
+/// Two bodies next to each other whose point of equal s is 7e5 away from both: the judge knew of the lengths of the bodies only.
+#[test]
+fn a_point_far_from_both_centres_rounds_by_its_distance() {
+    judged("a_point_far_from_both_centres_rounds_by_its_distance", &[LooseBound]);
+}
+
 /// A plane a billion away changes nothing about two cubes but the accuracy of their surface points, which is taken
 /// relative to the furthest plane. Found by fuzzing.
 #[test]

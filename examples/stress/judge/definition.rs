@@ -120,9 +120,16 @@ pub(super) fn surfaces(verdict: &mut Verdict, scene: &Scene, contact: &Contact) 
         let off = off_surface(body, &point);
         // Where s bends within the rounding of the point, the first order says nothing: then there has to be a point inside
         // and one outside within that.
-        let inside = |by: f64| body.at(&Wide3::from(point + by * outwards)).value.f64() <= 1.0;
-        let between = (inside(0.0) || inside(-allowed)) && !inside(allowed);
-        verdict.check(off <= allowed || between, Failure::OffSurface, || {
+        let inside = |p: Vector3<f64>| body.at(&Wide3::from(p)).value.f64() <= 1.0;
+        let straddles =
+            |way: Vector3<f64>| (inside(point) || inside(point - allowed * way)) && !inside(point + allowed * way);
+        // A line that grazes a face crosses it later than a point is off it: across the face as well.
+        let across = || {
+            let outside = (0..8).map(|i| point + allowed * f64::from(1 << i) * outwards).find(|p| !inside(*p))?;
+            body.at(&Wide3::from(outside)).gradient.f64().try_normalize(0.0)
+        };
+        let between = off <= allowed || straddles(outwards) || across().is_some_and(straddles);
+        verdict.check(between, Failure::OffSurface, || {
             format!("{:?}: point on {name} {off:e} off, allowed {allowed:e}", contact.formulation)
         });
     }

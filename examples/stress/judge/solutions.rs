@@ -48,7 +48,11 @@ fn midway(verdict: &mut Verdict, scene: &Scene, contact: &Contact, truth: &Optim
     verdict.check(!wrong, Failure::WrongSide, || format!("{:?}, s={s:e}, truth {:e}", contact.kind, truth.most));
 
     let u = truth.lambda.f64() / (1.0 + truth.lambda.f64());
-    let risen = scene.bodies().each_ref().map(|body| body.risen(&truth.x, EPS * scene.length));
+    // A point far from both centres is a length as well.
+    let risen = scene.bodies().each_ref().map(|body| {
+        let far = (truth.x.f64() - body.centre()).norm();
+        body.risen(&truth.x, EPS * scene.length.max(far))
+    });
     let looseness = gap * (2.0 * s + gap) / explained(scene, scale, u, risen);
     verdict.measures.looseness = Some(looseness);
     verdict.check(looseness <= LOOSE, Failure::LooseBound, || {
