@@ -12,6 +12,7 @@ use crate::search::Search;
 use crate::settings::{BackEnd, Formulation, Settings, SettingsError};
 use crate::target::Target;
 use nalgebra::Vector3;
+use std::ops::ControlFlow;
 use thiserror::Error;
 
 /// Why there is no answer.
@@ -49,12 +50,13 @@ pub fn detect(
     memory: Option<&mut Memory>,
 ) -> Result<Contact, DetectError> {
     settings.validate()?;
-    let pair = Pair::new(a, pose_a, b, pose_b);
-    if let Some(proof) = rejected(&pair, settings, memory.as_deref()) {
-        let flags = proof.by.with(Flags::REJECTED);
-        return Ok(Contact { flags, distance: proof.distance, ..Contact::separated(settings.formulation, 1.0) });
+    match begin((a, pose_a), (b, pose_b), settings, memory.as_deref()) {
+        ControlFlow::Break(Apart { by, distance }) => {
+            let flags = by.with(Flags::REJECTED);
+            Ok(Contact { flags, distance, ..Contact::separated(settings.formulation, 1.0) })
+        }
+        ControlFlow::Continue(pair) => solved(&pair, pose_b, settings, memory),
     }
-    solved(&pair, pose_b, settings, memory)
 }
 
 /// The contact of a pair that no cheap proof holds apart. In a frame of its own: it is large, and most pairs of a scene
@@ -118,17 +120,30 @@ pub(crate) fn solved(
     Ok(local.placed(pair, pose_b, Contact { flags, iterations, back_end: answered, ..Contact::UNKNOWN }))
 }
 
-/// A cheap proof of separation, if one succeeds and will do.
+/// A cheap proof of separation, if one succeeds and will do; else the pair in one frame.
 #[inline]
-pub(crate) fn rejected(pair: &Pair, settings: &Settings, memory: Option<&Memory>) -> Option<Apart> {
-    if settings.solve_separated {
-        return None;
+pub(crate) fn begin<'a>(
+    a: (&'a Particle, &Pose),
+    b: (&'a Particle, &Pose),
+    settings: &Settings,
+    memory: Option<&Memory>,
+) -> ControlFlow<Apart, Pair<'a>> {
+    let last = memory.and_then(|memory| memory.last);
+    let overlapped = last.is_some_and(|last| last.overlapping);
+    let known = last.filter(|_| !overlapped && !settings.solve_separated);
+    if let Some(proof) = known.and_then(|last| reject::still_apart(a, b, &last.x)) {
+        return ControlFlow::Break(proof);
     }
-    match memory.and_then(|memory| memory.last) {
+    let pair = Pair::new(a.0, a.1, b.0, b.1);
+    let proof = match overlapped {
+        _ if settings.solve_separated => None,
         // Of a pair that overlapped, only the cheapest proof is worth a try.
-        Some(Remembered { overlapping: true, .. }) => reject::balls_apart(pair),
-        Some(last) => reject::still_apart(pair, &last.x).or_else(|| reject::proof_of_separation(pair)),
-        None => reject::proof_of_separation(pair),
+        true => reject::balls_apart(&pair),
+        false => reject::proof_of_separation(&pair),
+    };
+    match proof {
+        Some(proof) => ControlFlow::Break(proof),
+        None => ControlFlow::Continue(pair),
     }
 }
 

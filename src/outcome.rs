@@ -158,7 +158,7 @@ fn swayed(target: Target, optimum: &Optimum, first: [f64; 2], second: [f64; 2]) 
     let swing = larger(change_a, change_b) / optimum.rate(target).abs();
     let of_first = target.dual_weighted(first[0], first[1], optimum.lambda);
     let of_all = target.dual_weighted(of_a, of_b, optimum.lambda);
-    (swing < 0.25 && of_all <= DEEP * of_first).then(|| of_all * (1.0 + 4.0 * swing))
+    (swing < 0.25 && of_all <= DEEP * of_first).then_some(of_all * (1.0 + 4.0 * swing))
 }
 
 /// How much more than its first order the whole of the rounding may be before it is looked at again.

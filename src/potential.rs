@@ -122,6 +122,7 @@ pub(crate) fn turned(
 }
 
 /// S, ∇S at y, local frame.
+#[inline(always)]
 pub(crate) fn tangent(particle: &Particle, y: &Vector3<f64>) -> Tangent {
     let (mut square, mut linear, mut count) = (0.0, 0.0, 0.0);
     let mut g = Vector3::zeros();

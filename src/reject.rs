@@ -1,8 +1,10 @@
 //! Cheap proofs that a pair is separated. Each is one-sided: "no" means nothing.
 
 use crate::contact::Flags;
+use crate::number::{larger, smaller};
 use crate::pair::Pair;
 use crate::particle::Particle;
+use crate::pose::Pose;
 use crate::potential;
 use nalgebra::{Matrix3, Vector3};
 
@@ -43,7 +45,7 @@ pub fn proof_of_separation(pair: &Pair) -> Option<Apart> {
     })
 }
 
-/// What the tangents of both potentials at x (frame of B) prove, if that the particles share no point.
+/// What the tangents of both potentials at x (local frame of B) prove, if that the particles share no point.
 ///
 /// S is convex, so that for any λ > 0 and any y that both hold
 ///
@@ -56,26 +58,32 @@ pub fn proof_of_separation(pair: &Pair) -> Option<Apart> {
 ///
 /// Of two points at a distance d, one in A and one in B, the left side gains |∇S_A(x)|·d or λ|∇S_B(x)|·d, whichever of
 /// the two points y is: what is left above 1 + λ, over the larger of them, is a distance that no two points keep below.
-pub(crate) fn still_apart(pair: &Pair, x: &Vector3<f64>) -> Option<Apart> {
-    let (from_a, from_b) = (x - pair.centre, *x);
-    let a = potential::tangent(pair.a, &pair.rotation.tr_mul(&from_a));
-    let b = potential::tangent(pair.b, &from_b);
-    let (to_a, to_b) = (from_a.norm(), from_b.norm());
-    let reach = (to_a + pair.a.bounding_radius()).min(to_b + pair.b.bounding_radius());
-    let gradient_a = pair.rotation * a.gradient;
+#[inline]
+pub(crate) fn still_apart(
+    (particle_a, pose_a): (&Particle, &Pose),
+    (particle_b, pose_b): (&Particle, &Pose),
+    x: &Vector3<f64>,
+) -> Option<Apart> {
+    // In world axes: the pair itself, with its product of rotations, is not needed.
+    let from_a = pose_b.rotation * x + (pose_b.position - pose_a.position);
+    let a = potential::tangent(particle_a, &pose_a.rotation.tr_mul(&from_a));
+    let b = potential::tangent(particle_b, x);
+    let (to_a, to_b) = (from_a.norm(), x.norm());
+    let reach = smaller(to_a + particle_a.bounding_radius(), to_b + particle_b.bounding_radius());
+    let (gradient_a, gradient_b) = (pose_a.rotation * a.gradient, pose_b.rotation * b.gradient);
     // The λ for which the sum of the gradients is shortest.
-    let lambda = -gradient_a.dot(&b.gradient) / b.gradient.norm_squared();
-    let slope = (gradient_a + lambda * b.gradient).norm();
+    let lambda = -gradient_a.dot(&gradient_b) / gradient_b.norm_squared();
+    let slope = (gradient_a + lambda * gradient_b).norm();
     // What rounding can do: to the distances of the planes, and with them to the values and the slope.
-    let lengths = 2.0 * (to_a + to_b + pair.a.bounds.offset_within(to_a) + pair.b.bounds.offset_within(to_b));
+    let lengths = 2.0 * (to_a + to_b + particle_a.bounds.offset_within(to_a) + particle_b.bounds.offset_within(to_b));
     let blur = MARGIN * lengths;
     let doubt = |t: &potential::Tangent| blur * (t.pull + t.stiffness * (blur + reach)) + MARGIN * t.value;
     let least = a.value + lambda * b.value - slope * reach - doubt(&a) - lambda * doubt(&b);
     if !(lambda > 0.0 && least > 1.0 + lambda) {
         return None;
     }
-    let steep = |t: &potential::Tangent| t.gradient.norm() + blur * t.stiffness;
-    let steepest = steep(&a).max(lambda * steep(&b));
+    // λ|∇S_B| is the projection of ∇S_A, and no longer.
+    let steepest = gradient_a.norm() + blur * larger(a.stiffness, lambda * b.stiffness);
     Some(Apart::new(Flags::BY_MEMORY, (least - (1.0 + lambda)) / steepest))
 }
 
@@ -112,7 +120,6 @@ fn beyond_a_face(
 mod tests {
     use super::*;
     use crate::particle::Plane;
-    use crate::pose::Pose;
     use crate::{Kind, Memory, Settings, detect};
 
     fn cube() -> Particle {

@@ -206,8 +206,7 @@ impl Hull {
             let wanted = self.affine();
             // The way to `wanted` on which all shares stay positive, and which vanishes first.
             let (mut way, mut first) = (1.0, None);
-            for i in 0..self.count {
-                let (have, want) = (self.shares[i], wanted[i]);
+            for (i, (&have, &want)) in self.shares.iter().zip(&wanted).take(self.count).enumerate() {
                 if !want.is_finite() {
                     return None;
                 }
@@ -215,8 +214,8 @@ impl Hull {
                     (way, first) = (have / (have - want), Some(i));
                 }
             }
-            for i in 0..self.count {
-                self.shares[i] += way * (wanted[i] - self.shares[i]);
+            for (share, want) in self.shares.iter_mut().zip(&wanted).take(self.count) {
+                *share += way * (want - *share);
             }
             let Some(i) = first else { return Some(()) };
             self.count -= 1;

@@ -90,7 +90,7 @@ impl<'s> Walk<'s> {
             return Err(Trouble::Spoilt);
         }
         self.conic = self.cut.conic(&self.here, &self.look, self.switching);
-        let (tau, event, (mut arc, mut step)) = self.first_event(stop)?;
+        let (tau, event, mut arc, mut step) = self.first_event(stop)?;
         if let Event::Stop(stop) = event {
             let on_ray = arc.to.dot(&stop) * stop;
             step += on_ray - arc.to;
@@ -114,7 +114,7 @@ impl<'s> Walk<'s> {
     }
 
     /// Parameter and kind of the first event on the conic, and the arc that leads there.
-    fn first_event(&mut self, stop: &Vector2<f64>) -> Result<(f64, Event, (Arc, Vector2<f64>)), Trouble> {
+    fn first_event(&mut self, stop: &Vector2<f64>) -> Result<(f64, Event, Arc, Vector2<f64>), Trouble> {
         let conic = &self.conic;
         let (determinant, twice_inwards) = (conic.determinant(), 2.0 * conic.inwards());
         // Where below `limit` an excess, not negative at the base, first turns negative. On the conic it is
@@ -145,13 +145,13 @@ impl<'s> Walk<'s> {
                 }
             }
             let horizon = self.cut.lines.horizon();
-            let arc = conic.arc(tau);
+            let (arc, step) = conic.arc(tau);
             if horizon == f64::INFINITY {
-                return Ok((tau, event, arc));
+                return Ok((tau, event, arc, step));
             }
-            let farthest = arc.0.pole.norm_squared().max(arc.0.to.norm_squared()).sqrt();
+            let farthest = arc.pole.norm_squared().max(arc.to.norm_squared()).sqrt();
             if !(farthest > horizon) {
-                return Ok((tau, event, arc));
+                return Ok((tau, event, arc, step));
             }
             known = self.cut.lines.as_slice().len();
             self.cut.lines.widen_towards(farthest, &self.here)?;
