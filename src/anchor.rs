@@ -316,7 +316,7 @@ impl Anchor<'_> {
         for (local, shift) in expansion.locals.iter_mut().zip(shifts) {
             local.blur += shift;
         }
-        let outcome = Outcome::of(expansion, self.bodies, self.target, step);
+        let outcome = Outcome::of(expansion, self.bodies, self.target, step, true);
         if shifts == [0.0; 2] {
             return outcome;
         }

@@ -123,7 +123,7 @@ pub(crate) fn without_doubtful(outcome: &Outcome, bodies: [&Body; 2], target: Ta
             Planes::Pulling => break,
             Planes::Dropped => expansion.drop(bodies, &step, target, outcome.lambda, Factorisation::Aligned),
             Planes::Exact | Planes::Met => {
-                let found = Outcome::of(&expansion, bodies, target, &step);
+                let found = Outcome::of(&expansion, bodies, target, &step, true);
                 lower = lower.max(found.lower - found.rounding);
                 if found.sure {
                     break;

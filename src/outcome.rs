@@ -58,9 +58,9 @@ impl Outcome {
         response: None,
     };
 
-    /// The optimum that a step leads to, with its bounds.
+    /// The optimum that a step leads to, with its bounds; `careful` about what is deep beside rounding, which takes time.
     #[inline(always)]
-    pub fn of(here: &Expansion, bodies: [&Body; 2], target: Target, step: &Step) -> Self {
+    pub fn of(here: &Expansion, bodies: [&Body; 2], target: Target, step: &Step, careful: bool) -> Self {
         let (optimum, soft, lambda) = (&step.optimum, expansion::softest(bodies[0], bodies[1]), step.optimum.lambda);
         let (s_a, s_b) = optimum.values;
         let estimate = target.dual(s_a, s_b, lambda);
@@ -77,7 +77,7 @@ impl Outcome {
         let (first_b, second_b) = of_places(1, &here.q_b);
         let sums = [of_sums(0, &here.q_a, s_a), of_sums(1, &here.q_b, s_b)];
         let first = [first_a + sums[0], first_b + sums[1]];
-        let rounding = swayed(target, optimum, first, [second_a, second_b])
+        let rounding = swayed(target, optimum, first, [second_a, second_b], careful)
             .unwrap_or_else(|| decisive(here, bodies, target, step, first, [second_a, second_b], sums));
         let force = target.dual_weighted(steep[0], steep[1], lambda);
         let (doubt, sure) = here.doubt(bodies, target, step, upper, force, rounding);
@@ -150,15 +150,15 @@ pub(crate) enum Ending {
 }
 
 /// Bound on the effect of rounding on the optimum, from bounds on that of S_A and S_B of first and second order: it moves the
-/// optimum by its weight, while the weights stay what they are. `None` where the rounding itself decides about the weights, or
-/// is more than the planes' depths.
-fn swayed(target: Target, optimum: &Optimum, first: [f64; 2], second: [f64; 2]) -> Option<f64> {
+/// optimum by its weight, while the weights stay what they are. `None` where the rounding itself decides about the weights, or,
+/// if that is to be looked at with care, is more than the planes' depths.
+fn swayed(target: Target, optimum: &Optimum, first: [f64; 2], second: [f64; 2], careful: bool) -> Option<f64> {
     let (of_a, of_b) = (first[0] + second[0], first[1] + second[1]);
     let (change_a, change_b) = target.changes(of_a, of_b);
     let swing = larger(change_a, change_b) / optimum.rate(target).abs();
     let of_first = target.dual_weighted(first[0], first[1], optimum.lambda);
     let of_all = target.dual_weighted(of_a, of_b, optimum.lambda);
-    (swing < 0.25 && of_all <= DEEP * of_first).then_some(of_all * (1.0 + 4.0 * swing))
+    (swing < 0.25 && (!careful || of_all <= DEEP * of_first)).then_some(of_all * (1.0 + 4.0 * swing))
 }
 
 /// How much more than its first order the whole of the rounding may be before it is looked at again.

@@ -156,7 +156,8 @@ impl<'a> Search<'a> {
     /// The answer of the first step, if that is all that it takes.
     #[inline(always)]
     fn at_once(&mut self, target: Target, lambda: f64, here: &Expansion) -> Option<Outcome> {
-        if self.settings.back_end != BackEnd::Fast {
+        // Where the axes have to follow the planes, it takes more steps.
+        if self.settings.back_end != BackEnd::Fast || self.usual() == Factorisation::Aligned {
             return None;
         }
         let outcome = spine::at_once([&self.body_a, &self.body_b], &self.goal(target), lambda, here)?;
@@ -177,11 +178,12 @@ impl<'a> Search<'a> {
         here: &mut Expansion,
     ) -> Result<Outcome, ConicError> {
         if self.settings.back_end == BackEnd::Fast {
-            let mut outcome = self.fast(target, start, here);
+            let goal = self.goal(target);
+            let mut outcome = self.fast(&goal, start, here);
             if outcome.ending == Ending::Stuck && near {
                 let cold = self.cold();
                 *here = self.expansion(&cold, target);
-                outcome = self.fast(target, &cold, here);
+                outcome = self.fast(&goal, &cold, here);
             }
             if outcome.ending == Ending::Stuck {
                 let cold = start::on_centre_line(self.pair, &self.body_a, &self.body_b);
@@ -212,7 +214,7 @@ impl<'a> Search<'a> {
             }
             let (gap, from) = (outcome.gap(), Start { x: outcome.x, lambda: outcome.lambda, near: true });
             let mut there = self.expansion(&from, target);
-            let second = self.fast(target, &from, &mut there);
+            let second = self.fast(&Goal { careful: true, ..self.goal(target) }, &from, &mut there);
             keep_better((outcome, here), (second, there));
             if self.is_loose(outcome, here, target) {
                 let second = self.safe(target, &from, &mut there);
@@ -244,9 +246,8 @@ impl<'a> Search<'a> {
     }
 
     /// By the fast solver, from the quadratics at hand on.
-    fn fast(&mut self, target: Target, start: &Start, here: &mut Expansion) -> Outcome {
-        let (goal, usual) = (self.goal(target), self.usual());
-        let outcome = spine::solve(&self.body_a, &self.body_b, &goal, start, usual, here);
+    fn fast(&mut self, goal: &Goal, start: &Start, here: &mut Expansion) -> Outcome {
+        let outcome = spine::solve(&self.body_a, &self.body_b, goal, start, self.usual(), here);
         self.iterations += outcome.iterations;
         outcome
     }
@@ -263,6 +264,7 @@ impl<'a> Search<'a> {
             target,
             tolerance: self.settings.gap_tolerance,
             stop_when_separated: target == Target::Midway && !self.settings.solve_separated,
+            careful: false,
         }
     }
 

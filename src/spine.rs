@@ -47,6 +47,8 @@ pub(crate) struct Goal {
     pub tolerance: f64,
     /// Whether a proof that the optimum exceeds 1 is enough.
     pub stop_when_separated: bool,
+    /// Whether the bounds should be as narrow as they can be, whatever it takes.
+    pub careful: bool,
 }
 
 /// The answer where the first step is the last: the planes of the quadratics stay on, no other is met, and the bounds
@@ -59,7 +61,7 @@ pub(crate) fn at_once(bodies: [&Body; 2], goal: &Goal, lambda: f64, here: &Expan
     if step.planes != Planes::Exact || !step.optimum.settled {
         return None;
     }
-    let outcome = Outcome { iterations: 1, ..Outcome::of(here, bodies, goal.target, &step) };
+    let outcome = Outcome { iterations: 1, ..Outcome::of(here, bodies, goal.target, &step, false) };
     if goal.stop_when_separated && outcome.separates(flat(bodies)) {
         return Some(Outcome { ending: Ending::Separated, ..outcome });
     }
@@ -175,13 +177,13 @@ pub(crate) fn solve(
         let upper = here.merit(target, lambda);
         lower = target.dual(step.optimum.values.0, step.optimum.values.1, lambda);
         if goal.stop_when_separated && lower > 1.0 && step.planes != Planes::Pulling {
-            let outcome = Outcome::of(here, bodies, target, &step);
+            let outcome = Outcome::of(here, bodies, target, &step, goal.careful);
             if outcome.separates(flat) {
                 return Outcome { ending: Ending::Separated, iterations, ..outcome };
             }
         }
         if step.planes == Planes::Exact && step.optimum.settled {
-            let mut outcome = Outcome { iterations, ..Outcome::of(here, bodies, target, &step) };
+            let mut outcome = Outcome { iterations, ..Outcome::of(here, bodies, target, &step, goal.careful) };
             let proof = Proof::of(&outcome, goal, bodies, here, step.v.norm());
             outcome.ending = proof.ending();
             if proof.is_final(arriving > 1) {
@@ -193,7 +195,7 @@ pub(crate) fn solve(
             }
         } else if flat > 0.0 && step.planes == Planes::Met && upper - lower <= flat {
             // Inside both cores nothing but the regularisation tells one point from another.
-            let outcome = Outcome::of(here, bodies, target, &step);
+            let outcome = Outcome::of(here, bodies, target, &step, goal.careful);
             if proved.as_ref().is_none_or(|(old, _)| outcome.gap() < old.gap()) {
                 let ending = Ending::RoundingLimited;
                 let values = [here.q_a.value, here.q_b.value];

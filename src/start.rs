@@ -206,7 +206,10 @@ impl Hull {
             let wanted = self.affine();
             // The way to `wanted` on which all shares stay positive, and which vanishes first.
             let (mut way, mut first) = (1.0, None);
-            for (i, (&have, &want)) in self.shares.iter().zip(&wanted).take(self.count).enumerate() {
+            // By index: iterators make these short loops longer.
+            #[allow(clippy::needless_range_loop)]
+            for i in 0..self.count {
+                let (have, want) = (self.shares[i], wanted[i]);
                 if !want.is_finite() {
                     return None;
                 }
@@ -214,8 +217,9 @@ impl Hull {
                     (way, first) = (have / (have - want), Some(i));
                 }
             }
-            for (share, want) in self.shares.iter_mut().zip(&wanted).take(self.count) {
-                *share += way * (want - *share);
+            #[allow(clippy::needless_range_loop)]
+            for i in 0..self.count {
+                self.shares[i] += way * (wanted[i] - self.shares[i]);
             }
             let Some(i) = first else { return Some(()) };
             self.count -= 1;
