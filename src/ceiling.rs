@@ -9,7 +9,6 @@
 
 use crate::body::Body;
 use crate::expansion::{self, Expansion};
-use crate::local::Local;
 use crate::model::Model;
 use crate::potential::Quadratic;
 use crate::target::Target;
@@ -23,20 +22,12 @@ const WORTH: f64 = 0.1;
 
 /// Both bodies with their planes moved in, seen from one point.
 pub(crate) struct Ceiling<'a> {
-    bodies: [&'a Body<'a>; 2],
-    target: Target,
-    here: &'a Expansion,
-    locals: [Local; 2],
+    pub bodies: [&'a Body<'a>; 2],
+    pub target: Target,
+    pub here: &'a Expansion,
 }
 
-impl<'a> Ceiling<'a> {
-    /// About the end of a step.
-    pub fn over(here: &'a Expansion, bodies: [&'a Body<'a>; 2], target: Target, step: f64) -> Self {
-        // The point moves by a few blurs, and the blur of the way there counts in the blur.
-        let locals = [0, 1].map(|i| bodies[i].blurred(&here.locals[i], 2.0 * step));
-        Self { bodies, target, here, locals }
-    }
-
+impl Ceiling<'_> {
     /// The least upper bound of a few steps from `v` on; none lies below the `floor`.
     pub fn lowest(&self, mut v: Vector3<f64>, mut lambda: f64, floor: f64) -> f64 {
         let soft = expansion::softest(self.bodies[0], self.bodies[1]);
@@ -56,8 +47,10 @@ impl<'a> Ceiling<'a> {
         lowest
     }
 
+    /// Convex in v, as is the blur of the way.
     fn quadratic(&self, i: usize, v: &Vector3<f64>) -> Quadratic {
-        self.here.inset(self.bodies[i], &self.locals[i], v)
+        let local = self.bodies[i].blurred(&self.here.locals[i], v.norm());
+        self.here.inset(self.bodies[i], &local, v)
     }
 
     /// The value of a point, or of one on the way to the centre of the body that it should be in and is not.

@@ -185,7 +185,7 @@ fn decisive(
         return below;
     }
     let floor = target.dual(s_a, s_b, lambda);
-    let ceiling = Ceiling::over(here, bodies, target, step.v.norm()).lowest(step.v, lambda, floor);
+    let ceiling = Ceiling { bodies, target, here }.lowest(step.v, lambda, floor);
     let followed = (ceiling - floor).max(0.0) + target.merit_rounding(sums[0], sums[1], lambda);
     whole.min(followed).max(below)
 }

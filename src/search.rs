@@ -21,7 +21,7 @@ const CLEARLY: f64 = 2.0;
 const LOOSE: f64 = 100.0;
 
 /// Most second proofs, and the share of the gap that one has to leave for the next to be tried.
-const MOST_PROOFS: u32 = 3;
+const MOST_PROOFS: u32 = 4;
 const WORTH: f64 = 0.5;
 
 /// One call: the pair, what is asked, and what it has cost so far.
@@ -208,11 +208,16 @@ impl<'a> Search<'a> {
     /// planes of doubtful sign.
     #[cold]
     fn sharpen(&mut self, target: Target, outcome: &mut Outcome, here: &mut Expansion) {
-        for _ in 0..MOST_PROOFS {
+        for round in 0..MOST_PROOFS {
             if !self.is_loose(outcome, here, target) {
                 break;
             }
-            let (gap, from) = (outcome.gap(), Start { x: outcome.x, lambda: outcome.lambda, near: true });
+            let gap = outcome.gap();
+            // A λ that is wrong leads nowhere from nearby.
+            let from = match round {
+                1 => start::on_centre_line(self.pair, &self.body_a, &self.body_b),
+                _ => Start { x: outcome.x, lambda: outcome.lambda, near: true },
+            };
             let mut there = self.expansion(&from, target);
             let second = self.fast(&Goal { careful: true, ..self.goal(target) }, &from, &mut there);
             keep_better((outcome, here), (second, there));
@@ -224,7 +229,7 @@ impl<'a> Search<'a> {
                 let lower = certificate::without_doubtful(outcome, [&self.body_a, &self.body_b], target);
                 outcome.lower = outcome.lower.max(lower + outcome.rounding);
             }
-            if outcome.gap() > WORTH * gap {
+            if round > 0 && outcome.gap() > WORTH * gap {
                 break;
             }
         }
