@@ -308,7 +308,7 @@ typedef struct pp_contact_2d {
 // A plane holds a coefficient that is not finite.
 #define PP_PLANE_NOT_FINITE 20
 
-// A plane has a normal (a, b, c) of length zero.
+// A plane has a normal (a, b, c) of length zero, or whose square is no number.
 #define PP_PLANE_ZERO_NORMAL 21
 
 // k is not a number in [0, 1].

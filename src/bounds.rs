@@ -34,6 +34,12 @@ const MOST_FACES: usize = 24;
 /// they are cut off by less: doubtful ones only make the polyhedron larger.
 const SLACK: f64 = 1e-6;
 
+/// Half the edge of the largest cube that is looked at, length: the square of its diagonal is still a number.
+const LARGEST: f64 = 1e150;
+
+/// Half the edge of a first guess, in distances of the farthest face: the corners of few particles lie beyond it.
+const WIDE: f64 = 8.0;
+
 /// Bounds are enlarged by this factor, which covers [`SLACK`] and the linear programs' tolerance.
 const MARGIN: f64 = 1.0 + 1e-5;
 
@@ -43,14 +49,19 @@ impl Bounds {
         let face_reach = if particle.is_sphere() { f64::INFINITY } else { (1.0 / particle.plane_weight).sqrt() };
         let sphere_reach = (1.0 / particle.sphere_weight).sqrt();
         // f ≤ 0 implies n_i·x ≤ d_i + r/√(1−k) and |x| ≤ R/√k.
-        let face = |i: usize| (particle.normal(i), particle.offset(i) + face_reach);
-        let all_faces = || (0..particle.plane_count()).map(face).collect::<Vec<_>>();
-        let half = match sphere_reach {
-            reach if reach.is_finite() => reach,
-            _ => linear_program::half_cube(&all_faces(), particle.dimensions)?,
+        let face = |i: usize| face(&particle.normal(i), particle.offset(i) + face_reach);
+        let some = || if particle.is_sphere() { Vec::new() } else { spread(particle) };
+        let faces: Vec<_> = some().into_iter().filter_map(face).collect();
+        let (half, corners) = if sphere_reach.is_finite() {
+            (sphere_reach, corners(&faces, sphere_reach, particle.dimensions))
+        } else {
+            let all: Vec<_> = (0..particle.plane_count()).filter_map(face).collect();
+            let few = if all.len() == faces.len() { enclosed(&faces, particle.dimensions) } else { None };
+            few.or_else(|| {
+                let half = linear_program::half_cube(&all, particle.dimensions).filter(|half| *half <= LARGEST)?;
+                Some((half, corners(&faces, half, particle.dimensions)))
+            })?
         };
-        let faces = if particle.is_sphere() { Vec::new() } else { spread(particle).into_iter().map(face).collect() };
-        let corners = corners(&faces, half, particle.dimensions);
         let farthest = corners.iter().map(|c| c.norm()).fold(0.0, f64::max);
         let radius = farthest.min(sphere_reach) * MARGIN;
         let offsets = || (0..particle.plane_count()).map(|i| particle.offset(i));
@@ -60,7 +71,8 @@ impl Bounds {
         let enclosed = !sphere_reach.is_finite() || farthest < 0.99 * half;
         let nearest = offsets().fold(f64::INFINITY, f64::min) + face_reach;
         let by_faces = if enclosed { face_reach / nearest } else { f64::INFINITY };
-        (radius.is_finite() && radius > 0.0).then(|| Self {
+        // Its square is a weight of the solvers.
+        (radius * radius).is_normal().then(|| Self {
             radius,
             corners: corners.into_iter().map(|c| c * MARGIN).collect(),
             merged: SLACK * farthest * MARGIN,
@@ -130,12 +142,30 @@ fn spread(particle: &Particle) -> Vec<usize> {
     chosen
 }
 
-/// Corners of the polyhedron {n·x ≤ h} ∩ cube: every point where three faces meet and that none cuts off.
+/// The face {n·x = h} with a normal of unit length; `None` where it is further off than any number.
+fn face(n: &Vector3<f64>, h: f64) -> Option<(Vector3<f64>, f64)> {
+    let (n, h) = (n / n.norm(), h / n.norm());
+    h.is_finite().then_some((n, h))
+}
+
+/// A cube that holds {n·x ≤ h} well inside, as half its edge, with the corners; `None` where no first guess is such a cube.
+fn enclosed(faces: &[(Vector3<f64>, f64)], dimensions: usize) -> Option<(f64, Vec<Vector3<f64>>)> {
+    let farthest = faces.iter().map(|(_, h)| *h).fold(0.0, f64::max);
+    let half = (WIDE * farthest).min(LARGEST);
+    let corners = corners(faces, half, dimensions);
+    // No part of a convex set is beyond a surface that it does not touch.
+    (!corners.is_empty() && corners.iter().all(|c| c.amax() < 0.99 * half)).then_some((half, corners))
+}
+
+/// Corners of the polyhedron {n·x ≤ h} ∩ cube, |n| = 1: every point where three faces meet and that none cuts off.
 /// In the plane the cube has no height, so that every corner has z = 0.
 fn corners(faces: &[(Vector3<f64>, f64)], half: f64, dimensions: usize) -> Vec<Vector3<f64>> {
-    let mut all = faces.to_vec();
+    // In units, powers of two, of the nearest face no square is lost or infinite.
+    let nearest = faces.iter().map(|(_, h)| *h).fold(half, f64::min).max(half / LARGEST);
+    let unit = nearest.log2().floor().exp2();
+    let mut all: Vec<_> = faces.iter().map(|(n, h)| (*n, (h / unit).min(LARGEST))).collect();
     for axis in 0..3 {
-        let half = if axis < dimensions { half } else { 0.0 };
+        let half = if axis < dimensions { half / unit } else { 0.0 };
         for sign in [1.0, -1.0] {
             let mut n = Vector3::zeros();
             n[axis] = sign;
@@ -149,14 +179,17 @@ fn corners(faces: &[(Vector3<f64>, f64)], half: f64, dimensions: usize) -> Vec<V
                 let rows = Matrix3::from_rows(&[all[i].0.transpose(), all[j].0.transpose(), all[k].0.transpose()]);
                 let Some(inverse) = rows.try_inverse() else { continue };
                 let corner = inverse * Vector3::new(all[i].1, all[j].1, all[k].1);
+                // Not a number, or beyond the cube.
+                if !(corner.norm() <= 2.0 * half / unit) {
+                    continue;
+                }
                 let slack = SLACK * corner.norm();
-                let kept = all.iter().all(|(n, h)| n.dot(&corner) <= h + slack * n.norm());
-                if kept && corner.iter().all(|v| v.is_finite()) && !corners.iter().any(|c| (c - corner).norm() <= slack)
-                {
+                let kept = all.iter().all(|(n, h)| n.dot(&corner) <= h + slack);
+                if kept && !corners.iter().any(|c| (c - corner).norm() <= slack) {
                     corners.push(corner);
                 }
             }
         }
     }
-    corners
+    corners.into_iter().map(|c| c * unit).collect()
 }

@@ -270,15 +270,35 @@ impl Contact {
 /// Unit normal from A to B in the frame of B, from ∇S_A and ∇S_B; and whether it had to be taken from the centres
 /// because both vanish.
 fn normal(pair: &Pair, gradients: &[Vector3<f64>; 2]) -> (Vector3<f64>, bool) {
-    let (outward_a, outward_b) = (gradients[0].try_normalize(0.0), gradients[1].try_normalize(0.0));
+    if let (Some(a), Some(b)) = (gradients[0].try_normalize(0.0), gradients[1].try_normalize(0.0)) {
+        let sum = a - b;
+        let square = sum.norm_squared();
+        if square > OPPOSED {
+            return (sum / square.sqrt(), false);
+        }
+    }
+    normal_of_extremes(pair, gradients)
+}
+
+/// The same where a gradient vanishes, both point the same way, or a square is no number.
+#[cold]
+fn normal_of_extremes(pair: &Pair, gradients: &[Vector3<f64>; 2]) -> (Vector3<f64>, bool) {
+    let [outward_a, outward_b] = gradients.map(|g| direction(&g));
     let combined = match (outward_a, outward_b) {
-        (Some(a), Some(b)) => (a - b).try_normalize(1e-3).or(Some(a)),
-        (Some(a), None) => Some(a),
-        (None, Some(b)) => Some(-b),
-        (None, None) => None,
+        (Some(a), Some(b)) => (a - b).try_normalize(OPPOSED.sqrt()).or(Some(a)),
+        (a, b) => a.or(b.map(|b| -b)),
     };
     match combined {
         Some(normal) => (normal, false),
-        None => ((-pair.centre).try_normalize(0.0).unwrap_or_else(Vector3::x), true),
+        None => (direction(&-pair.centre).unwrap_or_else(Vector3::x), true),
     }
+}
+
+/// Square of the difference of two unit vectors that is too small to tell a direction.
+const OPPOSED: f64 = 1e-6;
+
+/// A vector at unit length, also where its square is lost or infinite; `None` if it has no direction.
+fn direction(v: &Vector3<f64>) -> Option<Vector3<f64>> {
+    let scaled = v / v.amax();
+    scaled.iter().all(|c| c.is_finite()).then(|| scaled.normalize())
 }

@@ -6,16 +6,19 @@ use clarabel::algebra::CscMatrix;
 use clarabel::solver::{DefaultSettingsBuilder, DefaultSolver, IPSolver, NonnegativeConeT, SolverStatus};
 use nalgebra::Vector3;
 
+/// What clarabel's extents may be off, in units of the farthest face.
+const TOLERANCE: f64 = 1e-7;
+
 /// Half the edge of a cube about the origin that holds {x : n·x ≤ h for every face}; `None` if unbounded.
 /// With two dimensions, of a square in the plane z = 0, to which x is then confined.
 ///
 /// First the recession cone {v : n·v ≤ 0}: cut by the unit cube it reaches either 0 or 1 along some
-/// axis, so that the answer does not depend on scale. Then the extent along each axis.
+/// axis, so that the answer does not depend on scale. Then the extent along each axis; once more without the faces that
+/// the cube cannot reach, if they set the scale.
 pub(crate) fn half_cube(faces: &[(Vector3<f64>, f64)], dimensions: usize) -> Option<f64> {
     let axes = || (0..dimensions).flat_map(|axis| [1.0, -1.0].map(|sign| Vector3::ith(axis, sign)));
-    let unit: Vec<_> = faces.iter().map(|(n, h)| (n / n.norm(), h / n.norm())).collect();
-    let scale = unit.iter().map(|(_, h)| h.abs()).fold(0.0, f64::max);
-    if unit.is_empty() || !(scale > 0.0) {
+    let mut unit: Vec<_> = faces.iter().map(|(n, h)| (n / n.norm(), h / n.norm())).collect();
+    if unit.is_empty() {
         return None;
     }
     let cone: Vec<_> = unit.iter().map(|(n, _)| (*n, 0.0)).chain(axes().map(|e| (e, 1.0))).collect();
@@ -25,11 +28,21 @@ pub(crate) fn half_cube(faces: &[(Vector3<f64>, f64)], dimensions: usize) -> Opt
             return None;
         }
     }
-    let scaled: Vec<_> = unit.iter().map(|(n, h)| (*n, h / scale)).collect();
-    axes()
-        .map(|e| maximum(&scaled, &e, dimensions))
-        .try_fold(0.0, |most: f64, extent| Some(most.max(extent?)))
-        .map(|m| m * scale)
+    loop {
+        let scale = unit.iter().map(|(_, h)| h.abs()).fold(0.0, f64::max);
+        if !(scale > 0.0) {
+            return None;
+        }
+        let scaled: Vec<_> = unit.iter().map(|(n, h)| (*n, h / scale)).collect();
+        let mut extents = axes().map(|e| maximum(&scaled, &e, dimensions));
+        let most = extents.try_fold(0.0, |most: f64, extent| Some(most.max(extent?)))?;
+        let half = (most + TOLERANCE) * scale;
+        let before = unit.len();
+        unit.retain(|(_, h)| *h < 2.0 * half);
+        if unit.len() == before {
+            return Some(half);
+        }
+    }
 }
 
 /// max e·x subject to n·x ≤ h, over the first coordinates of x.

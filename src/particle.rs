@@ -43,6 +43,11 @@ pub enum ParticleError {
     PlaneNotFinite { index: usize, a: f64, b: f64, c: f64, d: f64 },
     #[error("plane {index} has a normal of length zero (d={d:?}): give it a direction or remove it")]
     ZeroNormal { index: usize, d: f64 },
+    #[error(
+        "plane {index} has a normal of length {length:?}, too short or too long for its square, by r² or not, to be a \
+         number: scale it to about unit length, and d with it"
+    )]
+    NormalLength { index: usize, length: f64 },
     #[error("sphericity k={0:?} is outside [0, 1]")]
     Sphericity(f64),
     #[error("rounding radius r={0:?} must be positive and finite (it may be anything only when k=1)")]
@@ -54,7 +59,10 @@ pub enum ParticleError {
          the origin: shift the planes so that the origin is inside"
     )]
     CentreOutside { f: f64, worst: usize, d: f64 },
-    #[error("the planes do not enclose a volume, and with k=0 nothing else does: add planes or take k>0")]
+    #[error(
+        "the planes do not enclose a volume (of a size between 1e-150 and 1e150), and with k=0 nothing else does: \
+         add planes or take k>0"
+    )]
     Unbounded,
     #[error("{0} planes are more than the {MAX_PLANES} that a particle may have")]
     TooManyPlanes(usize),
@@ -63,11 +71,19 @@ pub enum ParticleError {
     #[error("line {index} has a normal of length zero (d={d:?}): give it a direction or remove it")]
     ZeroLineNormal { index: usize, d: f64 },
     #[error(
+        "line {index} has a normal of length {length:?}, too short or too long for its square, by r² or not, to be a \
+         number: scale it to about unit length, and d with it"
+    )]
+    LineNormalLength { index: usize, length: f64 },
+    #[error(
         "the centre is not inside: f(0)={f:?} must be negative; line {worst} (d={d:?}) lies furthest behind \
          the origin: shift the lines so that the origin is inside"
     )]
     CentreOutsideLines { f: f64, worst: usize, d: f64 },
-    #[error("the lines do not enclose an area, and with k=0 nothing else does: add lines or take k>0")]
+    #[error(
+        "the lines do not enclose an area (of a size between 1e-150 and 1e150), and with k=0 nothing else does: \
+         add lines or take k>0"
+    )]
     OpenLines,
     #[error("{0} lines are more than the {MAX_PLANES} that a particle may have")]
     TooManyLines(usize),
@@ -79,6 +95,7 @@ impl ParticleError {
         match self {
             Self::PlaneNotFinite { index, a, b, d, .. } => Self::LineNotFinite { index, a, b, d },
             Self::ZeroNormal { index, d } => Self::ZeroLineNormal { index, d },
+            Self::NormalLength { index, length } => Self::LineNormalLength { index, length },
             Self::CentreOutside { f, worst, d } => Self::CentreOutsideLines { f, worst, d },
             Self::Unbounded => Self::OpenLines,
             Self::TooManyPlanes(count) => Self::TooManyLines(count),
@@ -112,7 +129,7 @@ impl Particle {
     ///
     /// # Errors
     /// Non-finite numbers, k outside [0, 1], r ≤ 0 (unless k = 1), R ≤ 0 (unless k = 0), a zero
-    /// normal, an origin that is not inside (f(0) ≥ 0), and for k = 0 an unbounded shape.
+    /// normal or one whose square is no number, an origin that is not inside (f(0) ≥ 0), and for k = 0 an unbounded shape.
     pub fn new(planes: &[Plane], r: f64, k: f64, shadow_radius: f64) -> Result<Self, ParticleError> {
         Self::build(planes, r, k, shadow_radius, 3)
     }
@@ -148,6 +165,11 @@ impl Particle {
             }
             if a == 0.0 && b == 0.0 && c == 0.0 {
                 return Err(ParticleError::ZeroNormal { index, d });
+            }
+            // A normal n and r are as good as n/|n| and r/|n|, whose square has to be a number like that of r.
+            let square = normal.norm_squared();
+            if !(square.is_normal() && (plane_weight == 0.0 || (plane_weight * square).is_normal())) {
+                return Err(ParticleError::NormalLength { index, length: normal.amax() });
             }
         }
         let (leaves, order) = Leaves::of(planes);

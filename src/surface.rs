@@ -66,7 +66,9 @@ pub(crate) fn distance_near(
         let mut next = if beyond > inside {
             beyond
         } else if line.slope > 0.0 {
-            tau + root_of_piece(line.value, line.slope, line.curvature)
+            let root = tau + root_of_piece(line.value, line.slope, line.curvature);
+            // Where rounding hides the planes, the sphere alone may put it far beyond.
+            if root > farthest { farthest } else { root }
         } else if outside == f64::INFINITY {
             farthest
         } else {

@@ -64,15 +64,15 @@ fn replay(target: &str, run: impl Fn(&[u8]) + std::panic::RefUnwindSafe, changes
 
 #[test]
 fn particles_of_any_bytes() {
-    replay("particle", targets::particle::run, 40_000);
+    replay("particle", targets::particle::run, 1_600_000);
 }
 
 #[test]
 fn detection_of_any_bytes() {
-    replay("detect", targets::detect::run, 40_000);
+    replay("detect", targets::detect::run, 1_600_000);
 }
 
 #[test]
 fn pairs_files_of_any_bytes() {
-    replay("pairs_file", targets::pairs_file::run, 60_000);
+    replay("pairs_file", targets::pairs_file::run, 6_000_000);
 }

@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 use potential_particles::area::Section;
-use potential_particles::{Particle, ParticleError, Plane, Pose, PoseError};
+use potential_particles::{Particle, ParticleError, Plane, Pose, PoseError, surface};
 use std::f64::consts::PI;
 
 fn cube_planes(offset: f64) -> Vec<Plane> {
@@ -28,6 +28,18 @@ fn each_violation_is_its_own_error_and_names_the_value() {
         (with(&|p| p[3].offset = f64::NAN), "plane 3 is not finite"),
         (with(&|p| p[2].normal.y = f64::INFINITY), "plane 2 is not finite"),
         (with(&|p| p[4].normal = Vector3::zeros()), "plane 4 has a normal of length zero"),
+        (with(&|p| p[4].normal.z = -1e-160), "plane 4 has a normal of length 1e-160, too short or too long"),
+        (with(&|p| p[4].normal.z = -1e160), "plane 4 has a normal of length 1e160, too short or too long"),
+        (
+            Particle::new(
+                &planes.iter().map(|p| Plane { normal: 1e100 * p.normal, offset: p.offset }).collect::<Vec<_>>(),
+                1e-100,
+                0.1,
+                0.9,
+            )
+            .unwrap_err(),
+            "plane 0 has a normal of length 1e100",
+        ),
         (with(&|p| p[1].offset = -0.06), "plane 1 (d=-0.06)"),
         (Particle::new(&planes, 0.05, -0.1, 0.9).unwrap_err(), "k=-0.1"),
         (Particle::new(&planes, 0.05, 1.1, 0.9).unwrap_err(), "k=1.1"),
@@ -50,6 +62,38 @@ fn each_violation_is_its_own_error_and_names_the_value() {
     assert!(matches!(Particle::sphere(0.0), Err(E::ShadowRadius(_))));
     assert!(matches!(Pose::at([0.0, f64::NAN, 0.0]), Err(PoseError::Position(..))));
     assert!(matches!(Pose::new([0.0; 3], [0.0; 4]), Err(PoseError::Orientation(..))));
+}
+
+/// Found by fuzzing: corners at 1e308 were lost, and the box left out the centre.
+#[test]
+fn a_particle_too_large_to_be_squared_is_no_particle() {
+    // Only the second plane bounds it along x and −z.
+    let planes = [
+        [-6.0, -6.0, 0.0, 0.0],
+        [0.27, 5.4, -0.6, f64::MAX],
+        [0.0, -6.4, 0.0, 0.003],
+        [0.0, 2.0, 2.1, 0.003],
+        [-2.4e-4, 0.0, 6.3, 0.0],
+        [0.0, 0.0, 0.003, 0.0],
+    ];
+    let planes = planes.map(Plane::from);
+    assert_eq!(Particle::new(&planes, 0.0078, 0.0, 0.0).unwrap_err(), ParticleError::Unbounded);
+    // As long as 1e140: still one, and its box still holds its ends.
+    let mut planes = cube_planes(0.4);
+    planes[0].offset = 1e140;
+    let needle = Particle::new(&planes, 0.1, 0.0, 0.0).unwrap();
+    let (low, high) = needle.bounding_box(&Pose::at([0.0; 3]).unwrap());
+    assert!(high.x >= 1e140 && low.x <= -0.5 && low.y <= -0.5 && high.y >= 0.5, "{low} {high}");
+}
+
+/// Found by fuzzing: where all planes hide below the rounding of a point, the sphere alone put the surface at 1e29.
+#[test]
+fn no_surface_is_further_off_than_the_bounding_radius() {
+    let particle = Particle::new(&cube_planes(0.5), 1e-17, 1e-150, 1e-16).unwrap();
+    for way in [Vector3::x(), Vector3::new(0.3, 0.7, -0.2).normalize(), Vector3::new(1.0, 1.0, 1.0).normalize()] {
+        let distance = surface::distance(&particle, &Vector3::zeros(), &way).unwrap();
+        assert!((distance * way.amax() - 0.5).abs() < 1e-12, "{distance}");
+    }
 }
 
 #[test]

@@ -3,7 +3,7 @@
 
 use super::bytes::Bytes;
 use super::particle;
-use potential_particles::{Contact, Flags, Formulation, Kind, Memory, Particle, Pose, Settings, detect};
+use potential_particles::{BackEnd, Contact, Flags, Formulation, Kind, Memory, Particle, Pose, Settings, detect};
 
 pub fn run(data: &[u8]) {
     let mut bytes = Bytes(data);
@@ -20,6 +20,11 @@ pub fn run(data: &[u8]) {
         settings.weight_on_a = bytes.number();
         settings.flat_regularisation = bytes.number();
     }
+    // Where S is beyond all numbers, the cone program is asked at length, in vain: a few such pairs are enough.
+    let reach = a.bounding_radius() + b.bounding_radius();
+    if choices < 250 && !((at_a.position - at_b.position).norm() < 1e9 * reach) {
+        settings.solve_separated = false;
+    }
     let mut state = [0.0; 8];
     for number in &mut state {
         *number = if choices & 8 != 0 { bytes.number() } else { 0.0 };
@@ -35,6 +40,10 @@ pub fn run(data: &[u8]) {
     }
     let Ok(first) = first else { return };
     whole(&first);
+    // The cone program costs a hundred times the rest: mostly once is enough.
+    if first.back_end == BackEnd::Conic && choices & 96 != 0 {
+        return unharmed(&a, &b);
+    }
     // From what it has just remembered, and the other way round.
     if let Ok(again) = detect(&a, &at_a, &b, &at_b, &settings, Some(&mut memory)) {
         whole(&again);

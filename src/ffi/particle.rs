@@ -263,6 +263,7 @@ pub(super) fn particle_status(error: &ParticleError) -> pp_status {
     match error {
         ParticleError::PlaneNotFinite { .. } | ParticleError::LineNotFinite { .. } => PP_PLANE_NOT_FINITE,
         ParticleError::ZeroNormal { .. } | ParticleError::ZeroLineNormal { .. } => PP_PLANE_ZERO_NORMAL,
+        ParticleError::NormalLength { .. } | ParticleError::LineNormalLength { .. } => PP_PLANE_ZERO_NORMAL,
         ParticleError::Sphericity(_) => PP_BAD_SPHERICITY,
         ParticleError::RoundingRadius(_) => PP_BAD_ROUNDING_RADIUS,
         ParticleError::ShadowRadius(_) => PP_BAD_SHADOW_RADIUS,

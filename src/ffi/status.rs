@@ -33,7 +33,7 @@ pub const PP_BUFFER_TOO_SMALL: pp_status = 10;
 
 /// A plane holds a coefficient that is not finite.
 pub const PP_PLANE_NOT_FINITE: pp_status = 20;
-/// A plane has a normal (a, b, c) of length zero.
+/// A plane has a normal (a, b, c) of length zero, or whose square is no number.
 pub const PP_PLANE_ZERO_NORMAL: pp_status = 21;
 /// k is not a number in [0, 1].
 pub const PP_BAD_SPHERICITY: pp_status = 22;
@@ -62,7 +62,7 @@ const MESSAGES: &[(pp_status, &CStr)] = &[
     (PP_INTERNAL_ERROR, c"internal error caught at the library boundary: please report it"),
     (PP_BUFFER_TOO_SMALL, c"the output buffer is too small; the needed size was written"),
     (PP_PLANE_NOT_FINITE, c"a plane coefficient is not finite"),
-    (PP_PLANE_ZERO_NORMAL, c"a plane normal (a, b, c) has no length"),
+    (PP_PLANE_ZERO_NORMAL, c"a plane normal (a, b, c) has no length, or none that can be squared"),
     (PP_BAD_SPHERICITY, c"sphericity k must lie in [0, 1]"),
     (PP_BAD_ROUNDING_RADIUS, c"rounding radius r must be positive and finite when k < 1"),
     (PP_BAD_SHADOW_RADIUS, c"shadow radius R must be positive and finite when k > 0"),
