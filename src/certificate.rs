@@ -69,9 +69,10 @@ fn distance_of(outcome: &Outcome, expansion: &Expansion, a: &Body, b: &Body, tar
     let Some(response) = outcome.response.as_ref().filter(|_| outcome.sure) else { return convexity() };
     let step = outcome.x - expansion.x;
     let turn = TURN * f64::EPSILON * response.per_slope(a.particle.dimensions);
-    // The two sides meet to the rounding of what they are summed from.
+    // The two sides meet to what was left, and to the rounding of what they are summed from.
     let (side_a, side_b) = target.changes(expansion.q_a.expansion, expansion.q_b.expansion);
-    let sides = SIDES * f64::EPSILON * (side_a + side_b + larger(outcome.upper, 1.0));
+    let left = target.mismatch(outcome.values[0], outcome.values[1]);
+    let sides = left + SIDES * f64::EPSILON * (side_a + side_b + larger(outcome.upper, 1.0));
     let in_axes = expansion.to_axes(&step);
     let mut sum = response.unsolved() + response.to_value(sides);
     for (i, (body, q, weight)) in

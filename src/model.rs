@@ -191,10 +191,12 @@ impl<'a> Model<'a> {
             // To rounding; or the search, which should do far better, does not even halve it any more.
             let noise = self.noise + 4.0 * f64::EPSILON * larger;
             slow = if difference.abs() > 0.5 * last { slow + 1 } else { 0 };
-            let stalled = difference.abs() <= STALLING * larger && slow >= MOST_SLOW;
-            let settled = difference.abs() <= noise || stalled;
+            let settled = difference.abs() <= noise;
             if settled || difference.abs() <= enough {
                 return Some(Optimum { settled, ..self.optimum(&found) });
+            }
+            if slow >= MOST_SLOW && difference.abs() <= STALLING * larger {
+                return Some(self.corrected(&found));
             }
             last = difference.abs();
             if difference > 0.0 {
@@ -259,6 +261,17 @@ impl<'a> Model<'a> {
         let delta = series.delta;
         let step = found.step + delta * (found.along + delta * (series.v2 + delta * v3));
         self.after(step, series.lambda, found)
+    }
+
+    /// Where the rounding of the factorisation moves a side by more than its noise, at random for each λ: the way to the root
+    /// along the curve is smooth.
+    #[cold]
+    fn corrected(&self, found: &Probe) -> Optimum {
+        let here = self.optimum(found);
+        let further = self.series(found).map(|series| self.along(found, &series));
+        let left = |optimum: &Optimum| self.target.mismatch(optimum.values.0, optimum.values.1);
+        let best = further.filter(|further| left(further) < left(&here)).unwrap_or(here);
+        Optimum { settled: true, ..best }
     }
 
     /// Whether the slope a·g_A + b·g_B is zero to rounding. In a pair that is alike on both sides the terms of the mismatch

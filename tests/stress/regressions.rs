@@ -219,6 +219,13 @@ fn a_point_far_from_both_centres_rounds_by_its_distance() {
     judged("a_point_far_from_both_centres_rounds_by_its_distance", &[LooseBound]);
 }
 
+/// P2 of closest, with soft directions in which rounding moves the minimum of each λ anew: the search stalled, and the side
+/// that was left open by a thousand times its rounding was not counted in the bound of the point.
+#[test]
+fn a_search_that_the_factorisation_stalls_ends_on_the_curve() {
+    judged("a_search_that_the_factorisation_stalls_ends_on_the_curve", &[BoundOfPoint]);
+}
+
 /// A plane a billion away changes nothing about two cubes but the accuracy of their surface points, which is taken
 /// relative to the furthest plane. Found by fuzzing.
 #[test]
