@@ -91,15 +91,25 @@ impl<'a> Body<'a> {
 
     /// (Regularised) S with derivatives in the axes of `frame` (columns: axes in the solver frame), or of the solver
     /// frame itself.
-    #[inline]
+    #[inline(always)]
     pub fn at(&self, place: &impl Place, frame: Option<&Matrix3<f64>>) -> Quadratic {
-        let rotation = match frame {
-            Some(axes) if self.turned => axes.tr_mul(&self.rotation),
-            Some(axes) => axes.transpose(),
-            None if self.turned => self.rotation,
-            None => return self.quadratic(place, |n| n),
-        };
+        match frame {
+            Some(axes) if self.turned => self.in_axes(place, &axes.tr_mul(&self.rotation)),
+            Some(axes) => self.in_axes(place, &axes.transpose()),
+            None if self.turned => self.in_axes(place, &self.rotation),
+            None => self.in_its_own(place),
+        }
+    }
+
+    /// Out of line, each once: they are long.
+    #[inline(never)]
+    fn in_axes(&self, place: &impl Place, rotation: &Matrix3<f64>) -> Quadratic {
         self.quadratic(place, |n| rotation * n)
+    }
+
+    #[inline(never)]
+    fn in_its_own(&self, place: &impl Place) -> Quadratic {
+        self.quadratic(place, |n| n)
     }
 
     #[inline(always)]
