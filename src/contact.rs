@@ -150,14 +150,10 @@ impl LocalContact {
         let (normal, normal_by_centres) = normal(pair, gradients);
         let surface = if overlapping {
             let [of_a, of_b] = pieces(&normal);
-            let way = |value: f64, piece: Piece, slope: f64, from_there: &dyn Fn(f64) -> Option<f64>| {
-                let way = surface::root_of_piece(value - 1.0, slope, piece.curvature);
-                if way.abs() <= piece.reach { Some(way) } else { from_there(way) }
-            };
-            let to_a = way(outcome.values[0], of_a, gradients[0].dot(&normal), &|guess| {
+            let to_a = way(outcome.values[0], of_a, gradients[0].dot(&normal), |guess| {
                 surface::distance_near(pair.a, &pair.in_a(x), &pair.rotation.tr_mul(&normal), guess)
             })?;
-            let to_b = way(outcome.values[1], of_b, -gradients[1].dot(&normal), &|guess| {
+            let to_b = way(outcome.values[1], of_b, -gradients[1].dot(&normal), |guess| {
                 surface::distance_near(pair.b, x, &-normal, guess)
             })?;
             // Where s < 1 by less than the rounding of the point, the surfaces seem to have passed: they meet half way.
@@ -265,6 +261,14 @@ impl Contact {
     pub(crate) fn separated(formulation: Formulation, s: f64) -> Self {
         Self { formulation, flags: Flags::REJECTED, s, ..Self::UNKNOWN }
     }
+}
+
+/// How far the surface is along a direction in which S grows with this slope: on the quadratic at hand, or from where that
+/// would be.
+#[inline(always)]
+fn way(value: f64, piece: Piece, slope: f64, from_there: impl Fn(f64) -> Option<f64>) -> Option<f64> {
+    let way = surface::root_of_piece(value - 1.0, slope, piece.curvature);
+    if way.abs() <= piece.reach { Some(way) } else { from_there(way) }
 }
 
 /// Unit normal from A to B in the frame of B, from ∇S_A and ∇S_B; and whether it had to be taken from the centres

@@ -235,6 +235,7 @@ pub(crate) struct Piece {
 }
 
 /// A step to the optimum of the quadratics at a point.
+#[derive(Clone, Copy)]
 pub(crate) struct Step {
     pub optimum: Optimum,
     /// The step in the solver's frame.

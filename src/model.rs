@@ -20,6 +20,9 @@ use crate::target::Target;
 use nalgebra::Vector3;
 
 /// The pair of quadratics and the target: what stays the same while λ is searched.
+///
+/// Rare parts take it and the probes by value: whose address is known has to stay in memory on the common way, too.
+#[derive(Clone, Copy)]
 pub(crate) struct Model<'a> {
     q_a: &'a Quadratic,
     q_b: &'a Quadratic,
@@ -196,7 +199,7 @@ impl<'a> Model<'a> {
                 return Some(Optimum { settled, ..self.optimum(&found) });
             }
             if slow >= MOST_SLOW && difference.abs() <= STALLING * larger {
-                return Some(self.corrected(&found));
+                return Some(self.corrected(found));
             }
             last = difference.abs();
             if difference > 0.0 {
@@ -215,7 +218,7 @@ impl<'a> Model<'a> {
                     series.lambda
                 }
                 Some(series) if series.share <= NEAR => series.lambda,
-                _ => self.far(&found, growing, falling),
+                _ => self.far(found, growing, falling),
             };
             // Beyond what is known of the curve: to its end, and no further.
             let next = if next >= high && high == farthest {
@@ -266,9 +269,9 @@ impl<'a> Model<'a> {
     /// Where the rounding of the factorisation moves a side by more than its noise, at random for each λ: the way to the root
     /// along the curve is smooth.
     #[cold]
-    fn corrected(&self, found: &Probe) -> Optimum {
-        let here = self.optimum(found);
-        let further = self.series(found).map(|series| self.along(found, &series));
+    fn corrected(self, found: Probe) -> Optimum {
+        let here = self.optimum(&found);
+        let further = self.series(&found).map(|series| self.along(&found, &series));
         let left = |optimum: &Optimum| self.target.mismatch(optimum.values.0, optimum.values.1);
         let best = further.filter(|further| left(further) < left(&here)).unwrap_or(here);
         Optimum { settled: true, ..best }
@@ -285,7 +288,7 @@ impl<'a> Model<'a> {
 
     /// The next λ where the series is of no use: far off, the logarithms of both sides are nearly linear in ln λ.
     #[cold]
-    fn far(&self, found: &Probe, growing: f64, falling: f64) -> f64 {
+    fn far(self, found: Probe, growing: f64, falling: f64) -> f64 {
         // The weighted sum stays what it is on the curve, to first order.
         let turning = -self.target.per_logarithm(found.weights) * found.rate;
         let (rate_a, rate_b) = self.target.apart(0.0, turning, found.weights);

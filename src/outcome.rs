@@ -78,7 +78,7 @@ impl Outcome {
         let sums = [of_sums(0, &here.q_a, s_a), of_sums(1, &here.q_b, s_b)];
         let first = [first_a + sums[0], first_b + sums[1]];
         let rounding = swayed(target, optimum, first, [second_a, second_b], careful)
-            .unwrap_or_else(|| decisive(here, bodies, target, step, first, [second_a, second_b], sums));
+            .unwrap_or_else(|| decisive(here, bodies, target, *step, first, [second_a, second_b], sums));
         let force = target.dual_weighted(steep[0], steep[1], lambda);
         let (doubt, sure) = here.doubt(bodies, target, step, upper, force, rounding);
         Self {
@@ -172,7 +172,7 @@ fn decisive(
     here: &Expansion,
     bodies: [&Body; 2],
     target: Target,
-    step: &Step,
+    step: Step,
     first: [f64; 2],
     second: [f64; 2],
     sums: [f64; 2],

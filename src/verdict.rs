@@ -52,7 +52,7 @@ impl Body<'_> {
     /// of n·x − d is but a shift of the plane.
     #[inline(always)]
     pub fn check(&self, local: &Local, q: &Quadratic, v: &Vector3<f64>, length: f64) -> Verdict {
-        if self.stays(q, length) { Verdict::clear(self, local, q, length) } else { self.check_each(local, q, v) }
+        if self.stays(q, length) { Verdict::clear(self, local, q, length) } else { self.check_each(local, q, *v) }
     }
 
     /// Whether no plane of the quadratic switches within a distance.
@@ -88,8 +88,8 @@ impl Body<'_> {
     }
 
     #[inline(never)]
-    fn check_each(&self, local: &Local, q: &Quadratic, v: &Vector3<f64>) -> Verdict {
-        let (y, blur, e) = (local.y, local.blur, self.turn(v));
+    fn check_each(&self, local: &Local, q: &Quadratic, v: Vector3<f64>) -> Verdict {
+        let (y, blur, e) = (local.y, local.blur, self.turn(&v));
         let p = self.particle;
         let mut worst: Option<(usize, f64)> = None;
         let (mut pulling, mut doubtful, mut depths, mut near) = (false, 0.0, 0.0, 0.0);
