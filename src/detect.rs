@@ -121,7 +121,7 @@ pub(crate) fn solved(
 }
 
 /// A cheap proof of separation, if one succeeds and will do; else the pair in one frame.
-#[inline]
+#[inline(always)]
 pub(crate) fn begin<'a>(
     a: (&'a Particle, &Pose),
     b: (&'a Particle, &Pose),

@@ -268,7 +268,9 @@ impl Particle {
     ) -> f64 {
         self.leaves.visit_near(y, early, |run| {
             let first = run.start;
-            for (j, [a, b, c, d]) in self.rows[run].iter().enumerate() {
+            // A single group holds them all.
+            let rows = if self.leaves.single() { &self.rows[..] } else { &self.rows[run] };
+            for (j, [a, b, c, d]) in rows.iter().enumerate() {
                 visit(first + j, Vector3::new(*a, *b, *c), a * y.x + b * y.y + c * y.z - d);
             }
         })

@@ -58,7 +58,7 @@ pub fn proof_of_separation(pair: &Pair) -> Option<Apart> {
 ///
 /// Of two points at a distance d, one in A and one in B, the left side gains |∇S_A(x)|·d or λ|∇S_B(x)|·d, whichever of
 /// the two points y is: what is left above 1 + λ, over the larger of them, is a distance that no two points keep below.
-#[inline]
+#[inline(always)]
 pub(crate) fn still_apart(
     (particle_a, pose_a): (&Particle, &Pose),
     (particle_b, pose_b): (&Particle, &Pose),
