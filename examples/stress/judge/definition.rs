@@ -158,7 +158,8 @@ pub(super) fn flips(verdict: &mut Verdict, scene: &Scene, contact: &Contact, sta
         && less > 0.0
         && let Some(after) = moved(verdict, scene, less * n, Kind::Overlapping, thorough)
     {
-        let right = after.kind == Kind::Overlapping || after.s - after.gap <= 1.0;
+        let doubt = after.gap + displaced(scene, &after, &(less * n));
+        let right = after.kind == Kind::Overlapping || after.s - doubt <= 1.0;
         verdict.check(right, Failure::FlipsEarly, || {
             format!("moved by {less:e} of {:e}: s={:e} ± {:e}", contact.overlap, after.s, after.gap)
         });
@@ -169,7 +170,8 @@ pub(super) fn flips(verdict: &mut Verdict, scene: &Scene, contact: &Contact, sta
         && apart.abs() < 4.0 * scene.length
         && let Some(after) = moved(verdict, scene, apart * n, Kind::Separated, thorough)
     {
-        let right = after.kind == Kind::Separated || after.s + after.gap >= 1.0;
+        let doubt = after.gap + displaced(scene, &after, &(apart * n));
+        let right = after.kind == Kind::Separated || after.s + doubt >= 1.0;
         verdict.check(right, Failure::FlipsLate, || {
             format!("moved by {apart:e}, overlap {:e}: s={:e} ± {:e}", contact.overlap, after.s, after.gap)
         });
@@ -267,7 +269,10 @@ pub(super) fn carried(verdict: &mut Verdict, case: &Case, scene: &Scene, before:
     match (scene.solver)(scene.a, &carry(&case.at_a), scene.b, &carry(&case.at_b), &FULL, None) {
         Ok(after) => {
             let rounding = 16.0 * EPS * (scene.length + scene.far);
-            let allowed = before.gap + after.gap + steepness(scene, &before.branch_b) * rounding;
+            // Deep inside nothing is steep; a wall that rounding carries over the point is.
+            let there = turn.inverse() * after.branch_b;
+            let steepest = steepness(scene, &before.branch_b).max(steepness(scene, &there));
+            let allowed = before.gap + after.gap + steepest * rounding;
             // Where s vanishes its square is what moves smoothly.
             let squares = (before.s * before.s - after.s * after.s).abs();
             let right = (before.s - after.s).abs() <= allowed || squares <= allowed * allowed;
@@ -279,13 +284,21 @@ pub(super) fn carried(verdict: &mut Verdict, case: &Case, scene: &Scene, before:
     }
 }
 
+/// What the rounding of a position far from the origin does to s after B was moved: it is not moved by just that.
+fn displaced(scene: &Scene, after: &Contact, by: &Vector3<f64>) -> f64 {
+    let [a, b] = &scene.placed;
+    let at = after.branch_b;
+    4.0 * EPS * scene.far * steep(a, &(at + by)).max(steep(b, &at))
+}
+
 /// What the rounding of lengths does to s, both ways of rounding counted.
 fn steepness(scene: &Scene, at: &Vector3<f64>) -> f64 {
-    let steep = |body: &Placed| {
-        let local = body.at(at);
-        (local.pull + local.gradient.norm()) / (2.0 * local.value.sqrt()).max(f64::MIN_POSITIVE)
-    };
-    scene.placed.iter().map(steep).fold(0.0, f64::max)
+    scene.placed.iter().map(|body| steep(body, at)).fold(0.0, f64::max)
+}
+
+fn steep(body: &Placed, at: &Vector3<f64>) -> f64 {
+    let local = body.at(at);
+    (local.pull + local.gradient.norm()) / (2.0 * local.value.sqrt()).max(f64::MIN_POSITIVE)
 }
 
 pub(super) fn in_other_units(verdict: &mut Verdict, scene: &Scene, before: &Contact, shared: &Shared) {
