@@ -22,6 +22,7 @@
 //! | `outcome`, `spine` | where a search ended; the fast solver: Newton on that model, safe steps |
 //! | `anchor`, `anchored` | the safe solver, finite, where the fast one goes in circles |
 //! | `ceiling` | an upper bound that holds wherever rounding may have the planes |
+//! | `remnant` | what a slope that is left can hide from the planes |
 //! | `certificate` | how far an answer can be from the optimum |
 //! | [`conic`] | the paper's second-order cone programs through clarabel: the reference |
 //! | [`contact`] | point, normal, overlap from a solution |
@@ -60,6 +61,7 @@ pub mod planar;
 pub mod pose;
 pub mod potential;
 pub mod reject;
+mod remnant;
 mod search;
 pub mod settings;
 mod spine;

@@ -80,7 +80,10 @@ impl Outcome {
         let rounding = swayed(target, optimum, first, [second_a, second_b], careful)
             .unwrap_or_else(|| decisive(here, bodies, target, *step, first, [second_a, second_b], sums));
         let force = target.dual_weighted(steep[0], steep[1], lambda);
-        let (doubt, sure) = here.doubt(bodies, target, step, upper, force, rounding);
+        let (mut doubt, sure) = here.doubt(bodies, target, step, upper, force, rounding);
+        if careful && sure && doubt > rounding {
+            doubt = doubt.min(here.remnant(bodies, target, step, upper, force));
+        }
         Self {
             x: here.x + step.v,
             lambda,

@@ -177,6 +177,19 @@ fn planes_of_doubtful_sign_are_left_out_of_the_bound() {
     judged("planes_of_doubtful_sign_are_left_out_of_the_bound", &[LooseBound]);
 }
 
+/// s of 1e11: the rounding of forces 1e10 times as large as at a contact was counted as if the spheres alone resisted it.
+#[test]
+fn far_from_both_bodies_a_slope_does_not_get_past_the_planes() {
+    judged("far_from_both_bodies_a_slope_does_not_get_past_the_planes", &[LooseBound]);
+    judged("the_same_at_the_edges_of_both", &[LooseBound]);
+}
+
+/// What the springs of the safe solver leave across a face of k = 1e-9 was counted as if it lay along the face.
+#[test]
+fn a_slope_across_a_face_is_held_by_the_face() {
+    judged("a_slope_across_a_face_is_held_by_the_face", &[LooseBound]);
+}
+
 /// k = 0, aligned: s is least at the far end of faces that are tilted by 2e-16, and the gap was that of the middle.
 #[test]
 fn faces_that_look_parallel_are_tilted_by_rounding() {

@@ -1,0 +1,68 @@
+//! What a slope that is left can hide, where the planes that are on say more than the spheres do.
+//!
+//! A step leaves a slope of a·S_A + b·S_B: what the solution missed, which is known, and the rounding of its sums and of the
+//! directions of the forces, which is not. Both spheres together may be as soft as 1e-9 where a plane is as stiff as 1e16,
+//! and far from both bodies the forces, and with them their rounding, are 1e10 times what they are at a contact. Counted
+//! as if the spheres alone held the point, such a slope hides all but everything; but it does not get past the planes.
+//!
+//! The quadratics with depths ≥ 0 are a lower bound of S, and so they are at any other place that leaves their planes on.
+//! The known part is taken away by a further step. Along a face that would be a long one, for nothing: a spring keeps it
+//! short, and its force is left over, less than what is not known anyhow. Of the other part, no stationary point lies
+//! further off than it takes the curvature of those planes to bring the slope to zero, as long as they are on; where the
+//! bound is stationary, it is least, for it is convex.
+
+use crate::body::Body;
+use crate::expansion::{self, Expansion, Step, TURN};
+use crate::symmetric::{Factor, Symmetric};
+use crate::target::Target;
+
+/// Relative to the smaller particle, the length over which the spring weighs as much as what is not known.
+const REACH: f64 = 1e-9;
+
+/// Units in the last place of its trace by which an eigenvalue of the Hessian may be off.
+const EIGENVALUE: f64 = 32.0;
+
+impl Expansion {
+    /// How far the dual value after a step may lie above a lower bound; infinite where a plane is in doubt. Other than
+    /// [`Expansion::doubt`] it takes two factorisations. Forces that balance have the length `force`.
+    #[cold]
+    #[inline(never)]
+    pub fn remnant(&self, bodies: [&Body; 2], target: Target, step: &Step, upper: f64, force: f64) -> f64 {
+        let (a, b) = target.weights(step.optimum.lambda);
+        let of_spheres = expansion::softest(bodies[0], bodies[1]);
+        let soft = a * of_spheres.0 + b * of_spheres.1;
+        let of_sums = a * step.optimum.rounding_of_slope(&self.q_a) + b * step.optimum.rounding_of_slope(&self.q_b);
+        let unknown = of_sums + TURN * f64::EPSILON * force;
+        let known = step.optimum.slope(target);
+        let hessian = self.q_a.hessian.weighted(a, &self.q_b.hessian, b);
+        let size = bodies[0].particle.bounding_radius().min(bodies[1].particle.bounding_radius());
+        let spring = unknown / (REACH * size);
+        let Some(tied) = Factor::of(&hessian.scaled(1.0, spring), soft + spring) else { return f64::INFINITY };
+        let further = -tied.solve(&known);
+        let left = known + hessian.times(&further);
+        let gained = -0.5 * further.dot(&(known + left));
+        // How far every plane stays on from there.
+        let depth = |i: usize| step.verdicts[i].least / bodies[i].particle.bounds.longest_normal;
+        let stays = depth(0).min(depth(1)) - further.norm();
+        if !(stays > 0.0) {
+            return f64::INFINITY;
+        }
+        // Both the sums of what is left and the directions of the planes are rounded.
+        let roots = hessian.diagonal().map(f64::sqrt);
+        let of_way = TURN * f64::EPSILON * roots.norm() * roots.dot(&further.abs());
+        let slope = unknown + of_way + left.norm();
+        let stiff = least_curvature(&hessian, soft, bodies[0].particle.dimensions);
+        let curvature = if slope <= stiff * stays { stiff } else { soft };
+        let hidden = 0.5 * slope * slope / curvature;
+        let farthest = expansion::farthest(bodies, &(self.x + step.v), upper) + further.norm();
+        gained + unknown * further.norm() + hidden.min(slope * farthest)
+    }
+}
+
+/// Lower bound of the curvature in any direction (in the plane: of its first two axes).
+fn least_curvature(hessian: &Symmetric, soft: f64, dimensions: usize) -> f64 {
+    let Some(factor) = Factor::of(hessian, soft) else { return soft };
+    let inverse = factor.inverse();
+    let trace = if dimensions == 2 { inverse.xx + inverse.yy } else { inverse.trace() };
+    soft.max(1.0 / trace - EIGENVALUE * f64::EPSILON * hessian.trace())
+}
