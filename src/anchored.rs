@@ -25,7 +25,7 @@
 
 use crate::anchor::Anchor;
 use crate::body::Body;
-use crate::expansion::{Expansion, Start};
+use crate::expansion::{self, Expansion, Start};
 use crate::outcome::{Ending, Outcome};
 use crate::spine::Goal;
 use crate::target::Target;
@@ -61,7 +61,7 @@ pub(crate) fn solve(bodies: [&Body; 2], goal: &Goal, from: &Start, here: &mut Ex
     // The body that is held at S = 1 has its planes as deep as they can be.
     let held = [target == Target::OnA, target == Target::OnB];
     let mut contrasts = held.map(|held| if held { f64::INFINITY } else { FIRST_CONTRAST });
-    let reach = bodies[0].particle.bounding_radius().min(bodies[1].particle.bounding_radius());
+    let reach = expansion::smallest(bodies);
     // Sums of the forces of the planes, and the weights that they had.
     let mut pulls = [0, 1].map(|i| if held[i] { 2.0 * bodies[i].plane_weight().sqrt() } else { 0.0 });
     let mut weights = bodies.map(|body| body.plane_weight());

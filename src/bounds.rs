@@ -50,8 +50,8 @@ impl Bounds {
         let sphere_reach = (1.0 / particle.sphere_weight).sqrt();
         // f ≤ 0 implies n_i·x ≤ d_i + r/√(1−k) and |x| ≤ R/√k.
         let face = |i: usize| face(&particle.normal(i), particle.offset(i) + face_reach);
-        let some = || if particle.is_sphere() { Vec::new() } else { spread(particle) };
-        let faces: Vec<_> = some().into_iter().filter_map(face).collect();
+        let chosen = if particle.is_sphere() { Vec::new() } else { spread(particle) };
+        let faces: Vec<_> = chosen.into_iter().filter_map(face).collect();
         let (half, corners) = if sphere_reach.is_finite() {
             (sphere_reach, corners(&faces, sphere_reach, particle.dimensions))
         } else {

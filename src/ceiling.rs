@@ -55,11 +55,7 @@ impl Ceiling<'_> {
 
     /// The value of a point, or of one on the way to the centre of the body that it should be in and is not.
     fn feasible(&self, v: &Vector3<f64>, values: [f64; 2]) -> f64 {
-        let (held, free) = match self.target {
-            Target::Midway => return values[0].max(values[1]),
-            Target::OnB => (1, 0),
-            Target::OnA => (0, 1),
-        };
+        let Some((held, free)) = self.target.held() else { return values[0].max(values[1]) };
         let s = values[held].sqrt();
         if s <= 1.0 {
             return values[free];

@@ -96,11 +96,7 @@ const SIDES: f64 = 8.0;
 /// The merit of x, or of a point on the way to the centre of the body that x should be in and is not: λ may be wrong, and
 /// with it the price of what is missing. s is convex on that way.
 fn feasible(x: &Vector3<f64>, values: [f64; 2], bodies: [&Body; 2], target: Target) -> f64 {
-    let (held, free) = match target {
-        Target::Midway => return values[0].max(values[1]),
-        Target::OnB => (1, 0),
-        Target::OnA => (0, 1),
-    };
+    let Some((held, free)) = target.held() else { return values[0].max(values[1]) };
     let (s, centre) = (values[held].sqrt(), bodies[held].centre());
     if s <= 1.0 {
         return values[free];

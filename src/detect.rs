@@ -93,23 +93,17 @@ pub(crate) fn solved(
         memory.last = Some(Remembered { x: midway.x, lambda: midway.lambda, overlapping });
     }
     if separated {
-        let mut contact = Contact::separated(settings.formulation, scale.low.max(1.0));
-        contact.flags.insert(search.flags);
-        (contact.iterations, contact.back_end) = (search.iterations, search.answered);
-        return Ok(contact);
+        let Search { flags, iterations, answered, .. } = search;
+        let contact = Contact::separated(settings.formulation, scale.low.max(1.0));
+        return Ok(Contact { flags: contact.flags.with(flags), iterations, back_end: answered, ..contact });
     }
-    let asked = settings.formulation;
-    let found = if asked == Formulation::Closest {
-        closest(&mut search, settings, (&midway, &here), overlapping)?
-    } else {
-        None
+    let found = match settings.formulation {
+        Formulation::Closest => closest(&mut search, settings, (&midway, &here), overlapping)?,
+        Formulation::Midway => None,
     };
     let local = match found {
         Some(local) => local,
         None => {
-            if asked == Formulation::Closest {
-                search.flags.insert(Flags::SLACK);
-            }
             let bound = search.bound(&midway, &here, Target::Midway);
             let pieces = |n: &Vector3<f64>| search.pieces(&midway, &here, n);
             LocalContact::midway(pair, &midway, scale, bound, pieces, overlapping)
@@ -147,14 +141,18 @@ pub(crate) fn begin<'a>(
     }
 }
 
-/// The contact by both closest points, if there are both; midway lies between them.
+/// The contact by both closest points; midway lies between them. `None` where a constraint is slack, which is flagged.
 fn closest(
     search: &mut Search,
     settings: &Settings,
     midway: (&Outcome, &Expansion),
     overlapping: bool,
 ) -> Result<Option<LocalContact>, DetectError> {
-    let Some(p2) = search.constrained(Target::OnB, Some(midway))? else { return Ok(None) };
-    let Some(p1) = search.constrained(Target::OnA, Some(midway))? else { return Ok(None) };
-    Ok(Some(LocalContact::closest(search.pair, [&p1, &p2], settings.weight_on_a, overlapping)))
+    if let Some(p2) = search.constrained(Target::OnB, Some(midway))?
+        && let Some(p1) = search.constrained(Target::OnA, Some(midway))?
+    {
+        return Ok(Some(LocalContact::closest(search.pair, [&p1, &p2], settings.weight_on_a, overlapping)));
+    }
+    search.flags.insert(Flags::SLACK);
+    Ok(None)
 }

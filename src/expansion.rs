@@ -59,6 +59,12 @@ pub(crate) fn factorisation(a: &Body, b: &Body) -> Factorisation {
     if stiff <= PLAIN_STIFFNESS * soft { Factorisation::Plain } else { Factorisation::Aligned }
 }
 
+/// Bounding radius of the smaller body.
+#[inline(always)]
+pub(crate) fn smallest([a, b]: [&Body; 2]) -> f64 {
+    smaller(a.particle.bounding_radius(), b.particle.bounding_radius())
+}
+
 /// Least curvatures of A and B in any direction.
 pub(crate) fn softest(a: &Body, b: &Body) -> (f64, f64) {
     (a.sphere_curvature(), b.sphere_curvature())
@@ -81,13 +87,10 @@ impl Expansion {
         weights: (f64, f64),
         factorisation: Factorisation,
     ) -> Self {
-        let axes = match factorisation {
-            Factorisation::Plain => None,
-            Factorisation::Aligned => Some(frame::aligned(bodies, weights, &locals)),
-        };
-        let q_a = bodies[0].at(&locals[0], axes.as_ref());
-        let q_b = bodies[1].at(&locals[1], axes.as_ref());
-        Self { x, axes, locals, q_a, q_b, softened: None }
+        match factorisation {
+            Factorisation::Plain => Self::in_axes(bodies, x, locals, &locals, None),
+            Factorisation::Aligned => Self::about(bodies, x, locals, &locals, weights),
+        }
     }
 
     /// About a point, in safe axes, with the planes that count in `places`.
@@ -98,8 +101,19 @@ impl Expansion {
         places: &[impl Place; 2],
         weights: (f64, f64),
     ) -> Self {
-        let axes = Some(frame::aligned(bodies, weights, places));
-        let [q_a, q_b] = [0, 1].map(|i| bodies[i].at(&places[i], axes.as_ref()));
+        Self::in_axes(bodies, x, locals, places, Some(frame::aligned(bodies, weights, places)))
+    }
+
+    #[inline(always)]
+    fn in_axes(
+        bodies: [&Body; 2],
+        x: Vector3<f64>,
+        locals: [Local; 2],
+        places: &[impl Place; 2],
+        axes: Option<Matrix3<f64>>,
+    ) -> Self {
+        let q_a = bodies[0].at(&places[0], axes.as_ref());
+        let q_b = bodies[1].at(&places[1], axes.as_ref());
         Self { x, axes, locals, q_a, q_b, softened: None }
     }
 
@@ -204,7 +218,7 @@ impl Expansion {
         negligible: f64,
     ) -> (f64, bool) {
         let ((a, b), soft) = (target.weights(step.optimum.lambda), softest(bodies[0], bodies[1]));
-        let rounding = a * step.optimum.rounding_of_slope(&self.q_a) + b * step.optimum.rounding_of_slope(&self.q_b);
+        let rounding = self.rounding_of_slope(step, (a, b));
         let of_a = step.verdicts[0].doubtful_slope(bodies[0], a, rounding);
         let of_b = step.verdicts[1].doubtful_slope(bodies[1], b, rounding);
         let slope = step.optimum.slope(target).norm() + of_a + of_b + TURN * f64::EPSILON * force;
@@ -213,6 +227,12 @@ impl Expansion {
         let doubt =
             if wide { by_curvature.min(slope * farthest(bodies, &(self.x + step.v), upper)) } else { by_curvature };
         (doubt, of_a + of_b == 0.0)
+    }
+
+    /// Bound on the rounding of the sums in the slope after a step, at these weights.
+    #[inline(always)]
+    pub fn rounding_of_slope(&self, step: &Step, (a, b): (f64, f64)) -> f64 {
+        a * step.optimum.rounding_of_slope(&self.q_a) + b * step.optimum.rounding_of_slope(&self.q_b)
     }
 
     #[inline(always)]

@@ -14,7 +14,7 @@
 //! | [`settings`], [`memory`] | how to solve, and what a pair remembers |
 //! | [`pair`], `body`, `local` | two particles in one frame, and a point as each sees it |
 //! | [`reject`] | cheap proofs of separation |
-//! | `number`, [`symmetric`], `target` | small numbers and matrices, and which point of two bodies is wanted |
+//! | `number`, [`symmetric`], `target` | the larger of two numbers, small matrices, and which point of two bodies is wanted |
 //! | `model` | two quadratics solved exactly: midway and both closest points on one curve |
 //! | `verdict` | what a step does to the planes of a quadratic |
 //! | `frame`, `expansion` | both quadratics at a point, in safe axes, and the step to their optimum |

@@ -9,7 +9,7 @@ use nalgebra::Vector3;
 /// What clarabel's extents may be off, in units of the farthest face.
 const TOLERANCE: f64 = 1e-7;
 
-/// Half the edge of a cube about the origin that holds {x : n·x ≤ h for every face}; `None` if unbounded.
+/// Half the edge of a cube about the origin that holds {x : n·x ≤ h for every face}, |n| = 1; `None` if unbounded.
 /// With two dimensions, of a square in the plane z = 0, to which x is then confined.
 ///
 /// First the recession cone {v : n·v ≤ 0}: cut by the unit cube it reaches either 0 or 1 along some
@@ -17,7 +17,7 @@ const TOLERANCE: f64 = 1e-7;
 /// the cube cannot reach, if they set the scale.
 pub(crate) fn half_cube(faces: &[(Vector3<f64>, f64)], dimensions: usize) -> Option<f64> {
     let axes = || (0..dimensions).flat_map(|axis| [1.0, -1.0].map(|sign| Vector3::ith(axis, sign)));
-    let mut unit: Vec<_> = faces.iter().map(|(n, h)| (n / n.norm(), h / n.norm())).collect();
+    let mut unit = faces.to_vec();
     if unit.is_empty() {
         return None;
     }

@@ -57,22 +57,13 @@ impl Place for Local {
 impl Local {
     /// With no plane dropped.
     pub fn new(y: Vector3<f64>, shift: f64, blur: f64, early: f64) -> Self {
-        Self { y, shift, blur, early, ..Self::BLANK }
+        Self { y, shift, blur, early, dropped: [0; MOST_DROPPED], count: 0 }
     }
 
     /// The same with another rounding.
     pub fn blurred(&self, shift: f64, blur: f64) -> Self {
         Self { shift, blur, ..*self }
     }
-
-    pub const BLANK: Self = Self {
-        y: Vector3::new(0.0, 0.0, 0.0),
-        shift: 0.0,
-        blur: 0.0,
-        early: 0.0,
-        dropped: [0; MOST_DROPPED],
-        count: 0,
-    };
 
     /// Lower bound of [`Body::rounding`] where S has the given gradient.
     pub fn least_rounding(&self, gradient: &Vector3<f64>) -> f64 {

@@ -31,12 +31,10 @@ impl Expansion {
         let (a, b) = target.weights(step.optimum.lambda);
         let of_spheres = expansion::softest(bodies[0], bodies[1]);
         let soft = a * of_spheres.0 + b * of_spheres.1;
-        let of_sums = a * step.optimum.rounding_of_slope(&self.q_a) + b * step.optimum.rounding_of_slope(&self.q_b);
-        let unknown = of_sums + TURN * f64::EPSILON * force;
+        let unknown = self.rounding_of_slope(step, (a, b)) + TURN * f64::EPSILON * force;
         let known = step.optimum.slope(target);
         let hessian = self.q_a.hessian.weighted(a, &self.q_b.hessian, b);
-        let size = bodies[0].particle.bounding_radius().min(bodies[1].particle.bounding_radius());
-        let spring = unknown / (REACH * size);
+        let spring = unknown / (REACH * expansion::smallest(bodies));
         let Some(tied) = Factor::of(&hessian.scaled(1.0, spring), soft + spring) else { return f64::INFINITY };
         let further = -tied.solve(&known);
         let left = known + hessian.times(&further);

@@ -52,7 +52,7 @@ impl<'a> Search<'a> {
         Self { pair, body_a, body_b, settings, iterations: 0, flags: Flags::default(), answered: settings.back_end }
     }
 
-    /// Where to begin if nothing is known, and both quadratics there.
+    /// Where to begin if nothing is known.
     pub fn cold(&self) -> Start {
         start::cold(self.pair, &self.body_a, &self.body_b)
     }

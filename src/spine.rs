@@ -10,7 +10,7 @@ use crate::expansion::{self, Expansion, Factorisation, Start};
 use crate::line::{self, Merit};
 use crate::local::Local;
 use crate::model::Model;
-use crate::number::{larger, smaller};
+use crate::number::larger;
 use crate::outcome::{Ending, Outcome};
 use crate::target::Target;
 use crate::verdict::Planes;
@@ -94,8 +94,7 @@ struct Proof {
 impl Proof {
     #[inline(always)]
     fn of(outcome: &Outcome, goal: &Goal, bodies: [&Body; 2], here: &Expansion, length: f64) -> Self {
-        let reach = smaller(bodies[0].particle.bounding_radius(), bodies[1].particle.bounding_radius());
-        let (gap, short) = (outcome.gap(), length <= SHORT * reach);
+        let (gap, short) = (outcome.gap(), length <= SHORT * expansion::smallest(bodies));
         Self {
             precise: gap <= goal.tolerance * outcome.upper,
             rounded: gap <= AS_SHARP * outcome.least_rounding(here, goal.target),
@@ -176,30 +175,28 @@ pub(crate) fn solve(
         }
         let upper = here.merit(target, lambda);
         lower = target.dual(step.optimum.values.0, step.optimum.values.1, lambda);
-        if goal.stop_when_separated && lower > 1.0 && step.planes != Planes::Pulling {
-            let outcome = Outcome::of(here, bodies, target, &step, goal.careful);
-            if outcome.separates(flat) {
-                return Outcome { ending: Ending::Separated, iterations, ..outcome };
-            }
-        }
-        if step.planes == Planes::Exact && step.optimum.settled {
+        let separating = goal.stop_when_separated && lower > 1.0 && step.planes != Planes::Pulling;
+        let proving = step.planes == Planes::Exact && step.optimum.settled;
+        // Inside both cores nothing but the regularisation tells one point from another.
+        let inside = flat > 0.0 && step.planes == Planes::Met && upper - lower <= flat;
+        if separating || proving || inside {
             let mut outcome = Outcome { iterations, ..Outcome::of(here, bodies, target, &step, goal.careful) };
-            let proof = Proof::of(&outcome, goal, bodies, here, step.v.norm());
-            outcome.ending = proof.ending();
-            if proof.is_final(arriving > 1) {
-                return outcome;
+            if separating && outcome.separates(flat) {
+                return Outcome { ending: Ending::Separated, ..outcome };
+            }
+            if proving {
+                let proof = Proof::of(&outcome, goal, bodies, here, step.v.norm());
+                outcome.ending = proof.ending();
+                if proof.is_final(arriving > 1) {
+                    return outcome;
+                }
+            } else if inside {
+                let values = [here.q_a.value, here.q_b.value];
+                outcome = Outcome { x: here.x, values, ending: Ending::RoundingLimited, response: None, ..outcome };
             }
             // Proved, but over a long step; the same from nearby is sharper.
-            if proved.as_ref().is_none_or(|(old, _)| outcome.gap() < old.gap()) {
+            if (proving || inside) && proved.as_ref().is_none_or(|(old, _)| outcome.gap() < old.gap()) {
                 proved = Some((outcome, *here));
-            }
-        } else if flat > 0.0 && step.planes == Planes::Met && upper - lower <= flat {
-            // Inside both cores nothing but the regularisation tells one point from another.
-            let outcome = Outcome::of(here, bodies, target, &step, goal.careful);
-            if proved.as_ref().is_none_or(|(old, _)| outcome.gap() < old.gap()) {
-                let ending = Ending::RoundingLimited;
-                let values = [here.q_a.value, here.q_b.value];
-                proved = Some((Outcome { x: here.x, values, ending, response: None, ..outcome }, *here));
             }
         }
         arriving += u32::from(proved.is_some());

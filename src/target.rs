@@ -103,6 +103,15 @@ impl Target {
         }
     }
 
+    /// The body held at S = 1 and the other one; `None` for midway, which holds neither.
+    pub fn held(self) -> Option<(usize, usize)> {
+        match self {
+            Self::Midway => None,
+            Self::OnB => Some((1, 0)),
+            Self::OnA => Some((0, 1)),
+        }
+    }
+
     /// c in the mismatch m = c − (α·S_A + β·S_B).
     #[inline]
     pub fn level(self) -> f64 {

@@ -20,14 +20,18 @@ pub(super) fn settle(verdict: &mut Verdict, scene: &Scene, contact: &Contact, st
         }
         Some(truth) => {
             verdict.unjudged += 1;
-            // Not settled, but what is proved still counts.
-            let outside = contact.s + contact.gap < truth.least || contact.s - contact.gap > truth.most;
-            verdict.check(!outside, Failure::BoundOfS, || {
-                format!("s={:e} ± {:e}, but in [{:e}, {:e}]", contact.s, contact.gap, truth.least, truth.most)
-            });
+            unsettled(verdict, Wanted::Midway, (contact.s, contact.gap), &truth);
         }
         None => verdict.unjudged += 1,
     }
+}
+
+/// What is proved counts, settled or not.
+fn unsettled(verdict: &mut Verdict, wanted: Wanted, (s, gap): (f64, f64), truth: &Optimum) {
+    let outside = s + gap < truth.least || s - gap > truth.most;
+    verdict.check(!outside, Failure::BoundOfS, || {
+        format!("{wanted:?}: s={s:e} ± {gap:e}, but in [{:e}, {:e}]", truth.least, truth.most)
+    });
 }
 
 fn midway(verdict: &mut Verdict, scene: &Scene, contact: &Contact, truth: &Optimum, start: &Vector3<f64>) {
@@ -164,11 +168,7 @@ pub(super) fn closest(verdict: &mut Verdict, scene: &Scene, midway: &Contact, cl
         };
         if (truth.most - truth.least).abs() > 0.1 * contact.gap {
             verdict.unjudged += 1;
-            // Not settled, but what is proved still counts.
-            let outside = s + contact.gap < truth.least || s - contact.gap > truth.most;
-            verdict.check(!outside, Failure::BoundOfS, || {
-                format!("{wanted:?}: s={s:e} ± {:e}, but in [{:e}, {:e}]", contact.gap, truth.least, truth.most)
-            });
+            unsettled(verdict, wanted, (s, contact.gap), &truth);
             continue;
         }
         verdict.judged += 1;
