@@ -10,8 +10,8 @@ use crate::target::Target;
 use crate::verdict::Planes;
 use nalgebra::Vector3;
 
-/// Largest change of ln λ that a first guess makes.
-const FAR: f64 = 3.0;
+/// Largest factor by which a first guess changes λ.
+const FAR: f64 = 20.0;
 
 /// Where the solver ended; everything in the solver's frame, potentials as regularised.
 #[derive(Clone, Copy, Debug)]
@@ -101,20 +101,26 @@ impl Outcome {
         }
     }
 
-    /// Near the λ of a closest point, seen from midway: along their common curve ln S of either body is nearly linear in ln λ.
-    /// Rational functions will do for the logarithm and its inverse.
+    /// The λ of a closest point, as seen from midway.
+    ///
+    /// Where a single curvature decides along their common curve, as for two spheres or two faces, √S of the held body is
+    /// C/(1 + κμ) at its weight μ beside the other's: S and its rate here tell C and κ, and where it comes to 1.
     pub fn towards(&self, target: Target) -> f64 {
         let weights = Target::Midway.weights(self.lambda);
         let (rate_a, rate_b) = Target::Midway.apart(0.0, -self.rate, weights);
-        let (s, rate) = if target == Target::OnB { (self.values[1], rate_b) } else { (self.values[0], rate_a) };
-        let logarithm = 3.0 * (s - 1.0) * (s + 1.0) / (s * s + 4.0 * s + 1.0);
-        let change = -logarithm * s / rate;
+        let on_b = target == Target::OnB;
+        let (s, rate) = if on_b { (self.values[1], rate_b) } else { (self.values[0], -rate_a) };
+        // −d ln S/d ln μ = 2κμ/(1 + κμ).
+        let fall = -rate / s;
+        let stiff = fall / (2.0 - fall);
+        let change = (s.sqrt() * (1.0 + stiff) - 1.0) / stiff;
         // NaN and what is far fail the test.
-        if change.abs() < FAR {
-            let even = 12.0 + change * change;
-            self.lambda * (even + 6.0 * change) / (even - 6.0 * change)
-        } else {
+        if !(change > 1.0 / FAR && change < FAR) {
             self.lambda
+        } else if on_b {
+            self.lambda * change
+        } else {
+            self.lambda / change
         }
     }
 
