@@ -80,7 +80,7 @@ fn distance_of(outcome: &Outcome, expansion: &Expansion, a: &Body, b: &Body, tar
     {
         let planes = response.to_planes(i, q, target, outcome.lambda, body.plane_weight());
         // The force, rounded at either end of the step.
-        let force = weight * (outcome.gradients[i].norm() + q.gradient.norm());
+        let force = weight * (outcome.steep[i] + q.gradient.norm());
         let local = &expansion.locals[i];
         sum += local.shift + local.blur * planes + force * turn + response.to_sums(q, weight, &in_axes);
     }
@@ -173,6 +173,7 @@ pub(crate) fn judge(x: &Vector3<f64>, lambda: f64, s: f64, a: &Body, b: &Body, t
         x: *x,
         lambda,
         gradients,
+        steep: gradients.map(|g| g.norm()),
         values: [q_a.value, q_b.value],
         estimate: s * s,
         lower,

@@ -136,24 +136,25 @@ enum Surface {
 impl LocalContact {
     /// Midway: normal from both unit gradients at P3, surface points along it from there.
     ///
-    /// `pieces` gives S_A and S_B along the normal: on the quadratics at P3 the surface is a square root away.
+    /// `pieces` gives S_A and S_B along a vector: on the quadratics at P3 the surface is a square root away.
     #[inline(always)]
     pub fn midway(
         pair: &Pair,
         outcome: &Outcome,
         scale: Certified,
-        point_bound: f64,
+        point_bound: impl Fn() -> f64,
         pieces: impl Fn(&Vector3<f64>) -> [Piece; 2],
         overlapping: bool,
     ) -> Option<Self> {
         let (x, gradients) = (&outcome.x, &outcome.gradients);
-        let (normal, normal_by_centres) = normal(pair, gradients);
+        let across = Across::of(pair, gradients, outcome.steep);
+        let normal = across.normal();
         let surface = if overlapping {
-            let [of_a, of_b] = pieces(&normal);
-            let to_a = way(outcome.values[0], of_a, gradients[0].dot(&normal), |guess| {
+            let pieces = pieces(&across.vector);
+            let to_a = across.way(outcome.values[0], pieces[0], &gradients[0], |guess| {
                 surface::distance_near(pair.a, &pair.in_a(x), &pair.rotation.tr_mul(&normal), guess)
             })?;
-            let to_b = way(outcome.values[1], of_b, -gradients[1].dot(&normal), |guess| {
+            let to_b = across.way(outcome.values[1], pieces[1], &-gradients[1], |guess| {
                 surface::distance_near(pair.b, x, &-normal, guess)
             })?;
             // Where s < 1 by less than the rounding of the point, the surfaces seem to have passed: they meet half way.
@@ -168,10 +169,10 @@ impl LocalContact {
             s_b: f64::NAN,
             lambda: outcome.lambda,
             gap: scale.gap,
-            point_bound,
+            point_bound: point_bound(),
             point: *x,
             normal,
-            normal_by_centres,
+            normal_by_centres: across.by_centres,
             surface,
         })
     }
@@ -179,7 +180,7 @@ impl LocalContact {
     /// Closest: overlap distance |P1 − P2|, contact point their weighted mean, normal from the gradients
     /// of A at P1 and of B at P2.
     pub fn closest(pair: &Pair, [p1, p2]: [&Closest; 2], weight_on_a: f64, overlapping: bool) -> Self {
-        let (normal, normal_by_centres) = normal(pair, &[p1.gradients[0], p2.gradients[1]]);
+        let across = Across::of(pair, &[p1.gradients[0], p2.gradients[1]], [p1.steep[0], p2.steep[1]]);
         let way = p1.x - p2.x;
         Self {
             formulation: Formulation::Closest,
@@ -189,8 +190,8 @@ impl LocalContact {
             gap: p2.scale.gap.max(p1.scale.gap),
             point_bound: p2.bound.max(p1.bound),
             point: p2.x + weight_on_a * way,
-            normal,
-            normal_by_centres,
+            normal: across.normal(),
+            normal_by_centres: across.by_centres,
             surface: overlapping.then_some(Surface::At(p1.x, p2.x)),
         }
     }
@@ -263,28 +264,52 @@ impl Contact {
     }
 }
 
-/// How far the surface is along a direction in which S grows with this slope: on the quadratic at hand, or from where that
-/// would be.
-#[inline(always)]
-fn way(value: f64, piece: Piece, slope: f64, from_there: impl Fn(f64) -> Option<f64>) -> Option<f64> {
-    let way = surface::root_of_piece(value - 1.0, slope, piece.curvature);
-    if way.abs() <= piece.reach { Some(way) } else { from_there(way) }
+/// The direction from A to B.
+struct Across {
+    /// Along the normal, of any length: what needs no unit vector does not wait for the root.
+    vector: Vector3<f64>,
+    length: f64,
+    /// Whether it had to be taken from the centres because both gradients vanish.
+    by_centres: bool,
 }
 
-/// Unit normal from A to B in the frame of B, from ∇S_A and ∇S_B; and whether it had to be taken from the centres
-/// because both vanish.
-fn normal(pair: &Pair, gradients: &[Vector3<f64>; 2]) -> (Vector3<f64>, bool) {
-    if let (Some(a), Some(b)) = (gradients[0].try_normalize(0.0), gradients[1].try_normalize(0.0)) {
-        let sum = a - b;
-        let square = sum.norm_squared();
-        if square > OPPOSED {
-            return (sum / square.sqrt(), false);
+impl Across {
+    /// From ∇S_A and ∇S_B and their lengths, frame of B.
+    #[inline(always)]
+    fn of(pair: &Pair, gradients: &[Vector3<f64>; 2], steep: [f64; 2]) -> Self {
+        let vector = gradients[0] * (1.0 / steep[0]) - gradients[1] * (1.0 / steep[1]);
+        let square = vector.norm_squared();
+        if square > OPPOSED && square < f64::INFINITY {
+            Self { vector, length: square.sqrt(), by_centres: false }
+        } else {
+            let (vector, by_centres) = normal_of_extremes(pair, gradients);
+            Self { vector, length: 1.0, by_centres }
         }
     }
-    normal_of_extremes(pair, gradients)
+
+    /// At unit length.
+    #[inline(always)]
+    fn normal(&self) -> Vector3<f64> {
+        self.vector / self.length
+    }
+
+    /// How far the surface is where S is this piece, with the gradient at its beginning: on the quadratic at hand, or from
+    /// where that would be.
+    #[inline(always)]
+    fn way(
+        &self,
+        value: f64,
+        piece: Piece,
+        gradient: &Vector3<f64>,
+        from_there: impl Fn(f64) -> Option<f64>,
+    ) -> Option<f64> {
+        let way = self.length * surface::root_of_piece(value - 1.0, gradient.dot(&self.vector), piece.curvature);
+        if way.abs() <= piece.reach { Some(way) } else { from_there(way) }
+    }
 }
 
-/// The same where a gradient vanishes, both point the same way, or a square is no number.
+/// Unit normal where a gradient vanishes, both point the same way, or a square is no number; and whether it had to be taken
+/// from the centres.
 #[cold]
 fn normal_of_extremes(pair: &Pair, gradients: &[Vector3<f64>; 2]) -> (Vector3<f64>, bool) {
     let [outward_a, outward_b] = gradients.map(|g| direction(&g));

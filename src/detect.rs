@@ -104,7 +104,7 @@ pub(crate) fn solved(
     let local = match found {
         Some(local) => local,
         None => {
-            let bound = search.bound(&midway, &here, Target::Midway);
+            let bound = || search.bound(&midway, &here, Target::Midway);
             let pieces = |n: &Vector3<f64>| search.pieces(&midway, &here, n);
             LocalContact::midway(pair, &midway, scale, bound, pieces, overlapping)
                 .ok_or_else(|| DetectError::Failed { conic: "the surface was not found along the normal".into() })?

@@ -135,7 +135,7 @@ impl Expansion {
         body.inset(local, v, self.axes.as_ref())
     }
 
-    /// S_A and S_B along a unit vector of the solver's frame, from the point x on.
+    /// S_A and S_B along a vector of the solver's frame, from the point x on.
     #[inline]
     pub fn pieces(&self, bodies: [&Body; 2], x: &Vector3<f64>, n: &Vector3<f64>) -> [Piece; 2] {
         let (n, moved) = (self.to_axes(n), (x - self.x).norm());
@@ -245,12 +245,12 @@ impl Expansion {
     }
 }
 
-/// A potential along a line.
+/// A potential along a vector.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Piece {
-    /// Its second derivative, 1/length².
+    /// Its second derivative; of a vector without unit, 1/length².
     pub curvature: f64,
-    /// How far it is the same quadratic for sure, either way.
+    /// How far it is the same quadratic for sure, either way, length.
     pub reach: f64,
 }
 

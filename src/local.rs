@@ -65,9 +65,9 @@ impl Local {
         Self { shift, blur, ..*self }
     }
 
-    /// Lower bound of [`Body::rounding`] where S has the given gradient.
-    pub fn least_rounding(&self, gradient: &Vector3<f64>) -> f64 {
-        self.blur * gradient.norm()
+    /// Lower bound of [`Body::rounding`] where the gradient of S is this long.
+    pub fn least_rounding(&self, steep: f64) -> f64 {
+        self.blur * steep
     }
 
     /// Carries over which planes were dropped, from a point whose step was stopped at once, to the same point again:

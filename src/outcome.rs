@@ -20,6 +20,8 @@ pub(crate) struct Outcome {
     pub lambda: f64,
     /// ∇S_A and ∇S_B at the optimum.
     pub gradients: [Vector3<f64>; 2],
+    /// Their lengths.
+    pub steep: [f64; 2],
     /// S_A and S_B at x, which differ by rounding.
     pub values: [f64; 2],
     /// Best estimate of the optimal S.
@@ -46,6 +48,7 @@ impl Outcome {
         x: Vector3::new(f64::NAN, f64::NAN, f64::NAN),
         lambda: 1.0,
         gradients: [Vector3::new(f64::NAN, f64::NAN, f64::NAN); 2],
+        steep: [f64::NAN; 2],
         values: [f64::NAN; 2],
         estimate: f64::NAN,
         lower: f64::NEG_INFINITY,
@@ -88,6 +91,7 @@ impl Outcome {
             x: here.x + step.v,
             lambda,
             gradients: [here.to_solver(&optimum.gradients[0]), here.to_solver(&optimum.gradients[1])],
+            steep,
             values: [s_a, s_b],
             estimate,
             lower: estimate - doubt,
@@ -133,8 +137,8 @@ impl Outcome {
     /// What rounding leaves at the optimum itself, with the least that it can do to the places of the planes.
     #[inline(always)]
     pub fn least_rounding(&self, here: &Expansion, target: Target) -> f64 {
-        let of_a = here.locals[0].least_rounding(&self.gradients[0]);
-        let of_b = here.locals[1].least_rounding(&self.gradients[1]);
+        let of_a = here.locals[0].least_rounding(self.steep[0]);
+        let of_b = here.locals[1].least_rounding(self.steep[1]);
         target.dual_weighted(of_a, of_b, self.lambda)
     }
 

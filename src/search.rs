@@ -41,6 +41,7 @@ pub(crate) struct Closest {
     /// Ratio of weights λ = u/(1−u).
     pub lambda: f64,
     pub gradients: [Vector3<f64>; 2],
+    pub steep: [f64; 2],
     pub scale: Certified,
     /// Bound on the distance to the optimum.
     pub bound: f64,
@@ -126,9 +127,12 @@ impl<'a> Search<'a> {
 
     fn closest(&self, target: Target, outcome: &Outcome, here: &Expansion) -> Option<Closest> {
         let scale = self.certify(outcome, target);
-        let Outcome { x, lambda, gradients, .. } = *outcome;
+        let Outcome { x, lambda, gradients, steep, .. } = *outcome;
         // A scale that cannot be told from 0 belongs to a core.
-        (scale.s > scale.gap).then(|| Closest { x, lambda, gradients, scale, bound: self.bound(outcome, here, target) })
+        (scale.s > scale.gap).then(|| {
+            let bound = self.bound(outcome, here, target);
+            Closest { x, lambda, gradients, steep, scale, bound }
+        })
     }
 
     /// The scale s of an outcome, and the bound on its error.
