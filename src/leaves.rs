@@ -8,7 +8,7 @@ use nalgebra::Vector3;
 use std::ops::Range;
 
 /// Most planes of a group: about as many as one bound costs to evaluate.
-const MOST: usize = 12;
+pub(crate) const MOST: usize = 12;
 
 /// A run of consecutive planes with similar normals.
 #[derive(Clone, Debug)]

@@ -276,6 +276,11 @@ impl Particle {
         })
     }
 
+    /// The normals of all planes, by place.
+    pub(crate) fn normals(&self) -> impl Iterator<Item = Vector3<f64>> {
+        self.rows.iter().map(|[a, b, c, _]| Vector3::new(*a, *b, *c))
+    }
+
     /// The largest n·y − d, and the place of its plane; −∞ when there are no planes.
     #[inline]
     pub(crate) fn farthest_excess(&self, y: &Vector3<f64>) -> (f64, usize) {

@@ -17,7 +17,9 @@
 
 use crate::body::Body;
 use crate::expansion::Start;
+use crate::leaves;
 use crate::line::{self, Merit};
+use crate::number::larger;
 use crate::pair::Pair;
 use crate::target::Target;
 use nalgebra::Vector3;
@@ -70,9 +72,9 @@ fn centre_line(pair: &Pair) -> Vector3<f64> {
 
 /// The minimum of F and what follows from it. `None` where the point to begin at is inside both, or no start is found.
 fn between_polyhedra(bodies: [&Body; 2], from: Vector3<f64>) -> Option<Start> {
-    let envelope = Envelope::of(bodies);
-    let mut x = from;
-    let (mut level, first) = envelope.highest(&x);
+    let mut envelope = Envelope::of(bodies);
+    let (mut x, mut before) = (from, 0.0);
+    let (mut level, first) = envelope.first(&x);
     if !(level > 0.0) {
         // Inside both polyhedra, the line of centres is as good.
         return None;
@@ -81,11 +83,12 @@ fn between_polyhedra(bodies: [&Body; 2], from: Vector3<f64>) -> Option<Start> {
     for _ in 0..MOST_PLANES {
         let y = hull.shortest();
         let rate = y.norm_squared();
-        if hull.count == 4 || rate <= BALANCED * hull.longest() {
+        if hull.count == 4 || rate <= BALANCED * hull.longest {
             return hull.start(x, level);
         }
-        let (way, next) = envelope.next(&x, &y, level, rate);
+        let (way, next) = envelope.next(&x, before, &y, level, rate);
         x -= way * y;
+        before = way;
         let Some(plane) = next else {
             // F = 0: inside both polyhedra.
             return Some(Start { x, lambda: 1.0, near: false });
@@ -103,6 +106,9 @@ struct Envelope<'a> {
     roots: [f64; 2],
     /// Whether planes are so few that looking through all is cheaper than leaving groups out.
     few: bool,
+    /// If so, √w·(n·x − d) of all, and how fast they fell on the way to x.
+    heights: [[f64; leaves::MOST]; 2],
+    falls: [[f64; leaves::MOST]; 2],
 }
 
 /// Body (0, 1) and place of a plane.
@@ -111,7 +117,26 @@ type Which = (usize, usize);
 impl<'a> Envelope<'a> {
     fn of(bodies: [&'a Body<'a>; 2]) -> Self {
         let few = bodies.iter().all(|body| body.particle.leaves.single());
-        Self { bodies, roots: bodies.map(|body| body.plane_weight().sqrt()), few }
+        let roots = bodies.map(|body| body.plane_weight().sqrt());
+        Self { bodies, roots, few, heights: Default::default(), falls: Default::default() }
+    }
+
+    /// F where the search begins, and the plane that it is that of.
+    fn first(&mut self, x: &Vector3<f64>) -> (f64, Which) {
+        if !self.few {
+            return self.highest(x);
+        }
+        let mut highest = (f64::NEG_INFINITY, (0, 0));
+        for (i, (body, root)) in self.bodies.iter().zip(self.roots).enumerate() {
+            let heights = &mut self.heights[i];
+            body.particle.visit_near(&body.local(x), f64::INFINITY, |place, _, excess| {
+                heights[place] = root * excess;
+                if heights[place] > highest.0 {
+                    highest = (heights[place], (i, place));
+                }
+            });
+        }
+        highest
     }
 
     /// F, and the plane that it is that of.
@@ -126,22 +151,26 @@ impl<'a> Envelope<'a> {
     }
 
     /// How far F, now `level`, falls by `rate` a unit of way against y, and which plane takes over there; as far as
-    /// F = 0 if none does.
-    fn next(&self, x: &Vector3<f64>, y: &Vector3<f64>, level: f64, rate: f64) -> (f64, Option<Which>) {
-        if self.few { self.next_of_few(x, y, level, rate) } else { self.next_of_many(x, y, level, rate) }
+    /// F = 0 if none does. x has come from the point before by `way` against the y before.
+    fn next(&mut self, x: &Vector3<f64>, way: f64, y: &Vector3<f64>, level: f64, rate: f64) -> (f64, Option<Which>) {
+        if self.few { self.next_of_few(way, y, level, rate) } else { self.next_of_many(x, y, level, rate) }
     }
 
-    fn next_of_few(&self, x: &Vector3<f64>, y: &Vector3<f64>, level: f64, rate: f64) -> (f64, Option<Which>) {
+    fn next_of_few(&mut self, before: f64, y: &Vector3<f64>, level: f64, rate: f64) -> (f64, Option<Which>) {
         let (mut way, mut next) = (level / rate, None);
         for (i, (body, root)) in self.bodies.iter().zip(self.roots).enumerate() {
-            let (x, y) = (body.local(x), body.turn(y));
-            body.particle.visit_near(&x, f64::INFINITY, |place, n, excess| {
-                let (below, closing) = (level - root * excess, rate - root * n.dot(&y));
+            let y = root * body.turn(y);
+            let known = self.heights[i].iter_mut().zip(&mut self.falls[i]);
+            for (place, (n, (height, fall))) in body.particle.normals().zip(known).enumerate() {
+                // Followed on its way, not looked up anew: a start need not be perfect.
+                *height -= before * *fall;
+                *fall = n.dot(&y);
+                let (below, closing) = (level - *height, rate - *fall);
                 // Planes in force fall as F does.
                 if closing > SLOW * rate && below < way * closing {
                     (way, next) = (below / closing, Some((i, place)));
                 }
-            });
+            }
         }
         (way, next)
     }
@@ -176,21 +205,18 @@ struct Hull {
     /// c_i > 0, Σ c_i = 1.
     shares: [f64; 4],
     count: usize,
+    /// Square of the longest g that was ever in it.
+    longest: f64,
 }
 
 impl Hull {
     fn of(face: Face) -> Self {
-        Self { faces: [face; 4], shares: [1.0, 0.0, 0.0, 0.0], count: 1 }
+        Self { faces: [face; 4], shares: [1.0, 0.0, 0.0, 0.0], count: 1, longest: face.gradient.norm_squared() }
     }
 
     /// y.
     fn shortest(&self) -> Vector3<f64> {
         (1..self.count).fold(self.shares[0] * self.g(0), |sum, i| sum + self.shares[i] * self.g(i))
-    }
-
-    /// Square of the longest g.
-    fn longest(&self) -> f64 {
-        (0..self.count).fold(0.0, |most, i| self.g(i).norm_squared().max(most))
     }
 
     fn g(&self, i: usize) -> &Vector3<f64> {
@@ -199,6 +225,7 @@ impl Hull {
 
     /// One more plane; those that y needs no longer go (Wolfe's algorithm). `None` where rounding decides.
     fn join(&mut self, face: Face) -> Option<()> {
+        self.longest = larger(face.gradient.norm_squared(), self.longest);
         self.faces[self.count] = face;
         self.shares[self.count] = 0.0;
         self.count += 1;

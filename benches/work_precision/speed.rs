@@ -192,7 +192,8 @@ fn call(pair: &Touching, formulation: Formulation) {
 fn warm_call(pair: &Touching, formulation: Formulation) {
     let pair = black_box(pair);
     let mut memory: Memory = pair.memory(formulation);
-    let _ = black_box(&detect(&pair.a, &pair.pose_a, &pair.b, &pair.moved_b, &settings(formulation), Some(&mut memory)));
+    let _ =
+        black_box(&detect(&pair.a, &pair.pose_a, &pair.b, &pair.moved_b, &settings(formulation), Some(&mut memory)));
 }
 
 fn section(pair: &Touching) -> Section {
