@@ -107,17 +107,15 @@ impl Outcome {
 
     /// The λ of a closest point, as seen from midway.
     ///
-    /// Where a single curvature decides along their common curve, as for two spheres or two faces, √S of the held body is
-    /// C/(1 + κμ) at its weight μ beside the other's: S and its rate here tell C and κ, and where it comes to 1.
+    /// Where a single curvature decides along their common curve, as for two spheres or two faces, 1/√S of the held body is
+    /// linear in its weight μ beside the other's: this is Newton's step to where it is 1.
     pub fn towards(&self, target: Target) -> f64 {
         let weights = Target::Midway.weights(self.lambda);
         let (rate_a, rate_b) = Target::Midway.apart(0.0, -self.rate, weights);
         let on_b = target == Target::OnB;
+        // S and dS/d ln μ.
         let (s, rate) = if on_b { (self.values[1], rate_b) } else { (self.values[0], -rate_a) };
-        // −d ln S/d ln μ = 2κμ/(1 + κμ).
-        let fall = -rate / s;
-        let stiff = fall / (2.0 - fall);
-        let change = (s.sqrt() * (1.0 + stiff) - 1.0) / stiff;
+        let change = 1.0 + 2.0 * (1.0 - s.sqrt()) * s / rate;
         // NaN and what is far fail the test.
         if !(change > 1.0 / FAR && change < FAR) {
             self.lambda
