@@ -207,11 +207,15 @@ struct Hull {
     count: usize,
     /// Square of the longest g that was ever in it.
     longest: f64,
+    /// Vectors in the span of the differences g_i − g_last, each with product 1 with its own and 0 with the others.
+    reciprocal: [Vector3<f64>; 3],
 }
 
 impl Hull {
     fn of(face: Face) -> Self {
-        Self { faces: [face; 4], shares: [1.0, 0.0, 0.0, 0.0], count: 1, longest: face.gradient.norm_squared() }
+        let longest = face.gradient.norm_squared();
+        let reciprocal = [Vector3::zeros(); 3];
+        Self { faces: [face; 4], shares: [1.0, 0.0, 0.0, 0.0], count: 1, longest, reciprocal }
     }
 
     /// y.
@@ -261,37 +265,36 @@ impl Hull {
     }
 
     /// Shares, of any sign, of the shortest vector in the affine hull.
-    fn affine(&self) -> [f64; 4] {
+    fn affine(&mut self) -> [f64; 4] {
         let last = self.count - 1;
-        let [first, second, third] = self.reciprocal();
+        self.reciprocal = self.reciprocal();
         let g = self.g(last);
-        let shares = [-g.dot(&first), -g.dot(&second), -g.dot(&third)];
+        let shares = self.reciprocal.map(|r| -g.dot(&r));
         let mut all = [0.0; 4];
         all[..last].copy_from_slice(&shares[..last]);
         all[last] = 1.0 - shares[..last].iter().sum::<f64>();
         all
     }
 
-    /// Vectors in the span of the differences g_i − g_last, each with product 1 with its own and 0 with the others.
     fn reciprocal(&self) -> [Vector3<f64>; 3] {
         let last = self.g(self.count - 1);
         let zero = Vector3::zeros();
         match self.count {
             2 => {
                 let u = self.g(0) - last;
-                [u / u.norm_squared(), zero, zero]
+                [u * (1.0 / u.norm_squared()), zero, zero]
             }
             3 => {
                 let (u, v) = (self.g(0) - last, self.g(1) - last);
                 let across = u.cross(&v);
-                let area = across.norm_squared();
-                [v.cross(&across) / area, across.cross(&u) / area, zero]
+                let per_area = 1.0 / across.norm_squared();
+                [v.cross(&across) * per_area, across.cross(&u) * per_area, zero]
             }
             _ => {
                 let (u, v, w) = (self.g(0) - last, self.g(1) - last, self.g(2) - last);
                 let across = v.cross(&w);
-                let volume = u.dot(&across);
-                [across / volume, w.cross(&u) / volume, u.cross(&v) / volume]
+                let per_volume = 1.0 / u.dot(&across);
+                [across * per_volume, w.cross(&u) * per_volume, u.cross(&v) * per_volume]
             }
         }
     }
@@ -307,14 +310,12 @@ impl Hull {
         if !(alpha > 0.0 && beta > 0.0) {
             return None;
         }
-        let excess = |i: usize| {
-            let side = if self.faces[i].on_a { alpha } else { beta };
-            level * self.shares[i] / ((alpha + beta) * side)
-        };
+        let tau = level / (alpha + beta);
+        let per_share = [tau / beta, tau / alpha];
+        let excess = |i: usize| per_share[usize::from(self.faces[i].on_a)] * self.shares[i];
         let last = self.count - 1;
         let to_last = excess(last);
-        let reciprocal = self.reciprocal();
-        let step = (0..last).fold(Vector3::zeros(), |sum, i| sum + (excess(i) - to_last) * reciprocal[i]);
+        let step = (0..last).fold(Vector3::zeros(), |sum, i| sum + (excess(i) - to_last) * self.reciprocal[i]);
         let (x, lambda) = (x + step, beta / alpha);
         (lambda.is_finite() && x.iter().all(|v| v.is_finite())).then_some(Start { x, lambda, near: true })
     }
