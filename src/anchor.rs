@@ -19,6 +19,9 @@ const MOST_STEPS: u32 = 40;
 const SHORT: f64 = 1e-2;
 const MOST_STALLS: u32 = 2;
 
+/// A step in whose direction a plane is met closer than `v` has digits is taken this far, relative to `v`.
+const GRAIN: f64 = 8.0 * f64::EPSILON;
+
 /// Minima that may not be found at one anchor: another is better then.
 const MOST_FAILED: u32 = 1;
 
@@ -31,9 +34,11 @@ const MOST_TRIALS: u32 = 40;
 /// ln λ stays within ±this; beyond, one body's weight is lost in rounding altogether.
 const FARTHEST: f64 = 92.0;
 
-/// Mismatch, relative to what the regularisation adds, that is not worth many values of λ; and how many in a row may
-/// leave it what it is while the bracket shrinks. Where both cores overlap, faces of k = 0 let the minimiser jump with λ.
+/// Mismatch, relative to what the regularisation adds, that is not worth many values of λ; bracket of ln λ that is narrow; and
+/// how many values in a row may leave the mismatch what it is then. Where both cores overlap, faces of k = 0 let the minimiser
+/// jump with λ; and where forces are but rounding, it depends on the side from which λ comes. Another anchor tells more.
 const IDLE: f64 = 1e-3;
+const NARROW: f64 = 1e-3;
 const MOST_IDLE: u32 = 4;
 
 /// Farthest move of ln λ while only one end of the bracket is known.
@@ -49,6 +54,8 @@ pub(crate) struct Anchor<'a> {
     pub noise: [f64; 2],
     /// Length over which a spring to the anchor outweighs such forces.
     pub reach: f64,
+    /// Most models in all, with those of earlier anchors.
+    pub most: u32,
 }
 
 /// The optimum at an anchor, as far as it was found.
@@ -135,7 +142,8 @@ impl Anchor<'_> {
                 (low, found_low) = (at, true);
             }
             let gained = difference.abs() < 0.5 * least;
-            idle = if found_low && found_high && !gained && difference.abs() <= IDLE * flat { idle + 1 } else { 0 };
+            let pointless = difference.abs() <= IDLE * flat || high - low <= NARROW;
+            idle = if found_low && found_high && !gained && pointless { idle + 1 } else { 0 };
             least = if gained { difference.abs() } else { least };
             let ended = match (found_low, found_high) {
                 _ if idle > MOST_IDLE => true,
@@ -172,6 +180,9 @@ impl Anchor<'_> {
         let (mut steps, mut stalls) = (0, 0);
         let short = SHORT * self.locals[0].blur.max(self.locals[1].blur);
         loop {
+            if *models >= self.most {
+                return None;
+            }
             *models += 1;
             steps += 1;
             let places = [0, 1].map(|i| After::of(self.bodies[i], &self.locals[i], v));
@@ -189,11 +200,15 @@ impl Anchor<'_> {
                 return Some(saddle);
             }
             let share = self.descend(v, &way, (a, b));
-            let next = *v + share * way;
+            let mut next = *v + share * way;
+            let nudged = next == *v && saddle.step.planes == Planes::Met;
+            if nudged {
+                next = *v + (GRAIN * v.norm() / way.norm()).min(1.0) * way;
+            }
             if next == *v || !next.iter().all(|c| c.is_finite()) {
                 return Some(saddle);
             }
-            stalls = if (next - *v).norm() <= short { stalls + 1 } else { 0 };
+            stalls = if nudged || (next - *v).norm() <= short { stalls + 1 } else { 0 };
             *v = next;
         }
     }

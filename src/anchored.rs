@@ -38,8 +38,8 @@ const STIFFENING: f64 = 1e3;
 /// Models that one degree of softness takes when the planes stay what they are, or nearly.
 const EASY: u32 = 2;
 
-/// Most models in all.
-const MOST_MODELS: u32 = 400;
+/// Most models in all. A search that gets anywhere takes fewer than 100.
+pub(crate) const MOST_MODELS: u32 = 200;
 
 /// Relative to the smaller particle, an anchor near enough for the answer to have all its digits.
 const NEAR: f64 = 1e-9;
@@ -53,8 +53,28 @@ const CLOSE: f64 = 1e-3;
 /// Units in the last place of the sum of its planes' forces by which a body's force may be turned aside.
 const NOISE: f64 = 32.0;
 
+/// How the planes are stiffened.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Pace {
+    /// By three steps at once where the last was no work, with forces that grow as the planes do: so it is where bodies
+    /// overlap deeply.
+    Brisk,
+    /// By one step at a time, with forces that stay what they are: so it is where planes act as walls. Springs for forces that
+    /// do not come about would hold the point where it does not belong, and λ with it.
+    Gentle,
+}
+
+/// How to go about it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Effort {
+    pub pace: Pace,
+    /// Most models in all; what is found by then is the answer.
+    pub most: u32,
+}
+
 /// Solves for the goal; the quadratics of the answer are left in `here`.
-pub(crate) fn solve(bodies: [&Body; 2], goal: &Goal, from: &Start, here: &mut Expansion) -> Outcome {
+pub(crate) fn solve(bodies: [&Body; 2], goal: &Goal, from: &Start, effort: Effort, here: &mut Expansion) -> Outcome {
+    let Effort { pace, most } = effort;
     let target = goal.target;
     let (mut found, mut models) = (Outcome::UNKNOWN, 0);
     let (mut x, mut lambda) = (from.x, from.lambda);
@@ -72,9 +92,11 @@ pub(crate) fn solve(bodies: [&Body; 2], goal: &Goal, from: &Start, here: &mut Ex
         let as_given = [0, 1].map(|i| soft[i].plane_weight() == bodies[i].plane_weight());
         let noise = [0, 1].map(|i| {
             let stiffened = soft[i].plane_weight() / weights[i];
-            NOISE * f64::EPSILON * if stiffened > 0.0 { pulls[i] * stiffened } else { 0.0 }
+            let grown = if pace == Pace::Brisk { stiffened } else { 1.0 };
+            NOISE * f64::EPSILON * if stiffened > 0.0 { pulls[i] * grown } else { 0.0 }
         });
-        let anchor = Anchor { bodies: soft, target, x, locals: [0, 1].map(|i| soft[i].locate(&x, 0.0)), noise, reach };
+        let locals = [0, 1].map(|i| soft[i].locate(&x, 0.0));
+        let anchor = Anchor { bodies: soft, target, x, locals, noise, reach, most };
         let enough = if as_given == [true; 2] || anchors > 0 { 0.0 } else { CLOSE };
         let before = models;
         let Some(mut saddle) = anchor.saddle(lambda, enough, &mut models) else { break };
@@ -98,14 +120,11 @@ pub(crate) fn solve(bodies: [&Body; 2], goal: &Goal, from: &Start, here: &mut Ex
             }
         }
         // Where the last stage was no work, the next one may be three at once.
-        let factor = if models - before <= EASY { STIFFENING.powi(3) } else { STIFFENING };
+        let factor = if models - before <= EASY && pace == Pace::Brisk { STIFFENING.powi(3) } else { STIFFENING };
         for i in 0..2 {
             // Walls sink in as little as they are stiff: to a tenth of the rounding, and no less.
             let left = 10.0 * shifts[i] / anchor.locals[i].blur;
             contrasts[i] *= if stiff[i] { 1.0 } else { left.min(factor) };
-        }
-        if models > MOST_MODELS {
-            break;
         }
         (x, lambda) = (x + saddle.step.v, saddle.step.optimum.lambda);
         weights = soft.map(|body| body.plane_weight());

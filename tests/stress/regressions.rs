@@ -4,7 +4,16 @@ use crate::cases::{Case, stream};
 use crate::judge::{Failure, Shared, Trial, judge};
 use crate::line::Line;
 use nalgebra::Vector3;
-use potential_particles::{Particle, Plane, Pose, Settings, detect};
+use potential_particles::{Flags, Formulation, Particle, Plane, Pose, Settings, detect};
+
+/// The pair of this name.
+fn line(name: &str) -> Line {
+    let text = include_str!("../data/regressions.jsonl");
+    text.lines()
+        .map(|line| serde_json::from_str::<Line>(line).expect("a pair a line"))
+        .find(|line| line.what == name)
+        .unwrap_or_else(|| panic!("no pair is called {name}"))
+}
 
 /// Judges the pair of this name; of failures only those asked for count.
 fn judged(name: &str, kinds: &[Failure]) {
@@ -14,12 +23,7 @@ fn judged(name: &str, kinds: &[Failure]) {
 
 /// The same with the very motions and steps of pair `index` of a run.
 fn judged_by(name: &str, kinds: &[Failure], seed: u64, index: u64) {
-    let text = include_str!("../data/regressions.jsonl");
-    let line = text
-        .lines()
-        .map(|line| serde_json::from_str::<Line>(line).expect("a pair a line"))
-        .find(|line| line.what == name)
-        .unwrap_or_else(|| panic!("no pair is called {name}"));
+    let line = line(name);
     let shapes = line.shapes().expect("two particles");
     let [at_a, at_b] = line.places();
     let case = Case { shapes: &shapes, at_a, at_b };
@@ -27,6 +31,19 @@ fn judged_by(name: &str, kinds: &[Failure], seed: u64, index: u64) {
     let verdict = judge(&case, &shared, Trial::WHOLE, detect, &mut stream(seed, 4, index));
     let failures: Vec<_> = verdict.failures.iter().filter(|(failure, _)| kinds.contains(failure)).collect();
     assert!(failures.is_empty(), "{name}: {failures:?}");
+}
+
+/// Solves midway and closest of the pair of this name: without the cone program, to a gap of 10⁻⁹.
+fn solved_without_the_cone_program(name: &str) {
+    let line = line(name);
+    let shapes = line.shapes().expect("two particles");
+    let [at_a, at_b] = line.places().map(|place| place.pose());
+    for formulation in [Formulation::Midway, Formulation::Closest] {
+        let settings = Settings { formulation, ..Settings::default() };
+        let contact = detect(&shapes.a, &at_a, &shapes.b, &at_b, &settings, None).expect("an answer");
+        assert!(!contact.flags.contains(Flags::FELL_BACK), "{name}, {formulation:?}: {contact:?}");
+        assert!(contact.gap < 1e-9, "{name}, {formulation:?}: {contact:?}");
+    }
 }
 
 use Failure::*;
@@ -237,6 +254,21 @@ fn a_point_far_from_both_centres_rounds_by_its_distance() {
 #[test]
 fn a_search_that_the_factorisation_stalls_ends_on_the_curve() {
     judged("a_search_that_the_factorisation_stalls_ends_on_the_curve", &[BoundOfPoint]);
+}
+
+/// P1 lies in the core of a sharp body, at planes that push with 10⁻²⁴ of its size: the safe solver stopped in front of one, by
+/// less than its step has digits, and took that for the end.
+#[test]
+fn a_wall_closer_than_the_step_has_digits_is_met() {
+    solved_without_the_cone_program("a_wall_closer_than_the_step_has_digits_is_met");
+}
+
+/// Both bodies deep inside each other, and P1 in the core of a sharp body: springs for forces 10⁹ times what they came to held
+/// the point where it did not belong.
+#[test]
+fn walls_do_not_push_harder_when_they_are_stiffened() {
+    solved_without_the_cone_program("walls_do_not_push_harder_when_they_are_stiffened");
+    solved_without_the_cone_program("nor_do_those_of_a_closest_point");
 }
 
 /// A plane a billion away changes nothing about two cubes but the accuracy of their surface points, which is taken
