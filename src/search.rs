@@ -27,9 +27,6 @@ const WORTH: f64 = 0.5;
 /// Relative difference of two λ that are the same but for rounding, ample.
 const SAME: f64 = 1e-3;
 
-/// Relative gap above which an answer of the safe solver tells next to nothing, and another way to it is tried.
-const TELLING: f64 = 1e-2;
-
 /// The safe solver as it is asked first.
 const BRISK: Effort = Effort { pace: Pace::Brisk, most: anchored::MOST_MODELS };
 
@@ -206,7 +203,8 @@ impl<'a> Search<'a> {
             if outcome.ending == Ending::Stuck {
                 let cold = start::on_centre_line(self.pair, &self.body_a, &self.body_b);
                 outcome = self.safe(target, &cold, BRISK, here);
-                if outcome.ending == Ending::Stuck || outcome.gap() > TELLING * outcome.upper.max(1.0) {
+                // No answer, or one that tells nothing.
+                if outcome.ending == Ending::Stuck || outcome.gap() > outcome.upper.max(1.0) {
                     let mut there = *here;
                     let second = self.safe(target, &cold, Effort { pace: Pace::Gentle, ..BRISK }, &mut there);
                     keep_better((&mut outcome, here), (second, there));
