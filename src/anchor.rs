@@ -360,9 +360,11 @@ impl Anchor<'_> {
     /// The given S after a step, with planes as near as rounding may have them if wanted.
     fn highest(&self, body: &Body, i: usize, v: &Vector3<f64>, rounded: bool) -> f64 {
         let after = After::of(body, &self.locals[i], v);
-        let blur = if rounded { self.locals[i].blur } else { 0.0 };
+        let local = &self.locals[i];
+        let most = if rounded { local.blur } else { 0.0 };
         let mut squares = 0.0;
-        body.particle.visit_near(&after.y, after.early + blur, |_, n, excess| {
+        body.particle.visit_near(&after.y, after.early + most, |_, n, excess| {
+            let blur = if rounded { body.blur_of(&n, local) } else { 0.0 };
             let depth = (depth(&n, excess, &after.e) + blur).max(0.0);
             squares += depth * depth;
         });

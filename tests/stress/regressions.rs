@@ -271,6 +271,14 @@ fn walls_do_not_push_harder_when_they_are_stiffened() {
     solved_without_the_cone_program("nor_do_those_of_a_closest_point");
 }
 
+/// Two planes in one place, the normal of one 43 times as long: a point that follows the first by its rounding leaves the other
+/// where it is, if that is said to be known as badly.
+#[test]
+fn the_gap_knows_the_length_of_each_normal() {
+    judged("the_gap_knows_the_length_of_each_normal", &[LooseBound]);
+    judged("the_same_by_the_safe_solver", &[LooseBound]);
+}
+
 /// A plane a billion away changes nothing about two cubes but the accuracy of their surface points, which is taken
 /// relative to the furthest plane. Found by fuzzing.
 #[test]
