@@ -31,15 +31,18 @@ impl Ceiling<'_> {
     /// The least upper bound of a few steps from `v` on; none lies below the `floor`.
     pub fn lowest(&self, mut v: Vector3<f64>, mut lambda: f64, floor: f64) -> f64 {
         let soft = expansion::softest(self.bodies[0], self.bodies[1]);
-        let mut lowest = f64::INFINITY;
+        let (mut lowest, mut counts) = (f64::INFINITY, [0; 2]);
         for _ in 0..MOST_STEPS {
             let [q_a, q_b] = [0, 1].map(|i| self.quadratic(i, &v));
             let height = self.feasible(&v, [q_a.value, q_b.value]);
             let worth = lowest - height > WORTH * (height - floor);
             lowest = lowest.min(height);
-            if !worth {
+            // A step that meets another plane ends higher, and the next one knows of it.
+            let met = [q_a.count, q_b.count];
+            if !worth && met == counts {
                 break;
             }
+            counts = met;
             let Some(optimum) = Model::new(&q_a, &q_b, soft, self.target).solve(lambda, 0.0) else { break };
             v += self.here.to_solver(&optimum.step);
             lambda = optimum.lambda;

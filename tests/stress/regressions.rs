@@ -279,6 +279,12 @@ fn the_gap_knows_the_length_of_each_normal() {
     judged("the_same_by_the_safe_solver", &[LooseBound]);
 }
 
+/// At a corner of a sharp body: the point followed two planes along their edge into a third, and the bound ended there, at 0.25.
+#[test]
+fn a_point_that_follows_may_meet_another_plane() {
+    judged("a_point_that_follows_may_meet_another_plane", &[LooseBound]);
+}
+
 /// A plane a billion away changes nothing about two cubes but the accuracy of their surface points, which is taken
 /// relative to the furthest plane. Found by fuzzing.
 #[test]
