@@ -294,7 +294,7 @@ impl Across {
     }
 
     /// How far the surface is where S is this piece, with the gradient at its beginning: on the quadratic at hand, or from
-    /// where that would be.
+    /// where that would be. A piece of no reach says nothing, not even that a point where it is 1 lies on the surface.
     #[inline(always)]
     fn way(
         &self,
@@ -304,7 +304,7 @@ impl Across {
         from_there: impl Fn(f64) -> Option<f64>,
     ) -> Option<f64> {
         let way = self.length * surface::root_of_piece(value - 1.0, gradient.dot(&self.vector), piece.curvature);
-        if way.abs() <= piece.reach { Some(way) } else { from_there(way) }
+        if way.abs() < piece.reach { Some(way) } else { from_there(way) }
     }
 }
 

@@ -285,6 +285,14 @@ fn a_point_that_follows_may_meet_another_plane() {
     judged("a_point_that_follows_may_meet_another_plane", &[LooseBound]);
 }
 
+/// After a long last step S_B is 1 to all digits by its quadratic, and 1.0003 where the point came to lie: that was told to be on
+/// the surface without a look.
+#[test]
+fn a_surface_point_is_looked_for_from_where_the_point_is() {
+    judged("a_surface_point_is_looked_for_from_where_the_point_is", &[OffSurface]);
+    judged("that_of_a_box", &[OffSurface]);
+}
+
 /// A plane a billion away changes nothing about two cubes but the accuracy of their surface points, which is taken
 /// relative to the furthest plane. Found by fuzzing.
 #[test]
