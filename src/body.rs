@@ -29,7 +29,7 @@ pub(crate) struct Body<'a> {
 
 /// Units in the last place per length that a distance to a plane may lose; measured against 40-digit
 /// solutions, whose worst error stays ten times below.
-const ROUNDING: f64 = 4.0;
+pub(crate) const ROUNDING: f64 = 4.0;
 
 impl<'a> Body<'a> {
     /// Both bodies of a pair; k below `least_sphericity` is raised to it (see `Settings`).

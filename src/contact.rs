@@ -152,10 +152,13 @@ impl LocalContact {
         let surface = if overlapping {
             let pieces = pieces(&across.vector);
             let to_a = across.way(outcome.values[0], pieces[0], &gradients[0], |guess| {
-                surface::distance_near(pair.a, &pair.in_a(x), &pair.rotation.tr_mul(&normal), guess)
+                let (from, outwards) = (pair.in_a(x), pair.rotation.tr_mul(&normal));
+                surface::distance_near(pair.a, &from, &outwards, guess)
+                    .or_else(|| surface::distance_beside(pair.a, &from, &outwards, x.norm() + 2.0 * pair.centre.norm()))
             })?;
             let to_b = across.way(outcome.values[1], pieces[1], &-gradients[1], |guess| {
                 surface::distance_near(pair.b, x, &-normal, guess)
+                    .or_else(|| surface::distance_beside(pair.b, x, &-normal, x.norm()))
             })?;
             // Where s < 1 by less than the rounding of the point, the surfaces seem to have passed: they meet half way.
             let passed = smaller(to_a + to_b, 0.0);

@@ -1,5 +1,6 @@
 //! Where a ray from inside meets the surface: exact, since S is piecewise quadratic on a line.
 
+use crate::body::ROUNDING;
 use crate::particle::Particle;
 use crate::potential;
 use nalgebra::Vector3;
@@ -87,6 +88,35 @@ pub(crate) fn distance_near(
         tau = next;
     }
     Some(tau)
+}
+
+/// The same where rounding has put the start beside the body, and the ray misses it: from a point of the body nearby.
+///
+/// A sharp body far from the origin may be thinner than the rounding of a point, which is made from these `lengths`. Each step
+/// goes to the nearest point of a half-space that holds the body, {the tangent of s ≤ 1}: by that it comes no further from any
+/// point of the body. One of them, the start as it was meant, is within the rounding of it; so the point that is found is
+/// within twice that, or there is none.
+#[cold]
+pub(crate) fn distance_beside(
+    particle: &Particle,
+    from: &Vector3<f64>,
+    direction: &Vector3<f64>,
+    lengths: f64,
+) -> Option<f64> {
+    let farthest = 2.0 * ROUNDING * f64::EPSILON * lengths;
+    let mut point = *from;
+    for _ in 0..MOST_STEPS {
+        let here = potential::tangent(particle, &point);
+        let s = here.value.sqrt();
+        if s <= 1.0 {
+            break;
+        }
+        point -= 2.0 * s * (s - 1.0) / here.gradient.norm_squared() * here.gradient;
+        if !((point - from).norm() <= farthest) {
+            return None;
+        }
+    }
+    distance(particle, &point, direction)
 }
 
 /// A distance at which one plane alone has brought S to 1, near the least; at most `farthest`.

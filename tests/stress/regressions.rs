@@ -293,6 +293,13 @@ fn a_surface_point_is_looked_for_from_where_the_point_is() {
     judged("that_of_a_box", &[OffSurface]);
 }
 
+/// r is 1e-12, 360,000 from the centre of the other: the rounding of the point is 4e-11, and the ray from there missed the body.
+#[test]
+fn a_body_thinner_than_the_rounding_of_its_place_has_a_surface() {
+    judged("a_body_thinner_than_the_rounding_of_its_place_has_a_surface", &[Error, OffSurface, Malformed]);
+    judged("that_with_a_point_in_its_core", &[Error, OffSurface, Malformed]);
+}
+
 /// A plane a billion away changes nothing about two cubes but the accuracy of their surface points, which is taken
 /// relative to the furthest plane. Found by fuzzing.
 #[test]
