@@ -12,7 +12,7 @@ const MOST_STEPS: usize = 100;
 /// Distance τ ≥ 0 with S(from + τ·direction) = 1, for a local point and a local unit direction.
 ///
 /// `from` should be inside (S ≤ 1); from a point outside by rounding the answer is a small negative
-/// number, from further outside `None`. Also `None` when the ray never leaves (not a particle) or
+/// number, from further outside `None`. Also `None` when the ray never leaves (not a particle) or misses it, or
 /// something is not finite.
 pub fn distance(particle: &Particle, from: &Vector3<f64>, direction: &Vector3<f64>) -> Option<f64> {
     distance_near(particle, from, direction, 0.0)
@@ -83,7 +83,9 @@ pub(crate) fn distance_near(
             return None;
         }
         if !(inside < next && next < outside) {
-            return Some(next);
+            // Where S grows both ways and nothing was inside, the ray misses the body.
+            let missed = inside == f64::NEG_INFINITY && line.value > 0.0 && line.slope <= 0.0;
+            return if missed { None } else { Some(next) };
         }
         tau = next;
     }

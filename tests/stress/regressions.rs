@@ -300,6 +300,12 @@ fn a_body_thinner_than_the_rounding_of_its_place_has_a_surface() {
     judged("that_with_a_point_in_its_core", &[Error, OffSurface, Malformed]);
 }
 
+/// The same, and instead of nothing the ray gave a point 40 away where S is 1e25: the overlap was told to be 0.
+#[test]
+fn a_ray_that_misses_a_sharp_body_is_told_from_one_that_meets_it() {
+    judged("a_ray_that_misses_a_sharp_body_is_told_from_one_that_meets_it", &[OffSurface, Malformed]);
+}
+
 /// A plane a billion away changes nothing about two cubes but the accuracy of their surface points, which is taken
 /// relative to the furthest plane. Found by fuzzing.
 #[test]
