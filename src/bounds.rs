@@ -21,6 +21,8 @@ pub(crate) struct Bounds {
     pub least_offset: f64,
     /// max |n_i|, likewise.
     pub longest_normal: f64,
+    /// min |n_i|.
+    pub shortest_normal: f64,
     /// How far beyond d_i the particle can reach along n_i: r/√(1−k); infinite for k = 1.
     pub face_reach: f64,
     /// {S ≤ s²} lies in a ball of radius·(1 + growth·(s − 1)), s ≥ 1.
@@ -65,6 +67,7 @@ impl Bounds {
         let farthest = corners.iter().map(|c| c.norm()).fold(0.0, f64::max);
         let radius = farthest.min(sphere_reach) * MARGIN;
         let offsets = || (0..particle.plane_count()).map(|i| particle.offset(i));
+        let lengths = || (0..particle.plane_count()).map(|i| particle.normal(i).norm());
         let s_origin = crate::potential::value(particle, &Vector3::zeros()).sqrt();
         // Where the faces alone enclose the particle, {S ≤ s²} lies between those at d_i + s·r/√(1−k): for small r that grows
         // far less than convexity of s allows. With a sphere they do if no corner lies on the cube.
@@ -78,7 +81,8 @@ impl Bounds {
             merged: SLACK * farthest * MARGIN,
             longest_offset: offsets().map(f64::abs).fold(0.0, f64::max),
             least_offset: offsets().fold(f64::INFINITY, f64::min),
-            longest_normal: (0..particle.plane_count()).map(|i| particle.normal(i).norm()).fold(0.0, f64::max),
+            longest_normal: lengths().fold(0.0, f64::max),
+            shortest_normal: lengths().fold(f64::INFINITY, f64::min),
             face_reach,
             growth: by_faces.min(1.0 / (1.0 - s_origin)),
         })

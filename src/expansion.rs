@@ -221,12 +221,19 @@ impl Expansion {
         let rounding = self.rounding_of_slope(step, (a, b));
         let of_a = step.verdicts[0].doubtful_slope(bodies[0], a, rounding);
         let of_b = step.verdicts[1].doubtful_slope(bodies[1], b, rounding);
-        let slope = step.optimum.slope(target).norm() + of_a + of_b + TURN * f64::EPSILON * force;
-        let by_curvature = 0.5 * slope * slope / (a * soft.0 + b * soft.1);
+        let turned = TURN * f64::EPSILON * force;
+        let slope = step.optimum.slope(target).norm() + of_a + of_b + turned;
+        let held = a * soft.0 + b * soft.1;
+        let by_curvature = 0.5 * slope * slope / held;
         let wide = by_curvature > negligible;
         let doubt =
             if wide { by_curvature.min(slope * farthest(bodies, &(self.x + step.v), upper)) } else { by_curvature };
-        (doubt, of_a + of_b == 0.0)
+        // A plane that pushes less than the forces may be turned by holds the point where it may not belong, if the spheres alone
+        // would let it go further than it is rounded.
+        let loose = turned > held * self.locals[0].shift
+            && (step.verdicts[0].pushes_less(bodies[0], a, turned)
+                || step.verdicts[1].pushes_less(bodies[1], b, turned));
+        (doubt, of_a + of_b == 0.0 && !loose)
     }
 
     /// Bound on the rounding of the sums in the slope after a step, at these weights.

@@ -152,6 +152,13 @@ impl Verdict {
         Self { planes: Planes::Exact, drop: None, doubtful: 0.0, least, pull, near }
     }
 
+    /// Whether some plane may push less than a force, for a body of this weight. Without planes none does: ∞ times 0 is no
+    /// number.
+    #[inline(always)]
+    pub fn pushes_less(&self, body: &Body, weight: f64, force: f64) -> bool {
+        weight * body.plane_curvature() * body.particle.bounds.shortest_normal * self.least < force
+    }
+
     /// Slope that planes of doubtful sign may leave, for a body of this weight: a force that is found to rounding only may
     /// be a pull.
     pub fn doubtful_slope(&self, body: &Body, weight: f64, rounding: f64) -> f64 {

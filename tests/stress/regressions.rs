@@ -306,6 +306,13 @@ fn a_ray_that_misses_a_sharp_body_is_told_from_one_that_meets_it() {
     judged("a_ray_that_misses_a_sharp_body_is_told_from_one_that_meets_it", &[OffSurface, Malformed]);
 }
 
+/// Face on face with k of 1e-10: a plane at the edge held the point by a force of 1e-8, and the rounding of those that balance was
+/// 4e-8. Swapped, the point was 25 away, and both were told to be right to 1e-11.
+#[test]
+fn a_plane_that_pushes_less_than_forces_are_turned_bounds_no_point() {
+    judged("a_plane_that_pushes_less_than_forces_are_turned_bounds_no_point", &[Swap, Warm, BoundOfPoint]);
+}
+
 /// A plane a billion away changes nothing about two cubes but the accuracy of their surface points, which is taken
 /// relative to the furthest plane. Found by fuzzing.
 #[test]
