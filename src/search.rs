@@ -311,10 +311,10 @@ impl<'a> Search<'a> {
     }
 }
 
-/// Keeps the answer with the smaller gap.
+/// Keeps the answer with the smaller gap; a proof of separation is enough where that is.
 fn keep_better((outcome, here): (&mut Outcome, &mut Expansion), (second, there): (Outcome, Expansion)) {
     let proved = matches!(second.ending, Ending::Converged | Ending::RoundingLimited);
-    if proved && second.gap() < outcome.gap() {
+    if second.ending == Ending::Separated || (proved && second.gap() < outcome.gap()) {
         (*outcome, *here) = (second, there);
     }
 }

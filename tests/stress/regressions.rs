@@ -313,6 +313,13 @@ fn a_plane_that_pushes_less_than_forces_are_turned_bounds_no_point() {
     judged("a_plane_that_pushes_less_than_forces_are_turned_bounds_no_point", &[Swap, Warm, BoundOfPoint]);
 }
 
+/// With default settings the first answer is loose; the next one is a proof of separation, and was passed over as it is no
+/// solution: overlapping was told, with a gap of 130.
+#[test]
+fn a_separation_that_is_proved_while_sharpening_is_the_answer() {
+    judged("a_separation_that_is_proved_while_sharpening_is_the_answer", &[Reject, Error, Warm]);
+}
+
 /// A plane a billion away changes nothing about two cubes but the accuracy of their surface points, which is taken
 /// relative to the furthest plane. Found by fuzzing.
 #[test]
