@@ -2,6 +2,7 @@
 //! `anchored`).
 
 use crate::body::Body;
+use crate::ceiling::Ceiling;
 use crate::expansion::{self, Expansion, Step};
 use crate::local::{Local, Place};
 use crate::model::{Model, Optimum};
@@ -354,7 +355,14 @@ impl Anchor<'_> {
         };
         let values = [0, 1].map(|i| self.highest(given[i], i, &(step.v + back), shifts[i] > 0.0));
         let upper = self.target.merit(values[0], values[1], lambda);
-        Outcome { upper: outcome.upper.max(upper), ..outcome }
+        if upper <= outcome.upper {
+            return outcome;
+        }
+        // One move may not be all that it takes to follow the planes.
+        let ceiling = Ceiling { bodies: given, target: self.target, here: expansion };
+        let lowest = ceiling.lowest(step.v + back, lambda, outcome.estimate);
+        let lowest = lowest + given[0].rounding_of_value(lowest);
+        Outcome { upper: outcome.upper.max(upper.min(lowest)), ..outcome }
     }
 
     /// The given S after a step, with planes as near as rounding may have them if wanted.
