@@ -57,6 +57,8 @@ pub(crate) struct Anchor<'a> {
     pub reach: f64,
     /// Most models in all, with those of earlier anchors.
     pub most: u32,
+    /// Whether to go on where a plane is met closer than a step has digits.
+    pub through: bool,
 }
 
 /// The optimum at an anchor, as far as it was found.
@@ -202,7 +204,7 @@ impl Anchor<'_> {
             }
             let share = self.descend(v, &way, (a, b));
             let mut next = *v + share * way;
-            let nudged = next == *v && saddle.step.planes == Planes::Met;
+            let nudged = self.through && next == *v && saddle.step.planes == Planes::Met;
             if nudged {
                 next = *v + (GRAIN * v.norm() / way.norm()).min(1.0) * way;
             }

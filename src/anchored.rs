@@ -70,11 +70,13 @@ pub(crate) struct Effort {
     pub pace: Pace,
     /// Most models in all; what is found by then is the answer.
     pub most: u32,
+    /// Whether to go on where a plane is met closer than a step has digits.
+    pub through: bool,
 }
 
 /// Solves for the goal; the quadratics of the answer are left in `here`.
 pub(crate) fn solve(bodies: [&Body; 2], goal: &Goal, from: &Start, effort: Effort, here: &mut Expansion) -> Outcome {
-    let Effort { pace, most } = effort;
+    let Effort { pace, most, through } = effort;
     let target = goal.target;
     let (mut found, mut models) = (Outcome::UNKNOWN, 0);
     let (mut x, mut lambda) = (from.x, from.lambda);
@@ -96,7 +98,7 @@ pub(crate) fn solve(bodies: [&Body; 2], goal: &Goal, from: &Start, effort: Effor
             NOISE * f64::EPSILON * if stiffened > 0.0 { pulls[i] * grown } else { 0.0 }
         });
         let locals = [0, 1].map(|i| soft[i].locate(&x, 0.0));
-        let anchor = Anchor { bodies: soft, target, x, locals, noise, reach, most };
+        let anchor = Anchor { bodies: soft, target, x, locals, noise, reach, most, through };
         let enough = if as_given == [true; 2] || anchors > 0 { 0.0 } else { CLOSE };
         let before = models;
         let Some(mut saddle) = anchor.saddle(lambda, enough, &mut models) else { break };

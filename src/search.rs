@@ -28,7 +28,7 @@ const WORTH: f64 = 0.5;
 const SAME: f64 = 1e-3;
 
 /// The safe solver as it is asked first.
-const BRISK: Effort = Effort { pace: Pace::Brisk, most: anchored::MOST_MODELS };
+const BRISK: Effort = Effort { pace: Pace::Brisk, most: anchored::MOST_MODELS, through: true };
 
 /// Models that the safe solver may take for a second proof, from the answer and from the line of centres. Of 300,000 pairs and
 /// the slowest of a million, what helped took up to 58 and 6; the others went in circles.
@@ -243,7 +243,7 @@ impl<'a> Search<'a> {
             let second = self.fast(&Goal { careful: true, ..self.goal(target) }, &from, &mut there);
             keep_better((outcome, here), (second, there));
             if self.is_loose(outcome, here, target) {
-                let second = self.safe(target, &from, Effort { most, ..BRISK }, &mut there);
+                let second = self.safe(target, &from, Effort { most, through: false, ..BRISK }, &mut there);
                 found_again =
                     (second.lambda - from.lambda).abs() <= SAME * from.lambda && second.ending != Ending::Stuck;
                 keep_better((outcome, here), (second, there));
