@@ -21,8 +21,9 @@ pub(crate) struct Bounds {
     pub least_offset: f64,
     /// max |n_i|, likewise.
     pub longest_normal: f64,
-    /// min |n_i|.
-    pub shortest_normal: f64,
+    /// min |n_i|, of all planes and of those that are on anywhere within [`NEARBY`] times the radius.
+    shortest_normal: f64,
+    shortest_nearby: f64,
     /// How far beyond d_i the particle can reach along n_i: r/√(1−k); infinite for k = 1.
     pub face_reach: f64,
     /// {S ≤ s²} lies in a ball of radius·(1 + growth·(s − 1)), s ≥ 1.
@@ -41,6 +42,9 @@ const LARGEST: f64 = 1e150;
 
 /// Half the edge of a first guess, in distances of the farthest face: the corners of few particles lie beyond it.
 const WIDE: f64 = 8.0;
+
+/// Distance in radii within which planes count as nearby.
+const NEARBY: f64 = 4.0;
 
 /// Bounds are enlarged by this factor, which covers [`SLACK`] and the linear programs' tolerance.
 const MARGIN: f64 = 1.0 + 1e-5;
@@ -83,9 +87,19 @@ impl Bounds {
             least_offset: offsets().fold(f64::INFINITY, f64::min),
             longest_normal: lengths().fold(0.0, f64::max),
             shortest_normal: lengths().fold(f64::INFINITY, f64::min),
+            shortest_nearby: lengths()
+                .zip(offsets())
+                .filter(|(length, offset)| *offset <= length * NEARBY * radius * MARGIN)
+                .fold(f64::INFINITY, |least, (length, _)| least.min(length)),
             face_reach,
             growth: by_faces.min(1.0 / (1.0 - s_origin)),
         })
+    }
+
+    /// Least |n| of a plane that is on at a point: what is written short, and never reached, is left out.
+    pub fn shortest_normal_at(&self, y: &Vector3<f64>) -> f64 {
+        let far = NEARBY * self.radius;
+        if y.norm_squared() <= far * far { self.shortest_nearby } else { self.shortest_normal }
     }
 
     /// Longest |d| of a plane that can be reached within this distance of the origin: others are never summed, so that

@@ -203,7 +203,8 @@ impl Expansion {
     ///
     /// With a curvature of at least that of the spheres, a slope that is left can hide its square over twice as much. Where
     /// the spheres are all but flat that is more than it can hide between here and the optimum, which lies in
-    /// {S ≤ `upper`}. Less than what is `negligible` is not looked at again. Also tells whether no sign is in doubt.
+    /// {S ≤ `upper`}. Less than what is `negligible` is not looked at again. Also tells whether no sign is in doubt, and whether
+    /// the planes hold the point where it is.
     ///
     /// Forces of the length `force` balance to the rounding of their directions only: two faces that look parallel are tilted
     /// by as much, and far off on them S is less than it is here.
@@ -216,7 +217,7 @@ impl Expansion {
         upper: f64,
         force: f64,
         negligible: f64,
-    ) -> (f64, bool) {
+    ) -> (f64, bool, bool) {
         let ((a, b), soft) = (target.weights(step.optimum.lambda), softest(bodies[0], bodies[1]));
         let rounding = self.rounding_of_slope(step, (a, b));
         let of_a = step.verdicts[0].doubtful_slope(bodies[0], a, rounding);
@@ -231,9 +232,9 @@ impl Expansion {
         // A plane that pushes less than the forces may be turned by holds the point where it may not belong, if the spheres alone
         // would let it go further than it is rounded.
         let loose = turned > held * self.locals[0].shift
-            && (step.verdicts[0].pushes_less(bodies[0], a, turned)
-                || step.verdicts[1].pushes_less(bodies[1], b, turned));
-        (doubt, of_a + of_b == 0.0 && !loose)
+            && (step.verdicts[0].pushes_less(bodies[0], &self.locals[0], a, turned)
+                || step.verdicts[1].pushes_less(bodies[1], &self.locals[1], b, turned));
+        (doubt, of_a + of_b == 0.0, !loose)
     }
 
     /// Bound on the rounding of the sums in the slope after a step, at these weights.

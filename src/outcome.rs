@@ -83,8 +83,8 @@ impl Outcome {
         let rounding = swayed(target, optimum, first, [second_a, second_b], careful)
             .unwrap_or_else(|| decisive(here, bodies, target, *step, first, [second_a, second_b], sums));
         let force = target.dual_weighted(steep[0], steep[1], lambda);
-        let (mut doubt, sure) = here.doubt(bodies, target, step, upper, force, rounding);
-        if careful && sure && doubt > rounding {
+        let (mut doubt, decided, held) = here.doubt(bodies, target, step, upper, force, rounding);
+        if careful && decided && doubt > rounding {
             doubt = doubt.min(here.remnant(bodies, target, step, upper, force));
         }
         Self {
@@ -99,7 +99,7 @@ impl Outcome {
             rounding,
             iterations: 0,
             ending: Ending::Stuck,
-            sure,
+            sure: decided && held,
             rate: optimum.rate(target),
             response: optimum.response(target, soft),
         }

@@ -343,4 +343,20 @@ mod tests {
         }
         assert!(overlapping > 500, "{overlapping}");
     }
+
+    /// The line enters the bulge of a face where it touches it, and comes out as far on the other side of the middle.
+    #[test]
+    fn a_line_through_a_point_that_rounding_left_outside_has_its_length() {
+        let lines = [[1.0, 0.0, 0.5], [0.0, 1.0, 0.5], [-1.0, 0.0, 0.5], [0.0, -1.0, 0.5]].map(Line::from);
+        let square = Particle::new(&lines, 0.05, 0.3, 0.8).unwrap();
+        let pose = Pose::new([3.0, -1.0], 0.4).unwrap();
+        let (middle, up) = (Vector2::new(0.3, 0.0), Vector2::y());
+        let height = square.surface_distance(&middle, &up).unwrap();
+        for off in -20..=20 {
+            let branch = pose.rotation * (middle + height * (1.0 + f64::from(off) * f64::EPSILON) * up);
+            let section = Section { branch_a: branch, branch_b: branch, normal: pose.rotation * up };
+            let length = section.length(&square, &pose, &square, &pose).unwrap();
+            assert!((length - 0.6).abs() < 1e-12, "{off}: {length}");
+        }
+    }
 }

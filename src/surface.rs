@@ -11,8 +11,8 @@ const MOST_STEPS: usize = 100;
 
 /// Distance τ ≥ 0 with S(from + τ·direction) = 1, for a local point and a local unit direction.
 ///
-/// `from` should be inside (S ≤ 1); from a point outside by rounding the answer is a small negative
-/// number, from further outside `None`. Also `None` when the ray never leaves (not a particle) or misses it, or
+/// `from` should be inside (S ≤ 1). From a point outside by rounding the answer is a small negative number if the ray leads
+/// away, and where it comes out again if it leads in. `None` when the ray never leaves (not a particle) or misses it, or
 /// something is not finite.
 pub fn distance(particle: &Particle, from: &Vector3<f64>, direction: &Vector3<f64>) -> Option<f64> {
     distance_near(particle, from, direction, 0.0)
@@ -36,6 +36,7 @@ pub(crate) fn distance_near(
     // outside, which, S being convex, never jumps.
     let (mut inside, mut outside) = (f64::NEG_INFINITY, f64::INFINITY);
     let mut newton_from_outside = f64::NAN;
+    let (mut nearest, mut least) = (0.0, f64::INFINITY);
     // No surface point is further off than this.
     let start = from.norm();
     let farthest = start + particle.bounding_radius();
@@ -56,7 +57,12 @@ pub(crate) fn distance_near(
         if line.slope > 0.0 && (step.abs() <= rounding || outside_and_close) {
             return Some(newton);
         }
-        if line.value < 0.0 {
+        if line.value < least {
+            (nearest, least) = (tau, line.value);
+        }
+        // Where a ray enters, the way out lies ahead.
+        let enters = line.slope < 0.0 && outside == f64::INFINITY;
+        if line.value < 0.0 || enters {
             inside = tau;
         } else {
             outside = tau;
@@ -79,13 +85,14 @@ pub(crate) fn distance_near(
         if !(inside < next && next < outside) && outside < f64::INFINITY {
             next = newton_from_outside;
         }
-        if !next.is_finite() {
-            return None;
-        }
-        if !(inside < next && next < outside) {
-            // Where S grows both ways and nothing was inside, the ray misses the body.
-            let missed = inside == f64::NEG_INFINITY && line.value > 0.0 && line.slope <= 0.0;
-            return if missed { None } else { Some(next) };
+        if !(inside < next && next < outside && next.is_finite()) {
+            if least <= 0.0 {
+                return next.is_finite().then_some(next);
+            }
+            // From outside Newton's steps end at the way out, if there is one: else the ray touches the body to the rounding of S
+            // near 1, or misses it.
+            let touching = 4.0 * rounding * (particle.plane_weight.sqrt() + particle.sphere_weight.sqrt());
+            return (least <= touching).then_some(nearest);
         }
         tau = next;
     }
@@ -149,4 +156,43 @@ fn beyond_a_plane(particle: &Particle, from: &Vector3<f64>, direction: &Vector3<
 pub(crate) fn root_of_piece(v: f64, s: f64, c: f64) -> f64 {
     let discriminant = s * s - 2.0 * c * v;
     if discriminant >= 0.0 { -2.0 * v / (s + discriminant.sqrt()) } else { -v / s }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::particle::Plane;
+
+    fn cube() -> Particle {
+        let sides = (0..3).flat_map(|axis| [1.0, -1.0].map(|sign| Vector3::ith(axis, sign)));
+        let planes: Vec<Plane> = sides.map(|normal| Plane { normal, offset: 0.45 }).collect();
+        Particle::new(&planes, 0.05, 0.3, 0.8).unwrap()
+    }
+
+    #[test]
+    fn a_ray_that_enters_from_a_point_on_the_surface_comes_out_on_the_other_side() {
+        let (cube, up) = (cube(), Vector3::y());
+        for sideways in [0.0, 0.1, -0.17, 0.3] {
+            let foot = Vector3::new(sideways, 0.0, 0.02);
+            let half = distance(&cube, &foot, &up).unwrap();
+            // From inside and from outside by rounding alike.
+            for off in -20..=20 {
+                let from = foot + half * (1.0 + f64::from(off) * f64::EPSILON) * up;
+                let (out, through) = (distance(&cube, &from, &up).unwrap(), distance(&cube, &from, &-up).unwrap());
+                assert!(out.abs() < 1e-14 && (through - 2.0 * half).abs() < 1e-14, "{off}: {out:e}, {through:e}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_ray_that_misses_is_told_from_one_that_touches() {
+        let (cube, across) = (cube(), Vector3::new(1.0, 0.0, 1.0).normalize());
+        let height = distance(&cube, &Vector3::zeros(), &Vector3::y()).unwrap();
+        for off in [1e-12, 1e-9, 1e-3] {
+            let beside = Vector3::new(0.0, height * (1.0 + off), 0.0);
+            assert_eq!(distance(&cube, &beside, &across), None, "{off:e} above");
+        }
+        let on = Vector3::new(0.0, height * (1.0 + f64::EPSILON), 0.0);
+        assert!(distance(&cube, &on, &across).is_some());
+    }
 }

@@ -155,8 +155,8 @@ impl Verdict {
     /// Whether some plane may push less than a force, for a body of this weight. Without planes none does: ∞ times 0 is no
     /// number.
     #[inline(always)]
-    pub fn pushes_less(&self, body: &Body, weight: f64, force: f64) -> bool {
-        weight * body.plane_curvature() * body.particle.bounds.shortest_normal * self.least < force
+    pub fn pushes_less(&self, body: &Body, local: &Local, weight: f64, force: f64) -> bool {
+        weight * body.plane_curvature() * body.particle.bounds.shortest_normal_at(&local.y) * self.least < force
     }
 
     /// Slope that planes of doubtful sign may leave, for a body of this weight: a force that is found to rounding only may
