@@ -66,7 +66,7 @@
 // Formulation "closest" (paper eqs 3, 9, 34-43): minimise s_A with s_B <= 1, and the swap.
 #define PP_CLOSEST 1
 
-// The library's own solver; falls back to a safer factorisation, then to `PP_CONIC`.
+// The library's own solver; falls back on a safe way of its own, then on `PP_CONIC`.
 #define PP_FAST 0
 
 // The paper's second-order cone programs, solved by clarabel: slow, independent, the judge.
@@ -92,7 +92,7 @@
 // The remembered point of `pp_memory` was used as the start.
 #define PP_FLAG_WARM 8
 
-// The fast solver gave up on its plain factorisation and used the safer one.
+// The fast solver had no answer; its safe way, which always ends, found it.
 #define PP_FLAG_SAFER 16
 
 // The fast solver failed and the conic back end answered in its place.

@@ -20,7 +20,7 @@ const MOST_STEPS: u32 = 40;
 const SHORT: f64 = 1e-2;
 const MOST_STALLS: u32 = 2;
 
-/// A step in whose direction a plane is met closer than `v` has digits is taken this far, relative to `v`.
+/// A step so short that `v` does not change, though a plane is met on it, is made this long, relative to `v`.
 const GRAIN: f64 = 8.0 * f64::EPSILON;
 
 /// Minima that may not be found at one anchor: another is better then.

@@ -38,7 +38,7 @@ const STIFFENING: f64 = 1e3;
 /// Models that one degree of softness takes when the planes stay what they are, or nearly.
 const EASY: u32 = 2;
 
-/// Most models in all. A search that gets anywhere takes fewer than 100.
+/// Most models in all. A search that gets anywhere takes about 100 or fewer.
 pub(crate) const MOST_MODELS: u32 = 200;
 
 /// Relative to the smaller particle, an anchor near enough for the answer to have all its digits.

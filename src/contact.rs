@@ -33,7 +33,7 @@ impl Flags {
     pub const NORMAL_BY_CENTRES: Self = Self(4);
     /// Started from memory.
     pub const WARM: Self = Self(8);
-    /// The fast solver needed its safer factorisation after the plain one had failed.
+    /// The fast solver had no answer; its safe way, which always ends, found it.
     pub const SAFER: Self = Self(16);
     /// The fast solver failed; the conic back end answered.
     pub const FELL_BACK: Self = Self(32);

@@ -311,7 +311,8 @@ impl<'a> Search<'a> {
     }
 }
 
-/// Keeps the answer with the smaller gap; a proof of separation is enough where that is.
+/// Keeps the answer with the smaller gap. A proof of separation comes only where the goal asks for one, and then is the answer
+/// whatever its gap.
 fn keep_better((outcome, here): (&mut Outcome, &mut Expansion), (second, there): (Outcome, Expansion)) {
     let proved = matches!(second.ending, Ending::Converged | Ending::RoundingLimited);
     if second.ending == Ending::Separated || (proved && second.gap() < outcome.gap()) {

@@ -19,7 +19,7 @@ const BLOCK: usize = 1000;
 #[derive(Clone, Copy, Default, Serialize)]
 pub struct Falls {
     pub calls: usize,
-    /// Needed the safer factorisation.
+    /// Needed the safe way.
     pub safer: usize,
     /// Answered by the conic back end.
     pub conic: usize,

@@ -85,7 +85,7 @@ pub const PATHS: [&str; 8] = [
     "separated, proved on the way",
     "solved cold",
     "solved warm",
-    "solved by the safer factorisation",
+    "solved by the safe solver",
     "fell back to the cone program",
 ];
 
@@ -102,7 +102,7 @@ pub enum Doubt {
     Enclosure,
     /// Two answers to the same question use up most of their bounds.
     Disagreement,
-    /// Solved by the safer factorisation or the cone program.
+    /// Solved by the safe solver or the cone program.
     Path,
     /// Something failed already.
     Failed,

@@ -5,7 +5,7 @@ pub const PP_MIDWAY: u32 = 0;
 /// Formulation "closest" (paper eqs 3, 9, 34-43): minimise s_A with s_B <= 1, and the swap.
 pub const PP_CLOSEST: u32 = 1;
 
-/// The library's own solver; falls back to a safer factorisation, then to `PP_CONIC`.
+/// The library's own solver; falls back on a safe way of its own, then on `PP_CONIC`.
 pub const PP_FAST: u32 = 0;
 /// The paper's second-order cone programs, solved by clarabel: slow, independent, the judge.
 pub const PP_CONIC: u32 = 1;
@@ -25,7 +25,7 @@ pub const PP_FLAG_REJECTED: u32 = 2;
 pub const PP_FLAG_NORMAL_BY_CENTRES: u32 = 4;
 /// The remembered point of `pp_memory` was used as the start.
 pub const PP_FLAG_WARM: u32 = 8;
-/// The fast solver gave up on its plain factorisation and used the safer one.
+/// The fast solver had no answer; its safe way, which always ends, found it.
 pub const PP_FLAG_SAFER: u32 = 16;
 /// The fast solver failed and the conic back end answered in its place.
 pub const PP_FLAG_FELL_BACK: u32 = 32;
