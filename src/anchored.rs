@@ -28,7 +28,6 @@ use crate::body::Body;
 use crate::expansion::{self, Expansion, Start};
 use crate::outcome::{Ending, Outcome};
 use crate::spine::Goal;
-use crate::target::Target;
 use crate::verdict::Planes;
 
 /// First ratio of plane to sphere curvature, and its growth.
@@ -81,7 +80,7 @@ pub(crate) fn solve(bodies: [&Body; 2], goal: &Goal, from: &Start, effort: Effor
     let (mut found, mut models) = (Outcome::UNKNOWN, 0);
     let (mut x, mut lambda) = (from.x, from.lambda);
     // The body that is held at S = 1 has its planes as deep as they can be.
-    let held = [target == Target::OnA, target == Target::OnB];
+    let held = [0, 1].map(|i| target.held().is_some_and(|(held, _)| held == i));
     let mut contrasts = held.map(|held| if held { f64::INFINITY } else { FIRST_CONTRAST });
     let reach = expansion::smallest(bodies);
     // Sums of the forces of the planes, and the weights that they had.

@@ -29,7 +29,12 @@ pub(crate) struct Body<'a> {
 
 /// Units in the last place per length that a distance to a plane may lose; measured against 40-digit
 /// solutions, whose worst error stays ten times below.
-pub(crate) const ROUNDING: f64 = 4.0;
+const ROUNDING: f64 = 4.0;
+
+/// Bound on the rounding of a point that is made from these lengths.
+pub(crate) fn shift(lengths: f64) -> f64 {
+    ROUNDING * f64::EPSILON * lengths
+}
 
 impl<'a> Body<'a> {
     /// Both bodies of a pair; k below `least_sphericity` is raised to it (see `Settings`).
@@ -84,7 +89,7 @@ impl<'a> Body<'a> {
     pub fn locate(&self, x: &Vector3<f64>, early: f64) -> Local {
         let bounds = &self.particle.bounds;
         let lengths = x.norm() + self.twice_centre;
-        let shift = ROUNDING * f64::EPSILON * lengths;
+        let shift = shift(lengths);
         let blur = bounds.longest_normal * shift + ROUNDING * f64::EPSILON * bounds.offset_within(lengths + early);
         Local::new(self.local(x), shift, blur, larger(early, blur))
     }
@@ -166,7 +171,7 @@ impl<'a> Body<'a> {
     /// The shift and the blur at the end of a step of this length.
     #[inline]
     fn after(&self, local: &Local, step: f64) -> (f64, f64) {
-        let further = ROUNDING * f64::EPSILON * step;
+        let further = shift(step);
         (local.shift + further, local.blur + self.particle.bounds.longest_normal * further)
     }
 

@@ -1,5 +1,6 @@
 //! The contact: point, normal and overlap from a solution.
 
+use crate::body;
 use crate::certificate::Certified;
 use crate::expansion::Piece;
 use crate::number::{larger, smaller};
@@ -153,12 +154,13 @@ impl LocalContact {
             let pieces = pieces(&across.vector);
             let to_a = across.way(outcome.values[0], pieces[0], &gradients[0], |guess| {
                 let (from, outwards) = (pair.in_a(x), pair.rotation.tr_mul(&normal));
-                surface::distance_near(pair.a, &from, &outwards, guess)
-                    .or_else(|| surface::distance_beside(pair.a, &from, &outwards, x.norm() + 2.0 * pair.centre.norm()))
+                surface::distance_near(pair.a, &from, &outwards, guess).or_else(|| {
+                    surface::distance_beside(pair.a, &from, &outwards, body::shift(x.norm() + 2.0 * pair.centre.norm()))
+                })
             })?;
             let to_b = across.way(outcome.values[1], pieces[1], &-gradients[1], |guess| {
                 surface::distance_near(pair.b, x, &-normal, guess)
-                    .or_else(|| surface::distance_beside(pair.b, x, &-normal, x.norm()))
+                    .or_else(|| surface::distance_beside(pair.b, x, &-normal, body::shift(x.norm())))
             })?;
             // Where s < 1 by less than the rounding of the point, the surfaces seem to have passed: they meet half way.
             let passed = smaller(to_a + to_b, 0.0);

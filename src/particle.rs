@@ -276,6 +276,14 @@ impl Particle {
         })
     }
 
+    /// A cube for tests.
+    #[cfg(test)]
+    pub(crate) fn cube(offset: f64, r: f64, k: f64, shadow_radius: f64) -> Self {
+        let sides = (0..3).flat_map(|axis| [1.0, -1.0].map(|sign| Vector3::ith(axis, sign)));
+        let planes: Vec<Plane> = sides.map(|normal| Plane { normal, offset }).collect();
+        Self::new(&planes, r, k, shadow_radius).unwrap()
+    }
+
     /// The normals of all planes, by place.
     pub(crate) fn normals(&self) -> impl Iterator<Item = Vector3<f64>> {
         self.rows.iter().map(|[a, b, c, _]| Vector3::new(*a, *b, *c))

@@ -119,13 +119,10 @@ fn beyond_a_face(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::particle::Plane;
     use crate::{Kind, Memory, Settings, detect};
 
     fn cube() -> Particle {
-        let sides = (0..3).flat_map(|axis| [1.0, -1.0].map(|sign| Vector3::ith(axis, sign)));
-        let planes: Vec<Plane> = sides.map(|normal| Plane { normal, offset: 0.4 }).collect();
-        Particle::new(&planes, 0.1, 0.02, 0.9).unwrap()
+        Particle::cube(0.4, 0.1, 0.02, 0.9)
     }
 
     /// Numbers in (−1, 1) that look like chance.

@@ -73,7 +73,7 @@ fn centre_line(pair: &Pair) -> Vector3<f64> {
 /// The minimum of F and what follows from it. `None` where the point to begin at is inside both, or no start is found.
 fn between_polyhedra(bodies: [&Body; 2], from: Vector3<f64>) -> Option<Start> {
     let mut envelope = Envelope::of(bodies);
-    let (mut x, mut before) = (from, 0.0);
+    let mut x = from;
     let (mut level, first) = envelope.first(&x);
     if !(level > 0.0) {
         // Inside both polyhedra, the line of centres is as good.
@@ -86,9 +86,8 @@ fn between_polyhedra(bodies: [&Body; 2], from: Vector3<f64>) -> Option<Start> {
         if hull.count == 4 || rate <= BALANCED * hull.longest {
             return hull.start(x, level);
         }
-        let (way, next) = envelope.next(&x, before, &y, level, rate);
+        let (way, next) = envelope.next(&x, &y, level, rate);
         x -= way * y;
-        before = way;
         let Some(plane) = next else {
             // F = 0: inside both polyhedra.
             return Some(Start { x, lambda: 1.0, near: false });
@@ -106,9 +105,10 @@ struct Envelope<'a> {
     roots: [f64; 2],
     /// Whether planes are so few that looking through all is cheaper than leaving groups out.
     few: bool,
-    /// If so, √w·(n·x − d) of all, and how fast they fell on the way to x.
+    /// If so, √w·(n·x − d) of all at the last x but one, how fast they fell from there, and how far it was to the last.
     heights: [[f64; leaves::MOST]; 2],
     falls: [[f64; leaves::MOST]; 2],
+    way: f64,
 }
 
 /// Body (0, 1) and place of a plane.
@@ -118,7 +118,7 @@ impl<'a> Envelope<'a> {
     fn of(bodies: [&'a Body<'a>; 2]) -> Self {
         let few = bodies.iter().all(|body| body.particle.leaves.single());
         let roots = bodies.map(|body| body.plane_weight().sqrt());
-        Self { bodies, roots, few, heights: Default::default(), falls: Default::default() }
+        Self { bodies, roots, few, heights: Default::default(), falls: Default::default(), way: 0.0 }
     }
 
     /// F where the search begins, and the plane that it is that of.
@@ -151,19 +151,19 @@ impl<'a> Envelope<'a> {
     }
 
     /// How far F, now `level`, falls by `rate` a unit of way against y, and which plane takes over there; as far as
-    /// F = 0 if none does. x has come from the point before by `way` against the y before.
-    fn next(&mut self, x: &Vector3<f64>, way: f64, y: &Vector3<f64>, level: f64, rate: f64) -> (f64, Option<Which>) {
-        if self.few { self.next_of_few(way, y, level, rate) } else { self.next_of_many(x, y, level, rate) }
+    /// F = 0 if none does. x has come all the way that the last call gave.
+    fn next(&mut self, x: &Vector3<f64>, y: &Vector3<f64>, level: f64, rate: f64) -> (f64, Option<Which>) {
+        if self.few { self.next_of_few(y, level, rate) } else { self.next_of_many(x, y, level, rate) }
     }
 
-    fn next_of_few(&mut self, before: f64, y: &Vector3<f64>, level: f64, rate: f64) -> (f64, Option<Which>) {
+    fn next_of_few(&mut self, y: &Vector3<f64>, level: f64, rate: f64) -> (f64, Option<Which>) {
         let (mut way, mut next) = (level / rate, None);
         for (i, (body, root)) in self.bodies.iter().zip(self.roots).enumerate() {
             let y = root * body.turn(y);
             let known = self.heights[i].iter_mut().zip(&mut self.falls[i]);
             for (place, (n, (height, fall))) in body.particle.normals().zip(known).enumerate() {
                 // Followed on its way, not looked up anew: a start need not be perfect.
-                *height -= before * *fall;
+                *height -= self.way * *fall;
                 *fall = n.dot(&y);
                 let (below, closing) = (level - *height, rate - *fall);
                 // Planes in force fall as F does.
@@ -172,6 +172,7 @@ impl<'a> Envelope<'a> {
                 }
             }
         }
+        self.way = way;
         (way, next)
     }
 
@@ -267,7 +268,7 @@ impl Hull {
     /// Shares, of any sign, of the shortest vector in the affine hull.
     fn affine(&mut self) -> [f64; 4] {
         let last = self.count - 1;
-        self.reciprocal = self.reciprocal();
+        self.reciprocal = self.reciprocal_to_last();
         let g = self.g(last);
         let shares = self.reciprocal.map(|r| -g.dot(&r));
         let mut all = [0.0; 4];
@@ -276,7 +277,7 @@ impl Hull {
         all
     }
 
-    fn reciprocal(&self) -> [Vector3<f64>; 3] {
+    fn reciprocal_to_last(&self) -> [Vector3<f64>; 3] {
         let last = self.g(self.count - 1);
         let zero = Vector3::zeros();
         match self.count {

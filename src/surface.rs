@@ -1,6 +1,5 @@
 //! Where a ray from inside meets the surface: exact, since S is piecewise quadratic on a line.
 
-use crate::body::ROUNDING;
 use crate::particle::Particle;
 use crate::potential;
 use nalgebra::Vector3;
@@ -101,7 +100,7 @@ pub(crate) fn distance_near(
 
 /// The same where rounding has put the start beside the body, and the ray misses it: from a point of the body nearby.
 ///
-/// A sharp body far from the origin may be thinner than the rounding of a point, which is made from these `lengths`. Each step
+/// A sharp body far from the origin may be thinner than the rounding of a point, which moves it by at most `shift`. Each step
 /// goes to the nearest point of a half-space that holds the body, {the tangent of s ≤ 1}: by that it comes no further from any
 /// point of the body. One of them, the start as it was meant, is within the rounding of it; so the point that is found is
 /// within twice that, or there is none.
@@ -110,9 +109,8 @@ pub(crate) fn distance_beside(
     particle: &Particle,
     from: &Vector3<f64>,
     direction: &Vector3<f64>,
-    lengths: f64,
+    shift: f64,
 ) -> Option<f64> {
-    let farthest = 2.0 * ROUNDING * f64::EPSILON * lengths;
     let mut point = *from;
     for _ in 0..MOST_STEPS {
         let here = potential::tangent(particle, &point);
@@ -121,7 +119,7 @@ pub(crate) fn distance_beside(
             break;
         }
         point -= 2.0 * s * (s - 1.0) / here.gradient.norm_squared() * here.gradient;
-        if !((point - from).norm() <= farthest) {
+        if !((point - from).norm() <= 2.0 * shift) {
             return None;
         }
     }
@@ -161,12 +159,9 @@ pub(crate) fn root_of_piece(v: f64, s: f64, c: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::particle::Plane;
 
     fn cube() -> Particle {
-        let sides = (0..3).flat_map(|axis| [1.0, -1.0].map(|sign| Vector3::ith(axis, sign)));
-        let planes: Vec<Plane> = sides.map(|normal| Plane { normal, offset: 0.45 }).collect();
-        Particle::new(&planes, 0.05, 0.3, 0.8).unwrap()
+        Particle::cube(0.45, 0.05, 0.3, 0.8)
     }
 
     #[test]
