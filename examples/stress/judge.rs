@@ -312,7 +312,7 @@ fn all(
     }
     // Whatever the answer of midway looks like, so that the times of closest are those of any pair.
     if trial.settle {
-        closest(verdict, &scene, &contact, &mut clock);
+        closest(verdict, &scene, &contact, &mut clock, random);
     }
     if trial.conic && a.plane_count() + b.plane_count() <= CONIC_PLANES {
         by_cone_program(verdict, &scene, &contact);

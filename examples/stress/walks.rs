@@ -7,7 +7,7 @@ use crate::random::Random;
 use crate::tally::{Found, Tally};
 use indicatif::ProgressBar;
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
-use potential_particles::{Contact, Kind, Memory, Pose, Settings, detect};
+use potential_particles::{Contact, Formulation, Kind, Memory, Pose, Settings, detect};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
@@ -45,12 +45,12 @@ pub fn one(seed: u64, walk: u64, tally: &mut Tally) {
     let shapes = Shapes::of(seed, index);
     let case = Case::of(&shapes, seed, index);
     let mut random = stream(seed, 5, walk);
-    let (mut full, mut quick) = (Memory::default(), Memory::default());
+    let mut memories = [Memory::default(); 3];
     let mut at_b = case.at_b;
     let small = shapes.a.bounding_radius().min(shapes.b.bounding_radius());
     let meet = shapes.a.bounding_radius() + shapes.b.bounding_radius();
     for step in 0..STEPS {
-        let judged = catch_unwind(AssertUnwindSafe(|| compare(&case, &at_b, &mut full, &mut quick)));
+        let judged = catch_unwind(AssertUnwindSafe(|| compare(&case, &at_b, &mut memories)));
         let wrong = judged.unwrap_or_else(|_| Some((Failure::Panic, "panicked".into())));
         tally.walk_steps += 1;
         if let Some((failure, detail)) = wrong {
@@ -77,34 +77,54 @@ fn walked(at_a: &Place, at_b: &Place, small: f64, meet: f64, random: &mut Random
     Place { position: position.into(), orientation: [q.w, q.i, q.j, q.k].map(|c| c / length) }
 }
 
-fn compare(case: &Case, at_b: &Place, full: &mut Memory, quick: &mut Memory) -> Option<(Failure, String)> {
+/// From memory, full, with default settings and by closest, as without.
+fn compare(case: &Case, at_b: &Place, memories: &mut [Memory; 3]) -> Option<(Failure, String)> {
     let (a, b) = (&case.shapes.a, &case.shapes.b);
     let (pose_a, pose_b): (Pose, Pose) = (case.at_a.pose(), at_b.pose());
     let answer = |settings: &Settings, memory: Option<&mut Memory>| {
         detect(a, &pose_a, b, &pose_b, settings, memory).map_err(|error| error.to_string())
     };
-    let mut answers = || -> Result<(Contact, Contact, Contact), String> {
-        Ok((answer(&FULL, None)?, answer(&FULL, Some(full))?, answer(&Settings::default(), Some(quick))?))
+    let [full, quick, closest] = memories;
+    let mut answers = || -> Result<_, String> {
+        let by_closest = [answer(&CLOSEST, None)?, answer(&CLOSEST, Some(closest))?];
+        Ok((answer(&FULL, None)?, answer(&FULL, Some(full))?, answer(&Settings::default(), Some(quick))?, by_closest))
     };
-    let (cold, warm, quick) = match answers() {
+    let (cold, warm, quick, by_closest) = match answers() {
         Ok(answers) => answers,
         Err(error) => return Some((Failure::Error, error)),
     };
-    let both = cold.gap + warm.gap;
-    if !((cold.s - warm.s).abs() <= both) {
-        return Some((Failure::Warm, format!("s={:e} cold, {:e} warm, gaps {both:e}", cold.s, warm.s)));
-    }
     let length = (pose_a.position - pose_b.position).norm() + a.bounding_radius() + b.bounding_radius();
-    let off = (cold.branch_b - warm.branch_b).norm();
-    let allowed = cold.point_bound + warm.point_bound + 8.0 * f64::EPSILON * length;
     let flat = a.sphericity().min(b.sphericity()) < 1e-12;
-    if !flat && !(off <= allowed) {
-        return Some((Failure::Warm, format!("points {off:e} apart, bounds {allowed:e}")));
+    let same = |cold: &Contact, warm: &Contact| {
+        let both = cold.gap + warm.gap;
+        if !((cold.s - warm.s).abs() <= both) {
+            return Some((Failure::Warm, format!("s={:e} cold, {:e} warm, gaps {both:e}", cold.s, warm.s)));
+        }
+        let off = (cold.branch_b - warm.branch_b).norm();
+        let allowed = cold.point_bound + warm.point_bound + 8.0 * f64::EPSILON * length;
+        let apart = !flat && !(off <= allowed);
+        apart.then(|| (Failure::Warm, format!("{:?} {off:e} apart, bounds {allowed:e}", cold.formulation)))
+    };
+    let wrong = same(&cold, &warm);
+    if wrong.is_some() {
+        return wrong;
+    }
+    // Whether closest is slack may be left open by its gaps.
+    let [cold_closest, warm_closest] = &by_closest;
+    if cold_closest.formulation == warm_closest.formulation {
+        let wrong = same(cold_closest, warm_closest);
+        if wrong.is_some() {
+            return wrong;
+        }
     }
     let decided = (cold.s - 1.0).abs() > cold.gap;
-    if decided && quick.kind != cold.kind {
-        return Some((Failure::Warm, format!("quick {:?} {:?}, cold s={:e}", quick.kind, quick.flags, cold.s)));
+    for other in [&quick, cold_closest, warm_closest] {
+        if decided && other.kind != cold.kind {
+            return Some((Failure::Warm, format!("{:?} {:?}, cold s={:e}", other.kind, other.flags, cold.s)));
+        }
     }
-    let malformed = warm.kind == Kind::Overlapping && !(warm.overlap >= 0.0);
-    malformed.then(|| (Failure::Malformed, format!("overlap {:e}", warm.overlap)))
+    let malformed = [&warm, warm_closest].into_iter().find(|c| c.kind == Kind::Overlapping && !(c.overlap >= 0.0));
+    malformed.map(|contact| (Failure::Malformed, format!("overlap {:e}", contact.overlap)))
 }
+
+const CLOSEST: Settings = Settings { formulation: Formulation::Closest, ..FULL };

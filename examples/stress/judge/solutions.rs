@@ -136,7 +136,7 @@ pub(super) fn same(verdict: &mut Verdict, failure: Failure, one: &Contact, other
     verdict.doubt(much, Doubt::Disagreement);
 }
 
-pub(super) fn closest(verdict: &mut Verdict, scene: &Scene, midway: &Contact, clock: &mut Clock) {
+pub(super) fn closest(verdict: &mut Verdict, scene: &Scene, midway: &Contact, clock: &mut Clock, random: &mut Random) {
     let settings = |weight_on_a| Settings { formulation: Formulation::Closest, weight_on_a, ..FULL };
     let answer = clock.time(Call::Closest, || scene.detect(&scene.at_b, &settings(0.0), None));
     let (on_b, on_a) = match (answer, scene.detect(&scene.at_b, &settings(1.0), None)) {
@@ -147,6 +147,7 @@ pub(super) fn closest(verdict: &mut Verdict, scene: &Scene, midway: &Contact, cl
         }
     };
     verdict.paths.push((Call::Closest, path(&on_b)));
+    closest_again(verdict, scene, [(&on_a, settings(1.0)), (&on_b, settings(0.0))], random);
     verdict.check(on_b.kind == midway.kind, Failure::WrongSide, || {
         format!("closest {:?}, midway {:?}", on_b.kind, midway.kind)
     });
@@ -181,6 +182,35 @@ pub(super) fn closest(verdict: &mut Verdict, scene: &Scene, midway: &Contact, cl
             verdict.check(distance <= contact.point_bound + truth.doubt, Failure::BoundOfPoint, || {
                 format!("{wanted:?}: {distance:e} off, bound {:e}", contact.point_bound)
             });
+        }
+    }
+}
+
+/// Closest from what it remembers of a pose a step away.
+fn closest_again(verdict: &mut Verdict, scene: &Scene, cold: [(&Contact, Settings); 2], random: &mut Random) {
+    let small = scene.a.bounding_radius().min(scene.b.bounding_radius());
+    let step = small * 10f64.powf(-6.0 + 5.0 * random.uniform());
+    let mut memory = Memory::default();
+    if let Err(error) = scene.detect(&scene.moved(step * random.direction()), &cold[0].1, Some(&mut memory)) {
+        verdict.fail(Failure::Error, format!("closest, a step of {step:e}: {error}"));
+        return;
+    }
+    for (cold, settings) in cold {
+        match scene.detect(&scene.at_b, &settings, Some(&mut memory.clone())) {
+            Ok(warm) if warm.formulation == cold.formulation => {
+                same(verdict, Failure::Warm, cold, &warm, scene);
+                let (both, off) = (cold.gap + warm.gap, (cold.s_b - warm.s_b).abs());
+                // Slack, midway has one s only.
+                let right = off <= both || cold.formulation == Formulation::Midway;
+                verdict.check(right, Failure::Warm, || format!("s_b {off:e} apart, gaps {both:e}"));
+            }
+            // Whether a scale can be told from 0 depends on its gap.
+            Ok(warm) => {
+                let found = if warm.formulation == Formulation::Closest { &warm } else { cold };
+                let right = found.s.min(found.s_b) <= warm.gap + cold.gap;
+                verdict.check(right, Failure::Warm, || format!("slack {:?}, {:?} from memory", cold.flags, warm.flags));
+            }
+            Err(error) => verdict.fail(Failure::Error, format!("closest, warm: {error}")),
         }
     }
 }
