@@ -3,9 +3,10 @@
 
 use crate::body::Body;
 use crate::ceiling::Ceiling;
+use crate::curve::Optimum;
 use crate::expansion::{self, Expansion, Step};
 use crate::local::{Local, Place};
-use crate::model::{Model, Optimum};
+use crate::model::Model;
 use crate::outcome::Outcome;
 use crate::particle::Particle;
 use crate::target::Target;

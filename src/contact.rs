@@ -184,7 +184,7 @@ impl LocalContact {
 
     /// Closest: overlap distance |P1 − P2|, contact point their weighted mean, normal from the gradients
     /// of A at P1 and of B at P2.
-    pub fn closest(pair: &Pair, [p1, p2]: [&Closest; 2], weight_on_a: f64, overlapping: bool) -> Self {
+    pub fn closest(pair: &Pair, [p1, p2]: &[Closest; 2], weight_on_a: f64, overlapping: bool) -> Self {
         let across = Across::of(pair, &[p1.gradients[0], p2.gradients[1]], [p1.steep[0], p2.steep[1]]);
         let way = p1.x - p2.x;
         Self {

@@ -8,11 +8,10 @@ use crate::pair::Pair;
 use crate::particle::Particle;
 use crate::pose::Pose;
 use crate::reject::{self, Apart};
-use crate::search::Search;
+use crate::search::{Closest, Search};
 use crate::settings::{BackEnd, Formulation, Settings, SettingsError};
 use crate::target::Target;
 use nalgebra::Vector3;
-use std::ops::ControlFlow;
 use thiserror::Error;
 
 /// Why there is no answer.
@@ -50,13 +49,12 @@ pub fn detect(
     memory: Option<&mut Memory>,
 ) -> Result<Contact, DetectError> {
     settings.validate()?;
-    match begin((a, pose_a), (b, pose_b), settings, memory.as_deref()) {
-        ControlFlow::Break(Apart { by, distance }) => {
-            let flags = by.with(Flags::REJECTED);
-            Ok(Contact { flags, distance, ..Contact::separated(settings.formulation, 1.0) })
-        }
-        ControlFlow::Continue(pair) => solved(&pair, pose_b, settings, memory),
-    }
+    let last = memory.as_deref().and_then(|memory| memory.last);
+    let rejected = |Apart { by, distance }: Apart| {
+        let flags = by.with(Flags::REJECTED);
+        Ok(Contact { flags, distance, ..Contact::separated(settings.formulation, 1.0) })
+    };
+    begin((a, pose_a), (b, pose_b), settings, last, rejected, |pair| solved(pair, pose_b, settings, memory))
 }
 
 /// The contact of a pair that no cheap proof holds apart. In a frame of its own: it is large, and most pairs of a scene
@@ -69,7 +67,8 @@ pub(crate) fn solved(
     memory: Option<&mut Memory>,
 ) -> Result<Contact, DetectError> {
     let mut search = Search::new(pair, settings);
-    let start = match memory.as_deref().and_then(|memory| memory.last) {
+    let last = memory.as_deref().and_then(|memory| memory.last);
+    let start = match last {
         Some(last) => {
             if settings.back_end == BackEnd::Fast {
                 search.flags.insert(Flags::WARM);
@@ -79,7 +78,19 @@ pub(crate) fn solved(
         None => search.cold(),
     };
     let mut here = search.expansion(&start, Target::Midway);
-    let midway = search.midway(&start, &mut here)?;
+    if settings.formulation == Formulation::Closest
+        && last.is_some_and(|last| last.overlapping)
+        && let Some(points) = search.overlapping_still(start.lambda, &here)
+    {
+        remember(memory, midway_between(&points));
+        let local = LocalContact::closest(pair, &points, settings.weight_on_a, true);
+        return Ok(local.placed(pair, pose_b, search.call()));
+    }
+    // Written so that the outcome need not be copied.
+    let midway = match search.at_once(Target::Midway, start.lambda, &here) {
+        Some(outcome) => outcome,
+        None => search.climb(Target::Midway, &start, last.is_some(), &mut here)?,
+    };
     let scale = search.certify(&midway, Target::Midway);
     let separated = midway.ending == Ending::Separated;
     let least = Settings::default().flat_regularisation;
@@ -89,20 +100,19 @@ pub(crate) fn solved(
         return solved(pair, pose_b, &settings, memory);
     }
     let overlapping = !separated && scale.s < 1.0;
-    if let Some(memory) = memory {
-        memory.last = Some(Remembered { x: midway.x, lambda: midway.lambda, overlapping });
-    }
+    let remembered = Remembered { x: midway.x, lambda: midway.lambda, overlapping };
     if separated {
-        let Search { flags, iterations, answered, .. } = search;
+        remember(memory, remembered);
         let contact = Contact::separated(settings.formulation, scale.low.max(1.0));
-        return Ok(Contact { flags: contact.flags.with(flags), iterations, back_end: answered, ..contact });
+        let flags = contact.flags.with(search.flags);
+        return Ok(Contact { flags, iterations: search.iterations, back_end: search.answered, ..contact });
     }
     let found = match settings.formulation {
-        Formulation::Closest => closest(&mut search, settings, (&midway, &here), overlapping)?,
+        Formulation::Closest => closest(&mut search, (&midway, &here))?,
         Formulation::Midway => None,
     };
-    let local = match found {
-        Some(local) => local,
+    let local = match &found {
+        Some(points) => LocalContact::closest(pair, points, settings.weight_on_a, overlapping),
         None => {
             let bound = || search.bound(&midway, &here, Target::Midway);
             let pieces = |n: &Vector3<f64>| search.pieces(&midway, &here, n);
@@ -110,23 +120,37 @@ pub(crate) fn solved(
                 .ok_or_else(|| DetectError::Failed { conic: "the surface was not found along the normal".into() })?
         }
     };
-    let Search { flags, iterations, answered, .. } = search;
-    Ok(local.placed(pair, pose_b, Contact { flags, iterations, back_end: answered, ..Contact::UNKNOWN }))
+    remember(memory, remembered);
+    Ok(local.placed(pair, pose_b, search.call()))
 }
 
-/// A cheap proof of separation, if one succeeds and will do; else the pair in one frame.
+/// Midway of a pair that overlaps as P1 and P2 tell, near enough to start from: [`Expansion::towards_closest`] backwards.
+fn midway_between([p1, p2]: &[Closest; 2]) -> Remembered {
+    let square = (p1.lambda * p1.scale.s) * (p2.lambda / p2.scale.s);
+    Remembered { x: 0.5 * (p1.x + p2.x), lambda: square.sqrt(), overlapping: true }
+}
+
+fn remember(memory: Option<&mut Memory>, remembered: Remembered) {
+    if let Some(memory) = memory {
+        memory.last = Some(remembered);
+    }
+}
+
+/// What is made of a cheap proof of separation, if one succeeds and will do; else of the pair in one frame, which is not given
+/// back, since copying it takes a twentieth of a warm call.
 #[inline(always)]
-pub(crate) fn begin<'a>(
-    a: (&'a Particle, &Pose),
-    b: (&'a Particle, &Pose),
+pub(crate) fn begin<T>(
+    a: (&Particle, &Pose),
+    b: (&Particle, &Pose),
     settings: &Settings,
-    memory: Option<&Memory>,
-) -> ControlFlow<Apart, Pair<'a>> {
-    let last = memory.and_then(|memory| memory.last);
+    last: Option<Remembered>,
+    rejected: impl Fn(Apart) -> T,
+    undecided: impl FnOnce(&Pair) -> T,
+) -> T {
     let overlapped = last.is_some_and(|last| last.overlapping);
     let known = last.filter(|_| !overlapped && !settings.solve_separated);
     if let Some(proof) = known.and_then(|last| reject::still_apart(a, b, &last.x)) {
-        return ControlFlow::Break(proof);
+        return rejected(proof);
     }
     let pair = Pair::new(a.0, a.1, b.0, b.1);
     let proof = match overlapped {
@@ -136,22 +160,20 @@ pub(crate) fn begin<'a>(
         false => reject::proof_of_separation(&pair),
     };
     match proof {
-        Some(proof) => ControlFlow::Break(proof),
-        None => ControlFlow::Continue(pair),
+        Some(proof) => rejected(proof),
+        None => undecided(&pair),
     }
 }
 
-/// The contact by both closest points; midway lies between them. `None` where a constraint is slack, which is flagged.
-fn closest(
-    search: &mut Search,
-    settings: &Settings,
-    midway: (&Outcome, &Expansion),
-    overlapping: bool,
-) -> Result<Option<LocalContact>, DetectError> {
+/// Both closest points; midway lies between them. `None` where a constraint is slack, which is flagged.
+fn closest(search: &mut Search, midway: (&Outcome, &Expansion)) -> Result<Option<[Closest; 2]>, DetectError> {
+    if let Some(both) = search.both_at_once(midway) {
+        return Ok(Some(both));
+    }
     if let Some(p2) = search.constrained(Target::OnB, Some(midway))?
         && let Some(p1) = search.constrained(Target::OnA, Some(midway))?
     {
-        return Ok(Some(LocalContact::closest(search.pair, [&p1, &p2], settings.weight_on_a, overlapping)));
+        return Ok(Some([p1, p2]));
     }
     search.flags.insert(Flags::SLACK);
     Ok(None)

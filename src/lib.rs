@@ -14,8 +14,9 @@
 //! | [`settings`], [`memory`] | how to solve, and what a pair remembers |
 //! | [`pair`], `body`, `local` | two particles in one frame, and a point as each sees it |
 //! | [`reject`] | cheap proofs of separation |
-//! | `number`, [`symmetric`], `target` | the larger of two numbers, small matrices, and which point of two bodies is wanted |
-//! | `model` | two quadratics solved exactly: midway and both closest points on one curve |
+//! | `number`, [`symmetric`], `target` | numbers and lanes of them, small matrices, and which point of two bodies is wanted |
+//! | `curve` | where two quadratics are optimal for some weights, and its series: midway and both closest points lie on it |
+//! | `model` | two quadratics solved exactly: the search along the curve |
 //! | `verdict` | what a step does to the planes of a quadratic |
 //! | `frame`, `expansion` | both quadratics at a point, in safe axes, and the step to their optimum |
 //! | `line`, `start` | descent along a line; where a search without memory begins |
@@ -41,6 +42,7 @@ mod ceiling;
 mod certificate;
 pub mod conic;
 pub mod contact;
+mod curve;
 pub mod detect;
 mod expansion;
 pub mod ffi;

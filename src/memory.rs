@@ -10,7 +10,7 @@ pub struct Memory {
     pub(crate) last: Option<Remembered>,
 }
 
-/// The solution of midway.
+/// The solution of midway, or what comes near it where closest was found without.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Remembered {
     /// P3 in the local frame of B.

@@ -1,77 +1,22 @@
 //! The two quadratics at a point, solved exactly: one step of the fast solver.
 //!
-//! For weights a, b ≥ 0 let v minimise a·q_A + b·q_B, that is H v = −g with H = a H_A + b H_B, g = a g_A + b g_B. As
-//! the weight θ of the target changes, v runs along a curve from the minimum of one particle to that of the other;
-//! the wanted point is where the mismatch m(θ) = c − (α q_A + β q_B) is zero, with α, β the rates of a, b and
-//! c = 0 for midway, 1 for the two closest points. One search in one variable serves all three.
-//!
-//! One factorisation of H gives the curve's whole Taylor series: with D = α H_A + β H_B and w₀ = α g_A + β g_B at v₀,
-//!
-//! ```text
-//! v(δ) = Σ δⁿ v_n,   v_n = −H⁻¹ w_{n−1},   w_n = D v_n,   m_n = −(n+1)/2 · v_i·w_j  for any i + j = n, i ≥ 1
-//! ```
-//!
-//! so that v₁ and v₂ give m to the fourth order, and each search multiplies the number of right digits by five.
+//! The optimum lies on their [`crate::curve`], where the mismatch of the target is zero: λ is searched along its series, or
+//! in logarithms where that is of no use.
 
-use crate::number::larger;
+use crate::curve::{Curve, Optimum, Probe, Side};
+use crate::number::{Number, Twin, larger};
 use crate::potential::Quadratic;
-use crate::symmetric::{Factor, Symmetric};
+use crate::symmetric::Symmetric;
 use crate::target::Target;
-use nalgebra::Vector3;
+use nalgebra::{SimdValue, Vector3};
 
-/// The pair of quadratics and the target: what stays the same while λ is searched.
-///
-/// Rare parts take it and the probes by value: whose address is known has to stay in memory on the common way, too.
+/// The curve, and what the search along it has to know besides.
 #[derive(Clone, Copy)]
 pub(crate) struct Model<'a> {
-    q_a: &'a Quadratic,
-    q_b: &'a Quadratic,
-    /// Least curvatures of A and B in any direction (their spheres').
-    soft: (f64, f64),
+    curve: Curve<'a, f64>,
     target: Target,
-    /// D, and α·q_A + β·q_B at the point of expansion.
-    turning: Symmetric,
-    turned: f64,
     /// Rounding of the mismatch that comes from the values at the point of expansion.
     noise: f64,
-}
-
-/// Optimum of the two quadratics for a weight ratio λ.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Optimum {
-    /// Step from the point of expansion.
-    pub step: Vector3<f64>,
-    /// ∇S_A and ∇S_B there: a·g_A + b·g_B = 0. Where a stiff plane is on by less than rounding, only the
-    /// model knows them.
-    pub gradients: [Vector3<f64>; 2],
-    /// q_A and q_B there.
-    pub values: (f64, f64),
-    /// Weight ratio λ = b/a.
-    pub lambda: f64,
-    /// Whether λ is as good as rounding allows.
-    pub settled: bool,
-    /// Of H, at λ or very near.
-    factor: Factor,
-    /// The λ of the factor.
-    factored: f64,
-    /// dv/dθ and dm/dθ.
-    along: Vector3<f64>,
-    rate: f64,
-}
-
-/// The point of the curve at some λ: as much as the search for λ takes.
-#[derive(Clone, Copy)]
-struct Probe {
-    lambda: f64,
-    weights: (f64, f64),
-    step: Vector3<f64>,
-    factor: Factor,
-    along: Vector3<f64>,
-    rate: f64,
-    /// m.
-    mismatch: f64,
-    /// q_A and q_B, to what a·q_A + b·q_B loses.
-    values: (f64, f64),
 }
 
 /// Most searches for λ; a handful is enough where rounding does not interfere.
@@ -88,11 +33,9 @@ const FARTHEST: f64 = 1e6;
 /// out then is some 1e-3 of the mismatch.
 const NEAR: f64 = 0.1;
 
-/// The same share at which what is left out, its fourth power, is below rounding.
+/// The same share at which what is left out is below rounding: of a point that is taken to the third order, and to the fourth.
 const VERY_NEAR: f64 = 3e-4;
-
-/// Slope relative to either force that is but rounding.
-const BALANCED: f64 = 16.0 * f64::EPSILON;
+const RATHER_NEAR: f64 = 1.5e-3;
 
 /// Relative mismatch below which a search that no longer gains is at the end of its digits.
 const STALLING: f64 = 1e-9;
@@ -109,11 +52,9 @@ const TRACE_ROUNDING: f64 = 16.0 * f64::EPSILON;
 impl<'a> Model<'a> {
     #[inline(always)]
     pub fn new(q_a: &'a Quadratic, q_b: &'a Quadratic, soft: (f64, f64), target: Target) -> Self {
-        let (alpha, beta) = target.turning();
-        let turning = q_a.hessian.weighted(alpha, &q_b.hessian, beta);
-        let turned = alpha * q_a.expansion + beta * q_b.expansion;
+        let curve = Curve::new(side(q_a, soft.0), side(q_b, soft.1), target);
         let (of_a, of_b) = target.changes(q_a.expansion, q_b.expansion);
-        Self { q_a, q_b, soft, target, turning, turned, noise: 2.0 * f64::EPSILON * (of_a + of_b) }
+        Self { curve, target, noise: 2.0 * f64::EPSILON * (of_a + of_b) }
     }
 
     /// Searches λ from a guess until the mismatch of the two sides is `enough`; 0 for as good as rounding allows.
@@ -125,63 +66,18 @@ impl<'a> Model<'a> {
 
     /// The optimum at a given λ.
     pub fn at(&self, lambda: f64) -> Option<Optimum> {
-        Some(self.optimum(&self.probe(lambda)?))
-    }
-
-    /// With H v = −g the weighted sum is ½ g·v more than at the point of expansion, and D v gives the other sum: q_A and
-    /// q_B follow from the two.
-    #[inline(always)]
-    fn probe(&self, lambda: f64) -> Option<Probe> {
-        let weights @ (a, b) = self.target.weights(lambda);
-        let h = self.q_a.hessian.weighted(a, &self.q_b.hessian, b);
-        let factor = Factor::of(&h, a * self.soft.0 + b * self.soft.1)?;
-        let g = a * self.q_a.gradient + b * self.q_b.gradient;
-        let step = -factor.solve(&g);
-        let before = self.of_turning(&self.q_a.gradient, &self.q_b.gradient);
-        let w0 = before + self.turning.times(&step);
-        let along = -factor.solve(&w0);
-        let turning = self.turned + 0.5 * step.dot(&(before + w0));
-        let fixed = a * self.q_a.expansion + b * self.q_b.expansion + 0.5 * step.dot(&g);
-        let (values, mismatch) = (self.target.apart(fixed, turning, weights), self.target.level() - turning);
-        Some(Probe { lambda, weights, step, factor, along, rate: -w0.dot(&along), mismatch, values })
-    }
-
-    /// α·x + β·y.
-    #[inline(always)]
-    fn of_turning(&self, x: &Vector3<f64>, y: &Vector3<f64>) -> Vector3<f64> {
-        match self.target {
-            Target::Midway => y - x,
-            Target::OnB => *y,
-            Target::OnA => *x,
-        }
-    }
-
-    /// The optimum at a point of the curve.
-    #[inline(always)]
-    fn optimum(&self, probe: &Probe) -> Optimum {
-        self.after(probe.step, probe.lambda, probe)
+        Some(self.curve.optimum(&self.curve.probe(lambda)?))
     }
 
     /// What a step and a λ are worth that another model found.
     pub fn held(&self, step: Vector3<f64>, lambda: f64) -> Option<Optimum> {
-        Some(Optimum { settled: true, ..self.after(step, lambda, &self.probe(lambda)?) })
-    }
-
-    /// The quadratics after a step, which lies on the curve near a probe.
-    #[inline(always)]
-    fn after(&self, step: Vector3<f64>, lambda: f64, near: &Probe) -> Optimum {
-        let gradient = |q: &Quadratic| q.gradient + q.hessian.times(&step);
-        let gradients = [gradient(self.q_a), gradient(self.q_b)];
-        let value = |q: &Quadratic, g: &Vector3<f64>| q.expansion + 0.5 * step.dot(&(q.gradient + g));
-        let values = (value(self.q_a, &gradients[0]), value(self.q_b, &gradients[1]));
-        let Probe { factor, along, rate, lambda: factored, .. } = *near;
-        Optimum { step, gradients, values, lambda, settled: false, factor, factored, along, rate }
+        Some(Optimum { settled: true, ..self.curve.after(step, lambda, &self.curve.probe(lambda)?) })
     }
 
     /// Searches λ from one that is in its range.
     #[inline(always)]
     pub fn search(&self, first: f64, enough: f64) -> Option<Optimum> {
-        let mut found = self.probe(first)?;
+        let mut found = self.curve.probe(first)?;
         let (nearest, farthest) = (found.lambda / FARTHEST, found.lambda * FARTHEST);
         let (mut low, mut high) = (nearest, farthest);
         let (mut last, mut slow) = (f64::INFINITY, 0);
@@ -196,7 +92,7 @@ impl<'a> Model<'a> {
             slow = if difference.abs() > 0.5 * last { slow + 1 } else { 0 };
             let settled = difference.abs() <= noise;
             if settled || difference.abs() <= enough {
-                return Some(Optimum { settled, ..self.optimum(&found) });
+                return Some(Optimum { settled, ..self.curve.optimum(&found) });
             }
             if slow >= MOST_SLOW && difference.abs() <= STALLING * larger {
                 return Some(self.corrected(found));
@@ -207,11 +103,11 @@ impl<'a> Model<'a> {
             } else {
                 low = found.lambda;
             }
-            let next = match self.series(&found) {
+            let next = match self.curve.series(&found) {
                 Some(series) if series.share <= VERY_NEAR || (series.share <= NEAR && enough > 0.0) => {
-                    let further = self.along(&found, &series);
+                    let further = self.curve.along(&found, &series);
                     let left = self.target.mismatch(further.values.0, further.values.1);
-                    let settled = series.share <= VERY_NEAR && left <= noise && self.is_balanced(&further);
+                    let settled = series.share <= VERY_NEAR && left <= noise && self.curve.is_balanced(&further);
                     if settled || left <= enough {
                         return Some(Optimum { settled, ..further });
                     }
@@ -232,63 +128,27 @@ impl<'a> Model<'a> {
             };
             if next == found.lambda {
                 // No λ does better. At an end of the range there may be a better one, for other quadratics.
-                return Some(Optimum { settled: next != nearest && next != farthest, ..self.optimum(&found) });
+                return Some(Optimum { settled: next != nearest && next != farthest, ..self.curve.optimum(&found) });
             }
-            found = self.probe(next)?;
+            found = self.curve.probe(next)?;
         }
-        Some(self.optimum(&found))
-    }
-
-    /// Root of m(δ) to the fourth order, by reversion of the series; `None` where it would move a weight by more
-    /// than half.
-    #[inline(always)]
-    fn series(&self, found: &Probe) -> Option<Series> {
-        let (v1, inverse, (a, b)) = (&found.along, 1.0 / found.rate, found.weights);
-        let w1 = self.turning.times(v1);
-        let v2 = -found.factor.solve(&w1);
-        let w2 = self.turning.times(&v2);
-        let (m2, m3, m4) = (-1.5 * v1.dot(&w1), -2.0 * v2.dot(&w1), -2.5 * v2.dot(&w2));
-        let y = -found.mismatch * inverse;
-        let (c2, c3, c4) = (m2 * inverse * y, m3 * inverse * y * y, m4 * inverse * y * y * y);
-        let delta = y * (1.0 - c2 + (2.0 * c2 * c2 - c3) + (5.0 * c2 * (c3 - c2 * c2) - c4));
-        let (alpha, beta) = self.target.turning();
-        let stays = (alpha * delta).abs() <= 0.5 * a && (beta * delta).abs() <= 0.5 * b;
-        let lambda = (b + beta * delta) / (a + alpha * delta);
-        stays.then_some(Series { delta, lambda, v2, w2, share: c2.abs() + c3.abs() + c4.abs() })
-    }
-
-    /// The optimum at the end of a series, without another factorisation.
-    #[inline(always)]
-    fn along(&self, found: &Probe, series: &Series) -> Optimum {
-        let v3 = -found.factor.solve(&series.w2);
-        let delta = series.delta;
-        let step = found.step + delta * (found.along + delta * (series.v2 + delta * v3));
-        self.after(step, series.lambda, found)
+        Some(self.curve.optimum(&found))
     }
 
     /// Where the rounding of the factorisation moves a side by more than its noise, at random for each λ: the way to the root
     /// along the curve is smooth.
     #[cold]
-    fn corrected(self, found: Probe) -> Optimum {
-        let here = self.optimum(&found);
-        let further = self.series(&found).map(|series| self.along(&found, &series));
+    fn corrected(self, found: Probe<f64>) -> Optimum {
+        let here = self.curve.optimum(&found);
+        let further = self.curve.series(&found).map(|series| self.curve.along(&found, &series));
         let left = |optimum: &Optimum| self.target.mismatch(optimum.values.0, optimum.values.1);
         let best = further.filter(|further| left(further) < left(&here)).unwrap_or(here);
         Optimum { settled: true, ..best }
     }
 
-    /// Whether the slope a·g_A + b·g_B is zero to rounding. In a pair that is alike on both sides the terms of the mismatch
-    /// cancel and say nothing about those of the curve.
-    #[inline(always)]
-    fn is_balanced(&self, found: &Optimum) -> bool {
-        let (a, _) = self.target.weights(found.lambda);
-        let force = a * a * (self.q_a.gradient.norm_squared() + found.gradients[0].norm_squared());
-        found.slope(self.target).norm_squared() <= BALANCED * BALANCED * force
-    }
-
     /// The next λ where the series is of no use: far off, the logarithms of both sides are nearly linear in ln λ.
     #[cold]
-    fn far(self, found: Probe, growing: f64, falling: f64) -> f64 {
+    fn far(self, found: Probe<f64>, growing: f64, falling: f64) -> f64 {
         // The weighted sum stays what it is on the curve, to first order.
         let turning = -self.target.per_logarithm(found.weights) * found.rate;
         let (rate_a, rate_b) = self.target.apart(0.0, turning, found.weights);
@@ -302,25 +162,70 @@ impl<'a> Model<'a> {
     }
 }
 
-/// The way to the root along the series of the curve.
-struct Series {
-    /// Change of θ.
-    delta: f64,
-    /// λ after it.
-    lambda: f64,
-    v2: Vector3<f64>,
-    w2: Vector3<f64>,
-    /// Share of the higher terms in the first.
-    share: f64,
+/// A quadratic and its least curvature.
+#[inline(always)]
+fn side(q: &Quadratic, soft: f64) -> Side<'_, f64> {
+    Side { value: q.expansion, gradient: &q.gradient, hessian: &q.hessian, soft }
+}
+
+/// P1 and P2 by one step along the series of their curves, from guesses of their λ; `None` where that does not do.
+///
+/// Each holds one body at S = 1 and minimises the other's S: the same in two lanes, in one of them with the bodies swapped.
+#[inline(always)]
+pub(crate) fn both_closest([q_a, q_b]: [&Quadratic; 2], soft: (f64, f64), lambdas: [f64; 2]) -> Option<[Optimum; 2]> {
+    let is_weight = |lambda: f64| lambda > LAMBDA_RANGE.0 && lambda < LAMBDA_RANGE.1;
+    if !lambdas.into_iter().all(is_weight) {
+        return None;
+    }
+    let (of, twin) = (Twin::splat, |x: &Vector3<f64>, y: &Vector3<f64>| x.zip_map(y, Twin::new));
+    let (g_free, g_held) = (twin(&q_a.gradient, &q_b.gradient), twin(&q_b.gradient, &q_a.gradient));
+    let h_free = Symmetric::twin(&q_a.hessian, &q_b.hessian);
+    let h_held = Symmetric::twin(&q_b.hessian, &q_a.hessian);
+    let value = Twin::new(q_a.expansion, q_b.expansion);
+    let free = Side { value, gradient: &g_free, hessian: &h_free, soft: Twin::new(soft.0, soft.1) };
+    let value = Twin::new(q_b.expansion, q_a.expansion);
+    let held = Side { value, gradient: &g_held, hessian: &h_held, soft: Twin::new(soft.1, soft.0) };
+    let curve = Curve::new(free, held, Target::OnB);
+    let probe = curve.probe(Twin::new(lambdas[1], 1.0 / lambdas[0]))?;
+    let series = curve.series(&probe)?;
+    if !series.share.is_at_most(of(RATHER_NEAR)) {
+        return None;
+    }
+    let found = curve.further_along(&probe, &series);
+    let noise = of(2.0 * f64::EPSILON) * held.value + of(4.0 * f64::EPSILON) * probe.values.1.larger(of(1.0));
+    let settled = (found.values.1 - of(1.0)).magnitude().is_at_most(noise) && curve.is_balanced(&found);
+    settled.then(|| [found.lane(1).swapped(), found.lane(0)])
 }
 
 impl Optimum {
-    /// a·g_A + b·g_B: zero but for rounding.
-    pub fn slope(&self, target: Target) -> Vector3<f64> {
-        let (a, b) = target.weights(self.lambda);
-        a * self.gradients[0] + b * self.gradients[1]
+    /// With A and B the other way round.
+    #[inline(always)]
+    fn swapped(self) -> Self {
+        let (gradients, values) = ([self.gradients[1], self.gradients[0]], (self.values.1, self.values.0));
+        Self { gradients, values, lambda: 1.0 / self.lambda, factored: 1.0 / self.factored, ..self }
     }
+}
 
+impl Optimum<Twin> {
+    /// That of one lane, of which λ is as good as rounding allows.
+    #[inline(always)]
+    fn lane(&self, i: usize) -> Optimum {
+        let vector = |v: &Vector3<Twin>| v.map(|x| x.0[i]);
+        Optimum {
+            step: vector(&self.step),
+            gradients: [vector(&self.gradients[0]), vector(&self.gradients[1])],
+            values: (self.values.0.0[i], self.values.1.0[i]),
+            lambda: self.lambda.0[i],
+            settled: true,
+            factor: self.factor.lane(i),
+            factored: self.factored.0[i],
+            along: vector(&self.along),
+            rate: self.rate.0[i],
+        }
+    }
+}
+
+impl Optimum {
     /// Bound on the rounding of the sums by which S of one body is taken along the step, axis by axis: along a face a long
     /// step has but the curvature of the face. By Cauchy's inequality no sum in the Hessian has terms above √(h_ii·h_jj).
     pub fn rounding(&self, q: &Quadratic) -> f64 {
@@ -420,7 +325,7 @@ impl Response {
             return 0.0;
         }
         let ((a, b), (alpha, beta)) = (target.weights(lambda), target.turning());
-        let (weight, rate) = if body == 0 { (a, alpha) } else { (b, beta) };
+        let (weight, rate): (f64, f64) = if body == 0 { (a, alpha) } else { (b, beta) };
         let count = f64::from(q.count);
         let turned = (2.0 * plane_weight * weight * count * self.to_all_planes).sqrt();
         let raised = rate.abs() * self.per_value * (count * plane_weight * larger(self.values[body], 0.0)).sqrt();
@@ -430,5 +335,38 @@ impl Response {
     /// Bound on the move per unit of slope, in whatever direction (in the plane: of its first two axes).
     pub fn per_slope(&self, dimensions: usize) -> f64 {
         self.traces[usize::from(dimensions == 2)]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// S of a body whose surface is an ellipsoid about a centre, seen from the origin.
+    fn about(centre: [f64; 3], hessian: Symmetric) -> Quadratic {
+        let to_centre = Vector3::from(centre);
+        let gradient = -hessian.times(&to_centre);
+        let value = -0.5 * gradient.dot(&to_centre);
+        Quadratic { value, expansion: value, gradient, hessian, pull: 0.0, count: 0, clear: f64::INFINITY }
+    }
+
+    #[test]
+    fn both_closest_points_in_lanes_are_those_of_the_search() {
+        let q_a = about([-0.9, 0.1, 0.2], Symmetric { xx: 2.5, yx: 0.3, yy: 4.0, zx: -0.2, zy: 0.1, zz: 1.5 });
+        let q_b = about([0.95, -0.2, 0.1], Symmetric { xx: 1.8, yx: -0.1, yy: 2.0, zx: 0.4, zy: 0.5, zz: 5.0 });
+        let soft = (1.0, 1.0);
+        let alone =
+            [Target::OnA, Target::OnB].map(|target| Model::new(&q_a, &q_b, soft, target).solve(1.0, 0.0).unwrap());
+        let guesses = [alone[0].lambda * (1.0 + 3e-4), alone[1].lambda * (1.0 - 3e-4)];
+        let both = both_closest([&q_a, &q_b], soft, guesses).expect("guesses from nearby");
+        for ((target, alone), both) in [Target::OnA, Target::OnB].into_iter().zip(&alone).zip(&both) {
+            assert!((both.step - alone.step).norm() < 1e-14, "{target:?}");
+            assert!((both.lambda / alone.lambda - 1.0).abs() < 1e-13, "{target:?}");
+            assert!(target.mismatch(both.values.0, both.values.1) < 1e-14, "{target:?}");
+            assert!(both.slope(target).norm() < 1e-14, "{target:?}");
+        }
+        // From too far, and of no weights, it is left to the search.
+        assert!(both_closest([&q_a, &q_b], soft, guesses.map(|guess| 1.5 * guess)).is_none());
+        assert!(both_closest([&q_a, &q_b], soft, [-1.0, 1.0]).is_none());
     }
 }

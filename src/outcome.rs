@@ -2,8 +2,9 @@
 
 use crate::body::Body;
 use crate::ceiling::Ceiling;
+use crate::curve::Optimum;
 use crate::expansion::{self, Expansion, Step};
-use crate::model::{Optimum, Response};
+use crate::model::Response;
 use crate::number::larger;
 use crate::potential::Quadratic;
 use crate::target::Target;

@@ -4,7 +4,7 @@ use crate::anchored::{self, Effort, Pace};
 use crate::body::Body;
 use crate::certificate::{self, Certified};
 use crate::conic::{self, ConicError, Role};
-use crate::contact::Flags;
+use crate::contact::{Contact, Flags};
 use crate::expansion::{self, Expansion, Factorisation, Piece, Start};
 use crate::outcome::{Ending, Outcome};
 use crate::pair::Pair;
@@ -75,15 +75,6 @@ impl<'a> Search<'a> {
         Expansion::at([&self.body_a, &self.body_b], start, target, self.usual())
     }
 
-    /// Midway from the quadratics at a start; those of the answer are left in `here`.
-    #[inline(always)]
-    pub fn midway(&mut self, start: &Start, here: &mut Expansion) -> Result<Outcome, ConicError> {
-        match self.at_once(Target::Midway, start.lambda, here) {
-            Some(outcome) => Ok(outcome),
-            None => self.climb(Target::Midway, start, self.flags.contains(Flags::WARM), here),
-        }
-    }
-
     /// One of the two problems of closest, or `None` where its constraint is slack: the optimum is then the
     /// minimum of the other particle, for k > 0 its centre, for k = 0 anywhere in its core, and no contact
     /// point. Midway has no such case.
@@ -123,6 +114,42 @@ impl<'a> Search<'a> {
         let mut here = *here;
         let outcome = self.climb(target, &start, midway.is_some(), &mut here)?;
         Ok(self.closest(target, &outcome, &here))
+    }
+
+    /// P1 and P2 from the quadratics at hand and the λ of midway of the last call, where one step is enough for both and either
+    /// scale tells that the particles overlap: midway is then needed neither for that nor as a start.
+    #[inline(never)]
+    pub fn overlapping_still(&mut self, lambda: f64, here: &Expansion) -> Option<[Closest; 2]> {
+        let overlaps = |found: &Closest| found.scale.s + found.scale.gap < 1.0;
+        self.both(here.towards_closest(lambda), here).filter(|[p1, p2]| overlaps(p1) && overlaps(p2))
+    }
+
+    /// P1 and P2 from midway and its quadratics, where one step is enough for both.
+    #[inline(never)]
+    pub fn both_at_once(&mut self, (midway, here): (&Outcome, &Expansion)) -> Option<[Closest; 2]> {
+        self.both([midway.towards(Target::OnA), midway.towards(Target::OnB)], here)
+    }
+
+    /// P1 and P2 by one step from guesses of their λ. Where a constraint is slack, the scale cannot be told from 0.
+    #[inline(always)]
+    fn both(&mut self, lambdas: [f64; 2], here: &Expansion) -> Option<[Closest; 2]> {
+        if !self.may_be_at_once() || here.softened.is_some() {
+            return None;
+        }
+        let (on_a, on_b) = (self.goal(Target::OnA), self.goal(Target::OnB));
+        let [p1, p2] = spine::both_at_once([&self.body_a, &self.body_b], [&on_a, &on_b], lambdas, here)?;
+        let closest = [self.closest(Target::OnA, &p1, here)?, self.closest(Target::OnB, &p2, here)?];
+        self.iterations += 2;
+        if p1.ending == Ending::RoundingLimited || p2.ending == Ending::RoundingLimited {
+            self.flags.insert(Flags::ROUNDING_LIMITED);
+        }
+        Some(closest)
+    }
+
+    /// What the call has cost so far, and who answered.
+    pub fn call(&self) -> Contact {
+        let Self { flags, iterations, answered: back_end, .. } = *self;
+        Contact { flags, iterations, back_end, ..Contact::UNKNOWN }
     }
 
     /// Whether the tangent of one potential at midway, which lies below it, is clearly above 1 at the other's centre.
@@ -168,11 +195,15 @@ impl<'a> Search<'a> {
         expansion::factorisation(&self.body_a, &self.body_b)
     }
 
+    /// Whether a first step can be the last: where the axes have to follow the planes, it takes more.
+    fn may_be_at_once(&self) -> bool {
+        self.settings.back_end == BackEnd::Fast && self.usual() == Factorisation::Plain
+    }
+
     /// The answer of the first step, if that is all that it takes.
     #[inline(always)]
-    fn at_once(&mut self, target: Target, lambda: f64, here: &Expansion) -> Option<Outcome> {
-        // Where the axes have to follow the planes, it takes more steps.
-        if self.settings.back_end != BackEnd::Fast || self.usual() == Factorisation::Aligned {
+    pub fn at_once(&mut self, target: Target, lambda: f64, here: &Expansion) -> Option<Outcome> {
+        if !self.may_be_at_once() {
             return None;
         }
         let outcome = spine::at_once([&self.body_a, &self.body_b], &self.goal(target), lambda, here)?;
@@ -185,7 +216,7 @@ impl<'a> Search<'a> {
 
     /// The ladder: from the start at hand, cold if that was `near` only, by the safe solver, and by the cone program.
     #[inline(never)]
-    fn climb(
+    pub fn climb(
         &mut self,
         target: Target,
         start: &Start,

@@ -1,18 +1,58 @@
 //! Symmetric 3×3 matrices by their lower half, and their factorisation.
 
-use crate::number::larger;
+use crate::number::{Number, Twin};
 use nalgebra::{Matrix3, Vector3};
 
-/// A symmetric 3×3 matrix.
+/// A symmetric 3×3 matrix, of numbers or of lanes of them.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[allow(missing_docs)]
-pub struct Symmetric {
-    pub xx: f64,
-    pub yx: f64,
-    pub yy: f64,
-    pub zx: f64,
-    pub zy: f64,
-    pub zz: f64,
+pub struct Symmetric<N = f64> {
+    pub xx: N,
+    pub yx: N,
+    pub yy: N,
+    pub zx: N,
+    pub zy: N,
+    pub zz: N,
+}
+
+impl<N: Number> Symmetric<N> {
+    /// a·self + b·other.
+    #[inline]
+    pub(crate) fn weighted(&self, a: N, other: &Self, b: N) -> Self {
+        Self {
+            xx: a * self.xx + b * other.xx,
+            yx: a * self.yx + b * other.yx,
+            yy: a * self.yy + b * other.yy,
+            zx: a * self.zx + b * other.zx,
+            zy: a * self.zy + b * other.zy,
+            zz: a * self.zz + b * other.zz,
+        }
+    }
+
+    #[inline]
+    pub(crate) fn times(&self, v: &Vector3<N>) -> Vector3<N> {
+        Vector3::new(
+            self.xx * v.x + self.yx * v.y + self.zx * v.z,
+            self.yx * v.x + self.yy * v.y + self.zy * v.z,
+            self.zx * v.x + self.zy * v.y + self.zz * v.z,
+        )
+    }
+}
+
+impl Symmetric<Twin> {
+    /// Two matrices in lanes.
+    #[inline]
+    pub(crate) fn twin(x: &Symmetric, y: &Symmetric) -> Self {
+        let of = Twin::new;
+        Self {
+            xx: of(x.xx, y.xx),
+            yx: of(x.yx, y.yx),
+            yy: of(x.yy, y.yy),
+            zx: of(x.zx, y.zx),
+            zy: of(x.zy, y.zy),
+            zz: of(x.zz, y.zz),
+        }
+    }
 }
 
 impl Symmetric {
@@ -45,33 +85,11 @@ impl Symmetric {
         }
     }
 
-    /// a·self + b·other.
-    #[inline]
-    pub(crate) fn weighted(&self, a: f64, other: &Self, b: f64) -> Self {
-        Self {
-            xx: a * self.xx + b * other.xx,
-            yx: a * self.yx + b * other.yx,
-            yy: a * self.yy + b * other.yy,
-            zx: a * self.zx + b * other.zx,
-            zy: a * self.zy + b * other.zy,
-            zz: a * self.zz + b * other.zz,
-        }
-    }
-
     /// Sum of the squares of all nine entries.
     #[inline]
     pub(crate) fn square(&self) -> f64 {
         let (diagonal, below) = ([self.xx, self.yy, self.zz], [self.yx, self.zx, self.zy]);
         diagonal.map(|v| v * v).iter().sum::<f64>() + 2.0 * below.map(|v| v * v).iter().sum::<f64>()
-    }
-
-    #[inline]
-    pub(crate) fn times(&self, v: &Vector3<f64>) -> Vector3<f64> {
-        Vector3::new(
-            self.xx * v.x + self.yx * v.y + self.zx * v.z,
-            self.yx * v.x + self.yy * v.y + self.zy * v.z,
-            self.zx * v.x + self.zy * v.y + self.zz * v.z,
-        )
     }
 
     #[inline]
@@ -89,30 +107,31 @@ impl Symmetric {
 /// L D Lᵀ of a symmetric positive definite 3×3 matrix, eliminated in the given order of axes: stiffest
 /// first keeps the softest direction to full relative precision.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Factor {
-    l10: f64,
-    l20: f64,
-    l21: f64,
-    inverse_d: [f64; 3],
+pub(crate) struct Factor<N = f64> {
+    l10: N,
+    l20: N,
+    l21: N,
+    inverse_d: [N; 3],
 }
 
-impl Factor {
+impl<N: Number> Factor<N> {
     /// `least` bounds the eigenvalues from below, and so every pivot: rounding may not take it further.
     /// `None` when something is not finite.
     #[inline]
-    pub fn of(h: &Symmetric, least: f64) -> Option<Self> {
-        let i0 = 1.0 / larger(h.xx, least);
+    pub fn of(h: &Symmetric<N>, least: N) -> Option<Self> {
+        let one = N::splat(1.0);
+        let i0 = one / h.xx.larger(least);
         let (l10, l20) = (h.yx * i0, h.zx * i0);
-        let i1 = 1.0 / larger(h.yy - l10 * h.yx, least);
+        let i1 = one / (h.yy - l10 * h.yx).larger(least);
         let c21 = h.zy - l20 * h.yx;
         let l21 = c21 * i1;
-        let i2 = 1.0 / larger(h.zz - l20 * h.zx - l21 * c21, least);
+        let i2 = one / (h.zz - l20 * h.zx - l21 * c21).larger(least);
         // A sum is finite only if all its terms are.
-        (least > 0.0 && (i0 + i1 + i2).is_finite()).then_some(Self { l10, l20, l21, inverse_d: [i0, i1, i2] })
+        (least.is_positive() && (i0 + i1 + i2).is_finite()).then_some(Self { l10, l20, l21, inverse_d: [i0, i1, i2] })
     }
 
     #[inline]
-    pub fn solve(&self, r: &Vector3<f64>) -> Vector3<f64> {
+    pub fn solve(&self, r: &Vector3<N>) -> Vector3<N> {
         let y0 = r.x;
         let y1 = r.y - self.l10 * y0;
         let y2 = r.z - self.l20 * y0 - self.l21 * y1;
@@ -121,9 +140,20 @@ impl Factor {
         let x = y0 * self.inverse_d[0] - self.l10 * y - self.l20 * z;
         Vector3::new(x, y, z)
     }
+}
 
-    /// The inverse matrix, for what needs no more digits than a bound does.
+impl Factor<Twin> {
+    /// That of one lane.
     #[inline]
+    pub fn lane(&self, i: usize) -> Factor {
+        let Self { l10, l20, l21, inverse_d } = self;
+        Factor { l10: l10.0[i], l20: l20.0[i], l21: l21.0[i], inverse_d: inverse_d.map(|d| d.0[i]) }
+    }
+}
+
+impl Factor {
+    /// The inverse matrix, for what needs no more digits than a bound does.
+    #[inline(always)]
     pub fn inverse(&self) -> Symmetric {
         let [i0, i1, i2] = self.inverse_d;
         // L⁻¹ has −l10, m = l10 l21 − l20 and −l21 below its diagonal.

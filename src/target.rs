@@ -4,7 +4,7 @@
 //! a = 1 − θ, b = θ; on B: a = 1, b = θ; on A: a = θ, b = 1. What is passed around is the ratio λ = b/a, which keeps
 //! its digits where one weight is all but zero.
 
-use crate::number::larger;
+use crate::number::{Number, larger};
 
 /// Which point of the curve is wanted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -23,25 +23,27 @@ pub(crate) const PRICE: f64 = 2.0;
 impl Target {
     /// Weights (a, b) at λ.
     #[inline]
-    pub fn weights(self, lambda: f64) -> (f64, f64) {
+    pub fn weights<N: Number>(self, lambda: N) -> (N, N) {
+        let one = N::splat(1.0);
         match self {
             Self::Midway => {
-                let a = 1.0 / (1.0 + lambda);
+                let a = one / (one + lambda);
                 (a, lambda * a)
             }
-            Self::OnB => (1.0, lambda),
-            Self::OnA => (1.0 / lambda, 1.0),
+            Self::OnB => (one, lambda),
+            Self::OnA => (one / lambda, one),
         }
     }
 
     /// (da/dθ, db/dθ).
     #[inline]
-    pub fn turning(self) -> (f64, f64) {
-        match self {
+    pub fn turning<N: Number>(self) -> (N, N) {
+        let (alpha, beta) = match self {
             Self::Midway => (-1.0, 1.0),
             Self::OnB => (0.0, 1.0),
             Self::OnA => (1.0, 0.0),
-        }
+        };
+        (N::splat(alpha), N::splat(beta))
     }
 
     /// dθ/d ln λ at the weights (a, b).
@@ -114,8 +116,8 @@ impl Target {
 
     /// c in the mismatch m = c − (α·S_A + β·S_B).
     #[inline]
-    pub fn level(self) -> f64 {
-        if self == Self::Midway { 0.0 } else { 1.0 }
+    pub fn level<N: Number>(self) -> N {
+        N::splat(if self == Self::Midway { 0.0 } else { 1.0 })
     }
 
     /// The first of the two numbers less the second, from m: λ falls as θ grows for a point on A.
@@ -126,7 +128,7 @@ impl Target {
 
     /// S_A and S_B from a·S_A + b·S_B and α·S_A + β·S_B.
     #[inline]
-    pub fn apart(self, fixed: f64, turning: f64, (a, b): (f64, f64)) -> (f64, f64) {
+    pub fn apart<N: Number>(self, fixed: N, turning: N, (a, b): (N, N)) -> (N, N) {
         match self {
             Self::Midway => (fixed - b * turning, fixed + a * turning),
             Self::OnB => (fixed - b * turning, turning),

@@ -8,10 +8,10 @@ use crate::area::Section;
 use crate::contact::{Contact, Kind};
 use crate::detect::{DetectError, begin, solved};
 use crate::memory::Memory;
+use crate::pair::Pair;
 use crate::reject::Apart;
 use crate::settings::{BackEnd, Formulation, Settings};
 use std::ffi::{CStr, c_char};
-use std::ops::ControlFlow;
 
 /// Version of this header; compare with `pp_version` of the library that was loaded.
 pub const PP_VERSION_MAJOR: u32 = 0;
@@ -75,22 +75,24 @@ pub unsafe extern "C" fn pp_contact_detect(
         // SAFETY: NULL or exclusively ours for the call.
         let memory = unsafe { memory.as_mut() };
         let mut remembered = memory.as_ref().map(|m| Memory::from_raw(m.state));
+        let last = remembered.and_then(|memory| memory.last);
         settings.validate().map_err(|_| PP_BAD_SETTING)?;
-        let pair = match begin((a, &pose_a), (b, &pose_b), &settings, remembered.as_ref()) {
-            ControlFlow::Continue(pair) => pair,
-            ControlFlow::Break(Apart { by, distance }) => {
-                // Most calls of a scene end here: what is written is nearly all the same.
-                let (formulation, flags) = (formulation_code(settings.formulation), PP_FLAG_REJECTED | by.bits());
-                out.write(pp_contact { formulation, flags, distance, ..REJECTED });
-                return Ok(());
-            }
+        // Most calls of a scene end with a proof: what is written is nearly all the same.
+        let rejected = |Apart { by, distance }: Apart| {
+            let (formulation, flags) = (formulation_code(settings.formulation), PP_FLAG_REJECTED | by.bits());
+            out.write(pp_contact { formulation, flags, distance, ..REJECTED });
+            Ok(())
         };
-        let contact = solved(&pair, &pose_b, &settings, remembered.as_mut()).map_err(|error| detect_status(&error))?;
-        if let (Some(memory), Some(remembered)) = (memory, remembered) {
-            memory.state = remembered.into_raw();
-        }
-        out.write(contact_to(&contact));
-        Ok(())
+        let undecided = |pair: &Pair| {
+            let contact =
+                solved(pair, &pose_b, &settings, remembered.as_mut()).map_err(|error| detect_status(&error))?;
+            if let (Some(memory), Some(remembered)) = (memory, remembered) {
+                memory.state = remembered.into_raw();
+            }
+            out.write(contact_to(&contact));
+            Ok(())
+        };
+        begin((a, &pose_a), (b, &pose_b), &settings, last, rejected, undecided)
     })
 }
 

@@ -35,7 +35,7 @@ pub(super) unsafe fn output<T>(pointer: *mut T) -> Result<Output<T>, pp_status> 
 pub(super) struct Output<T>(*mut T);
 
 impl<T> Output<T> {
-    pub(super) fn write(self, value: T) {
+    pub(super) fn write(&self, value: T) {
         // SAFETY: `output` was promised a pointer valid for writing one `T`.
         unsafe { self.0.write(value) }
     }
