@@ -80,7 +80,7 @@ impl<'a> Search<'a> {
     /// point. Midway has no such case.
     ///
     /// `midway`, with its quadratics, lies near it on the same curve, mostly on the same planes.
-    #[inline(always)]
+    #[inline(never)]
     pub fn constrained(
         &mut self,
         target: Target,
@@ -111,9 +111,14 @@ impl<'a> Search<'a> {
         if let Some(outcome) = self.at_once(target, start.lambda, here) {
             return Ok(self.closest(target, &outcome, here));
         }
-        let mut here = *here;
-        let outcome = self.climb(target, &start, midway.is_some(), &mut here)?;
-        Ok(self.closest(target, &outcome, &here))
+        let mut there = *here;
+        let outcome = self.climb(target, &start, midway.is_some(), &mut there)?;
+        let found = self.closest(target, &outcome, &there);
+        if found.is_some() || midway.is_none() {
+            return Ok(found);
+        }
+        // A bound that leaves everything open may be that of where the search began, and no sign of a core.
+        self.constrained(target, None)
     }
 
     /// P1 and P2 from the quadratics at hand and the λ of midway of the last call, where one step is enough for both and either
@@ -283,8 +288,10 @@ impl<'a> Search<'a> {
                 let lower = certificate::without_doubtful(outcome, [&self.body_a, &self.body_b], target);
                 outcome.lower = outcome.lower.max(lower + outcome.rounding);
             }
+            // A gap above the scale itself would pass for a constraint that is slack.
+            let says_nothing = target != Target::Midway && outcome.gap() > outcome.upper;
             // Where the safe solver, which brackets λ, finds that of the answer, no other is to be had from elsewhere.
-            if (round > 0 || found_again) && outcome.gap() > WORTH * gap {
+            if (round > 0 || found_again) && outcome.gap() > WORTH * gap && !says_nothing {
                 break;
             }
         }

@@ -379,3 +379,11 @@ fn a_bounding_box_holds_the_centre_of_a_particle_that_hardly_ends() {
     let centre = Vector3::<f64>::zeros();
     assert!((0..3).all(|i| low[i] < centre[i] && high[i] > centre[i]), "box from {low} to {high}");
 }
+
+/// From memory the safe solver came to the right point by planes of doubtful sign, with a bound wider than the scale, and the
+/// constraint passed for slack. It is proved again until the bound says something, and sought without midway before that.
+#[test]
+fn closest_from_memory_is_not_slack_for_want_of_a_bound() {
+    judged_by("closest_from_memory_is_not_slack_deep_in_a_core", &[Warm], 11, 32611);
+    judged_by("closest_from_memory_is_not_slack_at_a_large_body", &[Warm], 11, 53360);
+}
