@@ -214,6 +214,16 @@ impl<'a, N: Number> Curve<'a, N> {
     }
 }
 
+/// The λ of P1 and of P2 as seen from a point between them where S_A and S_B have these values, and the λ of midway.
+///
+/// Where a single curvature decides along the curve, √S_A and √S_B are linear on it, with slopes whose ratio is λ. At P2
+/// √S_A is s_a = √S_A + λ·(√S_B − 1), at P1 √S_B is s_b = √S_B + (√S_A − 1)/λ, and what is sought is λ/s_b and λ·s_a.
+#[inline(always)]
+pub(crate) fn closest_from_between([value_a, value_b]: [f64; 2], lambda: f64) -> [f64; 2] {
+    let (s_a, s_b) = (value_a.sqrt(), value_b.sqrt());
+    [lambda / (s_b + (s_a - 1.0) / lambda), lambda * (s_a + lambda * (s_b - 1.0))]
+}
+
 #[inline(always)]
 fn square<N: Number>(v: &Vector3<N>) -> N {
     v.dot(v)

@@ -1,6 +1,7 @@
 //! The whole of contact detection: reject, solve, prove, describe.
 
 use crate::contact::{Contact, Flags, LocalContact};
+use crate::curve;
 use crate::expansion::{Expansion, Start};
 use crate::memory::{Memory, Remembered};
 use crate::outcome::{Ending, Outcome};
@@ -79,8 +80,8 @@ pub(crate) fn solved(
     };
     let mut here = search.expansion(&start, Target::Midway);
     if settings.formulation == Formulation::Closest
-        && last.is_some_and(|last| last.overlapping)
-        && let Some(points) = search.overlapping_still(start.lambda, &here)
+        && let Some(last) = last.filter(|last| last.overlapping)
+        && let Some(points) = search.overlapping_still(&last, &here)
     {
         remember(memory, midway_between(&points));
         let local = LocalContact::closest(pair, &points, settings.weight_on_a, true);
@@ -100,7 +101,7 @@ pub(crate) fn solved(
         return solved(pair, pose_b, &settings, memory);
     }
     let overlapping = !separated && scale.s < 1.0;
-    let remembered = Remembered { x: midway.x, lambda: midway.lambda, overlapping };
+    let mut remembered = Remembered { x: midway.x, lambda: midway.lambda, overlapping, closest: [1.0; 2] };
     if separated {
         remember(memory, remembered);
         let contact = Contact::separated(settings.formulation, scale.low.max(1.0));
@@ -112,7 +113,10 @@ pub(crate) fn solved(
         Formulation::Midway => None,
     };
     let local = match &found {
-        Some(points) => LocalContact::closest(pair, points, settings.weight_on_a, overlapping),
+        Some(points) => {
+            remembered = seen_from(remembered, midway.values, points);
+            LocalContact::closest(pair, points, settings.weight_on_a, overlapping)
+        }
         None => {
             let bound = || search.bound(&midway, &here, Target::Midway);
             let pieces = |n: &Vector3<f64>| search.pieces(&midway, &here, n);
@@ -124,10 +128,21 @@ pub(crate) fn solved(
     Ok(local.placed(pair, pose_b, search.call()))
 }
 
-/// Midway of a pair that overlaps as P1 and P2 tell, near enough to start from: [`Expansion::towards_closest`] backwards.
-fn midway_between([p1, p2]: &[Closest; 2]) -> Remembered {
+/// What to remember of P1 and P2 with the place and λ of midway, where S_A and S_B have these values.
+fn seen_from(midway: Remembered, values: [f64; 2], [p1, p2]: &[Closest; 2]) -> Remembered {
+    let [of_p1, of_p2] = curve::closest_from_between(values, midway.lambda);
+    Remembered { closest: [p1.lambda / of_p1, p2.lambda / of_p2], ..midway }
+}
+
+/// What to remember of P1 and P2 alone of a pair that overlaps: a place between them and a λ that come near those of midway.
+fn midway_between(points: &[Closest; 2]) -> Remembered {
+    let [p1, p2] = points;
     let square = (p1.lambda * p1.scale.s) * (p2.lambda / p2.scale.s);
-    Remembered { x: 0.5 * (p1.x + p2.x), lambda: square.sqrt(), overlapping: true }
+    // On the way from one to the other S is the same quadratic.
+    let way = p1.x - p2.x;
+    let value = |i: usize| 0.5 * (p1.values[i] + p2.values[i]) - 0.125 * (p1.gradients[i] - p2.gradients[i]).dot(&way);
+    let midway = Remembered { x: p2.x + 0.5 * way, lambda: square.sqrt(), overlapping: true, closest: [1.0; 2] };
+    seen_from(midway, [value(0), value(1)], points)
 }
 
 fn remember(memory: Option<&mut Memory>, remembered: Remembered) {

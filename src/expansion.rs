@@ -149,15 +149,6 @@ impl Expansion {
         [piece(bodies[0], &self.q_a), piece(bodies[1], &self.q_b)]
     }
 
-    /// The λ of P1 and of P2 as seen from a point between them and the λ of midway.
-    ///
-    /// Where a single curvature decides along the curve, √S_A and √S_B are linear on it, with slopes whose ratio is λ. At P2
-    /// √S_A is s_a = √S_A + λ·(√S_B − 1), at P1 √S_B is s_b = √S_B + (√S_A − 1)/λ, and what is sought is λ·s_a and λ/s_b.
-    pub fn towards_closest(&self, lambda: f64) -> [f64; 2] {
-        let (s_a, s_b) = (self.q_a.expansion.sqrt(), self.q_b.expansion.sqrt());
-        [lambda / (s_b + (s_a - 1.0) / lambda), lambda * (s_a + lambda * (s_b - 1.0))]
-    }
-
     /// Bounds on the rounding of S_A and S_B.
     pub fn rounding(&self, a: &Body, b: &Body) -> (f64, f64) {
         (a.rounding(&self.locals[0], &self.q_a), b.rounding(&self.locals[1], &self.q_b))

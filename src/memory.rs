@@ -19,6 +19,8 @@ pub(crate) struct Remembered {
     pub lambda: f64,
     /// Whether the particles overlapped: if so, cheap proofs of separation are hardly worth a try.
     pub overlapping: bool,
+    /// By what the λ of P1 and P2 differ from what [`crate::curve::closest_from_between`] makes of the above: factors.
+    pub closest: [f64; 2],
 }
 
 impl Memory {
@@ -27,18 +29,19 @@ impl Memory {
 
     /// From the eight numbers of the C interface; whatever is not a filled memory is an empty one.
     pub fn from_raw(state: [f64; 8]) -> Self {
-        let [tag, x, y, z, lambda, overlapping, ..] = state;
+        let [tag, x, y, z, lambda, overlapping, of_p1, of_p2] = state;
         let usable =
             tag == Self::FILLED && [x, y, z].iter().all(|v| v.is_finite()) && lambda > 0.0 && lambda.is_finite();
-        let remembered = || Remembered { x: Vector3::new(x, y, z), lambda, overlapping: overlapping == 1.0 };
+        let (x, overlapping, closest) = (Vector3::new(x, y, z), overlapping == 1.0, [of_p1, of_p2]);
+        let remembered = || Remembered { x, lambda, overlapping, closest };
         Self { last: usable.then(remembered) }
     }
 
     /// To the eight numbers of the C interface.
     pub fn into_raw(self) -> [f64; 8] {
         match self.last {
-            Some(Remembered { x, lambda, overlapping }) => {
-                [Self::FILLED, x.x, x.y, x.z, lambda, if overlapping { 1.0 } else { 0.0 }, 0.0, 0.0]
+            Some(Remembered { x, lambda, overlapping, closest: [of_p1, of_p2] }) => {
+                [Self::FILLED, x.x, x.y, x.z, lambda, if overlapping { 1.0 } else { 0.0 }, of_p1, of_p2]
             }
             None => [0.0; 8],
         }

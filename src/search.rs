@@ -5,7 +5,9 @@ use crate::body::Body;
 use crate::certificate::{self, Certified};
 use crate::conic::{self, ConicError, Role};
 use crate::contact::{Contact, Flags};
+use crate::curve;
 use crate::expansion::{self, Expansion, Factorisation, Piece, Start};
+use crate::memory::Remembered;
 use crate::outcome::{Ending, Outcome};
 use crate::pair::Pair;
 use crate::settings::{BackEnd, Settings};
@@ -53,6 +55,8 @@ pub(crate) struct Closest {
     pub lambda: f64,
     pub gradients: [Vector3<f64>; 2],
     pub steep: [f64; 2],
+    /// S_A and S_B.
+    pub values: [f64; 2],
     pub scale: Certified,
     /// Bound on the distance to the optimum.
     pub bound: f64,
@@ -121,12 +125,14 @@ impl<'a> Search<'a> {
         self.constrained(target, None)
     }
 
-    /// P1 and P2 from the quadratics at hand and the λ of midway of the last call, where one step is enough for both and either
-    /// scale tells that the particles overlap: midway is then needed neither for that nor as a start.
+    /// P1 and P2 from the quadratics at hand and what the last call left, where one step is enough for both and either scale
+    /// tells that the particles overlap: midway is then needed neither for that nor as a start.
     #[inline(never)]
-    pub fn overlapping_still(&mut self, lambda: f64, here: &Expansion) -> Option<[Closest; 2]> {
+    pub fn overlapping_still(&mut self, last: &Remembered, here: &Expansion) -> Option<[Closest; 2]> {
         let overlaps = |found: &Closest| found.scale.s + found.scale.gap < 1.0;
-        self.both(here.towards_closest(lambda), here).filter(|[p1, p2]| overlaps(p1) && overlaps(p2))
+        let [of_p1, of_p2] = curve::closest_from_between([here.q_a.expansion, here.q_b.expansion], last.lambda);
+        self.both([last.closest[0] * of_p1, last.closest[1] * of_p2], here)
+            .filter(|[p1, p2]| overlaps(p1) && overlaps(p2))
     }
 
     /// P1 and P2 from midway and its quadratics, where one step is enough for both.
@@ -170,11 +176,11 @@ impl<'a> Search<'a> {
 
     fn closest(&self, target: Target, outcome: &Outcome, here: &Expansion) -> Option<Closest> {
         let scale = self.certify(outcome, target);
-        let Outcome { x, lambda, gradients, steep, .. } = *outcome;
+        let Outcome { x, lambda, gradients, steep, values, .. } = *outcome;
         // A scale that cannot be told from 0 belongs to a core.
         (scale.s > scale.gap).then(|| {
             let bound = self.bound(outcome, here, target);
-            Closest { x, lambda, gradients, steep, scale, bound }
+            Closest { x, lambda, gradients, steep, values, scale, bound }
         })
     }
 
