@@ -8,6 +8,7 @@ use crate::contact::{Contact, Flags};
 use crate::curve;
 use crate::expansion::{self, Expansion, Factorisation, Piece, Start};
 use crate::memory::Remembered;
+use crate::model;
 use crate::outcome::{Ending, Outcome};
 use crate::pair::Pair;
 use crate::settings::{BackEnd, Settings};
@@ -129,32 +130,42 @@ impl<'a> Search<'a> {
     /// tells that the particles overlap: midway is then needed neither for that nor as a start.
     #[inline(never)]
     pub fn overlapping_still(&mut self, last: &Remembered, here: &Expansion) -> Option<[Closest; 2]> {
-        let overlaps = |found: &Closest| found.scale.s + found.scale.gap < 1.0;
         let [of_p1, of_p2] = curve::closest_from_between([here.q_a.expansion, here.q_b.expansion], last.lambda);
-        self.both([last.closest[0] * of_p1, last.closest[1] * of_p2], here)
-            .filter(|[p1, p2]| overlaps(p1) && overlaps(p2))
+        let lambdas = [last.closest[0] * of_p1, last.closest[1] * of_p2];
+        self.both(lambdas, here, |found| found.scale.s + found.scale.gap < 1.0)
     }
 
     /// P1 and P2 from midway and its quadratics, where one step is enough for both.
     #[inline(never)]
     pub fn both_at_once(&mut self, (midway, here): (&Outcome, &Expansion)) -> Option<[Closest; 2]> {
-        self.both([midway.towards(Target::OnA), midway.towards(Target::OnB)], here)
+        self.both([midway.towards(Target::OnA), midway.towards(Target::OnB)], here, |_| true)
     }
 
-    /// P1 and P2 by one step from guesses of their λ. Where a constraint is slack, the scale cannot be told from 0.
+    /// P1 and P2 by one step from guesses of their λ, if both will do. Where a constraint is slack, the scale cannot be told from 0.
     #[inline(always)]
-    fn both(&mut self, lambdas: [f64; 2], here: &Expansion) -> Option<[Closest; 2]> {
+    fn both(
+        &mut self,
+        lambdas: [f64; 2],
+        here: &Expansion,
+        will_do: impl Fn(&Closest) -> bool,
+    ) -> Option<[Closest; 2]> {
         if !self.may_be_at_once() || here.softened.is_some() {
             return None;
         }
-        let (on_a, on_b) = (self.goal(Target::OnA), self.goal(Target::OnB));
-        let [p1, p2] = spine::both_at_once([&self.body_a, &self.body_b], [&on_a, &on_b], lambdas, here)?;
-        let closest = [self.closest(Target::OnA, &p1, here)?, self.closest(Target::OnB, &p2, here)?];
+        let bodies = [&self.body_a, &self.body_b];
+        let soft = expansion::softest(bodies[0], bodies[1]);
+        let [p1, p2] = model::both_closest([&here.q_a, &here.q_b], soft, lambdas)?;
+        let on_a = spine::proved(bodies, &self.goal(Target::OnA), here, p1)?;
+        let on_b = spine::proved(bodies, &self.goal(Target::OnB), here, p2)?;
+        let points = [self.closest(Target::OnA, &on_a, here)?, self.closest(Target::OnB, &on_b, here)?];
+        if !points.iter().all(will_do) {
+            return None;
+        }
         self.iterations += 2;
-        if p1.ending == Ending::RoundingLimited || p2.ending == Ending::RoundingLimited {
+        if on_a.ending == Ending::RoundingLimited || on_b.ending == Ending::RoundingLimited {
             self.flags.insert(Flags::ROUNDING_LIMITED);
         }
-        Some(closest)
+        Some(points)
     }
 
     /// What the call has cost so far, and who answered.

@@ -10,7 +10,7 @@ use crate::curve::Optimum;
 use crate::expansion::{self, Expansion, Factorisation, Start};
 use crate::line::{self, Merit};
 use crate::local::Local;
-use crate::model::{self, Model};
+use crate::model::Model;
 use crate::number::larger;
 use crate::outcome::{Ending, Outcome};
 use crate::target::Target;
@@ -61,21 +61,9 @@ pub(crate) fn at_once(bodies: [&Body; 2], goal: &Goal, lambda: f64, here: &Expan
     proved(bodies, goal, here, model.solve(lambda, 0.0)?)
 }
 
-/// P1 and P2 where one step is enough for both.
-#[inline(always)]
-pub(crate) fn both_at_once(
-    bodies: [&Body; 2],
-    goals: [&Goal; 2],
-    lambdas: [f64; 2],
-    here: &Expansion,
-) -> Option<[Outcome; 2]> {
-    let [p1, p2] = model::both_closest([&here.q_a, &here.q_b], expansion::softest(bodies[0], bodies[1]), lambdas)?;
-    Some([proved(bodies, goals[0], here, p1)?, proved(bodies, goals[1], here, p2)?])
-}
-
 /// The outcome of an optimum, if it is final.
 #[inline(always)]
-fn proved(bodies: [&Body; 2], goal: &Goal, here: &Expansion, optimum: Optimum) -> Option<Outcome> {
+pub(crate) fn proved(bodies: [&Body; 2], goal: &Goal, here: &Expansion, optimum: Optimum) -> Option<Outcome> {
     let step = here.step(bodies, optimum);
     if step.planes != Planes::Exact || !step.optimum.settled {
         return None;
