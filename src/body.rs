@@ -170,7 +170,7 @@ impl<'a> Body<'a> {
 
     /// The shift and the blur at the end of a step of this length.
     #[inline]
-    fn after(&self, local: &Local, step: f64) -> (f64, f64) {
+    pub fn after(&self, local: &Local, step: f64) -> (f64, f64) {
         let further = shift(step);
         (local.shift + further, local.blur + self.particle.bounds.longest_normal * further)
     }
@@ -249,6 +249,12 @@ impl<'a> Body<'a> {
     /// Curvature of the shadow sphere's share of S, the least in any direction.
     pub fn sphere_curvature(&self) -> f64 {
         2.0 * self.sphere_weight
+    }
+
+    /// Bound on how fast the shadow sphere's share of S changes with its centre where S is `value`: 2m|y| with m|y|² ≤ S.
+    #[inline]
+    pub fn sphere_slope(&self, value: f64) -> f64 {
+        2.0 * (self.sphere_weight * larger(value, 0.0)).sqrt()
     }
 
     /// How much the regularisation adds to S at x.

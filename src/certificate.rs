@@ -68,24 +68,29 @@ fn distance_of(outcome: &Outcome, expansion: &Expansion, a: &Body, b: &Body, tar
     };
     let Some(response) = outcome.response.as_ref().filter(|_| outcome.sure) else { return convexity() };
     let step = outcome.x - expansion.x;
+    let (length, in_axes) = (step.norm(), expansion.to_axes(&step));
     let turn = TURN * f64::EPSILON * response.per_slope(a.particle.dimensions);
-    // The two sides meet to what was left, and to the rounding of what they are summed from.
-    let (side_a, side_b) = target.changes(expansion.q_a.expansion, expansion.q_b.expansion);
-    let left = target.mismatch(outcome.values[0], outcome.values[1]);
-    let sides = left + SIDES * f64::EPSILON * (side_a + side_b + larger(outcome.upper, 1.0));
-    let in_axes = expansion.to_axes(&step);
-    let mut sum = response.unsolved() + response.to_value(sides);
+    let (mut sum, mut sides) = (response.unsolved(), [0.0; 2]);
     for (i, (body, q, weight)) in
         [(a, &expansion.q_a, weights.0), (b, &expansion.q_b, weights.1)].into_iter().enumerate()
     {
+        let (shift, blur) = body.after(&expansion.locals[i], length);
         let planes = response.to_planes(i, q, target, outcome.lambda, body.plane_weight());
         // The force, rounded at either end of the step.
         let force = weight * (outcome.steep[i] + q.gradient.norm());
-        let local = &expansion.locals[i];
-        sum += local.shift + local.blur * planes + force * turn + response.to_sums(q, weight, &in_axes);
+        let terms = q.terms(&in_axes);
+        sum += shift + blur * planes + force * turn + response.to_sums(q, weight, terms);
+        sides[i] = SIDES * f64::EPSILON * q.expansion
+            + q.rounding_after(&in_axes, terms)
+            + body.sphere_slope(outcome.values[i]) * shift;
     }
+    // The two sides meet to what was left, and to the rounding of what they are summed from. The centre of a sphere that is
+    // off by the shift moves the slope by its share, less than the shift moves the point, but S by more.
+    let left = target.mismatch(outcome.values[0], outcome.values[1]);
+    let (side_a, side_b) = target.changes(sides[0], sides[1]);
+    sum += response.to_value(left + side_a + side_b + SIDES * f64::EPSILON * larger(outcome.upper, 1.0));
     // Carried along from the point of expansion, and rounded at the end.
-    let carried = TURN * f64::EPSILON * (step.norm() + outcome.x.norm());
+    let carried = TURN * f64::EPSILON * (length + outcome.x.norm());
     // Where both gradients vanish, the response has no digits.
     if sum.is_finite() { sum + carried } else { convexity() + carried }
 }

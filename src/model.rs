@@ -226,10 +226,9 @@ impl Optimum<Twin> {
 }
 
 impl Optimum {
-    /// Bound on the rounding of the sums by which S of one body is taken along the step, axis by axis: along a face a long
-    /// step has but the curvature of the face. By Cauchy's inequality no sum in the Hessian has terms above √(h_ii·h_jj).
+    /// Bound on the rounding of the sums by which S of one body is taken along the step.
     pub fn rounding(&self, q: &Quadratic) -> f64 {
-        2.0 * f64::EPSILON * (2.0 * q.terms(&self.step) + self.step.abs().dot(&q.gradient.abs()))
+        q.rounding_after(&self.step, q.terms(&self.step))
     }
 
     /// The same of the sums by which the slope was made to vanish, in whatever direction.
@@ -295,13 +294,13 @@ impl Response {
         self.to_slope.times(&self.slope).norm()
     }
 
-    /// Bound on the move by the rounding of the sums in the slope of a body of this weight, after a step v: on axis k they
-    /// are as large as √h_kk.
-    pub fn to_sums(&self, q: &Quadratic, weight: f64, v: &Vector3<f64>) -> f64 {
+    /// Bound on the move by the rounding of the sums in the slope of a body of this weight, after a step with these
+    /// terms of S: on axis k they are as large as √h_kk.
+    pub fn to_sums(&self, q: &Quadratic, weight: f64, terms: f64) -> f64 {
         let m = &self.to_slope;
         let square = |x: f64, y: f64, z: f64| x * x + y * y + z * z;
         let moves = Vector3::new(square(m.xx, m.yx, m.zx), square(m.yx, m.yy, m.zy), square(m.zx, m.zy, m.zz));
-        SUMS * weight * (3.0 * q.terms(v) * q.hessian.diagonal().dot(&moves)).sqrt()
+        SUMS * weight * (3.0 * terms * q.hessian.diagonal().dot(&moves)).sqrt()
     }
 
     /// The move of the optimum when a·g_A + b·g_B grows by a slope.

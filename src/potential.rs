@@ -36,6 +36,13 @@ impl Quadratic {
     pub(crate) fn terms(&self, v: &Vector3<f64>) -> f64 {
         self.expansion + 1.5 * v.component_mul(v).dot(&self.hessian.diagonal())
     }
+
+    /// Bound on the rounding of the sums by which S is taken along a step v with these terms, axis by axis: along a face a long
+    /// step has but the curvature of the face. By Cauchy's inequality no sum in the Hessian has terms above √(h_ii·h_jj).
+    #[inline]
+    pub(crate) fn rounding_after(&self, v: &Vector3<f64>, terms: f64) -> f64 {
+        2.0 * f64::EPSILON * (2.0 * terms + v.abs().dot(&self.gradient.abs()))
+    }
 }
 
 /// S and ∇S at a point.
