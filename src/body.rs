@@ -77,7 +77,12 @@ impl<'a> Body<'a> {
     /// The normal of a plane, solver frame.
     #[inline]
     pub fn normal(&self, place: usize) -> Vector3<f64> {
-        let n = self.particle.normal(place);
+        self.to_solver(self.particle.normal(place))
+    }
+
+    /// A direction of the local frame in the solver frame.
+    #[inline]
+    pub fn to_solver(&self, n: Vector3<f64>) -> Vector3<f64> {
         if self.turned { self.rotation * n } else { n }
     }
 

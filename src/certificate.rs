@@ -70,7 +70,7 @@ fn distance_of(outcome: &Outcome, expansion: &Expansion, a: &Body, b: &Body, tar
     let step = outcome.x - expansion.x;
     let (length, in_axes) = (step.norm(), expansion.to_axes(&step));
     let turn = TURN * f64::EPSILON * response.per_slope(a.particle.dimensions);
-    let (mut sum, mut sides) = (response.unsolved(), [0.0; 2]);
+    let (mut sum, mut sides) = (response.unsolved() + response.beside, [0.0; 2]);
     for (i, (body, q, weight)) in
         [(a, &expansion.q_a, weights.0), (b, &expansion.q_b, weights.1)].into_iter().enumerate()
     {

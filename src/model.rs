@@ -4,7 +4,7 @@
 //! in logarithms where that is of no use.
 
 use crate::curve::{Curve, Optimum, Probe, Side};
-use crate::number::{Number, Twin, larger};
+use crate::number::{Number, Twin, larger, smaller};
 use crate::potential::Quadratic;
 use crate::symmetric::Symmetric;
 use crate::target::Target;
@@ -262,6 +262,7 @@ impl Optimum {
             to_all_planes: larger(of_planes, 0.0),
             slope: self.slope(target),
             values: self.values.into(),
+            beside: 0.0,
         })
     }
 }
@@ -286,12 +287,37 @@ pub(crate) struct Response {
     slope: Vector3<f64>,
     /// q_A and q_B.
     values: [f64; 2],
+    /// Bound on the moves by planes that do not count and may be on.
+    pub beside: f64,
 }
 
 impl Response {
     /// The move that would take away what is left of the slope.
     pub fn unsolved(&self) -> f64 {
         self.to_slope.times(&self.slope).norm()
+    }
+
+    /// How α·q_A + β·q_B moves the point when S of A (0) or B (1) grows: |α|·|along|/rate, or that of β.
+    pub fn to_body_value(&self, body: usize, target: Target) -> f64 {
+        let (alpha, beta) = target.turning();
+        self.per_value * if body == 0 { alpha.abs() } else { beta.abs() }
+    }
+
+    /// Bound on the move by planes that do not count and may be on, each with its normal, its stiffness and the depth to which it
+    /// is on if the point does not give way.
+    ///
+    /// The point gives way as a spring of M⁻¹ does, stiffer once a plane is on: a plane alone is on to the depth over
+    /// 1 + stiffness·n·(−M)n. Several may push each other, but hold no more work, ½Σ stiffness·depth², than if the point stayed.
+    pub fn to_planes_beside(&self, planes: impl Iterator<Item = (Vector3<f64>, f64, f64)>) -> f64 {
+        let (mut alone, mut work, mut moves, mut count) = (0.0, 0.0, 0.0, 0);
+        for (n, stiffness, depth) in planes {
+            let way = self.to(&n);
+            alone = stiffness * way.norm() * depth / (1.0 + stiffness * larger(-way.dot(&n), 0.0));
+            work += stiffness * depth * depth;
+            moves += stiffness * way.norm_squared();
+            count += 1;
+        }
+        if count > 1 { (work * smaller(moves, larger(-self.to_slope.trace(), 0.0))).sqrt() } else { alone }
     }
 
     /// Bound on the move by the rounding of the sums in the slope of a body of this weight, after a step with these

@@ -88,6 +88,12 @@ impl Outcome {
         if careful && decided && doubt > rounding {
             doubt = doubt.min(here.remnant(bodies, target, step, upper, force));
         }
+        let mut response = optimum.response(target, soft);
+        if step.verdicts[0].has_beside(&here.q_a) || step.verdicts[1].has_beside(&here.q_b) {
+            if let Some(response) = &mut response {
+                response.beside = beside(here, bodies, target, *step, response);
+            }
+        }
         Self {
             x: here.x + step.v,
             lambda,
@@ -102,7 +108,7 @@ impl Outcome {
             ending: Ending::Stuck,
             sure: decided && held,
             rate: optimum.rate(target),
-            response: optimum.response(target, soft),
+            response,
         }
     }
 
@@ -159,6 +165,25 @@ pub(crate) enum Ending {
     Separated,
     /// Neither; the outcome is not to be used.
     Stuck,
+}
+
+/// Bound on what planes that do not count, and may be on by rounding, do to the point: each pushes, and raises S by w·depth².
+#[cold]
+#[inline(never)]
+fn beside(here: &Expansion, bodies: [&Body; 2], target: Target, step: Step, response: &Response) -> f64 {
+    let (a, b) = target.weights(step.optimum.lambda);
+    let (mut planes, mut raised) = (Vec::new(), 0.0);
+    for (i, (body, weight)) in bodies.into_iter().zip([a, b]).enumerate() {
+        let local = body.blurred(&here.locals[i], step.v.norm());
+        body.beside(&local, &step.v, |n, depth, blur| {
+            let depth = larger(depth, 0.0) + blur;
+            raised += response.to_body_value(i, target) * body.plane_weight() * depth * depth;
+            planes.push((here.to_axes(&body.to_solver(n)), weight * body.plane_curvature(), depth));
+        });
+    }
+    // What S is raised by moves the point into the planes, too.
+    raised
+        + response.to_planes_beside(planes.into_iter().map(|(n, stiff, depth)| (n, stiff, depth + n.norm() * raised)))
 }
 
 /// Bound on the effect of rounding on the optimum, from bounds on that of S_A and S_B of first and second order: it moves the

@@ -87,6 +87,29 @@ impl Body<'_> {
         weakest
     }
 
+    /// Visits the planes that do not count and may be on after the step v for all that rounding tells, with their normals in the
+    /// frame of the particle, their depths and their own blurs.
+    pub fn beside(&self, local: &Local, v: &Vector3<f64>, mut visit: impl FnMut(Vector3<f64>, f64, f64)) {
+        let (p, e) = (self.particle, self.turn(v));
+        // Not all of them have their place within a short step of where they switch on.
+        let far = local.early.max(p.bounds.longest_normal * e.norm() + local.blur);
+        p.visit_near(&local.y, far, |i, n, excess| {
+            let (depth, blur) = (excess + n.dot(&e), self.blur_of(&n, local));
+            if depth > -blur && !local.counts(p, i, excess) {
+                visit(n, depth, blur);
+            }
+        });
+    }
+
+    /// Whether a plane that does not count is on after the step v, beyond what rounding does to this very plane.
+    #[cold]
+    #[inline(never)]
+    fn meets(&self, local: &Local, v: &Vector3<f64>) -> bool {
+        let mut met = false;
+        self.beside(local, v, |_, depth, blur| met |= depth > blur);
+        met
+    }
+
     #[inline(never)]
     fn check_each(&self, local: &Local, q: &Quadratic, v: Vector3<f64>) -> Verdict {
         let (y, blur, e) = (local.y, local.blur, self.turn(&v));
@@ -124,7 +147,8 @@ impl Body<'_> {
             }
         });
         near += if nearest > -blur { 1.0 } else { 0.0 };
-        let met = nearest > blur;
+        // The blur is that of the longest normal: a plane with a short one may be on for sure.
+        let met = nearest > blur || (nearest > 0.0 && self.meets(local, &v));
         let pull = self.plane_curvature() * depths;
         if pulling {
             return Verdict { planes: Planes::Pulling, drop: None, doubtful: f64::INFINITY, least, pull, near };
@@ -150,6 +174,12 @@ impl Verdict {
         let pull = q.pull + count * body.plane_curvature() * moved;
         let near = if least < local.blur { count + 1.0 } else { count };
         Self { planes: Planes::Exact, drop: None, doubtful: 0.0, least, pull, near }
+    }
+
+    /// Whether a plane that does not count may be on by rounding.
+    #[inline(always)]
+    pub fn has_beside(&self, q: &Quadratic) -> bool {
+        self.near > f64::from(q.count)
     }
 
     /// Whether some plane may push less than a force, for a body of this weight. Without planes none does: ∞ times 0 is no
