@@ -3,7 +3,7 @@
 use crate::body;
 use crate::certificate::Certified;
 use crate::expansion::Piece;
-use crate::number::{larger, smaller};
+use crate::number::larger;
 use crate::outcome::Outcome;
 use crate::pair::Pair;
 use crate::pose::Pose;
@@ -162,9 +162,11 @@ impl LocalContact {
                 surface::distance_near(pair.b, x, &-normal, guess)
                     .or_else(|| surface::distance_beside(pair.b, x, &-normal, body::shift(x.norm())))
             })?;
-            // Where s < 1 by less than the rounding of the point, the surfaces seem to have passed: they meet half way.
-            let passed = smaller(to_a + to_b, 0.0);
-            Some(Surface::Along(to_a - 0.5 * passed, to_b - 0.5 * passed))
+            // P3 lies in both. Where the surfaces seem to have passed each other, rounding has put it outside of one, on whose
+            // surface it then lies as far as it is known; a surface that is met aslant may seem to be much further away.
+            let passed = to_a + to_b < 0.0;
+            let least = if passed { 0.0 } else { f64::NEG_INFINITY };
+            Some(Surface::Along(larger(to_a, least), larger(to_b, least)))
         } else {
             None
         };

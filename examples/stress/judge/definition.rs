@@ -125,7 +125,9 @@ pub(super) fn surfaces(verdict: &mut Verdict, scene: &Scene, contact: &Contact) 
             |way: Vector3<f64>| (inside(point) || inside(point - allowed * way)) && !inside(point + allowed * way);
         // A line that grazes a face crosses it later than a point is off it: across the face as well.
         let across = || {
-            let outside = (0..8).map(|i| point + allowed * f64::from(1 << i) * outwards).find(|p| !inside(*p))?;
+            let steps =
+                std::iter::successors(Some(allowed), |step| Some(2.0 * step)).take_while(|step| *step < scene.length);
+            let outside = steps.map(|step| point + step * outwards).find(|p| !inside(*p))?;
             body.at(&Wide3::from(outside)).gradient.f64().try_normalize(0.0)
         };
         let between = off <= allowed || straddles(outwards) || across().is_some_and(straddles);
