@@ -7,7 +7,7 @@ use crate::curve::Optimum;
 use crate::expansion::{self, Expansion, Step};
 use crate::local::{Local, Place};
 use crate::model::Model;
-use crate::outcome::Outcome;
+use crate::outcome::{self, Outcome};
 use crate::particle::Particle;
 use crate::target::Target;
 use crate::verdict::{DOUBT, Planes, Verdict};
@@ -239,9 +239,9 @@ impl Anchor<'_> {
                     near += 1.0;
                     if after < -doubt {
                         planes = planes.max(Planes::Pulling);
-                        pulled -= after;
+                        pulled -= n.norm() * after;
                     } else if after < doubt {
-                        doubtful += doubt + (-after).max(0.0);
+                        doubtful += n.norm() * (doubt + (-after).max(0.0));
                     }
                 } else if after > -self.locals[i].blur {
                     near += 1.0;
@@ -335,7 +335,11 @@ impl Anchor<'_> {
         for (local, shift) in expansion.locals.iter_mut().zip(shifts) {
             local.blur += shift;
         }
-        let outcome = Outcome::of(expansion, self.bodies, self.target, step, true);
+        let mut outcome = Outcome::of(expansion, self.bodies, self.target, step, true);
+        if let Some(response) = &mut outcome.response {
+            // The planes of the quadratics are not those of the anchor.
+            response.beside = outcome::beside(expansion, self.bodies, self.target, *step, response, &places);
+        }
         if shifts == [0.0; 2] {
             return outcome;
         }

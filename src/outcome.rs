@@ -4,6 +4,7 @@ use crate::body::Body;
 use crate::ceiling::Ceiling;
 use crate::curve::Optimum;
 use crate::expansion::{self, Expansion, Step};
+use crate::local::Place;
 use crate::model::Response;
 use crate::number::larger;
 use crate::potential::Quadratic;
@@ -91,7 +92,7 @@ impl Outcome {
         let mut response = optimum.response(target, soft);
         if step.verdicts[0].has_beside(&here.q_a) || step.verdicts[1].has_beside(&here.q_b) {
             if let Some(response) = &mut response {
-                response.beside = beside(here, bodies, target, *step, response);
+                response.beside = beside(here, bodies, target, *step, response, &here.locals);
             }
         }
         Self {
@@ -167,15 +168,23 @@ pub(crate) enum Ending {
     Stuck,
 }
 
-/// Bound on what planes that do not count, and may be on by rounding, do to the point: each pushes, and raises S by w·depth².
+/// Bound on what planes that do not count in the quadratics, which are those of `places`, and may be on by rounding, do to the
+/// point: each pushes, and raises S by w·depth².
 #[cold]
 #[inline(never)]
-fn beside(here: &Expansion, bodies: [&Body; 2], target: Target, step: Step, response: &Response) -> f64 {
+pub(crate) fn beside(
+    here: &Expansion,
+    bodies: [&Body; 2],
+    target: Target,
+    step: Step,
+    response: &Response,
+    places: &[impl Place; 2],
+) -> f64 {
     let (a, b) = target.weights(step.optimum.lambda);
     let (mut planes, mut raised) = (Vec::new(), 0.0);
     for (i, (body, weight)) in bodies.into_iter().zip([a, b]).enumerate() {
         let local = body.blurred(&here.locals[i], step.v.norm());
-        body.beside(&local, &step.v, |n, depth, blur| {
+        body.beside(&places[i], &local, &step.v, |n, depth, blur| {
             let depth = larger(depth, 0.0) + blur;
             raised += response.to_body_value(i, target) * body.plane_weight() * depth * depth;
             planes.push((here.to_axes(&body.to_solver(n)), weight * body.plane_curvature(), depth));

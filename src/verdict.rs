@@ -20,7 +20,7 @@ pub(crate) struct Verdict {
     pub planes: Planes,
     /// The plane to be dropped before the model is solved again.
     pub drop: Option<usize>,
-    /// Sum of the depths by which planes of doubtful sign may pull after all.
+    /// Sum of the depths by which planes of doubtful sign may pull after all, each times the length of its normal.
     pub doubtful: f64,
     /// The least depth of a plane of the quadratic after the step.
     pub least: f64,
@@ -87,15 +87,20 @@ impl Body<'_> {
         weakest
     }
 
-    /// Visits the planes that do not count and may be on after the step v for all that rounding tells, with their normals in the
-    /// frame of the particle, their depths and their own blurs.
-    pub fn beside(&self, local: &Local, v: &Vector3<f64>, mut visit: impl FnMut(Vector3<f64>, f64, f64)) {
+    /// Visits the planes that do not count at a place and may be on after the step v for all that rounding tells, with their
+    /// normals in the frame of the particle, their depths and their own blurs.
+    pub fn beside(
+        &self,
+        place: &impl Place,
+        local: &Local,
+        v: &Vector3<f64>,
+        mut visit: impl FnMut(Vector3<f64>, f64, f64),
+    ) {
         let (p, e) = (self.particle, self.turn(v));
-        // Not all of them have their place within a short step of where they switch on.
-        let far = local.early.max(p.bounds.longest_normal * e.norm() + local.blur);
+        let far = place.early().max(p.bounds.longest_normal * e.norm() * (1.0 + 1e-14) + local.blur);
         p.visit_near(&local.y, far, |i, n, excess| {
             let (depth, blur) = (excess + n.dot(&e), self.blur_of(&n, local));
-            if depth > -blur && !local.counts(p, i, excess) {
+            if depth > -blur && !place.counts(p, i, excess) {
                 visit(n, depth, blur);
             }
         });
@@ -106,7 +111,7 @@ impl Body<'_> {
     #[inline(never)]
     fn meets(&self, local: &Local, v: &Vector3<f64>) -> bool {
         let mut met = false;
-        self.beside(local, v, |_, depth, blur| met |= depth > blur);
+        self.beside(local, local, v, |_, depth, blur| met |= depth > blur);
         met
     }
 
@@ -120,7 +125,8 @@ impl Body<'_> {
         // Planes of the quadratic are near y, planes that are met near y + e: no other is near either.
         let far = if p.leaves.single() { 0.0 } else { local.early.max(p.bounds.longest_normal * e.norm()) };
         // The step was turned: what is left of a long one across a plane is but rounding.
-        let doubt = DOUBT * p.bounds.longest_normal * (e.x.abs() + e.y.abs() + e.z.abs());
+        let turned = DOUBT * (e.x.abs() + e.y.abs() + e.z.abs());
+        let doubt = turned * p.bounds.longest_normal;
         // Where only the regularisation tells one point of a face from another, pulls far weaker than itself or as the rounding of
         // the forces would let planes take turns without end.
         let weak = if self.is_plain() { 0.0 } else { self.weakest(q) };
@@ -133,13 +139,18 @@ impl Body<'_> {
             depths += depth.max(0.0);
             near += 1.0;
             least = least.min(depth);
-            let doubt = doubt + DOUBT * excess.abs();
+            if depth >= doubt + DOUBT * excess.abs() {
+                return;
+            }
+            // The longest normal may be that of another plane.
+            let length = n.norm();
+            let doubt = turned * length + DOUBT * excess.abs();
             if depth >= doubt {
                 return;
             }
             if depth >= -doubt.max(weak) {
                 // The depth itself is known to the doubt only.
-                doubtful += doubt + (-depth).max(0.0);
+                doubtful += length * (doubt + (-depth).max(0.0));
             } else if excess > blur {
                 pulling = true;
             } else if worst.is_none_or(|(_, most)| depth < most) {
@@ -192,9 +203,10 @@ impl Verdict {
     /// Slope that planes of doubtful sign may leave, for a body of this weight: a force that is found to rounding only may
     /// be a pull.
     pub fn doubtful_slope(&self, body: &Body, weight: f64, rounding: f64) -> f64 {
-        let per_depth = weight * body.plane_curvature() * body.particle.bounds.longest_normal;
-        let lost = if per_depth * self.least < rounding { self.near * rounding } else { 0.0 };
+        let stiffness = weight * body.plane_curvature();
+        let least = stiffness * body.particle.bounds.longest_normal * self.least;
+        let lost = if least < rounding { self.near * rounding } else { 0.0 };
         // No plane may be doubtful, of weights that overflow.
-        if self.doubtful > 0.0 { lost + per_depth * self.doubtful } else { lost }
+        if self.doubtful > 0.0 { lost + stiffness * self.doubtful } else { lost }
     }
 }
