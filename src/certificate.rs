@@ -120,6 +120,12 @@ pub(crate) fn without_doubtful(outcome: &Outcome, bodies: [&Body; 2], target: Ta
     let mut expansion = Expansion::at(bodies, &start, target, Factorisation::Aligned);
     let mut lower = f64::NEG_INFINITY;
     for _ in 0..MOST_DROPS {
+        // Along a face what holds the point may be but a plane of doubtful sign.
+        let tied = expansion.tied(bodies, target, outcome.lambda);
+        if let Some(step) = tied.filter(|step| step.planes <= Planes::Met) {
+            let found = Outcome::of(&expansion, bodies, target, &step, true);
+            lower = lower.max(found.lower - found.rounding);
+        }
         let Some(step) = expansion.optimum(bodies, target, outcome.lambda, 0.0) else { break };
         match step.planes {
             Planes::Pulling => break,

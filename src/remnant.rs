@@ -13,6 +13,7 @@
 
 use crate::body::Body;
 use crate::expansion::{self, Expansion, Step, TURN};
+use crate::model::Model;
 use crate::symmetric::{Factor, Symmetric};
 use crate::target::Target;
 
@@ -23,6 +24,20 @@ const REACH: f64 = 1e-9;
 const EIGENVALUE: f64 = 32.0;
 
 impl Expansion {
+    /// The step to the optimum at this λ with a spring that keeps it short where only what is not known would make it long.
+    pub fn tied(&self, bodies: [&Body; 2], target: Target, lambda: f64) -> Option<Step> {
+        let (a, b) = target.weights(lambda);
+        let of_spheres = expansion::softest(bodies[0], bodies[1]);
+        let force = a * self.q_a.gradient.norm() + b * self.q_b.gradient.norm();
+        let spring = TURN * f64::EPSILON * force / (REACH * expansion::smallest(bodies));
+        let hessian = self.q_a.hessian.weighted(a, &self.q_b.hessian, b);
+        let least = a * of_spheres.0 + b * of_spheres.1 + spring;
+        let tied = Factor::of(&hessian.scaled(1.0, spring), least)?;
+        let step = -tied.solve(&(a * self.q_a.gradient + b * self.q_b.gradient));
+        let optimum = Model::new(&self.q_a, &self.q_b, of_spheres, target).held(step, lambda)?;
+        Some(self.step(bodies, optimum))
+    }
+
     /// How far the dual value after a step may lie above a lower bound; infinite where a plane is in doubt. Other than
     /// [`Expansion::doubt`] it takes two factorisations. Forces that balance have the length `force`.
     #[cold]
