@@ -6,7 +6,9 @@ use crate::expansion::Piece;
 use crate::number::larger;
 use crate::outcome::Outcome;
 use crate::pair::Pair;
+use crate::particle::Particle;
 use crate::pose::Pose;
+use crate::potential;
 use crate::search::Closest;
 use crate::settings::{BackEnd, Formulation};
 use crate::surface;
@@ -162,11 +164,10 @@ impl LocalContact {
                 surface::distance_near(pair.b, x, &-normal, guess)
                     .or_else(|| surface::distance_beside(pair.b, x, &-normal, body::shift(x.norm())))
             })?;
-            // P3 lies in both. Where the surfaces seem to have passed each other, rounding has put it outside of one, on whose
-            // surface it then lies as far as it is known; a surface that is met aslant may seem to be much further away.
+            // Where s < 1 by less than the rounding of the point, the surfaces seem to have passed each other.
             let passed = to_a + to_b < 0.0;
-            let least = if passed { 0.0 } else { f64::NEG_INFINITY };
-            Some(Surface::Along(larger(to_a, least), larger(to_b, least)))
+            let (to_a, to_b) = if passed { meeting(pair, x, &normal, (to_a, to_b)) } else { (to_a, to_b) };
+            Some(Surface::Along(to_a, to_b))
         } else {
             None
         };
@@ -313,6 +314,23 @@ impl Across {
         let way = self.length * surface::root_of_piece(value - 1.0, gradient.dot(&self.vector), piece.curvature);
         if way.abs() < piece.reach { Some(way) } else { from_there(way) }
     }
+}
+
+/// Ways to where two surfaces that have passed each other by rounding meet, as far from the one as from the other. One that is met
+/// aslant is that much nearer than it seems along the normal.
+#[cold]
+fn meeting(pair: &Pair, x: &Vector3<f64>, normal: &Vector3<f64>, (to_a, to_b): (f64, f64)) -> (f64, f64) {
+    let slant = |particle: &Particle, y: &Vector3<f64>, n: &Vector3<f64>| {
+        let gradient = potential::tangent(particle, y).gradient;
+        (gradient.dot(n) / gradient.norm()).abs()
+    };
+    let of_a = slant(pair.a, &pair.in_a(x), &pair.rotation.tr_mul(normal));
+    let of_b = slant(pair.b, x, normal);
+    let share = of_b / (of_a + of_b);
+    // Without a gradient, half way.
+    let share = if share.is_finite() { share } else { 0.5 };
+    let passed = to_a + to_b;
+    (to_a - share * passed, to_b - (1.0 - share) * passed)
 }
 
 /// Unit normal where a gradient vanishes, both point the same way, or a square is no number; and whether it had to be taken
