@@ -21,6 +21,7 @@ pub enum Wanted {
 }
 
 /// A body in world axes about the centre of B.
+#[derive(Clone)]
 pub struct Body<'a> {
     planes: Vec<([f64; 3], f64)>,
     /// Normals in world axes, to tell in doubles which planes are far.
@@ -91,6 +92,25 @@ impl<'a> Body<'a> {
     /// Least curvature of S, 1/length².
     pub fn softest(&self) -> f64 {
         2.0 * self.sphere_weight.f64()
+    }
+
+    /// The same with all planes moved in.
+    pub fn inset(&self, depth: f64) -> Self {
+        let planes = self.planes.iter().map(|(n, d)| (*n, d - depth)).collect();
+        Self { planes, ..self.clone() }
+    }
+
+    /// The same turned about its centre by a small angle along a vector.
+    pub fn tilted(&self, by: &Vector3<f64>) -> Self {
+        let [x, y, z] = &self.rotation;
+        let [of_x, of_y, of_z] = [by.x, by.y, by.z].map(Wide::from);
+        let turned = [
+            z.times(of_y).minus(&y.times(of_z)),
+            x.times(of_z).minus(&z.times(of_x)),
+            y.times(of_x).minus(&x.times(of_y)),
+        ];
+        let rotation = [0, 1, 2].map(|i| self.rotation[i].plus(&turned[i]));
+        Self { rotation, ..self.clone() }
     }
 
     pub fn at(&self, x: &Wide3) -> Local {
