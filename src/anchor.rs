@@ -328,6 +328,7 @@ impl Anchor<'_> {
         let places = [0, 1].map(|i| After::of(self.bodies[i], &self.locals[i], &saddle.on));
         let weights = self.target.weights(step.optimum.lambda);
         *expansion = Expansion::about(self.bodies, self.x, self.locals, &places, weights);
+        expansion.anchored = true;
         let model = Model::new(&expansion.q_a, &expansion.q_b, soft, self.target);
         if let Some(optimum) = model.held(expansion.to_axes(&step.v), step.optimum.lambda) {
             step.optimum = optimum;

@@ -51,6 +51,8 @@ pub(crate) struct Expansion {
     pub q_b: Quadratic,
     /// Weights of the planes in them, where the safe solver made them lower than they are.
     pub softened: Option<[f64; 2]>,
+    /// Whether the planes in them are those of an anchor, on after a step from here, and not those of the locals.
+    pub anchored: bool,
 }
 
 /// The factorisation that the shapes of a pair call for.
@@ -115,7 +117,7 @@ impl Expansion {
     ) -> Self {
         let q_a = bodies[0].at(&places[0], axes.as_ref());
         let q_b = bodies[1].at(&places[1], axes.as_ref());
-        Self { x, axes, locals, q_a, q_b, softened: None }
+        Self { x, axes, locals, q_a, q_b, softened: None, anchored: false }
     }
 
     /// A direction of the solver's frame in the axes of the quadratics.

@@ -13,9 +13,11 @@
 
 use crate::body::Body;
 use crate::expansion::{self, Expansion, Step, TURN};
+use crate::local::Place;
 use crate::model::Model;
 use crate::symmetric::{Factor, Symmetric};
 use crate::target::Target;
+use nalgebra::Vector3;
 
 /// Relative to the smaller particle, the length over which the spring weighs as much as what is not known.
 const REACH: f64 = 1e-9;
@@ -65,12 +67,38 @@ impl Expansion {
         let of_way = TURN * f64::EPSILON * roots.norm() * roots.dot(&further.abs());
         let slope = unknown + of_way + left.norm();
         let stiff = least_curvature(&hessian, soft, bodies[0].particle.dimensions);
-        let curvature = if slope <= stiff * stays { stiff } else { soft };
+        let held =
+            slope <= stiff * stays || self.holds(bodies, &(step.v + self.to_solver(&further)), slope, soft, &hessian);
+        let curvature = if held { stiff } else { soft };
         let hidden = 0.5 * slope * slope / curvature;
         let farthest = expansion::farthest(bodies, &(self.x + step.v), upper) + further.norm();
         gained + unknown * further.norm() + hidden.min(slope * farthest)
     }
 }
+
+impl Expansion {
+    /// Whether every plane stays on after a step where a slope of this length is still to be brought to zero, in whatever direction:
+    /// by −H⁻¹ times the slope, which takes the depth of a plane down by |H⁻¹n| times its length at most. A stiff plane may be on
+    /// by far less than a soft one needs.
+    fn holds(&self, bodies: [&Body; 2], v: &Vector3<f64>, slope: f64, soft: f64, hessian: &Symmetric) -> bool {
+        let Some(factor) = Factor::of(hessian, soft) else { return false };
+        // The planes of a quadratic about an anchor are not those of its locals.
+        let mut holds = !self.anchored;
+        for (body, local) in bodies.into_iter().zip(&self.locals) {
+            let e = body.turn(v);
+            body.particle.visit_near(&local.y, local.early, |i, n, excess| {
+                if local.counts(body.particle, i, excess) {
+                    let given = factor.solve(&self.to_axes(&body.to_solver(n))).norm() * slope;
+                    holds &= excess + n.dot(&e) >= AMPLE * given;
+                }
+            });
+        }
+        holds
+    }
+}
+
+/// Rounding of what a plane gives way by, ample.
+const AMPLE: f64 = 1.0 + 1e-2;
 
 /// Lower bound of the curvature in any direction (in the plane: of its first two axes).
 fn least_curvature(hessian: &Symmetric, soft: f64, dimensions: usize) -> f64 {

@@ -383,6 +383,13 @@ fn an_upper_bound_goes_on_past_a_plane_that_it_meets() {
     judged("that_as_far_as_the_weights_go", &[LooseBound, BoundOfS]);
 }
 
+/// s of 1e11: a normal 86 times as long pushes with 4e5 by a depth of 1e-11. All planes were asked for a depth that the softest
+/// direction of them together needs.
+#[test]
+fn planes_that_push_hard_hold_against_a_slope_though_one_hardly_gives() {
+    judged("planes_that_push_hard_hold_against_a_slope_though_one_hardly_gives", &[LooseBound]);
+}
+
 /// A needle 1e6 long touches with its tip, and both sides of it push, 2e-6 from parallel: what rounding does to s there is not of first
 /// order, of which alone the judge knew.
 #[test]
