@@ -299,7 +299,7 @@ impl Response {
 
     /// How α·q_A + β·q_B moves the point when S of A (0) or B (1) grows: |α|·|along|/rate, or that of β.
     pub fn to_body_value(&self, body: usize, target: Target) -> f64 {
-        let (alpha, beta) = target.turning();
+        let (alpha, beta): (f64, f64) = target.turning();
         self.per_value * if body == 0 { alpha.abs() } else { beta.abs() }
     }
 
