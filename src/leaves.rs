@@ -32,7 +32,12 @@ impl Leaves {
         (Self(leaves.into()), order.into())
     }
 
-    /// Whether there is but one group: it is cheaper to go through than to judge.
+    /// No group, and the order as given: of planes without weight, which are never looked at.
+    pub fn none(count: usize) -> (Self, Box<[usize]>) {
+        (Self::default(), (0..count).collect())
+    }
+
+    /// Whether there is but one group, or none: it is cheaper to go through than to judge.
     pub fn single(&self) -> bool {
         self.0.len() <= 1
     }

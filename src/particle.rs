@@ -172,7 +172,7 @@ impl Particle {
                 return Err(ParticleError::NormalLength { index, length: normal.amax() });
             }
         }
-        let (leaves, order) = Leaves::of(planes);
+        let (leaves, order) = if plane_weight > 0.0 { Leaves::of(planes) } else { Leaves::none(planes.len()) };
         let mut particle = Self {
             rows: order.iter().map(|&i| row(&planes[i])).collect(),
             dimensions,
