@@ -363,12 +363,13 @@ impl Anchor<'_> {
         };
         let values = [0, 1].map(|i| self.highest(given[i], i, &(step.v + back), shifts[i] > 0.0));
         let upper = self.target.merit(values[0], values[1], lambda);
-        if upper <= outcome.upper {
-            return outcome;
+        // No more than the rounding that both bounds have anyhow.
+        if upper <= outcome.upper + outcome.rounding {
+            return Outcome { upper: upper.max(outcome.upper), ..outcome };
         }
         // One move may not be all that it takes to follow the planes.
         let ceiling = Ceiling { bodies: given, target: self.target, here: expansion };
-        let lowest = ceiling.lowest(step.v + back, lambda, outcome.estimate);
+        let lowest = ceiling.lowest(step.v + back, lambda, outcome.estimate, outcome.upper);
         let lowest = lowest + given[0].rounding_of_value(lowest);
         Outcome { upper: outcome.upper.max(upper.min(lowest)), ..outcome }
     }

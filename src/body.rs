@@ -199,29 +199,30 @@ impl<'a> Body<'a> {
     }
 
     /// (Regularised) S after a step v from a point, with all planes moved in by their blur and the centre moved away by its
-    /// shift; derivatives in the axes of `frame` or of the solver.
-    pub fn inset(&self, local: &Local, v: &Vector3<f64>, frame: Option<&Matrix3<f64>>) -> Quadratic {
+    /// shift; derivatives in the axes of `frame` or of the solver. Planes count from `early` before they switch on.
+    pub fn inset(&self, local: &Local, v: &Vector3<f64>, early: f64, frame: Option<&Matrix3<f64>>) -> Quadratic {
         let (e, blur) = (self.turn(v), local.blur);
         let rotation = frame.map_or(self.rotation, |axes| axes.tr_mul(&self.rotation));
-        let far = self.particle.bounds.longest_normal * e.norm() * (1.0 + 1e-14) + blur;
-        let (mut square, mut linear, mut count) = (0.0, 0.0, 0);
+        let far = self.particle.bounds.longest_normal * e.norm() * (1.0 + 1e-14) + blur + early;
+        let (mut square, mut all, mut linear, mut count) = (0.0, 0.0, 0.0, 0);
         let (mut g, mut squares) = (Vector3::zeros(), Symmetric::default());
         self.particle.visit_near(&local.y, far, |_, n, excess| {
             let depth = excess + n.dot(&e) + self.blur_of(&n, local);
-            if depth > 0.0 {
+            if depth > -early {
                 let n = rotation * n;
-                square += depth * depth;
-                linear += depth;
+                square += larger(depth, 0.0) * depth;
+                all += depth * depth;
+                linear += larger(depth, 0.0);
                 count += 1;
                 g += depth * n;
                 squares.add_square(&n);
             }
         });
         let (w2, m2, y) = (2.0 * self.plane_weight, 2.0 * self.sphere_weight, local.y + e);
-        let value = self.plane_weight * square + self.sphere_weight * (y.norm() + local.shift).powi(2);
+        let of_sphere = self.sphere_weight * (y.norm() + local.shift).powi(2);
         Quadratic {
-            value,
-            expansion: value,
+            value: self.plane_weight * square + of_sphere,
+            expansion: self.plane_weight * all + of_sphere,
             gradient: w2 * g + m2 * (rotation * y),
             hessian: squares.scaled(w2, m2),
             pull: w2 * linear,

@@ -26,6 +26,9 @@ const FAR: f64 = 1e3;
 /// Share of what is left above the floor that a step has to gain for the next to be tried.
 const WORTH: f64 = 0.1;
 
+/// Steps in a row that may gain less and meet other planes each.
+const MOST_WORTHLESS: u32 = 2;
+
 /// Both bodies with their planes moved in, seen from one point.
 pub(crate) struct Ceiling<'a> {
     pub bodies: [&'a Body<'a>; 2],
@@ -33,39 +36,70 @@ pub(crate) struct Ceiling<'a> {
     pub here: &'a Expansion,
 }
 
+/// Which planes a step knows of.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Counted {
+    /// Those that are on.
+    On,
+    /// And those that would be, were they moved in by their blur once more.
+    Nearly,
+}
+
+/// The lowest point so far.
+struct Best {
+    v: Vector3<f64>,
+    lambda: f64,
+    height: f64,
+}
+
 impl Ceiling<'_> {
-    /// The least upper bound of a few steps from `v` on; none lies below the `floor`.
-    pub fn lowest(&self, mut v: Vector3<f64>, mut lambda: f64, floor: f64) -> f64 {
+    /// The least upper bound of a few steps from `v` on; none lies below the `floor`, and one below `enough` is as good as any.
+    pub fn lowest(&self, v: Vector3<f64>, lambda: f64, floor: f64, enough: f64) -> f64 {
+        let mut best = Best { v, lambda, height: f64::INFINITY };
+        self.descend(&mut best, floor, enough, Counted::On);
+        // A stiff plane carries its share with a depth below rounding: without one that should, a step leads far astray, and
+        // with one that should not, it does as well.
+        if best.height > enough {
+            self.descend(&mut best, floor, enough, Counted::Nearly);
+        }
+        best.height
+    }
+
+    /// Newton's steps from the best point so far, each on the planes that count where the last one ended.
+    fn descend(&self, best: &mut Best, floor: f64, enough: f64, counted: Counted) {
         let soft = expansion::softest(self.bodies[0], self.bodies[1]);
-        let (mut lowest, mut counts, mut best) = (f64::INFINITY, [0; 2], v);
-        let mut settled = true;
-        for _ in 0..MOST_STEPS {
-            let mut quadratics = [0, 1].map(|i| self.quadratic(i, &v));
-            let mut height = self.feasible(&v, quadratics.each_ref().map(|q| q.value));
-            // A step that meets another plane ends higher. Where it is least on the way that plane is on, and the next step knows
-            // of it.
-            if height > lowest && self.target == Target::Midway {
-                v = self.least_between(&best, &v);
-                quadratics = [0, 1].map(|i| self.quadratic(i, &v));
-                height = self.feasible(&v, quadratics.each_ref().map(|q| q.value));
-            }
-            let worth = lowest - height > WORTH * (height - floor);
-            if height < lowest {
-                (lowest, best) = (height, v);
+        let (mut v, mut lambda) = (best.v, best.lambda);
+        let (mut counts, mut worthless, mut settled) = ([0; 2], 0, true);
+        for step in 0..MOST_STEPS {
+            let mut quadratics = [0, 1].map(|i| self.quadratic(i, &v, counted));
+            // Where the first step begins is known already.
+            if step > 0 || counted == Counted::On {
+                let mut height = self.feasible(&v, quadratics.each_ref().map(|q| q.value));
+                // A step that meets another plane ends higher. Where it is least on the way that plane is on, and the next step
+                // knows of it.
+                if height > best.height && self.target == Target::Midway {
+                    v = self.least_between(&best.v, &v);
+                    quadratics = [0, 1].map(|i| self.quadratic(i, &v, counted));
+                    height = self.feasible(&v, quadratics.each_ref().map(|q| q.value));
+                }
+                let worth = best.height - height > WORTH * (height - floor);
+                if height < best.height {
+                    *best = Best { v, lambda, height };
+                }
+                worthless = if worth { 0 } else { worthless + 1 };
+                let met = quadratics.each_ref().map(|q| q.count);
+                if best.height <= enough || (!worth && met == counts && settled) || worthless > MOST_WORTHLESS {
+                    break;
+                }
             }
             let [q_a, q_b] = quadratics;
-            let met = [q_a.count, q_b.count];
-            if !worth && met == counts && settled {
-                break;
-            }
-            counts = met;
+            counts = [q_a.count, q_b.count];
             let Some(optimum) = Model::new(&q_a, &q_b, soft, self.target).solve(lambda, 0.0) else { break };
             v += self.here.to_solver(&optimum.step);
             // A search moves λ only so far.
             settled = optimum.lambda.max(lambda) <= FAR * optimum.lambda.min(lambda);
             lambda = optimum.lambda;
         }
-        lowest
     }
 
     /// Where the larger of both S is least between two points: Newton's method on its slope, which grows along the way, halving
@@ -78,7 +112,7 @@ impl Ceiling<'_> {
         let mut beyond = None;
         for _ in 0..MOST_TRIALS {
             let v = from + share * way;
-            let [q_a, q_b] = [0, 1].map(|i| self.quadratic(i, &v));
+            let [q_a, q_b] = [0, 1].map(|i| self.quadratic(i, &v, Counted::On));
             let q = if q_a.value > q_b.value { q_a } else { q_b };
             if q.value < least {
                 (found, least) = (v, q.value);
@@ -102,9 +136,9 @@ impl Ceiling<'_> {
     }
 
     /// Convex in v, as is the blur of the way.
-    fn quadratic(&self, i: usize, v: &Vector3<f64>) -> Quadratic {
+    fn quadratic(&self, i: usize, v: &Vector3<f64>, counted: Counted) -> Quadratic {
         let local = self.bodies[i].blurred(&self.here.locals[i], v.norm());
-        self.here.inset(self.bodies[i], &local, v)
+        self.here.inset(self.bodies[i], &local, v, if counted == Counted::On { 0.0 } else { local.blur })
     }
 
     /// The value of a point, or of one on the way to the centre of the body that it should be in and is not.
@@ -115,10 +149,10 @@ impl Ceiling<'_> {
             return values[free];
         }
         let way = self.bodies[held].centre() - self.here.x - v;
-        let s0 = self.quadratic(held, &(v + way)).value.sqrt();
+        let s0 = self.quadratic(held, &(v + way), Counted::On).value.sqrt();
         // s is convex on the way; a few units in the last place further in are surely inside.
         let share = (s - 1.0) / (s - s0) * (1.0 + SURELY) + SURELY;
-        if s0 < 1.0 && share < 1.0 { self.quadratic(free, &(v + share * way)).value } else { f64::INFINITY }
+        if s0 < 1.0 && share < 1.0 { self.quadratic(free, &(v + share * way), Counted::On).value } else { f64::INFINITY }
     }
 }
 

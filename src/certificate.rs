@@ -133,7 +133,8 @@ pub(crate) fn without_doubtful(outcome: &Outcome, bodies: [&Body; 2], target: Ta
             Planes::Exact | Planes::Met => {
                 let found = Outcome::of(&expansion, bodies, target, &step, true);
                 lower = lower.max(found.lower - found.rounding);
-                if found.sure {
+                // Without one more the optimum is lower still.
+                if found.sure || found.estimate <= lower.max(outcome.lower - outcome.rounding) {
                     break;
                 }
                 expansion.drop_weakest(bodies, &step, target, outcome.lambda, Factorisation::Aligned);

@@ -134,8 +134,8 @@ impl Expansion {
     }
 
     /// S of a body after a step, with its planes moved in, in the same axes.
-    pub fn inset(&self, body: &Body, local: &Local, v: &Vector3<f64>) -> Quadratic {
-        body.inset(local, v, self.axes.as_ref())
+    pub fn inset(&self, body: &Body, local: &Local, v: &Vector3<f64>, early: f64) -> Quadratic {
+        body.inset(local, v, early, self.axes.as_ref())
     }
 
     /// S_A and S_B along a vector of the solver's frame, from the point x on.

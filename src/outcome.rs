@@ -231,7 +231,8 @@ fn decisive(
         return below;
     }
     let floor = target.dual(s_a, s_b, lambda);
-    let ceiling = Ceiling { bodies, target, here }.lowest(step.v, lambda, floor);
-    let followed = (ceiling - floor).max(0.0) + target.merit_rounding(sums[0], sums[1], lambda);
+    let summed = target.merit_rounding(sums[0], sums[1], lambda);
+    let ceiling = Ceiling { bodies, target, here }.lowest(step.v, lambda, floor, floor + (below - summed));
+    let followed = (ceiling - floor).max(0.0) + summed;
     whole.min(followed).max(below)
 }
