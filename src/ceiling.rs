@@ -50,12 +50,14 @@ struct Best {
     v: Vector3<f64>,
     lambda: f64,
     height: f64,
+    /// Planes that are on there.
+    counts: [u32; 2],
 }
 
 impl Ceiling<'_> {
     /// The least upper bound of a few steps from `v` on; none lies below the `floor`, and one below `enough` is as good as any.
     pub fn lowest(&self, v: Vector3<f64>, lambda: f64, floor: f64, enough: f64) -> f64 {
-        let mut best = Best { v, lambda, height: f64::INFINITY };
+        let mut best = Best { v, lambda, height: f64::INFINITY, counts: [0; 2] };
         self.descend(&mut best, floor, enough, Counted::On);
         // A stiff plane carries its share with a depth below rounding: without one that should, a step leads far astray, and
         // with one that should not, it does as well.
@@ -72,8 +74,13 @@ impl Ceiling<'_> {
         let (mut counts, mut worthless, mut settled) = ([0; 2], 0, true);
         for step in 0..MOST_STEPS {
             let mut quadratics = [0, 1].map(|i| self.quadratic(i, &v, counted));
-            // Where the first step begins is known already.
-            if step > 0 || counted == Counted::On {
+            let counts_of = |quadratics: &[Quadratic; 2]| quadratics.each_ref().map(|q| q.count);
+            if step == 0 && counted == Counted::Nearly {
+                // Where it begins is known already.
+                if counts_of(&quadratics) == best.counts {
+                    break;
+                }
+            } else {
                 let mut height = self.feasible(&v, quadratics.each_ref().map(|q| q.value));
                 // A step that meets another plane ends higher. Where it is least on the way that plane is on, and the next step
                 // knows of it.
@@ -82,18 +89,17 @@ impl Ceiling<'_> {
                     quadratics = [0, 1].map(|i| self.quadratic(i, &v, counted));
                     height = self.feasible(&v, quadratics.each_ref().map(|q| q.value));
                 }
-                let worth = best.height - height > WORTH * (height - floor);
+                let (worth, met) = (best.height - height > WORTH * (height - floor), counts_of(&quadratics));
                 if height < best.height {
-                    *best = Best { v, lambda, height };
+                    *best = Best { v, lambda, height, counts: met };
                 }
                 worthless = if worth { 0 } else { worthless + 1 };
-                let met = quadratics.each_ref().map(|q| q.count);
                 if best.height <= enough || (!worth && met == counts && settled) || worthless > MOST_WORTHLESS {
                     break;
                 }
             }
+            counts = counts_of(&quadratics);
             let [q_a, q_b] = quadratics;
-            counts = [q_a.count, q_b.count];
             let Some(optimum) = Model::new(&q_a, &q_b, soft, self.target).solve(lambda, 0.0) else { break };
             v += self.here.to_solver(&optimum.step);
             // A search moves λ only so far.
@@ -152,7 +158,11 @@ impl Ceiling<'_> {
         let s0 = self.quadratic(held, &(v + way), Counted::On).value.sqrt();
         // s is convex on the way; a few units in the last place further in are surely inside.
         let share = (s - 1.0) / (s - s0) * (1.0 + SURELY) + SURELY;
-        if s0 < 1.0 && share < 1.0 { self.quadratic(free, &(v + share * way), Counted::On).value } else { f64::INFINITY }
+        if s0 < 1.0 && share < 1.0 {
+            self.quadratic(free, &(v + share * way), Counted::On).value
+        } else {
+            f64::INFINITY
+        }
     }
 }
 

@@ -23,7 +23,7 @@ pub(crate) struct Model<'a> {
 const MOST_SEARCHES: usize = 40;
 
 /// λ stays in this range: beyond it one particle's weight is lost in rounding altogether.
-const LAMBDA_RANGE: (f64, f64) = (1e-30, 1e30);
+pub(crate) const LAMBDA_RANGE: (f64, f64) = (1e-30, 1e30);
 
 /// One search moves λ by at most this factor: quadratics that miss the planes further on may not
 /// reach the target at all.

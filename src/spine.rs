@@ -10,7 +10,7 @@ use crate::curve::Optimum;
 use crate::expansion::{self, Expansion, Factorisation, Start};
 use crate::line::{self, Merit};
 use crate::local::Local;
-use crate::model::Model;
+use crate::model::{LAMBDA_RANGE, Model};
 use crate::number::larger;
 use crate::outcome::{Ending, Outcome};
 use crate::target::Target;
@@ -36,6 +36,9 @@ const FINE: f64 = 1e-4;
 
 /// Steps in a row that may come to nothing.
 const MOST_STOPS: u32 = 3;
+
+/// Steps in a row that may leave λ at the very end of its range, where one body has no weight: it does not come back.
+const MOST_LOST: u32 = 3;
 
 /// Iterations granted to sharpen what is proved already.
 const MOST_TO_ARRIVE: u32 = 5;
@@ -137,7 +140,7 @@ pub(crate) fn solve(
     let mut thorough = start.near;
     let mut previous: Option<Attempt> = None;
     let (mut proved, mut arriving, mut stopped) = (None::<(Outcome, Expansion)>, 0, 0);
-    let mut lower = f64::NEG_INFINITY;
+    let (mut lower, mut lost) = (f64::NEG_INFINITY, 0);
     let mut iterations = 0;
     while iterations < MOST_ITERATIONS {
         iterations += 1;
@@ -174,7 +177,12 @@ pub(crate) fn solve(
         let mismatch = target.mismatch(here.q_a.expansion, here.q_b.expansion);
         let enough = share * mismatch.max(behind).min(upper);
         let Some(step) = here.optimum(bodies, target, lambda, enough) else { break };
+        let at_end = step.optimum.lambda == lambda && !(LAMBDA_RANGE.0..=LAMBDA_RANGE.1).contains(&lambda);
+        lost = if at_end { lost + 1 } else { 0 };
         lambda = step.optimum.lambda;
+        if lost > MOST_LOST {
+            break;
+        }
         if step.planes == Planes::Dropped {
             here.drop(bodies, &step, target, lambda, factorisation);
             (previous, thorough) = (None, false);
