@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 use potential_particles::area::Section;
-use potential_particles::{Particle, ParticleError, Plane, Pose, PoseError, surface};
+use potential_particles::{Particle, ParticleError, Plane, Pose, PoseError, Settings, detect, surface};
 use std::f64::consts::PI;
 
 fn cube_planes(offset: f64) -> Vec<Plane> {
@@ -121,6 +121,26 @@ fn the_given_normals_are_used_as_they_are() {
     let particle = Particle::new(&planes, 0.1, 0.0, 0.0).unwrap();
     assert!((particle.potential(&Vector3::new(0.45, 0.0, 0.0)) + 1.0 - 1.0).abs() < 1e-14);
     assert!((particle.potential(&Vector3::new(-0.45, 0.0, 0.0)) + 1.0 - 0.25).abs() < 1e-14);
+}
+
+/// They weigh nothing, and stopped steps all the same.
+#[test]
+fn the_planes_of_a_sphere_are_not_looked_at() {
+    let plane = |i: i32| Plane { normal: Vector3::new(f64::from(i).cos(), f64::from(i).sin(), 0.1), offset: 0.45 };
+    let planes: Vec<Plane> = (0..200).map(plane).collect();
+    let with = Particle::new(&planes, 1e-6, 1.0, 1.0).unwrap();
+    let without = Particle::sphere(1.0).unwrap();
+    assert_eq!(with.planes().collect::<Vec<_>>(), planes);
+    let other = Particle::new(&tetrahedron(0.45), 1e-4, 1e-6, 0.9).unwrap();
+    for i in 1..40 {
+        let position = [0.03 * f64::from(i), 0.4, 0.7];
+        let (here, there) = (Pose::at([0.0; 3]).unwrap(), Pose::new(position, [1.0, 0.3, f64::from(i), 0.2]).unwrap());
+        let settings = Settings { solve_separated: true, ..Settings::default() };
+        let solved = |sphere| detect(sphere, &here, &other, &there, &settings, None).unwrap();
+        let (of_with, of_without) = (solved(&with), solved(&without));
+        assert_eq!(of_with.iterations, of_without.iterations, "{i}");
+        assert!((of_with.s - of_without.s).abs() <= of_with.gap + of_without.gap, "{i}");
+    }
 }
 
 #[test]
