@@ -337,10 +337,8 @@ impl Anchor<'_> {
             local.blur += shift;
         }
         let mut outcome = Outcome::of(expansion, self.bodies, self.target, step, true);
-        if let Some(response) = &mut outcome.response {
-            // The planes of the quadratics are not those of the anchor.
-            response.beside = outcome::beside(expansion, self.bodies, self.target, *step, response, &places);
-        }
+        // The planes of the quadratics are not those of the anchor.
+        outcome.beside = outcome::beside(expansion, self.bodies, self.target, *step, &places);
         if shifts == [0.0; 2] {
             return outcome;
         }

@@ -70,7 +70,7 @@ fn distance_of(outcome: &Outcome, expansion: &Expansion, a: &Body, b: &Body, tar
     let step = outcome.x - expansion.x;
     let (length, in_axes) = (step.norm(), expansion.to_axes(&step));
     let turn = TURN * f64::EPSILON * response.per_slope(a.particle.dimensions);
-    let (mut sum, mut sides) = (response.unsolved() + response.beside, [0.0; 2]);
+    let (mut sum, mut sides) = (response.unsolved() + outcome.beside, [0.0; 2]);
     for (i, (body, q, weight)) in
         [(a, &expansion.q_a, weights.0), (b, &expansion.q_b, weights.1)].into_iter().enumerate()
     {
@@ -80,9 +80,7 @@ fn distance_of(outcome: &Outcome, expansion: &Expansion, a: &Body, b: &Body, tar
         let force = weight * (outcome.steep[i] + q.gradient.norm());
         let terms = q.terms(&in_axes);
         sum += shift + blur * planes + force * turn + response.to_sums(q, weight, terms);
-        sides[i] = SIDES * f64::EPSILON * q.expansion
-            + q.rounding_after(&in_axes, terms)
-            + body.sphere_slope(outcome.values[i]) * shift;
+        sides[i] = SIDES * f64::EPSILON * q.expansion + outcome.sums[i] + body.sphere_slope(outcome.values[i]) * shift;
     }
     // The two sides meet to what was left, and to the rounding of what they are summed from. The centre of a sphere that is
     // off by the shift moves the slope by its share, less than the shift moves the point, but S by more.
@@ -196,5 +194,7 @@ pub(crate) fn judge(x: &Vector3<f64>, lambda: f64, s: f64, a: &Body, b: &Body, t
         sure: false,
         rate: 0.0,
         response: None,
+        sums: [f64::INFINITY; 2],
+        beside: 0.0,
     }
 }

@@ -262,7 +262,6 @@ impl Optimum {
             to_all_planes: larger(of_planes, 0.0),
             slope: self.slope(target),
             values: self.values.into(),
-            beside: 0.0,
         })
     }
 }
@@ -287,8 +286,6 @@ pub(crate) struct Response {
     slope: Vector3<f64>,
     /// q_A and q_B.
     values: [f64; 2],
-    /// Bound on the moves by planes that do not count and may be on.
-    pub beside: f64,
 }
 
 impl Response {

@@ -42,6 +42,10 @@ pub(crate) struct Outcome {
     pub rate: f64,
     /// How the optimum answers to changes of its data, where it is that of known quadratics.
     pub response: Option<Response>,
+    /// Bounds on the rounding of the sums for S_A and S_B.
+    pub sums: [f64; 2],
+    /// Bound on how far planes that do not count, and may be on by rounding, move the point.
+    pub beside: f64,
 }
 
 impl Outcome {
@@ -61,6 +65,8 @@ impl Outcome {
         sure: false,
         rate: 0.0,
         response: None,
+        sums: [f64::INFINITY; 2],
+        beside: 0.0,
     };
 
     /// The optimum that a step leads to, with its bounds; `careful` about what is deep beside rounding, which takes time.
@@ -89,12 +95,8 @@ impl Outcome {
         if careful && decided && doubt > rounding {
             doubt = doubt.min(here.remnant(bodies, target, step, upper, force));
         }
-        let mut response = optimum.response(target, soft);
-        if step.verdicts[0].has_beside(&here.q_a) || step.verdicts[1].has_beside(&here.q_b) {
-            if let Some(response) = &mut response {
-                response.beside = beside(here, bodies, target, *step, response, &here.locals);
-            }
-        }
+        let is_beside = step.verdicts[0].has_beside(&here.q_a) || step.verdicts[1].has_beside(&here.q_b);
+        let beside = if is_beside { beside(here, bodies, target, *step, &here.locals) } else { 0.0 };
         Self {
             x: here.x + step.v,
             lambda,
@@ -109,7 +111,9 @@ impl Outcome {
             ending: Ending::Stuck,
             sure: decided && held,
             rate: optimum.rate(target),
-            response,
+            response: optimum.response(target, soft),
+            sums,
+            beside,
         }
     }
 
@@ -177,9 +181,10 @@ pub(crate) fn beside(
     bodies: [&Body; 2],
     target: Target,
     step: Step,
-    response: &Response,
     places: &[impl Place; 2],
 ) -> f64 {
+    // Without a response there is no bound that this would add to.
+    let Some(response) = step.optimum.response(target, expansion::softest(bodies[0], bodies[1])) else { return 0.0 };
     let (a, b) = target.weights(step.optimum.lambda);
     let (mut planes, mut raised) = (Vec::new(), 0.0);
     for (i, (body, weight)) in bodies.into_iter().zip([a, b]).enumerate() {
