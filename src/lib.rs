@@ -17,6 +17,7 @@
 //! | `number`, [`symmetric`], `target` | numbers and lanes of them, small matrices, and which point of two bodies is wanted |
 //! | `curve` | where two quadratics are optimal for some weights, and its series: midway and both closest points lie on it |
 //! | `model` | two quadratics solved exactly: the search along the curve |
+//! | `response` | how that optimum answers to small changes of the data |
 //! | `verdict` | what a step does to the planes of a quadratic |
 //! | `frame`, `expansion` | both quadratics at a point, in safe axes, and the step to their optimum |
 //! | `line`, `start` | descent along a line; where a search without memory begins |
@@ -64,6 +65,7 @@ pub mod pose;
 pub mod potential;
 pub mod reject;
 mod remnant;
+mod response;
 mod search;
 pub mod settings;
 mod spine;
