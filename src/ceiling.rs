@@ -17,8 +17,8 @@ use nalgebra::Vector3;
 /// Most Newton steps: the planes are those of the optimum, or nearly.
 const MOST_STEPS: u32 = 8;
 
-/// Most trial points between two points.
-const MOST_TRIALS: u32 = 40;
+/// Most trial points between two points: of those that helped three were enough.
+const MOST_TRIALS: u32 = 8;
 
 /// A change of λ by more is not its last.
 const FAR: f64 = 1e3;

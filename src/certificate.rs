@@ -49,24 +49,18 @@ const UNDERFLOW: f64 = 1.5e-154;
 /// Where the optimum is that of known quadratics, only their data is in doubt: each plane's distance by its
 /// rounding, each body's force a·∇S_A by the rounding of its direction. The answer of the optimum to each is
 /// a linear problem that is solved already, and the lengths are added. Elsewhere strong convexity bounds it:
-/// ½·curvature·distance² ≤ upper − lower.
+/// ½·curvature·distance² ≤ upper − lower. So it is where planes were softened: as stiff as they are, they move the point
+/// by more than the first order tells.
 #[inline(always)]
 pub(crate) fn distance(outcome: &Outcome, expansion: &Expansion, a: &Body, b: &Body, target: Target) -> f64 {
-    match expansion.softened {
-        None => distance_of(outcome, expansion, a, b, target),
-        Some([w_a, w_b]) => distance_of(outcome, expansion, &a.softened(w_a), &b.softened(w_b), target),
-    }
-}
-
-#[inline(always)]
-fn distance_of(outcome: &Outcome, expansion: &Expansion, a: &Body, b: &Body, target: Target) -> f64 {
     let weights = target.weights(outcome.lambda);
     let convexity = || {
         let soft = expansion::softest(a, b);
         let excess = (outcome.upper - outcome.lower).max(0.0) + outcome.rounding;
         (2.0 * excess / (weights.0 * soft.0 + weights.1 * soft.1)).sqrt()
     };
-    let Some(response) = outcome.response.as_ref().filter(|_| outcome.sure) else { return convexity() };
+    let known = outcome.sure && expansion.softened.is_none();
+    let Some(response) = outcome.response.as_ref().filter(|_| known) else { return convexity() };
     let step = outcome.x - expansion.x;
     let (length, in_axes) = (step.norm(), expansion.to_axes(&step));
     let turn = TURN * f64::EPSILON * response.per_slope(a.particle.dimensions);

@@ -63,6 +63,13 @@ pub(crate) struct Closest {
     pub bound: f64,
 }
 
+impl Closest {
+    /// Whether the scale cannot be told from 0, as where a constraint is slack.
+    fn tells_nothing(&self) -> bool {
+        !(self.scale.s > self.scale.gap)
+    }
+}
+
 impl<'a> Search<'a> {
     pub fn new(pair: &'a Pair<'a>, settings: &'a Settings) -> Self {
         let (body_a, body_b) = Body::both(pair, settings.flat_regularisation);
@@ -113,17 +120,23 @@ impl<'a> Search<'a> {
                 &own
             }
         };
-        if let Some(outcome) = self.at_once(target, start.lambda, here) {
-            return Ok(self.closest(target, &outcome, here));
+        let found = match self.at_once(target, start.lambda, here) {
+            Some(outcome) => self.closest(target, &outcome, here),
+            None => {
+                let mut there = *here;
+                let outcome = self.climb(target, &start, midway.is_some(), &mut there)?;
+                self.closest(target, &outcome, &there)
+            }
+        };
+        if !found.tells_nothing() {
+            return Ok(Some(found));
         }
-        let mut there = *here;
-        let outcome = self.climb(target, &start, midway.is_some(), &mut there)?;
-        let found = self.closest(target, &outcome, &there);
-        if found.is_some() || midway.is_none() {
-            return Ok(found);
+        // A bound that leaves everything open may be that of where the search began. It is a sign of a core only if there is one.
+        let free = if target == Target::OnB { self.pair.a } else { self.pair.b };
+        match midway {
+            Some(_) => self.constrained(target, None),
+            None => Ok((free.sphericity() > 0.0).then_some(found)),
         }
-        // A bound that leaves everything open may be that of where the search began, and no sign of a core.
-        self.constrained(target, None)
     }
 
     /// P1 and P2 from the quadratics at hand and what the last call left, where one step is enough for both and either scale
@@ -141,7 +154,7 @@ impl<'a> Search<'a> {
         self.both([midway.towards(Target::OnA), midway.towards(Target::OnB)], here, |_| true)
     }
 
-    /// P1 and P2 by one step from guesses of their λ, if both will do. Where a constraint is slack, the scale cannot be told from 0.
+    /// P1 and P2 by one step from guesses of their λ, if both will do.
     #[inline(always)]
     fn both(
         &mut self,
@@ -157,8 +170,8 @@ impl<'a> Search<'a> {
         let [p1, p2] = model::both_closest([&here.q_a, &here.q_b], soft, lambdas)?;
         let on_a = spine::proved(bodies, &self.goal(Target::OnA), here, p1)?;
         let on_b = spine::proved(bodies, &self.goal(Target::OnB), here, p2)?;
-        let points = [self.closest(Target::OnA, &on_a, here)?, self.closest(Target::OnB, &on_b, here)?];
-        if !points.iter().all(will_do) {
+        let points = [self.closest(Target::OnA, &on_a, here), self.closest(Target::OnB, &on_b, here)];
+        if !points.iter().all(|found| !found.tells_nothing() && will_do(found)) {
             return None;
         }
         self.iterations += 2;
@@ -185,14 +198,11 @@ impl<'a> Search<'a> {
         body.is_plain() && here.softened.is_none() && tangent > CLEARLY
     }
 
-    fn closest(&self, target: Target, outcome: &Outcome, here: &Expansion) -> Option<Closest> {
+    fn closest(&self, target: Target, outcome: &Outcome, here: &Expansion) -> Closest {
         let scale = self.certify(outcome, target);
         let Outcome { x, lambda, gradients, steep, values, .. } = *outcome;
-        // A scale that cannot be told from 0 belongs to a core.
-        (scale.s > scale.gap).then(|| {
-            let bound = self.bound(outcome, here, target);
-            Closest { x, lambda, gradients, steep, values, scale, bound }
-        })
+        let bound = self.bound(outcome, here, target);
+        Closest { x, lambda, gradients, steep, values, scale, bound }
     }
 
     /// The scale s of an outcome, and the bound on its error.
