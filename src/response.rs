@@ -83,6 +83,7 @@ impl Response {
     }
 
     /// How α·q_A + β·q_B moves the point when S of A (0) or B (1) grows: |α|·|along|/rate, or that of β.
+    #[inline]
     pub fn to_body_value(&self, body: usize, target: Target) -> f64 {
         let (alpha, beta): (f64, f64) = target.turning();
         self.per_value * if body == 0 { alpha.abs() } else { beta.abs() }
@@ -134,11 +135,11 @@ impl Response {
         if plane_weight == 0.0 || q.count == 0 {
             return 0.0;
         }
-        let ((a, b), (alpha, beta)) = (target.weights(lambda), target.turning());
-        let (weight, rate): (f64, f64) = if body == 0 { (a, alpha) } else { (b, beta) };
+        let (a, b) = target.weights(lambda);
+        let weight = if body == 0 { a } else { b };
         let count = f64::from(q.count);
         let turned = (2.0 * plane_weight * weight * count * self.to_all_planes).sqrt();
-        let raised = rate.abs() * self.per_value * (count * plane_weight * larger(self.values[body], 0.0)).sqrt();
+        let raised = self.to_body_value(body, target) * (count * plane_weight * larger(self.values[body], 0.0)).sqrt();
         turned + 2.0 * raised
     }
 

@@ -125,13 +125,7 @@ pub(super) fn explained(scene: &Scene, scale: f64, weight: f64, [a, b]: [f64; 2]
 
 /// Remembers a pose a step away, or another pair, and solves this one.
 pub(super) fn warm(verdict: &mut Verdict, scene: &Scene, cold: &Contact, clock: &mut Clock, random: &mut Random) {
-    let small = scene.a.bounding_radius().min(scene.b.bounding_radius());
-    let step = small * 10f64.powf(-6.0 + 5.0 * random.uniform());
-    let mut memory = Memory::default();
-    if let Err(error) = scene.detect(&scene.moved(step * random.direction()), &FULL, Some(&mut memory)) {
-        verdict.fail(Failure::Error, format!("a step of {step:e}: {error}"));
-        return;
-    }
+    let Some(memory) = remembered(verdict, scene, &FULL, random) else { return };
     let answer = clock.time(Call::Warm, || scene.detect(&scene.at_b, &FULL, Some(&mut memory.clone())));
     match answer {
         Ok(warm) => {
@@ -150,6 +144,20 @@ pub(super) fn warm(verdict: &mut Verdict, scene: &Scene, cold: &Contact, clock: 
             verdict.check(right, Failure::Warm, || format!("quick {:?}, cold s={:e}", quick.flags, cold.s));
         }
         Err(error) => verdict.fail(Failure::Error, format!("quick and warm: {error}")),
+    }
+}
+
+/// What is remembered of a pose a step away.
+fn remembered(verdict: &mut Verdict, scene: &Scene, settings: &Settings, random: &mut Random) -> Option<Memory> {
+    let small = scene.a.bounding_radius().min(scene.b.bounding_radius());
+    let step = small * 10f64.powf(-6.0 + 5.0 * random.uniform());
+    let mut memory = Memory::default();
+    match scene.detect(&scene.moved(step * random.direction()), settings, Some(&mut memory)) {
+        Ok(_) => Some(memory),
+        Err(error) => {
+            verdict.fail(Failure::Error, format!("{:?}, a step of {step:e}: {error}", settings.formulation));
+            None
+        }
     }
 }
 
@@ -218,13 +226,7 @@ pub(super) fn closest(verdict: &mut Verdict, scene: &Scene, midway: &Contact, cl
 
 /// Closest from what it remembers of a pose a step away.
 fn closest_again(verdict: &mut Verdict, scene: &Scene, cold: [(&Contact, Settings); 2], random: &mut Random) {
-    let small = scene.a.bounding_radius().min(scene.b.bounding_radius());
-    let step = small * 10f64.powf(-6.0 + 5.0 * random.uniform());
-    let mut memory = Memory::default();
-    if let Err(error) = scene.detect(&scene.moved(step * random.direction()), &cold[0].1, Some(&mut memory)) {
-        verdict.fail(Failure::Error, format!("closest, a step of {step:e}: {error}"));
-        return;
-    }
+    let Some(memory) = remembered(verdict, scene, &cold[0].1, random) else { return };
     for (cold, settings) in cold {
         match scene.detect(&scene.at_b, &settings, Some(&mut memory.clone())) {
             Ok(warm) if warm.formulation == cold.formulation => {
