@@ -43,6 +43,10 @@ const IDLE: f64 = 1e-3;
 const NARROW: f64 = 1e-3;
 const MOST_IDLE: u32 = 4;
 
+/// Values of λ in a row for which the point stays and the planes that are on ask for one beyond an end of the bracket, before
+/// that end is looked at again.
+const MOST_BEYOND: u32 = 2;
+
 /// Farthest move of ln λ while only one end of the bracket is known.
 const STRIDE: f64 = 7.0;
 
@@ -119,7 +123,9 @@ impl Anchor<'_> {
         let soft = expansion::softest(self.bodies[0], self.bodies[1]);
         let flat = self.bodies[0].most_surplus(1.0).max(self.bodies[1].most_surplus(1.0));
         let (mut least, mut idle) = (f64::INFINITY, 0);
+        let (mut beyond, mut checked) = (0, false);
         for round in 0..MOST_WEIGHTS {
+            let from = v;
             let at_lambda = self.minimise(at.exp(), &mut v, models)?;
             let on = v;
             failed += u32::from(at_lambda.step.planes != Planes::Exact);
@@ -161,7 +167,14 @@ impl Anchor<'_> {
                 return Some(at_lambda);
             }
             let proposed = better.lambda.ln();
+            // Found from the other side, where forces are but rounding, an end may not be one for the planes that are on now.
+            let outside = found_low && found_high && v == from && !(low < proposed && proposed < high);
+            beyond = if outside { beyond + 1 } else { 0 };
             let next = match (found_low, found_high) {
+                (true, true) if beyond >= MOST_BEYOND && !checked => {
+                    checked = true;
+                    if proposed >= high { high } else { low }
+                }
                 (true, false) => proposed.clamp(low + 0.1, low + STRIDE).min(FARTHEST),
                 (false, true) => proposed.clamp(high - STRIDE, high - 0.1).max(-FARTHEST),
                 // Every other time the bracket has to shrink to half, or is halved.

@@ -164,7 +164,7 @@ pub(crate) fn judge(x: &Vector3<f64>, lambda: f64, s: f64, a: &Body, b: &Body, t
                 let of_b = optimum.rounding(&expansion.q_b);
                 let dual = target.dual(optimum.values.0, optimum.values.1, optimum.lambda);
                 let force = target.dual_weighted(optimum.gradients[0].norm(), optimum.gradients[1].norm(), lambda);
-                let (doubt, ..) = expansion.doubt(bodies, target, &step, upper, force, 0.0);
+                let doubt = expansion.doubt(bodies, target, &step, upper, force, 0.0).height;
                 lower = lower.max(dual - doubt - target.dual_weighted(of_a, of_b, lambda));
                 break;
             }

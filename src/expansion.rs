@@ -206,8 +206,7 @@ impl Expansion {
     ///
     /// With a curvature of at least that of the spheres, a slope that is left can hide its square over twice as much. Where
     /// the spheres are all but flat that is more than it can hide between here and the optimum, which lies in
-    /// {S ≤ `upper`}. Less than what is `negligible` is not looked at again. Also tells whether no sign is in doubt, and whether
-    /// the planes hold the point where it is.
+    /// {S ≤ `upper`}. Less than what is `negligible` is not looked at again.
     ///
     /// Forces of the length `force` balance to the rounding of their directions only: two faces that look parallel are tilted
     /// by as much, and far off on them S is less than it is here.
@@ -220,7 +219,7 @@ impl Expansion {
         upper: f64,
         force: f64,
         negligible: f64,
-    ) -> (f64, bool, bool) {
+    ) -> Doubt {
         let ((a, b), soft) = (target.weights(step.optimum.lambda), softest(bodies[0], bodies[1]));
         let rounding = self.rounding_of_slope(step, (a, b));
         let of_a = step.verdicts[0].doubtful_slope(bodies[0], a, rounding);
@@ -230,14 +229,14 @@ impl Expansion {
         let held = a * soft.0 + b * soft.1;
         let by_curvature = 0.5 * slope * slope / held;
         let wide = by_curvature > negligible;
-        let doubt =
+        let height =
             if wide { by_curvature.min(slope * farthest(bodies, &(self.x + step.v), upper)) } else { by_curvature };
         // A plane that pushes less than the forces may be turned by holds the point where it may not belong, if the spheres alone
         // would let it go further than it is rounded.
         let loose = turned > held * self.locals[0].shift
             && (step.verdicts[0].pushes_less(bodies[0], &self.locals[0], a, turned)
                 || step.verdicts[1].pushes_less(bodies[1], &self.locals[1], b, turned));
-        (doubt, of_a + of_b == 0.0, !loose)
+        Doubt { height, decided: of_a + of_b == 0.0, held: !loose }
     }
 
     /// Bound on the rounding of the sums in the slope after a step, at these weights.
@@ -254,6 +253,17 @@ impl Expansion {
             [a.check(&self.locals[0], &self.q_a, &v, length), b.check(&self.locals[1], &self.q_b, &v, length)];
         Step { optimum, v, verdicts, planes: verdicts[0].planes.max(verdicts[1].planes) }
     }
+}
+
+/// What a step leaves open.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Doubt {
+    /// How far the dual value may lie above a lower bound.
+    pub height: f64,
+    /// Whether no plane's sign is in doubt.
+    pub decided: bool,
+    /// Whether the planes, or the spheres, hold the point where it is.
+    pub held: bool,
 }
 
 /// A potential along a vector.

@@ -21,6 +21,7 @@
 //! | `verdict` | what a step does to the planes of a quadratic |
 //! | `frame`, `expansion` | both quadratics at a point, in safe axes, and the step to their optimum |
 //! | `line`, `start` | descent along a line; where a search without memory begins |
+//! | `sway` | what the rounding of both potentials does to the optimum |
 //! | `outcome`, `spine` | where a search ended; the fast solver: Newton on that model, safe steps |
 //! | `anchor`, `anchored` | the safe solver, finite, where the fast one goes in circles |
 //! | `ceiling` | an upper bound that holds wherever rounding may have the planes |
@@ -71,6 +72,7 @@ pub mod settings;
 mod spine;
 mod start;
 pub mod surface;
+mod sway;
 pub mod symmetric;
 mod target;
 mod verdict;

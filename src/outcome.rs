@@ -1,13 +1,11 @@
 //! Where a search ended, and how far that can be from the optimum.
 
 use crate::body::Body;
-use crate::ceiling::Ceiling;
-use crate::curve::Optimum;
-use crate::expansion::{self, Expansion, Step};
+use crate::expansion::{self, Doubt, Expansion, Step};
 use crate::local::Place;
 use crate::number::larger;
-use crate::potential::Quadratic;
 use crate::response::Response;
+use crate::sway::Sway;
 use crate::target::Target;
 use crate::verdict::Planes;
 use nalgebra::Vector3;
@@ -79,21 +77,16 @@ impl Outcome {
             Planes::Exact => target.merit(s_a, s_b, lambda),
             _ => here.merit(target, lambda),
         };
-        let length = step.v.norm();
         let steep = [optimum.gradients[0].norm(), optimum.gradients[1].norm()];
-        let of_places =
-            |i: usize, q: &Quadratic| bodies[i].rounding_after(&here.locals[i], q, &step.verdicts[i], length, steep[i]);
-        let of_sums = |i: usize, q: &Quadratic, value: f64| bodies[i].rounding_of_value(value) + optimum.rounding(q);
-        let (first_a, second_a) = of_places(0, &here.q_a);
-        let (first_b, second_b) = of_places(1, &here.q_b);
-        let sums = [of_sums(0, &here.q_a, s_a), of_sums(1, &here.q_b, s_b)];
-        let first = [first_a + sums[0], first_b + sums[1]];
-        let rounding = swayed(target, optimum, first, [second_a, second_b], careful)
-            .unwrap_or_else(|| decisive(here, bodies, target, *step, first, [second_a, second_b], sums));
+        let sway = Sway::of(here, bodies, step, steep);
+        let bound = sway.bound(target, optimum, careful);
         let force = target.dual_weighted(steep[0], steep[1], lambda);
-        let (mut doubt, decided, held) = here.doubt(bodies, target, step, upper, force, rounding);
-        if careful && decided && doubt > rounding {
-            doubt = doubt.min(here.remnant(bodies, target, step, upper, force));
+        let negligible = bound.unwrap_or_else(|| sway.least(target, lambda));
+        let Doubt { mut height, decided, held } = here.doubt(bodies, target, step, upper, force, negligible);
+        let open = if careful { 0.0 } else { height };
+        let rounding = bound.unwrap_or_else(|| sway.decisive(here, bodies, target, *step, open));
+        if careful && decided && height > rounding {
+            height = height.min(here.remnant(bodies, target, step, upper, force));
         }
         let is_beside = step.verdicts[0].has_beside(&here.q_a) || step.verdicts[1].has_beside(&here.q_b);
         let beside = if is_beside { beside(here, bodies, target, *step, &here.locals) } else { 0.0 };
@@ -104,7 +97,7 @@ impl Outcome {
             steep,
             values: [s_a, s_b],
             estimate,
-            lower: estimate - doubt,
+            lower: estimate - height,
             upper,
             rounding,
             iterations: 0,
@@ -112,7 +105,7 @@ impl Outcome {
             sure: decided && held,
             rate: optimum.rate(target),
             response: optimum.response(target, soft),
-            sums,
+            sums: sway.sums,
             beside,
         }
     }
@@ -198,46 +191,4 @@ pub(crate) fn beside(
     // What S is raised by moves the point into the planes, too.
     raised
         + response.to_planes_beside(planes.into_iter().map(|(n, stiff, depth)| (n, stiff, depth + n.norm() * raised)))
-}
-
-/// Bound on the effect of rounding on the optimum, from bounds on that of S_A and S_B of first and second order: it moves the
-/// optimum by its weight, while the weights stay what they are. `None` where the rounding itself decides about the weights, or,
-/// if that is to be looked at with care, is more than the planes' depths.
-fn swayed(target: Target, optimum: &Optimum, first: [f64; 2], second: [f64; 2], careful: bool) -> Option<f64> {
-    let (of_a, of_b) = (first[0] + second[0], first[1] + second[1]);
-    let (change_a, change_b) = target.changes(of_a, of_b);
-    let swing = larger(change_a, change_b) / optimum.rate(target).abs();
-    let of_first = target.dual_weighted(first[0], first[1], optimum.lambda);
-    let of_all = target.dual_weighted(of_a, of_b, optimum.lambda);
-    (swing < 0.25 && (!careful || of_all <= DEEP * of_first)).then_some(of_all * (1.0 + 4.0 * swing))
-}
-
-/// How much more than its first order the whole of the rounding may be before it is looked at again.
-const DEEP: f64 = 8.0;
-
-/// The same where rounding decides. S is convex in where the planes lie, and so is the optimum: from below, what is of first
-/// order, with the weights at hand, is all. From above it is the whole of it at most, or what is left where the point
-/// follows the planes ([`crate::ceiling`]). A small, sharp body at a large one needs that.
-#[cold]
-fn decisive(
-    here: &Expansion,
-    bodies: [&Body; 2],
-    target: Target,
-    step: Step,
-    first: [f64; 2],
-    second: [f64; 2],
-    sums: [f64; 2],
-) -> f64 {
-    let lambda = step.optimum.lambda;
-    let (s_a, s_b) = step.optimum.values;
-    let below = target.dual_weighted(first[0], first[1], lambda);
-    let whole = target.merit_rounding(first[0] + second[0], first[1] + second[1], lambda);
-    if whole <= below {
-        return below;
-    }
-    let floor = target.dual(s_a, s_b, lambda);
-    let summed = target.merit_rounding(sums[0], sums[1], lambda);
-    let ceiling = Ceiling { bodies, target, here }.lowest(step.v, lambda, floor, floor + (below - summed));
-    let followed = (ceiling - floor).max(0.0) + summed;
-    whole.min(followed).max(below)
 }
