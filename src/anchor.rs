@@ -240,7 +240,7 @@ impl Anchor<'_> {
             let p = body.particle;
             let far = on.early.max(p.bounds.longest_normal * e.norm() * (1.0 + 1e-14));
             let (mut planes, mut doubtful, mut pulled) = (Planes::Exact, 0.0, 0.0);
-            let (mut lowest, mut near) = (f64::INFINITY, 0.0);
+            let (mut lowest, mut push, mut near) = (f64::INFINITY, f64::INFINITY, 0.0);
             let least = if body.plane_curvature() > 0.0 { self.noise[i] / body.plane_curvature() } else { 0.0 };
             p.visit_near(&on.y, far, |_, n, excess| {
                 let after = depth(&n, excess, &e);
@@ -249,6 +249,7 @@ impl Anchor<'_> {
                     depths[i] = after.max(depths[i]);
                     sums[i] += after.max(0.0);
                     lowest = after.min(lowest);
+                    push = push.min(after * n.norm());
                     near += 1.0;
                     if after < -doubt {
                         planes = planes.max(Planes::Pulling);
@@ -264,7 +265,7 @@ impl Anchor<'_> {
                 }
             });
             let pull = body.plane_curvature() * sums[i];
-            Verdict { planes, drop: None, doubtful: doubtful + pulled, least: lowest, pull, near }
+            Verdict { planes, drop: None, doubtful: doubtful + pulled, least: lowest, push, pull, near }
         });
         let planes = verdicts[0].planes.max(verdicts[1].planes);
         Saddle { expansion: *expansion, step: Step { optimum, v: step, verdicts, planes }, depths, sums, on: *v }
@@ -387,15 +388,7 @@ impl Anchor<'_> {
 
     /// The given S after a step, with planes as near as rounding may have them if wanted.
     fn highest(&self, body: &Body, i: usize, v: &Vector3<f64>, rounded: bool) -> f64 {
-        let after = After::of(body, &self.locals[i], v);
-        let local = &self.locals[i];
-        let most = if rounded { local.blur } else { 0.0 };
-        let mut squares = 0.0;
-        body.particle.visit_near(&after.y, after.early + most, |_, n, excess| {
-            let blur = if rounded { body.blur_of(&n, local) } else { 0.0 };
-            let depth = (depth(&n, excess, &after.e) + blur).max(0.0);
-            squares += depth * depth;
-        });
-        body.plane_weight() * squares + body.sphere_weight() * (after.y + after.e).norm_squared()
+        let local = if rounded { self.locals[i] } else { self.locals[i].blurred(0.0, 0.0) };
+        body.inset(&local, v, 0.0, None).value
     }
 }

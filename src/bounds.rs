@@ -22,7 +22,7 @@ pub(crate) struct Bounds {
     /// max |n_i|, likewise.
     pub longest_normal: f64,
     /// min |n_i|, of all planes and of those that are on anywhere within [`NEARBY`] times the radius.
-    shortest_normal: f64,
+    pub shortest_normal: f64,
     shortest_nearby: f64,
     /// How far beyond d_i the particle can reach along n_i: r/√(1−k); infinite for k = 1.
     pub face_reach: f64,

@@ -222,8 +222,8 @@ impl Expansion {
     ) -> Doubt {
         let ((a, b), soft) = (target.weights(step.optimum.lambda), softest(bodies[0], bodies[1]));
         let rounding = self.rounding_of_slope(step, (a, b));
-        let of_a = step.verdicts[0].doubtful_slope(bodies[0], a, rounding);
-        let of_b = step.verdicts[1].doubtful_slope(bodies[1], b, rounding);
+        let of_a = step.verdicts[0].doubtful_slope(bodies[0], &self.locals[0], a, rounding);
+        let of_b = step.verdicts[1].doubtful_slope(bodies[1], &self.locals[1], b, rounding);
         let turned = TURN * f64::EPSILON * force;
         let slope = step.optimum.slope(target).norm() + of_a + of_b + turned;
         let held = a * soft.0 + b * soft.1;

@@ -15,8 +15,14 @@ use nalgebra::{SimdValue, Vector3};
 pub(crate) struct Model<'a> {
     curve: Curve<'a, f64>,
     target: Target,
-    /// Rounding of the mismatch that comes from the values at the point of expansion.
-    noise: f64,
+    /// What the values at the point of expansion make of the mismatch.
+    expanded: f64,
+}
+
+/// Bound on the rounding of a mismatch, from what the values at the point of expansion make of it and from its larger side.
+#[inline(always)]
+fn noise<N: Number>(expanded: N, larger: N) -> N {
+    N::splat(2.0 * f64::EPSILON) * expanded + N::splat(4.0 * f64::EPSILON) * larger
 }
 
 /// Most searches for λ; a handful is enough where rounding does not interfere.
@@ -48,7 +54,7 @@ impl<'a> Model<'a> {
     pub fn new(q_a: &'a Quadratic, q_b: &'a Quadratic, soft: (f64, f64), target: Target) -> Self {
         let curve = Curve::new(side(q_a, soft.0), side(q_b, soft.1), target);
         let (of_a, of_b) = target.changes(q_a.expansion, q_b.expansion);
-        Self { curve, target, noise: 2.0 * f64::EPSILON * (of_a + of_b) }
+        Self { curve, target, expanded: of_a + of_b }
     }
 
     /// Searches λ from a guess until the mismatch of the two sides is `enough`; 0 for as good as rounding allows.
@@ -82,7 +88,7 @@ impl<'a> Model<'a> {
                 return None;
             }
             // To rounding; or the search, which should do far better, does not even halve it any more.
-            let noise = self.noise + 4.0 * f64::EPSILON * larger;
+            let noise = noise(self.expanded, larger);
             slow = if difference.abs() > 0.5 * last { slow + 1 } else { 0 };
             let settled = difference.abs() <= noise;
             if settled || difference.abs() <= enough {
@@ -186,7 +192,7 @@ pub(crate) fn both_closest([q_a, q_b]: [&Quadratic; 2], soft: (f64, f64), lambda
         return None;
     }
     let found = curve.further_along(&probe, &series);
-    let noise = of(2.0 * f64::EPSILON) * held.value + of(4.0 * f64::EPSILON) * probe.values.1.larger(of(1.0));
+    let noise = noise(held.value, probe.values.1.larger(of(1.0)));
     let settled = (found.values.1 - of(1.0)).magnitude().is_at_most(noise) && curve.is_balanced(&found);
     settled.then(|| [found.lane(1).swapped(), found.lane(0)])
 }

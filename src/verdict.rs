@@ -24,6 +24,8 @@ pub(crate) struct Verdict {
     pub doubtful: f64,
     /// The least depth of a plane of the quadratic after the step.
     pub least: f64,
+    /// A lower bound of the depth of any of them times the length of its normal; mostly the least.
+    pub push: f64,
     /// Bound on the pull after the step.
     pub pull: f64,
     /// How many planes there are, or may be by rounding.
@@ -121,7 +123,7 @@ impl Body<'_> {
         let p = self.particle;
         let mut worst: Option<(usize, f64)> = None;
         let (mut pulling, mut doubtful, mut depths, mut near) = (false, 0.0, 0.0, 0.0);
-        let (mut nearest, mut least) = (f64::NEG_INFINITY, f64::INFINITY);
+        let (mut nearest, mut least, mut push) = (f64::NEG_INFINITY, f64::INFINITY, f64::INFINITY);
         // Planes of the quadratic are near y, planes that are met near y + e: no other is near either.
         let far = if p.leaves.single() { 0.0 } else { local.early.max(p.bounds.longest_normal * e.norm()) };
         // The step was turned: what is left of a long one across a plane is but rounding.
@@ -139,6 +141,9 @@ impl Body<'_> {
             depths += depth.max(0.0);
             near += 1.0;
             least = least.min(depth);
+            if depth * p.bounds.shortest_normal < push {
+                push = push.min(depth * n.norm());
+            }
             if depth >= doubt + DOUBT * excess.abs() {
                 return;
             }
@@ -162,7 +167,7 @@ impl Body<'_> {
         let met = nearest > blur || (nearest > 0.0 && self.meets(local, &v));
         let pull = self.plane_curvature() * depths;
         if pulling {
-            return Verdict { planes: Planes::Pulling, drop: None, doubtful: f64::INFINITY, least, pull, near };
+            return Verdict { planes: Planes::Pulling, drop: None, doubtful: f64::INFINITY, least, push, pull, near };
         }
         // One at a time: without the worst, the others may push again.
         let drop = worst.map(|(i, _)| i);
@@ -172,7 +177,7 @@ impl Body<'_> {
             Some(_) if !local.is_full() => Planes::Dropped,
             Some(_) => Planes::Pulling,
         };
-        Verdict { planes, drop, doubtful, least, pull, near }
+        Verdict { planes, drop, doubtful, least, push, pull, near }
     }
 }
 
@@ -184,7 +189,8 @@ impl Verdict {
         let least = q.clear - moved;
         let pull = q.pull + count * body.plane_curvature() * moved;
         let near = if least < local.blur { count + 1.0 } else { count };
-        Self { planes: Planes::Exact, drop: None, doubtful: 0.0, least, pull, near }
+        let push = least * body.particle.bounds.shortest_normal;
+        Self { planes: Planes::Exact, drop: None, doubtful: 0.0, least, push, pull, near }
     }
 
     /// Whether a plane that does not count may be on by rounding.
@@ -197,16 +203,17 @@ impl Verdict {
     /// number.
     #[inline(always)]
     pub fn pushes_less(&self, body: &Body, local: &Local, weight: f64, force: f64) -> bool {
-        weight * body.plane_curvature() * body.particle.bounds.shortest_normal_at(&local.y) * self.least < force
+        let stiffness = weight * body.plane_curvature();
+        // The shortest normal may be that of a plane which is not on.
+        let of_nearby = || body.particle.bounds.shortest_normal_at(&local.y) * self.least;
+        stiffness * self.push < force && stiffness * of_nearby() < force
     }
 
     /// Slope that planes of doubtful sign may leave, for a body of this weight: a force that is found to rounding only may
     /// be a pull.
-    pub fn doubtful_slope(&self, body: &Body, weight: f64, rounding: f64) -> f64 {
-        let stiffness = weight * body.plane_curvature();
-        let least = stiffness * body.particle.bounds.longest_normal * self.least;
-        let lost = if least < rounding { self.near * rounding } else { 0.0 };
+    pub fn doubtful_slope(&self, body: &Body, local: &Local, weight: f64, rounding: f64) -> f64 {
+        let lost = if self.pushes_less(body, local, weight, rounding) { self.near * rounding } else { 0.0 };
         // No plane may be doubtful, of weights that overflow.
-        if self.doubtful > 0.0 { lost + stiffness * self.doubtful } else { lost }
+        if self.doubtful > 0.0 { lost + weight * body.plane_curvature() * self.doubtful } else { lost }
     }
 }
