@@ -338,6 +338,8 @@ impl Anchor<'_> {
     pub fn outcome(&self, given: [&Body; 2], saddle: &mut Saddle, shifts: [f64; 2]) -> Outcome {
         let (expansion, step) = (&mut saddle.expansion, &mut saddle.step);
         let soft = expansion::softest(self.bodies[0], self.bodies[1]);
+        // Where λ was not found, it says nothing of the price of what is missing from a constraint.
+        let priced = step.optimum.settled || self.target.held().is_none();
         // Without the springs, whose pull is left over.
         let places = [0, 1].map(|i| After::of(self.bodies[i], &self.locals[i], &saddle.on));
         let weights = self.target.weights(step.optimum.lambda);
@@ -353,6 +355,11 @@ impl Anchor<'_> {
         let mut outcome = Outcome::of(expansion, self.bodies, self.target, step, true);
         // The planes of the quadratics are not those of the anchor.
         outcome.beside = outcome::beside(expansion, self.bodies, self.target, *step, &places);
+        if !priced {
+            let ceiling = Ceiling { bodies: given, target: self.target, here: expansion };
+            let lowest = ceiling.lowest(step.v, outcome.lambda, outcome.estimate, outcome.upper);
+            return Outcome { upper: outcome.upper.max(lowest + given[0].rounding_of_value(lowest)), ..outcome };
+        }
         if shifts == [0.0; 2] {
             return outcome;
         }

@@ -154,19 +154,12 @@ impl LocalContact {
         let normal = across.normal();
         let surface = if overlapping {
             let pieces = pieces(&across.vector);
-            let to_a = across.way(outcome.values[0], pieces[0], &gradients[0], |guess| {
-                let (from, outwards) = (pair.in_a(x), pair.rotation.tr_mul(&normal));
-                surface::distance_near(pair.a, &from, &outwards, guess).or_else(|| {
-                    surface::distance_beside(pair.a, &from, &outwards, body::shift(x.norm() + 2.0 * pair.centre.norm()))
-                })
-            })?;
-            let to_b = across.way(outcome.values[1], pieces[1], &-gradients[1], |guess| {
-                surface::distance_near(pair.b, x, &-normal, guess)
-                    .or_else(|| surface::distance_beside(pair.b, x, &-normal, body::shift(x.norm())))
-            })?;
+            let (ray_a, ray_b) = (|| Ray::of_a(pair, x, &normal), || Ray::of_b(pair, x, &normal));
+            let to_a = across.way(outcome.values[0], pieces[0], &gradients[0], |guess| ray_a().way(guess))?;
+            let to_b = across.way(outcome.values[1], pieces[1], &-gradients[1], |guess| ray_b().way(guess))?;
             // Where s < 1 by less than the rounding of the point, the surfaces seem to have passed each other.
             let passed = to_a + to_b < 0.0;
-            let (to_a, to_b) = if passed { meeting(pair, x, &normal, (to_a, to_b)) } else { (to_a, to_b) };
+            let (to_a, to_b) = if passed { meeting([ray_a(), ray_b()], [to_a, to_b]) } else { (to_a, to_b) };
             Some(Surface::Along(to_a, to_b))
         } else {
             None
@@ -316,20 +309,60 @@ impl Across {
     }
 }
 
+/// A line from the contact point to the surface of one body, in its own frame.
+struct Ray<'a> {
+    particle: &'a Particle,
+    from: Vector3<f64>,
+    outwards: Vector3<f64>,
+    /// Bound on the rounding of where it begins.
+    shift: f64,
+}
+
+impl<'a> Ray<'a> {
+    fn of_a(pair: &Pair<'a>, x: &Vector3<f64>, normal: &Vector3<f64>) -> Self {
+        let shift = body::shift(x.norm() + 2.0 * pair.centre.norm());
+        Self { particle: pair.a, from: pair.in_a(x), outwards: pair.rotation.tr_mul(normal), shift }
+    }
+
+    fn of_b(pair: &Pair<'a>, x: &Vector3<f64>, normal: &Vector3<f64>) -> Self {
+        Self { particle: pair.b, from: *x, outwards: -normal, shift: body::shift(x.norm()) }
+    }
+
+    /// How far the surface is, near a guess.
+    fn way(&self, guess: f64) -> Option<f64> {
+        surface::distance_near(self.particle, &self.from, &self.outwards, guess).or_else(|| self.beside())
+    }
+
+    /// The same from a point of the body within twice the rounding of the beginning.
+    #[cold]
+    fn beside(&self) -> Option<f64> {
+        surface::distance_beside(self.particle, &self.from, &self.outwards, self.shift)
+    }
+
+    /// |cos| of the angle at which it meets the level surface where it begins.
+    fn slant(&self) -> f64 {
+        let gradient = potential::tangent(self.particle, &self.from).gradient;
+        (gradient.dot(&self.outwards) / gradient.norm()).abs()
+    }
+}
+
 /// Ways to where two surfaces that have passed each other by rounding meet, as far from the one as from the other. One that is met
 /// aslant is that much nearer than it seems along the normal.
 #[cold]
-fn meeting(pair: &Pair, x: &Vector3<f64>, normal: &Vector3<f64>, (to_a, to_b): (f64, f64)) -> (f64, f64) {
-    let slant = |particle: &Particle, y: &Vector3<f64>, n: &Vector3<f64>| {
-        let gradient = potential::tangent(particle, y).gradient;
-        (gradient.dot(n) / gradient.norm()).abs()
-    };
-    let of_a = slant(pair.a, &pair.in_a(x), &pair.rotation.tr_mul(normal));
-    let of_b = slant(pair.b, x, normal);
+fn meeting(rays: [Ray; 2], ways: [f64; 2]) -> (f64, f64) {
+    // From a point that rounding has put in front of a face along the normal it is a long way to that face.
+    let [to_a, to_b] = [0, 1].map(|i| {
+        let astray = ways[i] < -2.0 * rays[i].shift;
+        astray.then(|| rays[i].beside()).flatten().unwrap_or(ways[i])
+    });
+    let passed = to_a + to_b;
+    if passed >= 0.0 {
+        return (to_a, to_b);
+    }
+    let [of_a, of_b] = rays.map(|ray| ray.slant());
     let share = of_b / (of_a + of_b);
     // Without a gradient, half way.
     let share = if share.is_finite() { share } else { 0.5 };
-    let passed = to_a + to_b;
     (to_a - share * passed, to_b - (1.0 - share) * passed)
 }
 

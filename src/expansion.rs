@@ -151,13 +151,14 @@ impl Expansion {
         [piece(bodies[0], &self.q_a), piece(bodies[1], &self.q_b)]
     }
 
-    /// Bounds on the rounding of S_A and S_B.
-    pub fn rounding(&self, a: &Body, b: &Body) -> (f64, f64) {
-        (a.rounding(&self.locals[0], &self.q_a), b.rounding(&self.locals[1], &self.q_b))
-    }
-
     pub fn merit(&self, target: Target, lambda: f64) -> f64 {
         target.merit(self.q_a.value, self.q_b.value, lambda)
+    }
+
+    /// Bound on its rounding.
+    pub fn merit_rounding(&self, [a, b]: [&Body; 2], target: Target, lambda: f64) -> f64 {
+        let (of_a, of_b) = (a.rounding(&self.locals[0], &self.q_a), b.rounding(&self.locals[1], &self.q_b));
+        target.merit_rounding(of_a, of_b, lambda)
     }
 
     /// The model's optimum here, and what its step does to the planes of A and of B.

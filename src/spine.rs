@@ -148,11 +148,7 @@ pub(crate) fn solve(
             let merit = here.merit(target, attempt.lambda);
             let enough = attempt.merit - 1e-4 * attempt.promised;
             // Two values of S cannot be told apart below their rounding.
-            let rounding = || {
-                let (of_a, of_b) = here.rounding(a, b);
-                target.merit_rounding(of_a, of_b, attempt.lambda)
-            };
-            if !(merit <= enough || merit <= enough + rounding()) {
+            if !(merit <= enough || merit <= enough + here.merit_rounding(bodies, target, attempt.lambda)) {
                 let moved = attempt.shorten(bodies, target, lambda, factorisation, here);
                 // Stopped at once, again and again: the planes take turns, and λ has to be found otherwise.
                 stopped = if moved { 0 } else { stopped + 1 };
@@ -192,9 +188,15 @@ pub(crate) fn solve(
         lower = target.dual(step.optimum.values.0, step.optimum.values.1, lambda);
         let separating = goal.stop_when_separated && lower > 1.0 && step.planes != Planes::Pulling;
         let proving = step.planes == Planes::Exact && step.optimum.settled;
-        // Inside both cores nothing but the regularisation tells one point from another.
-        let inside = flat > 0.0 && step.planes == Planes::Met && upper - lower <= flat;
-        if separating || proving || inside {
+        // Inside both cores nothing but the regularisation tells one point from another, and where planes act as walls nothing but
+        // rounding whether one of them is on.
+        let left = if step.planes == Planes::Met { upper - lower } else { f64::INFINITY };
+        let inside = flat > 0.0 && left <= flat;
+        let rounded = target == Target::Midway
+            && left <= SHARP * upper
+            && left <= AS_SHARP * here.merit_rounding(bodies, target, lambda);
+        let bracketed = inside || rounded;
+        if separating || proving || bracketed {
             let mut outcome = Outcome { iterations, ..Outcome::of(here, bodies, target, &step, goal.careful) };
             if separating && outcome.separates(flat) {
                 return Outcome { ending: Ending::Separated, ..outcome };
@@ -205,12 +207,14 @@ pub(crate) fn solve(
                 if proof.is_final(arriving > 1) {
                     return outcome;
                 }
-            } else if inside {
+            } else if bracketed {
                 let values = [here.q_a.value, here.q_b.value];
-                outcome = Outcome { x: here.x, values, ending: Ending::RoundingLimited, response: None, ..outcome };
+                let rounding = larger(outcome.rounding, here.merit_rounding(bodies, target, lambda));
+                let ending = Ending::RoundingLimited;
+                outcome = Outcome { x: here.x, values, rounding, ending, response: None, ..outcome };
             }
             // Proved, but over a long step; the same from nearby is sharper.
-            if (proving || inside) && proved.as_ref().is_none_or(|(old, _)| outcome.gap() < old.gap()) {
+            if (proving || bracketed) && proved.as_ref().is_none_or(|(old, _)| outcome.gap() < old.gap()) {
                 proved = Some((outcome, *here));
             }
         }

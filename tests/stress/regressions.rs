@@ -465,3 +465,33 @@ fn closest_from_memory_is_not_slack_for_want_of_a_bound() {
 fn softened_planes_move_the_point_by_more_than_their_first_order() {
     judged_by("softened_planes_move_the_point_by_more_than_their_first_order", &[Swap, BoundOfPoint], 5, 96_615);
 }
+
+/// Far from the origin rounding put a contact point in front of a face that the normal runs along: it was a long way to that face,
+/// and the surfaces met there.
+#[test]
+fn a_point_in_front_of_a_face_along_the_normal_is_beside_its_body() {
+    let name = "a_point_in_front_of_a_face_along_the_normal_is_beside_its_body";
+    judged_by(name, &[OffSurface], 1, 10_000_003_631_363);
+}
+
+/// A wall whose push is below rounding was dropped and met again without end, at the optimum; the safe solver, from afar, left a
+/// gap of 0.005.
+#[test]
+fn what_is_left_between_bounds_is_rounding_where_a_wall_holds_by_less() {
+    let name = "what_is_left_between_bounds_is_rounding_where_a_wall_holds_by_less";
+    judged_by(name, &[LooseBound, BoundOfS], 1, 10_000_028_366_232);
+}
+
+/// The search for the weights ended where forces are but rounding, and what was missing from the constraint was priced by the
+/// weight at hand, 10¹⁰ times too low: P2 was 10⁻³ off its surface, and its scale 3·10⁻¹⁰ instead of 9·10⁻⁶.
+#[test]
+fn a_constraint_has_no_price_where_its_weight_was_not_found() {
+    let name = "a_constraint_has_no_price_where_its_weight_was_not_found";
+    judged_by(name, &[OffSurface, BoundOfS], 1, 10_000_063_291_695);
+    let line = line(name);
+    let shapes = line.shapes().expect("two particles");
+    let [at_a, at_b] = line.places().map(|place| place.pose());
+    let settings = Settings { formulation: Formulation::Closest, ..Settings::default() };
+    let contact = detect(&shapes.a, &at_a, &shapes.b, &at_b, &settings, None).expect("an answer");
+    assert!((contact.s - 9.3376e-6).abs() < 1e-9 + contact.gap && contact.gap < 1e-6, "{contact:?}");
+}
