@@ -110,6 +110,11 @@ impl Outcome {
         }
     }
 
+    /// The same of the point where the step began, which is no optimum of known quadratics.
+    pub fn at(self, here: &Expansion) -> Self {
+        Self { x: here.x, values: [here.q_a.value, here.q_b.value], response: None, ..self }
+    }
+
     /// The λ of a closest point, as seen from midway.
     ///
     /// Where a single curvature decides along their common curve, as for two spheres or two faces, 1/√S of the held body is
@@ -161,7 +166,7 @@ pub(crate) enum Ending {
     RoundingLimited,
     /// The lower bound exceeds 1, which was enough.
     Separated,
-    /// Neither; the outcome is not to be used.
+    /// Neither: there is no outcome, or one with bounds that another search should better.
     Stuck,
 }
 

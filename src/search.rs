@@ -264,6 +264,7 @@ impl<'a> Search<'a> {
                 outcome = self.fast(&goal, &cold, here);
             }
             if outcome.ending == Ending::Stuck {
+                let spare = (outcome, *here);
                 let cold = start::on_centre_line(self.pair, &self.body_a, &self.body_b);
                 outcome = self.safe(target, &cold, BRISK, here);
                 // No answer, or one that tells nothing.
@@ -271,6 +272,10 @@ impl<'a> Search<'a> {
                     let mut there = *here;
                     let second = self.safe(target, &cold, Effort { pace: Pace::Gentle, ..BRISK }, &mut there);
                     keep_better((&mut outcome, here), (second, there));
+                }
+                // What the fast solver had found before it went in circles.
+                if outcome.gap() > spare.0.gap() {
+                    (outcome, *here) = (Outcome { ending: Ending::RoundingLimited, ..spare.0 }, spare.1);
                 }
                 self.flags.insert(if outcome.ending == Ending::Stuck { Flags::FELL_BACK } else { Flags::SAFER });
             }

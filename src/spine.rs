@@ -7,7 +7,7 @@
 
 use crate::body::Body;
 use crate::curve::Optimum;
-use crate::expansion::{self, Expansion, Factorisation, Start};
+use crate::expansion::{self, Expansion, Factorisation, Start, Step};
 use crate::line::{self, Merit};
 use crate::local::Local;
 use crate::model::{LAMBDA_RANGE, Model};
@@ -140,6 +140,7 @@ pub(crate) fn solve(
     let mut thorough = start.near;
     let mut previous: Option<Attempt> = None;
     let (mut proved, mut arriving, mut stopped) = (None::<(Outcome, Expansion)>, 0, 0);
+    let (mut nearest, mut dropped) = (None::<(f64, Step, Expansion)>, false);
     let (mut lower, mut lost) = (f64::NEG_INFINITY, 0);
     let mut iterations = 0;
     while iterations < MOST_ITERATIONS {
@@ -181,22 +182,24 @@ pub(crate) fn solve(
         }
         if step.planes == Planes::Dropped {
             here.drop(bodies, &step, target, lambda, factorisation);
-            (previous, thorough) = (None, false);
+            (previous, thorough, dropped) = (None, false, true);
             continue;
         }
         let upper = here.merit(target, lambda);
         lower = target.dual(step.optimum.values.0, step.optimum.values.1, lambda);
         let separating = goal.stop_when_separated && lower > 1.0 && step.planes != Planes::Pulling;
         let proving = step.planes == Planes::Exact && step.optimum.settled;
-        // Inside both cores nothing but the regularisation tells one point from another, and where planes act as walls nothing but
-        // rounding whether one of them is on.
-        let left = if step.planes == Planes::Met { upper - lower } else { f64::INFINITY };
-        let inside = flat > 0.0 && left <= flat;
-        let rounded = target == Target::Midway
+        // Inside both cores nothing but the regularisation tells one point from another.
+        let inside = flat > 0.0 && step.planes == Planes::Met && upper - lower <= flat;
+        // Where planes act as walls it may be rounding that tells whether one is on, and the search goes in circles about the optimum.
+        let left = if target == Target::Midway && dropped { upper - lower } else { f64::INFINITY };
+        if step.planes == Planes::Met
             && left <= SHARP * upper
-            && left <= AS_SHARP * here.merit_rounding(bodies, target, lambda);
-        let bracketed = inside || rounded;
-        if separating || proving || bracketed {
+            && nearest.as_ref().is_none_or(|(least, ..)| left < *least)
+        {
+            nearest = Some((left, step, *here));
+        }
+        if separating || proving || inside {
             let mut outcome = Outcome { iterations, ..Outcome::of(here, bodies, target, &step, goal.careful) };
             if separating && outcome.separates(flat) {
                 return Outcome { ending: Ending::Separated, ..outcome };
@@ -207,14 +210,11 @@ pub(crate) fn solve(
                 if proof.is_final(arriving > 1) {
                     return outcome;
                 }
-            } else if bracketed {
-                let values = [here.q_a.value, here.q_b.value];
-                let rounding = larger(outcome.rounding, here.merit_rounding(bodies, target, lambda));
-                let ending = Ending::RoundingLimited;
-                outcome = Outcome { x: here.x, values, rounding, ending, response: None, ..outcome };
+            } else if inside {
+                outcome = Outcome { ending: Ending::RoundingLimited, ..outcome.at(here) };
             }
             // Proved, but over a long step; the same from nearby is sharper.
-            if (proving || bracketed) && proved.as_ref().is_none_or(|(old, _)| outcome.gap() < old.gap()) {
+            if (proving || inside) && proved.as_ref().is_none_or(|(old, _)| outcome.gap() < old.gap()) {
                 proved = Some((outcome, *here));
             }
         }
@@ -228,14 +228,21 @@ pub(crate) fn solve(
         thorough = false;
         *here = Expansion::of(bodies, x, [a.locate(&x, 0.0), b.locate(&x, 0.0)], target.weights(lambda), factorisation);
     }
-    match proved {
-        // A proof that leaves everything open is none. Where S all but vanishes, deep inside both, what counts is its
-        // gap beside the 1 of the surfaces.
-        Some((outcome, expansion)) if outcome.gap() <= (SHARP * outcome.upper.max(flat)).max(goal.tolerance) => {
+    // A proof that leaves everything open is none. Where S all but vanishes, deep inside both, what counts is its gap beside the
+    // 1 of the surfaces.
+    let tells = |outcome: &Outcome| outcome.gap() <= (SHARP * outcome.upper.max(flat)).max(goal.tolerance);
+    let bracketed = || {
+        let (_, step, expansion) = nearest?;
+        let outcome = Outcome::of(&expansion, bodies, target, &step, goal.careful).at(&expansion);
+        let rounding = larger(outcome.rounding, expansion.merit_rounding(bodies, target, outcome.lambda));
+        Some((Outcome { rounding, ..outcome }, expansion))
+    };
+    match proved.filter(|(outcome, _)| tells(outcome)).or_else(|| bracketed().filter(|(outcome, _)| tells(outcome))) {
+        Some((outcome, expansion)) => {
             *here = expansion;
             Outcome { iterations, ..outcome }
         }
-        _ => Outcome { x: here.x, lambda, lower, iterations, ..Outcome::UNKNOWN },
+        None => Outcome { x: here.x, lambda, lower, iterations, ..Outcome::UNKNOWN },
     }
 }
 
