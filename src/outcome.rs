@@ -166,8 +166,18 @@ pub(crate) enum Ending {
     RoundingLimited,
     /// The lower bound exceeds 1, which was enough.
     Separated,
-    /// Neither: there is no outcome, or one with bounds that another search should better.
+    /// Neither: from elsewhere it may come to an end.
     Stuck,
+    /// Neither: planes take turns, or stay in doubt, as they would from elsewhere. There is no outcome, or one with bounds that another
+    /// solver should better.
+    Circling,
+}
+
+impl Ending {
+    /// Whether the outcome is one.
+    pub fn is_answer(self) -> bool {
+        !matches!(self, Self::Stuck | Self::Circling)
+    }
 }
 
 /// Bound on what planes that do not count in the quadratics, which are those of `places`, and may be on by rounding, do to the

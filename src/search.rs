@@ -263,12 +263,12 @@ impl<'a> Search<'a> {
                 *here = self.expansion(&cold, target);
                 outcome = self.fast(&goal, &cold, here);
             }
-            if outcome.ending == Ending::Stuck {
+            if !outcome.ending.is_answer() {
                 let spare = (outcome, *here);
                 let cold = start::on_centre_line(self.pair, &self.body_a, &self.body_b);
                 outcome = self.safe(target, &cold, BRISK, here);
                 // No answer, or one that tells nothing.
-                if outcome.ending == Ending::Stuck || outcome.gap() > outcome.upper.max(1.0) {
+                if !outcome.ending.is_answer() || outcome.gap() > outcome.upper.max(1.0) {
                     let mut there = *here;
                     let second = self.safe(target, &cold, Effort { pace: Pace::Gentle, ..BRISK }, &mut there);
                     keep_better((&mut outcome, here), (second, there));
@@ -277,12 +277,12 @@ impl<'a> Search<'a> {
                 if outcome.gap() > spare.0.gap() {
                     (outcome, *here) = (Outcome { ending: Ending::RoundingLimited, ..spare.0 }, spare.1);
                 }
-                self.flags.insert(if outcome.ending == Ending::Stuck { Flags::FELL_BACK } else { Flags::SAFER });
+                self.flags.insert(if outcome.ending.is_answer() { Flags::SAFER } else { Flags::FELL_BACK });
             }
             if outcome.ending == Ending::RoundingLimited {
                 self.sharpen(target, &mut outcome, here);
             }
-            if outcome.ending != Ending::Stuck {
+            if outcome.ending.is_answer() {
                 return Ok(outcome);
             }
         }
@@ -312,8 +312,7 @@ impl<'a> Search<'a> {
             keep_better((outcome, here), (second, there));
             if self.is_loose(outcome, here, target) {
                 let second = self.safe(target, &from, Effort { most, through: false, ..BRISK }, &mut there);
-                found_again =
-                    (second.lambda - from.lambda).abs() <= SAME * from.lambda && second.ending != Ending::Stuck;
+                found_again = (second.lambda - from.lambda).abs() <= SAME * from.lambda && second.ending.is_answer();
                 keep_better((outcome, here), (second, there));
             }
             if self.is_loose(outcome, here, target) && !outcome.sure {

@@ -231,18 +231,19 @@ pub(crate) fn solve(
     // A proof that leaves everything open is none. Where S all but vanishes, deep inside both, what counts is its gap beside the
     // 1 of the surfaces.
     let tells = |outcome: &Outcome| outcome.gap() <= (SHARP * outcome.upper.max(flat)).max(goal.tolerance);
+    let unproved = if stopped > MOST_STOPS || arriving > MOST_TO_ARRIVE { Ending::Circling } else { Ending::Stuck };
     let bracketed = || {
         let (_, step, expansion) = nearest?;
         let outcome = Outcome::of(&expansion, bodies, target, &step, goal.careful).at(&expansion);
         let rounding = larger(outcome.rounding, expansion.merit_rounding(bodies, target, outcome.lambda));
-        Some((Outcome { rounding, ..outcome }, expansion))
+        Some((Outcome { rounding, ending: unproved, ..outcome }, expansion))
     };
     match proved.filter(|(outcome, _)| tells(outcome)).or_else(|| bracketed().filter(|(outcome, _)| tells(outcome))) {
         Some((outcome, expansion)) => {
             *here = expansion;
             Outcome { iterations, ..outcome }
         }
-        None => Outcome { x: here.x, lambda, lower, iterations, ..Outcome::UNKNOWN },
+        None => Outcome { x: here.x, lambda, lower, iterations, ending: unproved, ..Outcome::UNKNOWN },
     }
 }
 
