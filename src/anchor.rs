@@ -9,6 +9,7 @@ use crate::local::{Local, Place};
 use crate::model::Model;
 use crate::outcome::{self, Outcome};
 use crate::particle::Particle;
+use crate::sway::Care;
 use crate::target::Target;
 use crate::verdict::{DOUBT, Planes, Verdict};
 use nalgebra::Vector3;
@@ -352,7 +353,8 @@ impl Anchor<'_> {
         for (local, shift) in expansion.locals.iter_mut().zip(shifts) {
             local.blur += shift;
         }
-        let mut outcome = Outcome::of(expansion, self.bodies, self.target, step, true);
+        let mut outcome = Outcome::of(expansion, self.bodies, self.target, step, Care::Careful);
+        outcome.refine(expansion, self.bodies, self.target, step);
         // The planes of the quadratics are not those of the anchor.
         outcome.beside = outcome::beside(expansion, self.bodies, self.target, *step, &places);
         if !priced {

@@ -10,6 +10,7 @@ use crate::body::Body;
 use crate::expansion::{self, Expansion, Factorisation, Start, TURN};
 use crate::number::{larger, smaller};
 use crate::outcome::{Ending, Outcome};
+use crate::sway::Care;
 use crate::target::Target;
 use crate::verdict::Planes;
 use nalgebra::Vector3;
@@ -115,7 +116,7 @@ pub(crate) fn without_doubtful(outcome: &Outcome, bodies: [&Body; 2], target: Ta
         // Along a face what holds the point may be but a plane of doubtful sign.
         let tied = expansion.tied(bodies, target, outcome.lambda);
         if let Some(step) = tied.filter(|step| step.planes <= Planes::Met) {
-            let found = Outcome::of(&expansion, bodies, target, &step, true);
+            let found = Outcome::of(&expansion, bodies, target, &step, Care::Careful);
             lower = lower.max(found.lower - found.rounding);
         }
         let Some(step) = expansion.optimum(bodies, target, outcome.lambda, 0.0) else { break };
@@ -123,7 +124,7 @@ pub(crate) fn without_doubtful(outcome: &Outcome, bodies: [&Body; 2], target: Ta
             Planes::Pulling => break,
             Planes::Dropped => expansion.drop(bodies, &step, target, outcome.lambda, Factorisation::Aligned),
             Planes::Exact | Planes::Met => {
-                let found = Outcome::of(&expansion, bodies, target, &step, true);
+                let found = Outcome::of(&expansion, bodies, target, &step, Care::Careful);
                 lower = lower.max(found.lower - found.rounding);
                 // Without one more the optimum is lower still.
                 if found.sure || found.estimate <= lower.max(outcome.lower - outcome.rounding) {
@@ -184,6 +185,7 @@ pub(crate) fn judge(x: &Vector3<f64>, lambda: f64, s: f64, a: &Body, b: &Body, t
         upper,
         rounding,
         iterations: 0,
+        rough: false,
         ending: Ending::Converged,
         sure: false,
         rate: 0.0,

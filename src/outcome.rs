@@ -5,7 +5,7 @@ use crate::expansion::{self, Doubt, Expansion, Step};
 use crate::local::Place;
 use crate::number::larger;
 use crate::response::Response;
-use crate::sway::Sway;
+use crate::sway::{Care, Sway};
 use crate::target::Target;
 use crate::verdict::Planes;
 use nalgebra::Vector3;
@@ -32,6 +32,8 @@ pub(crate) struct Outcome {
     pub upper: f64,
     /// Bound on the rounding of both.
     pub rounding: f64,
+    /// Whether that may be narrowed, which would hardly narrow the gap.
+    pub rough: bool,
     pub iterations: u32,
     pub ending: Ending,
     /// Whether every plane of the quadratics pushes beyond doubt.
@@ -58,6 +60,7 @@ impl Outcome {
         lower: f64::NEG_INFINITY,
         upper: f64::INFINITY,
         rounding: f64::INFINITY,
+        rough: false,
         iterations: 0,
         ending: Ending::Stuck,
         sure: false,
@@ -67,9 +70,9 @@ impl Outcome {
         beside: 0.0,
     };
 
-    /// The optimum that a step leads to, with its bounds; `careful` about what is deep beside rounding, which takes time.
+    /// The optimum that a step leads to, with its bounds.
     #[inline(always)]
-    pub fn of(here: &Expansion, bodies: [&Body; 2], target: Target, step: &Step, careful: bool) -> Self {
+    pub fn of(here: &Expansion, bodies: [&Body; 2], target: Target, step: &Step, care: Care) -> Self {
         let (optimum, soft, lambda) = (&step.optimum, expansion::softest(bodies[0], bodies[1]), step.optimum.lambda);
         let (s_a, s_b) = optimum.values;
         let estimate = target.dual(s_a, s_b, lambda);
@@ -79,15 +82,15 @@ impl Outcome {
         };
         let steep = [optimum.gradients[0].norm(), optimum.gradients[1].norm()];
         let sway = Sway::of(here, bodies, step, steep);
-        let bound = sway.bound(target, optimum, careful);
+        let bound = sway.bound(target, optimum, care);
         let force = target.dual_weighted(steep[0], steep[1], lambda);
         let negligible = bound.unwrap_or_else(|| sway.least(target, lambda));
         let Doubt { mut height, decided, held } = here.doubt(bodies, target, step, upper, force, negligible);
-        let open = if careful { 0.0 } else { height };
-        let rounding = bound.unwrap_or_else(|| sway.decisive(here, bodies, target, *step, open));
-        if careful && decided && height > rounding {
+        if care == Care::Careful && decided && height > negligible {
             height = height.min(here.remnant(bodies, target, step, upper, force));
         }
+        let (rounding, rough) =
+            bound.map_or_else(|| sway.decisive(here, bodies, target, *step, height), |it| (it, false));
         let is_beside = step.verdicts[0].has_beside(&here.q_a) || step.verdicts[1].has_beside(&here.q_b);
         let beside = if is_beside { beside(here, bodies, target, *step, &here.locals) } else { 0.0 };
         Self {
@@ -100,6 +103,7 @@ impl Outcome {
             lower: estimate - height,
             upper,
             rounding,
+            rough,
             iterations: 0,
             ending: Ending::Stuck,
             sure: decided && held,
@@ -107,6 +111,16 @@ impl Outcome {
             response: optimum.response(target, soft),
             sums: sway.sums,
             beside,
+        }
+    }
+
+    /// Narrows its rounding as far as it can be, which takes time.
+    #[cold]
+    #[inline(never)]
+    pub fn refine(&mut self, here: &Expansion, bodies: [&Body; 2], target: Target, step: &Step) {
+        if self.rough {
+            let sway = Sway::of(here, bodies, step, self.steep);
+            (self.rounding, self.rough) = sway.decisive(here, bodies, target, *step, 0.0);
         }
     }
 

@@ -14,6 +14,7 @@ use crate::pair::Pair;
 use crate::settings::{BackEnd, Settings};
 use crate::spine::{self, Goal};
 use crate::start;
+use crate::sway::Care;
 use crate::target::Target;
 use nalgebra::Vector3;
 
@@ -308,7 +309,7 @@ impl<'a> Search<'a> {
                 _ => (Start { x: outcome.x, lambda: outcome.lambda, near: true }, MOST_FROM_NEARBY),
             };
             let mut there = self.expansion(&from, target);
-            let second = self.fast(&Goal { careful: true, ..self.goal(target) }, &from, &mut there);
+            let second = self.fast(&Goal { care: Care::Careful, ..self.goal(target) }, &from, &mut there);
             keep_better((outcome, here), (second, there));
             if self.is_loose(outcome, here, target) {
                 let second = self.safe(target, &from, Effort { most, through: false, ..BRISK }, &mut there);
@@ -362,7 +363,7 @@ impl<'a> Search<'a> {
             target,
             tolerance: self.settings.gap_tolerance,
             stop_when_separated: target == Target::Midway && !self.settings.solve_separated,
-            careful: false,
+            care: Care::OnTheWay,
         }
     }
 

@@ -13,6 +13,7 @@ use crate::local::Local;
 use crate::model::{LAMBDA_RANGE, Model};
 use crate::number::larger;
 use crate::outcome::{Ending, Outcome};
+use crate::sway::Care;
 use crate::target::Target;
 use crate::verdict::Planes;
 use nalgebra::Vector3;
@@ -51,8 +52,8 @@ pub(crate) struct Goal {
     pub tolerance: f64,
     /// Whether a proof that the optimum exceeds 1 is enough.
     pub stop_when_separated: bool,
-    /// Whether the bounds should be as narrow as they can be, whatever it takes.
-    pub careful: bool,
+    /// What the bounds may take.
+    pub care: Care,
 }
 
 /// The answer where the first step is the last: the planes of the quadratics stay on, no other is met, and the bounds
@@ -71,7 +72,7 @@ pub(crate) fn proved(bodies: [&Body; 2], goal: &Goal, here: &Expansion, optimum:
     if step.planes != Planes::Exact || !step.optimum.settled {
         return None;
     }
-    let outcome = Outcome { iterations: 1, ..Outcome::of(here, bodies, goal.target, &step, false) };
+    let outcome = Outcome { iterations: 1, ..Outcome::of(here, bodies, goal.target, &step, Care::Once) };
     if goal.stop_when_separated && outcome.separates(flat(bodies)) {
         return Some(Outcome { ending: Ending::Separated, ..outcome });
     }
@@ -139,7 +140,7 @@ pub(crate) fn solve(
     let mut lambda = start.lambda;
     let mut thorough = start.near;
     let mut previous: Option<Attempt> = None;
-    let (mut proved, mut arriving, mut stopped) = (None::<(Outcome, Expansion)>, 0, 0);
+    let (mut proved, mut arriving, mut stopped) = (None::<(Outcome, Step, Expansion)>, 0, 0);
     let (mut nearest, mut dropped) = (None::<(f64, Step, Expansion)>, false);
     let (mut lower, mut lost) = (f64::NEG_INFINITY, 0);
     let mut iterations = 0;
@@ -200,7 +201,7 @@ pub(crate) fn solve(
             nearest = Some((left, step, *here));
         }
         if separating || proving || inside {
-            let mut outcome = Outcome { iterations, ..Outcome::of(here, bodies, target, &step, goal.careful) };
+            let mut outcome = Outcome { iterations, ..Outcome::of(here, bodies, target, &step, goal.care) };
             if separating && outcome.separates(flat) {
                 return Outcome { ending: Ending::Separated, ..outcome };
             }
@@ -208,14 +209,15 @@ pub(crate) fn solve(
                 let proof = Proof::of(&outcome, goal, bodies, here, step.v.norm());
                 outcome.ending = proof.ending();
                 if proof.is_final(arriving > 1) {
+                    outcome.refine(here, bodies, target, &step);
                     return outcome;
                 }
             } else if inside {
                 outcome = Outcome { ending: Ending::RoundingLimited, ..outcome.at(here) };
             }
             // Proved, but over a long step; the same from nearby is sharper.
-            if (proving || inside) && proved.as_ref().is_none_or(|(old, _)| outcome.gap() < old.gap()) {
-                proved = Some((outcome, *here));
+            if (proving || inside) && proved.as_ref().is_none_or(|(old, ..)| outcome.gap() < old.gap()) {
+                proved = Some((outcome, step, *here));
             }
         }
         arriving += u32::from(proved.is_some());
@@ -232,13 +234,18 @@ pub(crate) fn solve(
     // 1 of the surfaces.
     let tells = |outcome: &Outcome| outcome.gap() <= (SHARP * outcome.upper.max(flat)).max(goal.tolerance);
     let unproved = if stopped > MOST_STOPS || arriving > MOST_TO_ARRIVE { Ending::Circling } else { Ending::Stuck };
+    let refined = |(mut outcome, step, expansion): (Outcome, Step, Expansion)| {
+        outcome.refine(&expansion, bodies, target, &step);
+        (outcome, expansion)
+    };
     let bracketed = || {
         let (_, step, expansion) = nearest?;
-        let outcome = Outcome::of(&expansion, bodies, target, &step, goal.careful).at(&expansion);
+        let outcome = Outcome::of(&expansion, bodies, target, &step, goal.care).at(&expansion);
+        let (outcome, expansion) = refined((outcome, step, expansion));
         let rounding = larger(outcome.rounding, expansion.merit_rounding(bodies, target, outcome.lambda));
-        Some((Outcome { rounding, ending: unproved, ..outcome }, expansion))
+        Some((Outcome { rounding, ending: unproved, ..outcome }, expansion)).filter(|(outcome, _)| tells(outcome))
     };
-    match proved.filter(|(outcome, _)| tells(outcome)).or_else(|| bracketed().filter(|(outcome, _)| tells(outcome))) {
+    match proved.filter(|(outcome, ..)| tells(outcome)).map(refined).or_else(bracketed) {
         Some((outcome, expansion)) => {
             *here = expansion;
             Outcome { iterations, ..outcome }

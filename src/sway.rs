@@ -15,6 +15,17 @@ use crate::target::Target;
 /// the whole something else may leave open before the rounding is what decides no more.
 const DEEP: f64 = 8.0;
 
+/// What the bounds of an outcome may take.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Care {
+    /// What it takes for one outcome.
+    Once,
+    /// For one of many: what would hardly narrow its gap is left for the one that is kept ([`crate::outcome::Outcome::refine`]).
+    OnTheWay,
+    /// The same, and second looks at what is deep beside rounding, and at what a slope can hide.
+    Careful,
+}
+
 /// Bounds on the rounding of S_A and S_B at the end of a step.
 #[derive(Clone, Copy)]
 pub(crate) struct Sway {
@@ -49,34 +60,34 @@ impl Sway {
     /// Bound on what it does to the optimum. `None` where it decides about the weights, or, if that is to be looked at with care,
     /// is more than the planes' depths.
     #[inline(always)]
-    pub fn bound(&self, target: Target, optimum: &Optimum, careful: bool) -> Option<f64> {
+    pub fn bound(&self, target: Target, optimum: &Optimum, care: Care) -> Option<f64> {
         let (of_a, of_b) = (self.first[0] + self.second[0], self.first[1] + self.second[1]);
         let (change_a, change_b) = target.changes(of_a, of_b);
         let swing = larger(change_a, change_b) / optimum.rate(target).abs();
         let of_first = self.least(target, optimum.lambda);
         let of_all = target.dual_weighted(of_a, of_b, optimum.lambda);
-        (swing < 0.25 && (!careful || of_all <= DEEP * of_first)).then_some(of_all * (1.0 + 4.0 * swing))
+        (swing < 0.25 && (care != Care::Careful || of_all <= DEEP * of_first)).then_some(of_all * (1.0 + 4.0 * swing))
     }
 
     /// The same where it decides. S is convex in where the planes lie, and so is the optimum: from below, what is of first
     /// order, with the weights at hand, is all. From above it is the whole of it at most, or what is left where the point
-    /// follows the planes: a small, sharp body at a large one needs that. It takes time, and is not asked for where far more is left
-    /// `open` by something else.
+    /// follows the planes: a small, sharp body at a large one needs that. It takes time: where far more is left `open` by something
+    /// else the whole will do, and that is told.
     #[cold]
-    pub fn decisive(&self, here: &Expansion, bodies: [&Body; 2], target: Target, step: Step, open: f64) -> f64 {
+    pub fn decisive(&self, here: &Expansion, bodies: [&Body; 2], target: Target, step: Step, open: f64) -> (f64, bool) {
         let lambda = step.optimum.lambda;
         let below = self.least(target, lambda);
         let whole = target.merit_rounding(self.first[0] + self.second[0], self.first[1] + self.second[1], lambda);
         if whole <= below {
-            return below;
+            return (below, false);
         }
         if open > DEEP * whole {
-            return whole;
+            return (whole, true);
         }
         let floor = target.dual(step.optimum.values.0, step.optimum.values.1, lambda);
         let summed = target.merit_rounding(self.sums[0], self.sums[1], lambda);
         let ceiling = Ceiling { bodies, target, here }.lowest(step.v, lambda, floor, floor + (below - summed));
         let followed = (ceiling - floor).max(0.0) + summed;
-        whole.min(followed).max(below)
+        (whole.min(followed).max(below), false)
     }
 }
