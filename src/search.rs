@@ -323,7 +323,8 @@ impl<'a> Search<'a> {
             // A gap above the scale itself would pass for a constraint that is slack.
             let says_nothing = target != Target::Midway && outcome.gap() > outcome.upper;
             // Where the safe solver, which brackets λ, finds that of the answer, no other is to be had from elsewhere.
-            if (round > 0 || found_again) && outcome.gap() > WORTH * gap && !says_nothing {
+            let nothing_elsewhere = round > 0 || (found_again && !says_nothing);
+            if nothing_elsewhere && outcome.gap() > WORTH * gap {
                 break;
             }
         }
