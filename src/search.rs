@@ -258,7 +258,8 @@ impl<'a> Search<'a> {
     ) -> Result<Outcome, ConicError> {
         if self.settings.back_end == BackEnd::Fast {
             let goal = self.goal(target);
-            let mut outcome = self.fast(&goal, start, here);
+            let most = if near { spine::MOST_FROM_MEMORY } else { spine::MOST_ITERATIONS };
+            let mut outcome = self.fast(&Goal { most, ..goal }, start, here);
             if outcome.ending == Ending::Stuck && near {
                 let cold = self.cold();
                 *here = self.expansion(&cold, target);
@@ -364,6 +365,7 @@ impl<'a> Search<'a> {
             target,
             tolerance: self.settings.gap_tolerance,
             stop_when_separated: target == Target::Midway && !self.settings.solve_separated,
+            most: spine::MOST_ITERATIONS,
             care: Care::OnTheWay,
         }
     }

@@ -20,7 +20,10 @@ use nalgebra::Vector3;
 
 /// Most iterations. One call in 20,000 would come to its end after more; the others are in circles, and the safe
 /// solver is faster.
-const MOST_ITERATIONS: u32 = 30;
+pub(crate) const MOST_ITERATIONS: u32 = 30;
+
+/// The same from memory or from midway: what takes longer than from a cold start goes on from there.
+pub(crate) const MOST_FROM_MEMORY: u32 = 20;
 
 /// Relative to the smaller particle, a step too short for the next one to be more precise.
 const SHORT: f64 = 1e-9;
@@ -52,6 +55,8 @@ pub(crate) struct Goal {
     pub tolerance: f64,
     /// Whether a proof that the optimum exceeds 1 is enough.
     pub stop_when_separated: bool,
+    /// Most iterations.
+    pub most: u32,
     /// What the bounds may take.
     pub care: Care,
 }
@@ -144,7 +149,7 @@ pub(crate) fn solve(
     let (mut nearest, mut dropped) = (None::<(f64, Step, Expansion)>, false);
     let (mut lower, mut lost) = (f64::NEG_INFINITY, 0);
     let mut iterations = 0;
-    while iterations < MOST_ITERATIONS {
+    while iterations < goal.most {
         iterations += 1;
         if let Some(attempt) = previous.as_ref().filter(|_| !thorough) {
             let merit = here.merit(target, attempt.lambda);
