@@ -48,6 +48,8 @@ pub(crate) struct Search<'a> {
     pub iterations: u32,
     pub flags: Flags,
     pub answered: BackEnd,
+    /// Whether the last climb went on from a cold start.
+    anew: bool,
 }
 
 /// One of the closest points.
@@ -74,7 +76,16 @@ impl Closest {
 impl<'a> Search<'a> {
     pub fn new(pair: &'a Pair<'a>, settings: &'a Settings) -> Self {
         let (body_a, body_b) = Body::both(pair, settings.flat_regularisation);
-        Self { pair, body_a, body_b, settings, iterations: 0, flags: Flags::default(), answered: settings.back_end }
+        Self {
+            pair,
+            body_a,
+            body_b,
+            settings,
+            iterations: 0,
+            flags: Flags::default(),
+            answered: settings.back_end,
+            anew: false,
+        }
     }
 
     /// Where to begin if nothing is known.
@@ -121,6 +132,7 @@ impl<'a> Search<'a> {
                 &own
             }
         };
+        self.anew = false;
         let found = match self.at_once(target, start.lambda, here) {
             Some(outcome) => self.closest(target, &outcome, here),
             None => {
@@ -132,11 +144,11 @@ impl<'a> Search<'a> {
         if !found.tells_nothing() {
             return Ok(Some(found));
         }
-        // A bound that leaves everything open may be that of where the search began. It is a sign of a core only if there is one.
+        // A bound that leaves everything open may be that of where the search began, unless that was anywhere. It is a sign of a core only if there is one.
         let free = if target == Target::OnB { self.pair.a } else { self.pair.b };
         match midway {
-            Some(_) => self.constrained(target, None),
-            None => Ok((free.sphericity() > 0.0).then_some(found)),
+            Some(_) if !self.anew => self.constrained(target, None),
+            _ => Ok((free.sphericity() > 0.0).then_some(found)),
         }
     }
 
@@ -260,7 +272,8 @@ impl<'a> Search<'a> {
             let goal = self.goal(target);
             let most = if near { spine::MOST_FROM_MEMORY } else { spine::MOST_ITERATIONS };
             let mut outcome = self.fast(&Goal { most, ..goal }, start, here);
-            if outcome.ending == Ending::Stuck && near {
+            self.anew = !near || outcome.ending == Ending::Stuck;
+            if self.anew && near {
                 let cold = self.cold();
                 *here = self.expansion(&cold, target);
                 outcome = self.fast(&goal, &cold, here);
