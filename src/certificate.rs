@@ -104,6 +104,33 @@ fn feasible(x: &Vector3<f64>, values: [f64; 2], bodies: [&Body; 2], target: Targ
     values[free].max(bodies[free].value(&(centre + share * (x - centre))))
 }
 
+/// One of the closest points.
+pub(crate) struct Closest {
+    pub x: Vector3<f64>,
+    /// Ratio of weights λ = u/(1−u).
+    pub lambda: f64,
+    pub gradients: [Vector3<f64>; 2],
+    pub steep: [f64; 2],
+    /// S_A and S_B.
+    pub values: [f64; 2],
+    pub scale: Certified,
+    /// Bound on the distance to the optimum.
+    pub bound: f64,
+}
+
+impl Closest {
+    pub fn of(outcome: &Outcome, here: &Expansion, a: &Body, b: &Body, target: Target) -> Self {
+        let Outcome { x, lambda, gradients, steep, values, .. } = *outcome;
+        let bound = distance(outcome, here, a, b, target);
+        Self { x, lambda, gradients, steep, values, scale: scale(outcome, a, b, target), bound }
+    }
+
+    /// Whether the scale cannot be told from 0, as where a constraint is slack.
+    pub fn tells_nothing(&self) -> bool {
+        !(self.scale.s > self.scale.gap)
+    }
+}
+
 /// A lower bound without the planes of doubtful sign, rounding taken off, near the point of an outcome.
 ///
 /// S is nowhere larger without them. What they may pull costs no more where other planes hold the point than it can move

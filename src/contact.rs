@@ -1,7 +1,7 @@
 //! The contact: point, normal and overlap from a solution.
 
 use crate::body;
-use crate::certificate::Certified;
+use crate::certificate::{Certified, Closest};
 use crate::expansion::Piece;
 use crate::number::larger;
 use crate::outcome::Outcome;
@@ -9,7 +9,6 @@ use crate::pair::Pair;
 use crate::particle::Particle;
 use crate::pose::Pose;
 use crate::potential;
-use crate::search::Closest;
 use crate::settings::{BackEnd, Formulation};
 use crate::surface;
 use nalgebra::Vector3;

@@ -1,5 +1,6 @@
 //! The whole of contact detection: reject, solve, prove, describe.
 
+use crate::certificate::Closest;
 use crate::contact::{Contact, Flags, LocalContact};
 use crate::curve;
 use crate::expansion::{Expansion, Start};
@@ -9,7 +10,7 @@ use crate::pair::Pair;
 use crate::particle::Particle;
 use crate::pose::Pose;
 use crate::reject::{self, Apart};
-use crate::search::{Closest, Search};
+use crate::search::Search;
 use crate::settings::{BackEnd, Formulation, Settings, SettingsError};
 use crate::target::Target;
 use nalgebra::Vector3;

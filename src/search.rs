@@ -2,7 +2,7 @@
 
 use crate::anchored::{self, Effort, Pace};
 use crate::body::Body;
-use crate::certificate::{self, Certified};
+use crate::certificate::{self, Certified, Closest};
 use crate::conic::{self, ConicError, Role};
 use crate::contact::{Contact, Flags};
 use crate::curve;
@@ -50,27 +50,6 @@ pub(crate) struct Search<'a> {
     pub answered: BackEnd,
     /// Whether the last climb went on from a cold start.
     anew: bool,
-}
-
-/// One of the closest points.
-pub(crate) struct Closest {
-    pub x: Vector3<f64>,
-    /// Ratio of weights λ = u/(1−u).
-    pub lambda: f64,
-    pub gradients: [Vector3<f64>; 2],
-    pub steep: [f64; 2],
-    /// S_A and S_B.
-    pub values: [f64; 2],
-    pub scale: Certified,
-    /// Bound on the distance to the optimum.
-    pub bound: f64,
-}
-
-impl Closest {
-    /// Whether the scale cannot be told from 0, as where a constraint is slack.
-    fn tells_nothing(&self) -> bool {
-        !(self.scale.s > self.scale.gap)
-    }
 }
 
 impl<'a> Search<'a> {
@@ -212,10 +191,7 @@ impl<'a> Search<'a> {
     }
 
     fn closest(&self, target: Target, outcome: &Outcome, here: &Expansion) -> Closest {
-        let scale = self.certify(outcome, target);
-        let Outcome { x, lambda, gradients, steep, values, .. } = *outcome;
-        let bound = self.bound(outcome, here, target);
-        Closest { x, lambda, gradients, steep, values, scale, bound }
+        Closest::of(outcome, here, &self.body_a, &self.body_b, target)
     }
 
     /// The scale s of an outcome, and the bound on its error.
