@@ -89,8 +89,11 @@ impl Outcome {
         if care == Care::Careful && decided && height > negligible {
             height = height.min(here.remnant(bodies, target, step, upper, force));
         }
-        let (rounding, rough) =
-            bound.map_or_else(|| sway.decisive(here, bodies, target, *step, height), |it| (it, false));
+        let (rounding, rough) = match bound {
+            Some(rounding) => (rounding, false),
+            None if care == Care::Once => sway.decisive(here, bodies, target, *step, 0.0),
+            None => sway.decisive(here, bodies, target, *step, height),
+        };
         let is_beside = step.verdicts[0].has_beside(&here.q_a) || step.verdicts[1].has_beside(&here.q_b);
         let beside = if is_beside { beside(here, bodies, target, *step, &here.locals) } else { 0.0 };
         Self {
