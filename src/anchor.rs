@@ -357,10 +357,13 @@ impl Anchor<'_> {
         outcome.refine(expansion, self.bodies, self.target, step);
         // The planes of the quadratics are not those of the anchor.
         outcome.beside = outcome::beside(expansion, self.bodies, self.target, *step, &places);
+        let ceiling = Ceiling { bodies: given, target: self.target, here: expansion };
+        let followed = |v: Vector3<f64>| {
+            let lowest = ceiling.lowest(v, outcome.lambda, outcome.estimate, outcome.upper);
+            lowest + given[0].rounding_of_value(lowest)
+        };
         if !priced {
-            let ceiling = Ceiling { bodies: given, target: self.target, here: expansion };
-            let lowest = ceiling.lowest(step.v, outcome.lambda, outcome.estimate, outcome.upper);
-            return Outcome { upper: outcome.upper.max(lowest + given[0].rounding_of_value(lowest)), ..outcome };
+            return Outcome { upper: outcome.upper.max(followed(step.v)), ..outcome };
         }
         if shifts == [0.0; 2] {
             return outcome;
@@ -389,10 +392,7 @@ impl Anchor<'_> {
             return Outcome { upper: upper.max(outcome.upper), ..outcome };
         }
         // One move may not be all that it takes to follow the planes.
-        let ceiling = Ceiling { bodies: given, target: self.target, here: expansion };
-        let lowest = ceiling.lowest(step.v + back, lambda, outcome.estimate, outcome.upper);
-        let lowest = lowest + given[0].rounding_of_value(lowest);
-        Outcome { upper: outcome.upper.max(upper.min(lowest)), ..outcome }
+        Outcome { upper: outcome.upper.max(upper.min(followed(step.v + back))), ..outcome }
     }
 
     /// The given S after a step, with planes as near as rounding may have them if wanted.

@@ -265,9 +265,8 @@ impl<'a> Search<'a> {
                     keep_better((&mut outcome, here), (second, there));
                 }
                 // What the fast solver had found before it went in circles.
-                if outcome.gap() > spare.0.gap() {
-                    (outcome, *here) = (Outcome { ending: Ending::RoundingLimited, ..spare.0 }, spare.1);
-                }
+                let spare = (Outcome { ending: Ending::RoundingLimited, ..spare.0 }, spare.1);
+                keep_better((&mut outcome, here), spare);
                 self.flags.insert(if outcome.ending.is_answer() { Flags::SAFER } else { Flags::FELL_BACK });
             }
             if outcome.ending == Ending::RoundingLimited {
