@@ -11,7 +11,7 @@ Contact detection between potential particles.
   make setup    install what is missing from Debian 12 (YADE, compilers, Boost, Eigen, ...)
   make build    the library and the YADE plugin
   make library  the library alone: target/release/libpotential_particles.so
-  make header   write include/potential_particles.h anew from src/ffi
+  make header   write include/potential_particles.h anew from src/capi
   make lint     formatting and warnings
   make bench    run time, each target beside what was measured, and run time against error; results in out/bench
   make side-by-side  YADE's own contact functor and this one on the same scenes; results in out/side_by_side

@@ -1,7 +1,7 @@
 /*
  * potential_particles.h - contact between potential particles (Houlsby 2009).
  *
- * Generated from src/ffi by cbindgen; do not edit. MIT OR Apache-2.0.
+ * Generated from src/capi by cbindgen; do not edit. MIT OR Apache-2.0.
  *
  * A particle is a convex shape given by planes (a, b, c, d), a rounding radius r, a sphericity k
  * and the radius R of a shadow sphere:

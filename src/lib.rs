@@ -1,86 +1,57 @@
 //! Contact detection between potential particles (Houlsby 2009; Boon, Houlsby & Utili).
 //!
-//! Read the modules in the order in which data flows:
+//! A potential particle is a convex body {x : S(x) ≤ 1} with
 //!
-//! | module | holds |
+//! ```text
+//! S(x) = (1-k)/r² · Σ ⟨n_i·x − d_i⟩²  +  k/R² · |x|²        ⟨t⟩ = max(t, 0)
+//! ```
+//!
+//! S is convex, once continuously differentiable and piecewise quadratic. The contact of two particles is the solution
+//! of a convex program in S_A and S_B ([`Formulation`]), found here by an active-set Newton method with a certified
+//! error bound. Data flows one way, and the folders are read in that order:
+//!
+//! | folder | holds |
 //! |---|---|
-//! | [`particle`] | what a particle is, validated once |
-//! | `leaves` | its planes in groups, so that far ones are never touched |
-//! | [`potential`] | S, ∇S, ∇²S at a point |
-//! | [`bounds`] | a polyhedron, ball and box around a particle |
-//! | [`surface`] | where a ray meets the surface |
-//! | [`mass`] | volume, centroid, inertia |
-//! | [`pose`] | where a body is |
-//! | [`settings`], [`memory`] | how to solve, and what a pair remembers |
-//! | [`pair`], `body`, `local` | two particles in one frame, and a point as each sees it |
-//! | [`reject`] | cheap proofs of separation |
-//! | `number`, [`symmetric`], `target` | numbers and lanes of them, small matrices, and which point of two bodies is wanted |
-//! | `curve` | where two quadratics are optimal for some weights, and its series: midway and both closest points lie on it |
-//! | `model` | two quadratics solved exactly: the search along the curve |
-//! | `response` | how that optimum answers to small changes of the data |
-//! | `verdict` | what a step does to the planes of a quadratic |
-//! | `frame`, `expansion` | both quadratics at a point, in safe axes, and the step to their optimum |
-//! | `line`, `start` | descent along a line; where a search without memory begins |
-//! | `sway` | what the rounding of both potentials does to the optimum |
-//! | `outcome`, `spine` | where a search ended; the fast solver: Newton on that model, safe steps |
-//! | `anchor`, `anchored` | the safe solver, finite, where the fast one goes in circles |
-//! | `ceiling` | an upper bound that holds wherever rounding may have the planes |
-//! | `remnant` | what a slope that is left can hide from the planes |
-//! | `certificate` | how far an answer can be from the optimum |
-//! | [`conic`] | the paper's second-order cone programs through clarabel: the reference |
-//! | [`contact`] | point, normal, overlap from a solution |
-//! | [`area`] | the contact area, exact, when asked for |
-//! | `search`, [`mod@detect`] | the ladder of solvers, and the whole on one screen |
-//! | [`half`] | one closest point alone |
+//! | `linalg` | numbers and lanes of them, symmetric 3×3 matrices and their LDLᵀ factors |
+//! | `particle` | the shape: definition, potential, bounding volumes, ray casting, mass properties |
+//! | `pair` | poses, two particles in one frame, the active set at a point, warm starts, separation tests |
+//! | `model` | both potentials as quadratics at a point, their exact optimum along the dual path, the KKT check |
+//! | `bounds` | what rounding does to an optimum: the gap of s and the distance of the point |
+//! | `solver` | initial guess, line search, Newton's method, and the order in which solvers are tried |
+//! | `reference` | the paper's second-order cone programs, as an independent back end |
+//! | `contact` | point, normal and overlap from a solution; [`detect`](detect()), the whole on one screen |
+//! | `section` | the contact area |
 //! | [`planar`] | the same for particles of the plane |
-//! | [`ffi`] | the C interface |
+//! | `capi` | the C interface, the only place with `unsafe` |
 
-mod anchor;
-mod anchored;
-pub mod area;
-mod body;
-pub mod bounds;
-mod ceiling;
-mod certificate;
-pub mod conic;
-pub mod contact;
-mod curve;
-pub mod detect;
-mod expansion;
-pub mod ffi;
-mod frame;
-pub mod half;
-mod leaves;
-mod line;
-mod linear_program;
-mod local;
-pub mod mass;
-pub mod memory;
+mod bounds;
+pub mod capi;
+mod contact;
+mod linalg;
 mod model;
-mod number;
-mod outcome;
-pub mod pair;
-pub mod particle;
+mod pair;
+mod particle;
 pub mod planar;
-pub mod pose;
-pub mod potential;
-pub mod reject;
-mod remnant;
-mod response;
-mod search;
-pub mod settings;
-mod spine;
-mod start;
-pub mod surface;
-mod sway;
-pub mod symmetric;
-mod target;
-mod verdict;
+mod reference;
+mod section;
+mod settings;
+mod solver;
 
-pub use contact::{Contact, Flags, Kind};
-pub use detect::{DetectError, detect};
-pub use half::{Half, closest_point};
-pub use memory::Memory;
-pub use particle::{Particle, ParticleError, Plane};
-pub use pose::{Pose, PoseError};
+pub use contact::closest_point::{Half, closest_point};
+pub use contact::contact::{Contact, Flags, Kind};
+pub use contact::detect::{DetectError, detect};
+pub use pair::pose::{Pose, PoseError};
+pub use pair::warm_start::Memory;
+pub use particle::mass_properties::MassProperties;
+pub use particle::particle::{MAX_PLANES, Particle, ParticleError, Plane};
+pub use reference::Role;
+pub use section::Section;
 pub use settings::{BackEnd, Formulation, Settings, SettingsError};
+
+/// Stages of the solver for benchmarks; no part of the public interface, and changed without notice.
+#[doc(hidden)]
+pub mod internals {
+    pub use crate::pair::relative_pose::Pair;
+    pub use crate::pair::separation_tests as reject;
+    pub use crate::particle::potential;
+}

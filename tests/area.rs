@@ -9,7 +9,7 @@ mod sections;
 mod support;
 
 use nalgebra::Vector3;
-use potential_particles::area::Section;
+use potential_particles::Section;
 use potential_particles::{Formulation, Kind, Particle, Plane, Pose, Settings, detect};
 use sections::{Cut, Known, cuboid};
 use std::collections::BTreeMap;
@@ -48,7 +48,7 @@ fn stacked(a: &Particle, b: &Particle, shift: [f64; 2], height: f64, contact_hei
     let pose_a = Pose::at([0.0; 3]).unwrap();
     let pose_b = Pose::at([shift[0], shift[1], height]).unwrap();
     let point = Vector3::new(0.5 * shift[0], 0.5 * shift[1], contact_height);
-    let section = Section { branch_a: point, branch_b: point - pose_b.position, normal: Vector3::z() };
+    let section = Section { branch_a: point, branch_b: point - pose_b.position(), normal: Vector3::z() };
     Cut { a: a.clone(), pose_a, b: b.clone(), pose_b, section }
 }
 
@@ -171,7 +171,7 @@ fn a_section_that_is_none_is_refused() {
         }
     }
     // Outside one of the particles, from clearly to hardly.
-    let surface = potential_particles::surface::distance(&cube, &Vector3::zeros(), &Vector3::z()).unwrap();
+    let surface = cube.surface_distance(&Vector3::zeros(), &Vector3::z()).unwrap();
     for out in [1e200, 1.0, 0.1, 1e-3, 1e-6] {
         refused(Section { branch_a: Vector3::new(0.0, 0.0, surface + out), ..section });
         refused(Section { branch_b: Vector3::new(surface + out, 0.0, 0.0), ..section });

@@ -5,7 +5,7 @@
 //! (with MIRIFLAGS=-Zmiri-disable-isolation where the clock is wanted). Everything else about it: tests/c.
 #![allow(unsafe_code)]
 
-use potential_particles::ffi::*;
+use potential_particles::capi::*;
 use std::mem::MaybeUninit;
 use std::ptr;
 

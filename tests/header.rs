@@ -1,4 +1,4 @@
-//! The committed C header is the one that cbindgen makes of `src/ffi`, and it names this version.
+//! The committed C header is the one that cbindgen makes of `src/capi`, and it names this version.
 
 use std::path::{Path, PathBuf};
 use std::{env, fs};
@@ -20,12 +20,12 @@ fn committed() -> String {
         .unwrap_or_else(|e| panic!("{}: {e}\nWrite it with\n    {REMEDY}", header_path().display()))
 }
 
-/// From `src/ffi` alone: public items elsewhere in the crate are no part of the C interface.
+/// From `src/capi` alone: public items elsewhere in the crate are no part of the C interface.
 fn generated() -> String {
     let config = cbindgen::Config::from_file(root().join("cbindgen.toml")).expect("cbindgen.toml is readable");
-    let builder = cbindgen::Builder::new().with_config(config).with_src(root().join("src/ffi/mod.rs"));
+    let builder = cbindgen::Builder::new().with_config(config).with_src(root().join("src/capi/mod.rs"));
     let mut text = Vec::new();
-    builder.generate().expect("cbindgen reads src/ffi").write(&mut text);
+    builder.generate().expect("cbindgen reads src/capi").write(&mut text);
     String::from_utf8(text).expect("cbindgen writes UTF-8")
 }
 
@@ -75,7 +75,7 @@ fn committed_header_is_the_generated_one() {
     let old = committed();
     assert!(
         old == new,
-        "include/potential_particles.h differs from src/ffi (- committed, + generated):\n{}\nWrite it anew with\n    {REMEDY}",
+        "include/potential_particles.h differs from src/capi (- committed, + generated):\n{}\nWrite it anew with\n    {REMEDY}",
         match difference(&old, &new) {
             lines if lines.is_empty() => "(line endings or the end of the file only)".to_owned(),
             lines => lines.join("\n"),
@@ -83,7 +83,7 @@ fn committed_header_is_the_generated_one() {
     );
 }
 
-/// Read from `src/ffi` through cbindgen, so that it holds while the header is being rewritten, too.
+/// Read from `src/capi` through cbindgen, so that it holds while the header is being rewritten, too.
 #[test]
 fn version_macros_are_those_of_the_package() {
     let header = generated();
@@ -95,7 +95,7 @@ fn version_macros_are_those_of_the_package() {
         assert_eq!(
             version_macro(&header, part),
             package,
-            "PP_VERSION_{part} in src/ffi/contact.rs must follow the version {} in Cargo.toml",
+            "PP_VERSION_{part} in src/capi/contact.rs must follow the version {} in Cargo.toml",
             env!("CARGO_PKG_VERSION"),
         );
     }

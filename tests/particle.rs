@@ -1,8 +1,8 @@
 //! Particles: every violation is its own error and names the value; bounds hold; derivatives match.
 
 use nalgebra::Vector3;
-use potential_particles::area::Section;
-use potential_particles::{Particle, ParticleError, Plane, Pose, PoseError, Settings, detect, surface};
+use potential_particles::Section;
+use potential_particles::{Particle, ParticleError, Plane, Pose, PoseError, Settings, detect};
 use std::f64::consts::PI;
 
 fn cube_planes(offset: f64) -> Vec<Plane> {
@@ -91,7 +91,7 @@ fn a_particle_too_large_to_be_squared_is_no_particle() {
 fn no_surface_is_further_off_than_the_bounding_radius() {
     let particle = Particle::new(&cube_planes(0.5), 1e-17, 1e-150, 1e-16).unwrap();
     for way in [Vector3::x(), Vector3::new(0.3, 0.7, -0.2).normalize(), Vector3::new(1.0, 1.0, 1.0).normalize()] {
-        let distance = surface::distance(&particle, &Vector3::zeros(), &way).unwrap();
+        let distance = particle.surface_distance(&Vector3::zeros(), &way).unwrap();
         assert!((distance * way.amax() - 0.5).abs() < 1e-12, "{distance}");
     }
 }
@@ -170,10 +170,10 @@ fn bounds_hold_every_surface_point() {
             let (z, phi) = (1.0 - (2.0 * i as f64 + 1.0) / 2000.0, i as f64 * 2.399963);
             let s = (1.0 - z * z).sqrt();
             let e = Vector3::new(s * phi.cos(), s * phi.sin(), z);
-            let x = potential_particles::surface::distance(&particle, &Vector3::zeros(), &e).unwrap() * e;
+            let x = particle.surface_distance(&Vector3::zeros(), &e).unwrap() * e;
             assert!(particle.potential(&x).abs() < 1e-9 / r);
             assert!(x.norm() <= particle.bounding_radius());
-            let world = pose.position + pose.rotate(&x);
+            let world = pose.position() + pose.rotate(&x);
             assert!((0..3).all(|axis| lower[axis] <= world[axis] && world[axis] <= upper[axis]));
             assert!(x.dot(&e) <= particle.support(&e));
             fullest = fullest.max(x.norm());
@@ -198,7 +198,7 @@ fn contact_area_matches_closed_forms() {
     let cube = Particle::new(&cube_planes(0.5 - r), r, 0.0, 0.0).unwrap();
     let other = Pose::at([0.25, 0.0, 1.0 - 1e-6]).unwrap();
     let point = Vector3::new(0.125, 0.0, 0.5 - 0.5e-6);
-    let section = Section { branch_a: point, branch_b: point - other.position, normal: Vector3::z() };
+    let section = Section { branch_a: point, branch_b: point - other.position(), normal: Vector3::z() };
     for tolerance in [1e-3, 1e-6, 1e-9] {
         let area = section.area(&cube, &origin, &cube, &other, tolerance).unwrap();
         assert!((area / 0.75 - 1.0).abs() < tolerance, "{area} at {tolerance}");

@@ -19,7 +19,7 @@ fn circles_match_their_closed_form() {
     for back_end in [BackEnd::Fast, BackEnd::Conic] {
         for distance in [2.2, 2.5 - 1e-6, 2.5 + 1e-6, 3.0] {
             let at_a = Pose::new([1.0, 2.0], -0.7).unwrap();
-            let centre: Vector2<f64> = at_a.position + distance * n;
+            let centre: Vector2<f64> = at_a.position() + distance * n;
             let at_b = Pose::new(centre.into(), 12.0).unwrap();
             let settings = Settings { back_end, solve_separated: true, ..Settings::default() };
             let contact = detect(&a, &at_a, &b, &at_b, &settings, None).unwrap();
@@ -32,8 +32,8 @@ fn circles_match_their_closed_form() {
             assert!(off < 10.0 * accuracy && off <= contact.point_bound, "{off:e}, bound {:e}", contact.point_bound);
             if distance < ra + rb {
                 assert!((contact.overlap - (ra + rb - distance)).abs() < 10.0 * accuracy);
-                assert!((contact.point_on_a - at_a.position - ra * n).norm() < 10.0 * accuracy);
-                assert!((contact.point_on_b - at_b.position + rb * n).norm() < 10.0 * accuracy);
+                assert!((contact.point_on_a - at_a.position() - ra * n).norm() < 10.0 * accuracy);
+                assert!((contact.point_on_b - at_b.position() + rb * n).norm() < 10.0 * accuracy);
             } else {
                 assert!(contact.overlap.is_nan() && contact.point_on_a.x.is_nan());
             }
@@ -42,7 +42,7 @@ fn circles_match_their_closed_form() {
             assert!((contact.s - (distance - rb) / ra).abs() < accuracy);
             if distance < ra + rb {
                 assert!((contact.s_b - (distance - ra) / rb).abs() < 10.0 * accuracy);
-                assert!((contact.point - at_a.position - 0.5 * (ra + distance - rb) * n).norm() < 10.0 * accuracy);
+                assert!((contact.point - at_a.position() - 0.5 * (ra + distance - rb) * n).norm() < 10.0 * accuracy);
             }
         }
     }

@@ -68,7 +68,7 @@ impl Worst {
             (contact.branch_b - vector(&truth.x4)).norm()
         } else if overlapping {
             // Through the world frame, with the rounding of the position of B.
-            let position = pair.b.pose().position;
+            let position = *pair.b.pose().position();
             let p2 = contact.point_on_b - position - vector(truth.p2.as_ref().expect("not slack"));
             (p2.norm() - f64::EPSILON * position.norm()).max(0.0)
         } else {

@@ -2,8 +2,7 @@
 
 use super::Placed;
 use nalgebra::Vector3;
-use potential_particles::area::Section;
-use potential_particles::surface;
+use potential_particles::Section;
 use std::f64::consts::TAU;
 
 /// Sectors before refinement.
@@ -19,9 +18,9 @@ pub fn by_quadrature(pair: &Placed, section: &Section, relative_tolerance: f64) 
     let second = section.normal.cross(&first);
     let half_square = |angle: f64| {
         let direction = angle.cos() * first + angle.sin() * second;
-        let (turn_a, turn_b) = (&pair.pose_a.rotation, &pair.pose_b.rotation);
-        let to_a = surface::distance(pair.a, &turn_a.tr_mul(&section.branch_a), &turn_a.tr_mul(&direction))?;
-        let to_b = surface::distance(pair.b, &turn_b.tr_mul(&section.branch_b), &turn_b.tr_mul(&direction))?;
+        let (turn_a, turn_b) = (&pair.pose_a.rotation(), &pair.pose_b.rotation());
+        let to_a = pair.a.surface_distance(&turn_a.tr_mul(&section.branch_a), &turn_a.tr_mul(&direction))?;
+        let to_b = pair.b.surface_distance(&turn_b.tr_mul(&section.branch_b), &turn_b.tr_mul(&direction))?;
         Some(0.5 * to_a.min(to_b).max(0.0).powi(2))
     };
     let width = TAU / SECTORS as f64;

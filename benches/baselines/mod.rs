@@ -38,6 +38,6 @@ impl<'a> Placed<'a> {
 pub fn both_halves(pair: &Placed, half: impl Fn(&Placed) -> Result<Solution, String>) -> Result<[Solution; 2], String> {
     let on_b = half(pair)?;
     let mut on_a = half(&pair.swapped())?;
-    on_a.point += pair.pose_a.position - pair.pose_b.position;
+    on_a.point += pair.pose_a.position() - pair.pose_b.position();
     Ok([on_b, on_a])
 }

@@ -14,7 +14,7 @@
 use super::Solution;
 use super::potential::{Expansion, Potential};
 use nalgebra::{Matrix4, Vector3, Vector4};
-use potential_particles::pair::Pair;
+use potential_particles::internals::Pair;
 use potential_particles::{Formulation, Pose};
 use std::cmp::Ordering;
 

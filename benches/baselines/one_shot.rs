@@ -95,9 +95,9 @@ pub fn solve(pair: &Placed, formulation: Formulation, tolerance: f64) -> Result<
     let b = Block::new(pair.b, a.end());
     let mut rows = Rows::default();
     // Q_A x_A − Q_B x_B = c_B − c_A (37–39).
-    let between = pair.pose_b.position - pair.pose_a.position;
+    let between = pair.pose_b.position() - pair.pose_a.position();
     for i in 0..3 {
-        let of = |block: &Block, pose: &Pose, j: usize| block.w_s * pose.rotation[(i, j)];
+        let of = |block: &Block, pose: &Pose, j: usize| block.w_s * pose.rotation()[(i, j)];
         let entries: Vec<(usize, f64)> = (0..3)
             .map(|j| (a.x + j, of(&a, pair.pose_a, j)))
             .chain((0..3).map(|j| (b.x + j, -of(&b, pair.pose_b, j))))

@@ -1,7 +1,8 @@
 //! f and its derivatives, for solvers that do not mind which f it is.
 
 use nalgebra::{Matrix3, Vector3};
-use potential_particles::{Particle, potential};
+use potential_particles::Particle;
+use potential_particles::internals::potential;
 
 /// f = S − 1, ∇f and ∇²f at a point.
 #[derive(Clone, Copy)]

@@ -57,6 +57,7 @@ impl Random {
     /// The pose after a move by `length` and a turn by `angle`, in random directions.
     pub fn moved(&mut self, pose: &Pose, length: f64, angle: f64) -> Pose {
         let turn = Rotation3::new(angle * self.direction()).into_inner();
-        Pose { position: pose.position + length * self.direction(), rotation: turn * pose.rotation }
+        Pose::from_rotation((pose.position() + length * self.direction()).into(), &(turn * pose.rotation()))
+            .expect("two turns in a row")
     }
 }

@@ -3,8 +3,8 @@
 use super::evaluation::Plain;
 use super::random::Random;
 use nalgebra::Vector3;
-use potential_particles::pair::Pair;
-use potential_particles::{Formulation, Kind, Memory, Particle, Pose, Settings, detect, potential, reject};
+use potential_particles::internals::{Pair, potential, reject};
+use potential_particles::{Formulation, Kind, Memory, Particle, Pose, Settings, detect};
 use std::hint::black_box;
 
 /// Overlap, relative to the size 1 of the particles of this scene.
@@ -35,7 +35,7 @@ impl Touching {
         let pose_a = random.pose(Vector3::zeros());
         let turned_b = random.pose(Vector3::zeros());
         let direction = random.direction();
-        let at = |distance: f64| Pose { position: distance * direction, ..turned_b };
+        let at = |distance: f64| Pose::new((distance * direction).into(), turned_b.orientation()).expect("finite");
         let settings = Settings::default();
         let too_deep = |distance: f64| {
             let contact = detect(a, &pose_a, b, &at(distance), &settings, None).expect("a contact of ordinary bodies");
@@ -51,7 +51,7 @@ impl Touching {
 
     /// This pair with B pushed away from A until it is `factor` times as far.
     pub fn pushed(&self, factor: f64, random: &mut Random) -> Self {
-        let pose_b = Pose { position: factor * self.pose_b.position, ..self.pose_b };
+        let pose_b = Pose::new((factor * self.pose_b.position()).into(), self.pose_b.orientation()).expect("finite");
         Self::placed(self.a.clone(), self.b.clone(), self.pose_a, pose_b, random)
     }
 
@@ -61,7 +61,7 @@ impl Touching {
         let meet = self.a.bounding_radius() + self.b.bounding_radius();
         (1..200)
             .map(|i| 1.0 + 0.01 * f64::from(i))
-            .take_while(|factor| factor * self.pose_b.position.norm() < 0.98 * meet)
+            .take_while(|factor| factor * self.pose_b.position().norm() < 0.98 * meet)
             .map(|factor| self.pushed(factor, random))
             .find(Self::is_rejected)
     }
@@ -98,7 +98,7 @@ impl Touching {
         });
         let contact = detect(&a, &pose_a, &b, &pose_b, &Settings::default(), None).expect("as before");
         let touching = contact.kind == Kind::Overlapping;
-        let point = if touching { contact.point } else { 0.5 * (pose_a.position + pose_b.position) };
+        let point = if touching { contact.point } else { 0.5 * (pose_a.position() + pose_b.position()) };
         let points = [pose_a, pose_b].map(|pose| pose.to_local(&point));
         let plain = [Plain::new(&a), Plain::new(&b)];
         Self { a, b, pose_a, pose_b, moved_b, points, plain, memories }

@@ -7,9 +7,9 @@ mod scene;
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use nalgebra::Vector3;
-use potential_particles::area::Section;
-use potential_particles::pair::Pair;
-use potential_particles::{Contact, Formulation, Memory, Settings, detect, reject, surface};
+use potential_particles::Section;
+use potential_particles::internals::{Pair, reject};
+use potential_particles::{Contact, Formulation, Memory, Settings, detect};
 use scene::random::Random;
 use scene::touching::{self, Touching};
 use scene::{polyhedra, pyramids};
@@ -89,10 +89,10 @@ fn describe(c: &mut Criterion, pairs: &[Touching]) {
             next = (next + 1) % pairs.len();
             let (pair, contact) = (black_box(&pairs[next]), &contacts[next]);
             let along = |rotation: &nalgebra::Matrix3<f64>, v: Vector3<f64>| rotation.tr_mul(&v);
-            let (pose_a, pose_b) = (&pair.pose_a.rotation, &pair.pose_b.rotation);
+            let (pose_a, pose_b) = (&pair.pose_a.rotation(), &pair.pose_b.rotation());
             [
-                surface::distance(&pair.a, &along(pose_a, contact.branch_a), &along(pose_a, contact.normal)),
-                surface::distance(&pair.b, &along(pose_b, contact.branch_b), &along(pose_b, -contact.normal)),
+                pair.a.surface_distance(&along(pose_a, contact.branch_a), &along(pose_a, contact.normal)),
+                pair.b.surface_distance(&along(pose_b, contact.branch_b), &along(pose_b, -contact.normal)),
             ]
         });
     });

@@ -72,8 +72,8 @@ impl BuiltIn {
         let [a, b] = quaternions.unwrap_or_else(|| [pair.pose_a, pair.pose_b].map(quaternion));
         let question = json!({
             "A": shape(pair.a), "B": shape(pair.b),
-            "a": {"pos": pair.pose_a.position.as_slice(), "q": a},
-            "b": {"pos": pair.pose_b.position.as_slice(), "q": b},
+            "a": {"pos": pair.pose_a.position().as_slice(), "q": a},
+            "b": {"pos": pair.pose_b.position().as_slice(), "q": b},
             "tolerance": tolerance, "area": area,
         });
         let mut running = match self.running.take() {
@@ -143,7 +143,7 @@ fn shape(particle: &Particle) -> Value {
 
 /// (w, x, y, z).
 fn quaternion(pose: &Pose) -> [f64; 4] {
-    let unit = UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(pose.rotation));
+    let unit = UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(*pose.rotation()));
     [unit.w, unit.i, unit.j, unit.k]
 }
 

@@ -4,7 +4,7 @@ use crate::arguments::Effort;
 use crate::scene::random::Random;
 use crate::scene::{polyhedra, pyramids};
 use indicatif::ProgressBar;
-use potential_particles::{Flags, Particle, Pose, Settings, detect};
+use potential_particles::{Flags, Particle, Settings, detect};
 use serde::Serialize;
 use std::time::{Duration, Instant};
 
@@ -55,7 +55,8 @@ fn over(pool: &[Particle], calls: usize, progress: &ProgressBar) -> Falls {
             let [a, b] = [0; 2].map(|_| &pool[random.whole(0, pool.len())]);
             let distance = (0.1 + 0.9 * random.uniform()) * (a.bounding_radius() + b.bounding_radius());
             let pose_a = random.pose(nalgebra::Vector3::zeros());
-            let pose_b = Pose { position: distance * random.direction(), ..random.pose(nalgebra::Vector3::zeros()) };
+            let direction = random.direction();
+            let pose_b = random.pose(distance * direction);
             falls.calls += 1;
             match detect(a, &pose_a, b, &pose_b, &settings, None) {
                 Ok(contact) => {

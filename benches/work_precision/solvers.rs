@@ -5,7 +5,7 @@ use crate::baselines::potential::Potential;
 use crate::baselines::{self, Placed, Solution, one_shot};
 use crate::cases::{Case, Truth};
 use nalgebra::Vector3;
-use potential_particles::pair::Pair;
+use potential_particles::internals::Pair;
 use potential_particles::{BackEnd, Flags, Formulation, Kind, Pose, Settings, detect};
 
 /// What a solver says of a pair; NaN where it says nothing. Order as in [`Truth`].
@@ -194,8 +194,8 @@ fn cubic(name: &'static str, formulation: Formulation, tolerance: f64, stepping:
 
 /// s of the true particles A and B at a point relative to B, world axes.
 pub fn true_scales(case: &Case, point: &Vector3<f64>) -> [f64; 2] {
-    let between = case.pose_b.position - case.pose_a.position;
-    let local = |pose: &Pose, from: Vector3<f64>| pose.rotation.tr_mul(&from);
+    let between = case.pose_b.position() - case.pose_a.position();
+    let local = |pose: &Pose, from: Vector3<f64>| pose.rotation().tr_mul(&from);
     let s_a = case.a.potential(&local(&case.pose_a, point + between));
     let s_b = case.b.potential(&local(&case.pose_b, *point));
     [s_a, s_b].map(|f| (f + 1.0).max(0.0).sqrt())
@@ -206,8 +206,8 @@ fn polished(case: &Case, formulation: Formulation) -> Option<[Solution; 2]> {
     const TIGHT: f64 = 1e-13;
     let truth = case.truth(formulation)?;
     let start = |placed: &Placed, index: usize| {
-        let from = truth.points[index] + case.pose_b.position - placed.pose_b.position;
-        placed.pose_b.rotation.tr_mul(&from)
+        let from = truth.points[index] + case.pose_b.position() - placed.pose_b.position();
+        placed.pose_b.rotation().tr_mul(&from)
     };
     let halves = solutions(&case.placed(), formulation, |placed| {
         let swapped = std::ptr::eq(placed.a, &case.b);

@@ -9,7 +9,7 @@ use crate::scene::pyramids::{self, pyramid};
 use crate::scene::random::Random;
 use crate::scene::touching::{self, Touching};
 use indicatif::ProgressBar;
-use potential_particles::area::Section;
+use potential_particles::Section;
 use potential_particles::{Formulation, Memory, Settings, detect};
 use serde::Serialize;
 use std::hint::black_box;

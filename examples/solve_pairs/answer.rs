@@ -2,8 +2,8 @@
 
 use crate::arguments::{self, Arguments};
 use crate::input::Input;
-use potential_particles::conic::Role;
-use potential_particles::{BackEnd, Contact, Flags, Formulation, Half, Kind, Settings, closest_point, detect};
+use nalgebra::Vector3;
+use potential_particles::{BackEnd, Contact, Flags, Formulation, Half, Kind, Role, Settings, closest_point, detect};
 use serde::Serialize;
 
 /// One line of output. Vectors in world axes, points relative to the position of B.
@@ -84,16 +84,17 @@ fn solve(input: &Input, settings: Settings) -> Result<Contact, String> {
 
 fn midway(input: &Input, back_end: BackEnd) -> Result<Midway, String> {
     let contact = solve(input, Settings { formulation: Formulation::Midway, back_end, ..Settings::default() })?;
-    // B is at the origin: points of the world are relative to it.
+    // Branches lose no digit to a position far from the origin.
+    let relative = |point: Vector3<f64>| (point - input.pose_b.position()).into();
     Ok(Midway {
         kind: kind(&contact),
         s: contact.s,
         u: contact.weight,
-        point: contact.point.into(),
+        point: contact.branch_b.into(),
         normal: contact.normal.into(),
         overlap: contact.overlap,
-        point_on_a: contact.point_on_a.into(),
-        point_on_b: contact.point_on_b.into(),
+        point_on_a: relative(contact.point_on_a),
+        point_on_b: relative(contact.point_on_b),
         gap: contact.gap,
         bound: contact.point_bound,
         iterations: contact.iterations,
@@ -115,8 +116,8 @@ fn closest(input: &Input, back_end: BackEnd) -> Result<Closest, String> {
         kind: kind(&on_b),
         s_a: on_b.s,
         s_b: on_b.s_b,
-        p1: on_a.point.into(),
-        p2: on_b.point.into(),
+        p1: on_a.branch_b.into(),
+        p2: on_b.branch_b.into(),
         overlap: on_b.overlap,
         slack: Slack { a: false, b: false },
         gap: on_b.gap,

@@ -42,19 +42,14 @@ struct Place {
     q: [f64; 4],
 }
 
-/// Reads a pair, and moves it so that B is at the origin.
-///
-/// The library itself takes the difference of the two positions before anything else, so that its answer is the
-/// same to the last bit; and around the origin no digit of a point is lost to a position of 10⁷.
+/// Reads a pair.
 pub fn pair(text: &[u8]) -> Result<Input, String> {
     let line: Line = serde_json::from_slice(text).map_err(|error| {
         // The parser counts lines within this one.
         error.to_string().replace("at line 1 column", "at column")
     })?;
     let (a, b) = (line.shape_a.particle("A")?, line.shape_b.particle("B")?);
-    let (mut pose_a, mut pose_b) = (line.a.pose("a")?, line.b.pose("b")?);
-    pose_a.position -= pose_b.position;
-    pose_b.position = Vector3::zeros();
+    let (pose_a, pose_b) = (line.a.pose("a")?, line.b.pose("b")?);
     Ok(Input { a, b, pose_a, pose_b })
 }
 

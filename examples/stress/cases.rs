@@ -6,7 +6,7 @@
 use crate::random::Random;
 use crate::shapes::{Hull, Recipe, Sphericity, particle};
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
-use potential_particles::{Particle, Plane, Pose, surface};
+use potential_particles::{Particle, Plane, Pose};
 
 /// Poses of the same two shapes.
 pub const POSES_A_PAIR: u64 = 8;
@@ -261,7 +261,7 @@ fn place(shapes: &Shapes, family: &Family, of_a: &[f64; 4], random: &mut Random)
         }
         Contact::Contained => {
             let way = random.direction();
-            let to = surface::distance(a, &Vector3::zeros(), &way).unwrap_or(0.0);
+            let to = a.surface_distance(&Vector3::zeros(), &way).unwrap_or(0.0);
             (turn(*of_a) * (random.uniform() * to * way), free)
         }
         Contact::Touching(..) | Contact::Edges if family.turned == Turned::Anyhow || contact == Contact::Edges => {
@@ -288,7 +288,7 @@ fn place(shapes: &Shapes, family: &Family, of_a: &[f64; 4], random: &mut Random)
             let (on_a, out_a) = touched(a, false, random);
             let normal = turn(*of_a) * out_a;
             let back = turn(free).inverse() * -normal;
-            let to = surface::distance(b, &Vector3::zeros(), &back).unwrap_or(0.0);
+            let to = b.surface_distance(&Vector3::zeros(), &back).unwrap_or(0.0);
             let apart = sign(random) * small * 10f64.powf(low + (high - low) * random.uniform());
             let aside = small * random.uniform() * random.direction();
             let relative = turn(*of_a) * on_a + (to + apart) * normal + (aside - aside.dot(&normal) * normal);
@@ -316,7 +316,7 @@ fn touched(particle: &Particle, edges: bool, random: &mut Random) -> (Vector3<f6
         }
     };
     let way = way.try_normalize(0.0).unwrap_or_else(Vector3::x);
-    let to = surface::distance(particle, &Vector3::zeros(), &way).unwrap_or(particle.bounding_radius());
+    let to = particle.surface_distance(&Vector3::zeros(), &way).unwrap_or(particle.bounding_radius());
     let point = to * way;
     let normal = particle.gradient(&point).try_normalize(0.0).unwrap_or(way);
     (point, normal)

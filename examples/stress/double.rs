@@ -69,7 +69,7 @@ impl Shape {
 
 impl<'a> Placed<'a> {
     pub fn new(shape: &'a Shape, pose: &Pose, origin: &Vector3<f64>) -> Self {
-        Self { shape, rotation: pose.rotation, centre: pose.position - origin }
+        Self { shape, rotation: *pose.rotation(), centre: pose.position() - origin }
     }
 
     pub fn centre(&self) -> Vector3<f64> {

@@ -236,7 +236,7 @@ impl Scene<'_> {
     }
 
     fn moved(&self, by: Vector3<f64>) -> Pose {
-        Pose { position: self.at_b.position + by, ..self.at_b }
+        Pose::new((self.at_b.position() + by).into(), self.at_b.orientation()).expect("finite")
     }
 
     fn bodies(&self) -> &[Body<'_>; 2] {
@@ -259,11 +259,11 @@ fn all(
 ) -> Option<()> {
     let (a, b) = (&case.shapes.a, &case.shapes.b);
     let (at_a, at_b) = (case.at_a.pose(), case.at_b.pose());
-    let branch = (at_b.position - at_a.position).norm();
+    let branch = (at_b.position() - at_a.position()).norm();
     let length = branch + a.bounding_radius() + b.bounding_radius();
-    let far = at_a.position.amax().max(at_b.position.amax());
+    let far = at_a.position().amax().max(at_b.position().amax());
     let [shape_a, shape_b] = &shared.shapes;
-    let placed = [Placed::new(shape_a, &at_a, &at_b.position), Placed::new(shape_b, &at_b, &at_b.position)];
+    let placed = [Placed::new(shape_a, &at_a, at_b.position()), Placed::new(shape_b, &at_b, at_b.position())];
     let scene = Scene { a, b, at_a, at_b, length, far, solver, placed, case, wide: OnceCell::new() };
 
     let mut clock = Clock::new(shared.evaluation);
@@ -330,7 +330,7 @@ pub fn bodies<'a>(case: &Case<'a>) -> [Body<'a>; 2] {
 
 /// A point relative to the centre of B, from the branch where there is one.
 fn at_b_relative(scene: &Scene, point: &Vector3<f64>, branch_b: &Vector3<f64>) -> Vector3<f64> {
-    if branch_b.iter().all(|c| c.is_finite()) { *branch_b } else { point - scene.at_b.position }
+    if branch_b.iter().all(|c| c.is_finite()) { *branch_b } else { point - scene.at_b.position() }
 }
 
 /// Index into [`PATHS`].

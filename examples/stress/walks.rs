@@ -93,7 +93,7 @@ fn compare(case: &Case, at_b: &Place, memories: &mut [Memory; 3]) -> Option<(Fai
         Ok(answers) => answers,
         Err(error) => return Some((Failure::Error, error)),
     };
-    let length = (pose_a.position - pose_b.position).norm() + a.bounding_radius() + b.bounding_radius();
+    let length = (pose_a.position() - pose_b.position()).norm() + a.bounding_radius() + b.bounding_radius();
     let flat = a.sphericity().min(b.sphericity()) < 1e-12;
     let same = |cold: &Contact, warm: &Contact| {
         let both = cold.gap + warm.gap;

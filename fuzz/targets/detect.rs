@@ -22,7 +22,7 @@ pub fn run(data: &[u8]) {
     }
     // Where S is beyond all numbers, the cone program is asked at length, in vain: a few such pairs are enough.
     let reach = a.bounding_radius() + b.bounding_radius();
-    if choices < 250 && !((at_a.position - at_b.position).norm() < 1e9 * reach) {
+    if choices < 250 && !((at_a.position() - at_b.position()).norm() < 1e9 * reach) {
         settings.solve_separated = false;
     }
     let mut state = [0.0; 8];

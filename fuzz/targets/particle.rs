@@ -2,7 +2,7 @@
 
 use super::bytes::Bytes;
 use nalgebra::Vector3;
-use potential_particles::{Particle, ParticleError, Plane, Pose, surface};
+use potential_particles::{Particle, ParticleError, Plane, Pose};
 
 /// Most planes; the pairs of the stress test have more.
 const MOST_PLANES: u8 = 40;
@@ -19,7 +19,7 @@ pub fn run(data: &[u8]) {
         let Some(way) = Vector3::from(bytes.triple()).try_normalize(1e-100).filter(|v| v.norm().is_finite()) else {
             continue;
         };
-        if let Some(distance) = surface::distance(&particle, &Vector3::zeros(), &way) {
+        if let Some(distance) = particle.surface_distance(&Vector3::zeros(), &way) {
             assert!(distance >= 0.0 && distance <= radius * (1.0 + 1e-9), "distance {distance}, radius {radius}");
         }
     }

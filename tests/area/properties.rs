@@ -3,7 +3,7 @@
 use crate::quadrature;
 use crate::sections::{Cut, cuboid};
 use nalgebra::{Matrix3, Quaternion, UnitQuaternion, Vector3};
-use potential_particles::area::Section;
+use potential_particles::Section;
 use potential_particles::{Formulation, Kind, Particle, Plane, Pose, Settings, detect};
 use proptest::prelude::*;
 
@@ -47,8 +47,8 @@ pub fn contact(least: f64) -> impl Strategy<Value = Cut> {
         "no contact",
         |(a, b, turn_a, turn_b, direction, overlap, formulation)| {
             let settings = Settings { formulation, ..Settings::default() };
-            let pose_a = Pose { position: Vector3::zeros(), rotation: turn_a };
-            let at = |distance: f64| Pose { position: distance * direction, rotation: turn_b };
+            let pose_a = Pose::from_rotation([0.0; 3], &turn_a).unwrap();
+            let at = |distance: f64| Pose::from_rotation((distance * direction).into(), &turn_b).unwrap();
             let found = |distance: f64| detect(&a, &pose_a, &b, &at(distance), &settings, None).ok();
             let (mut deep, mut apart) = (0.0, a.bounding_radius() + b.bounding_radius());
             for _ in 0..50 {
@@ -103,7 +103,7 @@ proptest! {
 
     #[test]
     fn a_rigid_motion_changes_nothing(cut in contact(-6.0), turn in turn()) {
-        let carry = |pose: &Pose| Pose { position: turn * pose.position, rotation: turn * pose.rotation };
+        let carry = |pose: &Pose| Pose::from_rotation((turn * pose.position()).into(), &(turn * pose.rotation())).unwrap();
         let Section { branch_a, branch_b, normal } = cut.section;
         let section = Section { branch_a: turn * branch_a, branch_b: turn * branch_b, normal: turn * normal };
         let moved = Cut { pose_a: carry(&cut.pose_a), pose_b: carry(&cut.pose_b), section, ..cut.clone() };
@@ -132,8 +132,8 @@ proptest! {
         prop_assume!(along.norm() > 0.1);
         let along = along.normalize();
         let reach = |particle: &Particle, pose: &Pose, branch: &Vector3<f64>| {
-            let turned = |v: &Vector3<f64>| pose.rotation.tr_mul(v);
-            potential_particles::surface::distance(particle, &turned(branch), &turned(&along)).expect("a hit")
+            let turned = |v: &Vector3<f64>| pose.rotation().tr_mul(v);
+            particle.surface_distance(&turned(branch), &turned(&along)).expect("a hit")
         };
         let step = share * reach(&cut.a, &cut.pose_a, &branch_a).min(reach(&cut.b, &cut.pose_b, &branch_b)) * along;
         let section = Section { branch_a: branch_a + step, branch_b: branch_b + step, normal };
@@ -169,7 +169,7 @@ fn the_area_moves_as_the_bodies_do() {
     let area = |time: f64| {
         let half = 0.3 * time;
         let slide = Vector3::new(-0.35 + 0.7 * time, 0.2 * (3.0 * time).sin(), 0.52 + 0.02 * (5.0 * time).cos());
-        let pose_b = Pose::new((pose_a.rotation * slide).into(), [half.cos(), 0.2 * half.sin(), 0.1, half.sin()]);
+        let pose_b = Pose::new((pose_a.rotation() * slide).into(), [half.cos(), 0.2 * half.sin(), 0.1, half.sin()]);
         let pose_b = pose_b.unwrap();
         let contact = detect(&a, &pose_a, &b, &pose_b, &Settings::default(), None).unwrap();
         assert_eq!(contact.kind, Kind::Overlapping, "at {time}");

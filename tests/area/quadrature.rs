@@ -2,7 +2,6 @@
 
 use crate::sections::Cut;
 use nalgebra::Vector3;
-use potential_particles::surface;
 use std::f64::consts::TAU;
 
 /// Sectors before refinement.
@@ -20,8 +19,8 @@ pub fn area(cut: &Cut, relative_tolerance: f64) -> f64 {
     let [from_a, from_b] = cut.points();
     let half_square = |angle: f64| {
         let direction = angle.cos() * first + angle.sin() * second;
-        let to_a = surface::distance(&cut.a, &from_a, &cut.pose_a.rotation.tr_mul(&direction)).expect("a hit");
-        let to_b = surface::distance(&cut.b, &from_b, &cut.pose_b.rotation.tr_mul(&direction)).expect("a hit");
+        let to_a = cut.a.surface_distance(&from_a, &cut.pose_a.rotation().tr_mul(&direction)).expect("a hit");
+        let to_b = cut.b.surface_distance(&from_b, &cut.pose_b.rotation().tr_mul(&direction)).expect("a hit");
         0.5 * to_a.min(to_b).max(0.0).powi(2)
     };
     let width = TAU / SECTORS as f64;

@@ -2,7 +2,7 @@
 
 use crate::support::{Shape, number};
 use nalgebra::{Matrix3, Vector3};
-use potential_particles::area::Section;
+use potential_particles::Section;
 use potential_particles::{Contact, Particle, Plane, Pose};
 use serde::Deserialize;
 
@@ -38,7 +38,7 @@ impl Cut {
 
     /// The contact point in the frames of A and of B.
     pub fn points(&self) -> [Vector3<f64>; 2] {
-        [self.pose_a.rotation.tr_mul(&self.section.branch_a), self.pose_b.rotation.tr_mul(&self.section.branch_b)]
+        [self.pose_a.rotation().tr_mul(&self.section.branch_a), self.pose_b.rotation().tr_mul(&self.section.branch_b)]
     }
 }
 
@@ -81,8 +81,9 @@ pub fn known() -> Vec<Known> {
 
 impl Line {
     fn known(&self) -> Known {
-        let pose =
-            |rows: &[[f64; 3]; 3]| Pose { position: Vector3::zeros(), rotation: Matrix3::from(*rows).transpose() };
+        let pose = |rows: &[[f64; 3]; 3]| {
+            Pose::from_rotation([0.0; 3], &Matrix3::from(*rows).transpose()).expect("a rotation")
+        };
         let section =
             Section { branch_a: self.branch_a.into(), branch_b: self.branch_b.into(), normal: self.normal.into() };
         let cut = Cut {

@@ -3,7 +3,7 @@
 use crate::body::{Body, midway, searched_closest, searched_midway, solve};
 use nalgebra::{Vector2, Vector3};
 use potential_particles::planar::{Pose, detect};
-use potential_particles::{BackEnd, Flags, Formulation, Kind, Memory, ParticleError, Settings, particle, pose};
+use potential_particles::{BackEnd, Flags, Formulation, Kind, Memory, ParticleError, Plane, Settings};
 use proptest::prelude::*;
 use std::f64::consts::TAU;
 
@@ -156,7 +156,7 @@ proptest! {
     fn a_rigid_motion_carries_the_contact_along((a, b) in pairs(), turn in -10.0..10.0, shift in prop::array::uniform2(-1e3..1e3)) {
         let motion = Pose::new(shift, turn).unwrap();
         let carry = |body: &Body| {
-            let position = motion.rotate(&Vector2::from(body.position)) + motion.position;
+            let position = motion.rotate(&Vector2::from(body.position)) + motion.position();
             body.clone().at(position.into(), body.angle + turn)
         };
         let (moved_a, moved_b) = (carry(&a), carry(&b));
@@ -210,7 +210,7 @@ proptest! {
             prop_assert!((body.s(&x) - 1.0).abs() <= 4.0 * body.noise());
             prop_assert!(x.norm() <= particle.bounding_radius());
             prop_assert!(x.dot(&e) <= particle.bounding_corners().map(|c| c.dot(&e)).fold(0.0, f64::max));
-            let world = pose.position + pose.rotate(&x);
+            let world = pose.position() + pose.rotate(&x);
             prop_assert!((0..2).all(|axis| lower[axis] <= world[axis] && world[axis] <= upper[axis]));
             fullest = fullest.max(x.norm());
         }
@@ -237,11 +237,11 @@ proptest! {
     fn a_prism_at_the_same_place_is_the_same_contact((a, b) in pairs()) {
         // In space the circle becomes a sphere, and cuts at z = 0 are what the plane has.
         let prism = |body: &Body| {
-            let planes: Vec<particle::Plane> = body.lines.iter().map(|&[a, b, d]| [a, b, 0.0, d].into()).collect();
+            let planes: Vec<Plane> = body.lines.iter().map(|&[a, b, d]| [a, b, 0.0, d].into()).collect();
             let turned = [(0.5 * body.angle).cos(), 0.0, 0.0, (0.5 * body.angle).sin()];
             let [x, y] = body.position;
-            let particle = particle::Particle::new(&planes, body.r, body.k, body.shadow_radius);
-            (particle, pose::Pose::new([x, y, 0.0], turned).unwrap())
+            let particle = potential_particles::Particle::new(&planes, body.r, body.k, body.shadow_radius);
+            (particle, potential_particles::Pose::new([x, y, 0.0], turned).unwrap())
         };
         if a.k > 0.0 && b.k > 0.0 {
             let ((prism_a, at_a), (prism_b, at_b)) = (prism(&a), prism(&b));

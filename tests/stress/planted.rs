@@ -125,7 +125,7 @@ fn with_a_plane_forgotten(particle: &Particle, towards: &Vector3<f64>) -> Option
 fn a_plane_that_is_forgotten_is_found() {
     let solver: Solver = |a, at_a, b, at_b, settings, memory| {
         let right = detect(a, at_a, b, at_b, settings, None)?;
-        let towards = at_a.rotation.tr_mul(&right.normal);
+        let towards = at_a.rotation().tr_mul(&right.normal);
         match with_a_plane_forgotten(a, &towards) {
             Some(less) => detect(&less, at_a, b, at_b, settings, memory),
             None => detect(a, at_a, b, at_b, settings, memory),

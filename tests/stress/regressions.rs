@@ -422,8 +422,8 @@ fn a_plane_that_is_never_reached_changes_no_answer() {
     for (r, k) in [(0.05, 0.1), (1e-3, 1e-3), (1e-3, 1e-6)] {
         let (cube_without, cube_with) = (cube(None, r, k), cube(Some(short), r, k));
         let deep = answer(&cube_without);
-        let moved = at_b.position + (deep.overlap - 1e-3 * r) * deep.normal;
-        let touching = Pose { position: moved, ..at_b };
+        let moved = at_b.position() + (deep.overlap - 1e-3 * r) * deep.normal;
+        let touching = Pose::new(moved.into(), at_b.orientation()).expect("a pose");
         let answer = |cube| detect(cube, &at_a, cube, &touching, &Settings::default(), None).expect("an answer");
         let (without, with) = (answer(&cube_without), answer(&cube_with));
         assert_eq!((with.kind, with.iterations), (Kind::Overlapping, without.iterations), "r = {r}, k = {k}");

@@ -29,8 +29,8 @@ pub(super) fn well_formed(verdict: &mut Verdict, scene: &Scene, c: &Contact) {
         && overlapping == finite(&c.point_on_b)
         && c.overlap.is_nan() != overlapping;
     let rounding = 8.0 * EPS * (scene.length + scene.far + c.branch_b.norm());
-    let consistent = (c.point - scene.at_a.position - c.branch_a).norm() <= rounding
-        && (c.point - scene.at_b.position - c.branch_b).norm() <= rounding
+    let consistent = (c.point - scene.at_a.position() - c.branch_a).norm() <= rounding
+        && (c.point - scene.at_b.position() - c.branch_b).norm() <= rounding
         && (!overlapping
             || ((c.point_on_a - c.point_on_b).norm() - c.overlap).abs() <= rounding
                 && (c.formulation != Formulation::Midway
@@ -111,7 +111,7 @@ pub(super) fn surfaces(verdict: &mut Verdict, scene: &Scene, contact: &Contact) 
     let allowed = 32.0 * EPS * scene.length + 2.0 * EPS * scene.far + closest_slack(contact);
     let n = contact.normal;
     for (i, point, outwards, name) in [(0, contact.point_on_a, n, "A"), (1, contact.point_on_b, -n, "B")] {
-        let point = point - scene.at_b.position;
+        let point = point - scene.at_b.position();
         let (off, doubt) = scene.placed[i].at(&point).off_surface();
         if off + doubt <= allowed {
             continue;
@@ -306,7 +306,7 @@ fn steep(body: &Placed, at: &Vector3<f64>) -> f64 {
 pub(super) fn in_other_units(verdict: &mut Verdict, scene: &Scene, before: &Contact, shared: &Shared) {
     let unit = 2f64.powi(shared.exponent);
     let [a, b] = &shared.in_other_units;
-    let place = |pose: &Pose| Pose { position: unit * pose.position, ..*pose };
+    let place = |pose: &Pose| Pose::new((pose.position() * unit).into(), pose.orientation()).expect("finite");
     match (scene.solver)(a, &place(&scene.at_a), b, &place(&scene.at_b), &FULL, None) {
         Ok(after) => {
             let same = after.s == before.s && after.branch_b == unit * before.branch_b && after.normal == before.normal;

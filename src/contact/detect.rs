@@ -1,0 +1,196 @@
+//! The whole of contact detection: reject, solve, prove, describe.
+
+use crate::bounds::certificate::Closest;
+use crate::bounds::solution::{Ending, Outcome};
+use crate::contact::contact::{Contact, Flags, LocalContact};
+use crate::model::dual_path;
+use crate::model::local_model::{Expansion, Start};
+use crate::model::problem::Target;
+use crate::pair::pose::Pose;
+use crate::pair::relative_pose::Pair;
+use crate::pair::separation_tests::{self, Apart};
+use crate::pair::warm_start::{Memory, Remembered};
+use crate::particle::particle::Particle;
+use crate::settings::{BackEnd, Formulation, Settings, SettingsError};
+use crate::solver::search::Search;
+use nalgebra::Vector3;
+use thiserror::Error;
+
+/// Why there is no answer.
+#[derive(Clone, Debug, Error)]
+pub enum DetectError {
+    /// A setting is out of range.
+    #[error(transparent)]
+    Settings(#[from] SettingsError),
+    /// No solver reached an answer. The contact is unknown; this does not mean separated.
+    #[error("no solver reached an answer (the conic one: {conic}); the contact is unknown")]
+    Failed {
+        /// What stopped the last solver.
+        conic: String,
+    },
+}
+
+impl From<crate::reference::ConicError> for DetectError {
+    fn from(error: crate::reference::ConicError) -> Self {
+        Self::Failed { conic: error.to_string() }
+    }
+}
+
+/// Contact of A at `pose_a` with B at `pose_b`.
+///
+/// `memory` is what this ordered pair remembers between calls: read, and updated on success.
+///
+/// # Errors
+/// A setting out of range, or no answer from any solver.
+pub fn detect(
+    a: &Particle,
+    pose_a: &Pose,
+    b: &Particle,
+    pose_b: &Pose,
+    settings: &Settings,
+    memory: Option<&mut Memory>,
+) -> Result<Contact, DetectError> {
+    settings.validate()?;
+    let last = memory.as_deref().and_then(|memory| memory.last);
+    let rejected = |Apart { by, distance }: Apart| {
+        let flags = by.with(Flags::REJECTED);
+        Ok(Contact { flags, distance, ..Contact::separated(settings.formulation, 1.0) })
+    };
+    begin((a, pose_a), (b, pose_b), settings, last, rejected, |pair| solved(pair, pose_b, settings, memory))
+}
+
+/// The contact of a pair that no cheap proof holds apart. In a frame of its own: it is large, and most pairs of a scene
+/// need none.
+#[inline(never)]
+pub(crate) fn solved(
+    pair: &Pair,
+    pose_b: &Pose,
+    settings: &Settings,
+    memory: Option<&mut Memory>,
+) -> Result<Contact, DetectError> {
+    let mut search = Search::new(pair, settings);
+    let last = memory.as_deref().and_then(|memory| memory.last);
+    let start = match last {
+        Some(last) => {
+            if settings.back_end == BackEnd::Fast {
+                search.flags.insert(Flags::WARM);
+            }
+            Start { x: last.x, lambda: last.lambda, near: true }
+        }
+        None => search.cold(),
+    };
+    let mut here = search.expansion(&start, Target::Midway);
+    if settings.formulation == Formulation::Closest
+        && let Some(last) = last.filter(|last| last.overlapping)
+        && let Some(points) = search.overlapping_still(&last, &here)
+    {
+        remember(memory, midway_between(&points));
+        let local = LocalContact::closest(pair, &points, settings.weight_on_a, true);
+        return Ok(local.placed(pair, pose_b, search.call()));
+    }
+    // Written so that the outcome need not be copied.
+    let midway = match search.at_once(Target::Midway, start.lambda, &here) {
+        Some(outcome) => outcome,
+        None => search.climb(Target::Midway, &start, last.is_some(), &mut here)?,
+    };
+    let scale = search.certify(&midway, Target::Midway);
+    let separated = midway.ending == Ending::Separated;
+    let least = Settings::default().flat_regularisation;
+    if !separated && scale.s >= 1.0 && scale.low < 1.0 && settings.flat_regularisation > least {
+        // Where the bulge of a raised regularisation may hide an overlap, the particles as they are decide.
+        let settings = Settings { flat_regularisation: least, ..*settings };
+        return solved(pair, pose_b, &settings, memory);
+    }
+    let overlapping = !separated && scale.s < 1.0;
+    let mut remembered = Remembered { x: midway.x, lambda: midway.lambda, overlapping, closest: [1.0; 2] };
+    if separated {
+        remember(memory, remembered);
+        let contact = Contact::separated(settings.formulation, scale.low.max(1.0));
+        let flags = contact.flags.with(search.flags);
+        return Ok(Contact { flags, iterations: search.iterations, back_end: search.answered, ..contact });
+    }
+    let found = match settings.formulation {
+        Formulation::Closest => closest(&mut search, (&midway, &here))?,
+        Formulation::Midway => None,
+    };
+    let local = match &found {
+        Some(points) => {
+            remembered = seen_from(remembered, midway.values, points);
+            LocalContact::closest(pair, points, settings.weight_on_a, overlapping)
+        }
+        None => {
+            let bound = || search.bound(&midway, &here, Target::Midway);
+            let pieces = |n: &Vector3<f64>| search.pieces(&midway, &here, n);
+            LocalContact::midway(pair, &midway, scale, bound, pieces, overlapping)
+                .ok_or_else(|| DetectError::Failed { conic: "the surface was not found along the normal".into() })?
+        }
+    };
+    remember(memory, remembered);
+    Ok(local.placed(pair, pose_b, search.call()))
+}
+
+/// What to remember of P1 and P2 with the place and λ of midway, where S_A and S_B have these values.
+fn seen_from(midway: Remembered, values: [f64; 2], [p1, p2]: &[Closest; 2]) -> Remembered {
+    let [of_p1, of_p2] = dual_path::closest_from_between(values, midway.lambda);
+    Remembered { closest: [p1.lambda / of_p1, p2.lambda / of_p2], ..midway }
+}
+
+/// What to remember of P1 and P2 alone of a pair that overlaps: a place between them and a λ that come near those of midway.
+fn midway_between(points: &[Closest; 2]) -> Remembered {
+    let [p1, p2] = points;
+    let square = (p1.lambda * p1.scale.s) * (p2.lambda / p2.scale.s);
+    // On the way from one to the other S is the same quadratic.
+    let way = p1.x - p2.x;
+    let value = |i: usize| 0.5 * (p1.values[i] + p2.values[i]) - 0.125 * (p1.gradients[i] - p2.gradients[i]).dot(&way);
+    let midway = Remembered { x: p2.x + 0.5 * way, lambda: square.sqrt(), overlapping: true, closest: [1.0; 2] };
+    seen_from(midway, [value(0), value(1)], points)
+}
+
+fn remember(memory: Option<&mut Memory>, remembered: Remembered) {
+    if let Some(memory) = memory {
+        memory.last = Some(remembered);
+    }
+}
+
+/// What is made of a cheap proof of separation, if one succeeds and will do; else of the pair in one frame, which is not given
+/// back, since copying it takes a twentieth of a warm call.
+#[inline(always)]
+pub(crate) fn begin<T>(
+    a: (&Particle, &Pose),
+    b: (&Particle, &Pose),
+    settings: &Settings,
+    last: Option<Remembered>,
+    rejected: impl Fn(Apart) -> T,
+    undecided: impl FnOnce(&Pair) -> T,
+) -> T {
+    let overlapped = last.is_some_and(|last| last.overlapping);
+    let known = last.filter(|_| !overlapped && !settings.solve_separated);
+    if let Some(proof) = known.and_then(|last| separation_tests::still_apart(a, b, &last.x)) {
+        return rejected(proof);
+    }
+    let pair = Pair::new(a.0, a.1, b.0, b.1);
+    let proof = match overlapped {
+        _ if settings.solve_separated => None,
+        // Of a pair that overlapped, only the cheapest proof is worth a try.
+        true => separation_tests::balls_apart(&pair),
+        false => separation_tests::proof_of_separation(&pair),
+    };
+    match proof {
+        Some(proof) => rejected(proof),
+        None => undecided(&pair),
+    }
+}
+
+/// Both closest points; midway lies between them. `None` where a constraint is slack, which is flagged.
+fn closest(search: &mut Search, midway: (&Outcome, &Expansion)) -> Result<Option<[Closest; 2]>, DetectError> {
+    if let Some(both) = search.both_at_once(midway) {
+        return Ok(Some(both));
+    }
+    if let Some(p2) = search.constrained(Target::OnB, Some(midway))?
+        && let Some(p1) = search.constrained(Target::OnA, Some(midway))?
+    {
+        return Ok(Some([p1, p2]));
+    }
+    search.flags.insert(Flags::SLACK);
+    Ok(None)
+}

@@ -1,0 +1,5 @@
+//! Point, normal and overlap from a solution.
+
+pub(crate) mod closest_point;
+pub(crate) mod contact;
+pub(crate) mod detect;

@@ -1,0 +1,193 @@
+//! Symmetric 3×3 matrices by their lower half, and their factorisation.
+
+use crate::linalg::number::{Number, Twin};
+use nalgebra::{Matrix3, Vector3};
+
+/// A symmetric 3×3 matrix, of numbers or of lanes of them.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[allow(missing_docs)]
+pub struct Symmetric<N = f64> {
+    pub xx: N,
+    pub yx: N,
+    pub yy: N,
+    pub zx: N,
+    pub zy: N,
+    pub zz: N,
+}
+
+impl<N: Number> Symmetric<N> {
+    /// a·self + b·other.
+    #[inline]
+    pub(crate) fn weighted(&self, a: N, other: &Self, b: N) -> Self {
+        Self {
+            xx: a * self.xx + b * other.xx,
+            yx: a * self.yx + b * other.yx,
+            yy: a * self.yy + b * other.yy,
+            zx: a * self.zx + b * other.zx,
+            zy: a * self.zy + b * other.zy,
+            zz: a * self.zz + b * other.zz,
+        }
+    }
+
+    #[inline]
+    pub(crate) fn times(&self, v: &Vector3<N>) -> Vector3<N> {
+        Vector3::new(
+            self.xx * v.x + self.yx * v.y + self.zx * v.z,
+            self.yx * v.x + self.yy * v.y + self.zy * v.z,
+            self.zx * v.x + self.zy * v.y + self.zz * v.z,
+        )
+    }
+}
+
+impl Symmetric<Twin> {
+    /// Two matrices in lanes.
+    #[inline]
+    pub(crate) fn twin(x: &Symmetric, y: &Symmetric) -> Self {
+        let of = Twin::new;
+        Self {
+            xx: of(x.xx, y.xx),
+            yx: of(x.yx, y.yx),
+            yy: of(x.yy, y.yy),
+            zx: of(x.zx, y.zx),
+            zy: of(x.zy, y.zy),
+            zz: of(x.zz, y.zz),
+        }
+    }
+}
+
+impl Symmetric {
+    /// All nine entries.
+    pub fn matrix(&self) -> Matrix3<f64> {
+        Matrix3::new(self.xx, self.yx, self.zx, self.yx, self.yy, self.zy, self.zx, self.zy, self.zz)
+    }
+
+    /// self += n nᵀ.
+    #[inline]
+    pub(crate) fn add_square(&mut self, n: &Vector3<f64>) {
+        self.xx += n.x * n.x;
+        self.yx += n.y * n.x;
+        self.yy += n.y * n.y;
+        self.zx += n.z * n.x;
+        self.zy += n.z * n.y;
+        self.zz += n.z * n.z;
+    }
+
+    /// factor·self + diagonal·1.
+    #[inline]
+    pub(crate) fn scaled(&self, factor: f64, diagonal: f64) -> Self {
+        Self {
+            xx: factor * self.xx + diagonal,
+            yx: factor * self.yx,
+            yy: factor * self.yy + diagonal,
+            zx: factor * self.zx,
+            zy: factor * self.zy,
+            zz: factor * self.zz + diagonal,
+        }
+    }
+
+    /// Sum of the squares of all nine entries.
+    #[inline]
+    pub(crate) fn square(&self) -> f64 {
+        let (diagonal, below) = ([self.xx, self.yy, self.zz], [self.yx, self.zx, self.zy]);
+        diagonal.map(|v| v * v).iter().sum::<f64>() + 2.0 * below.map(|v| v * v).iter().sum::<f64>()
+    }
+
+    #[inline]
+    pub(crate) fn diagonal(&self) -> Vector3<f64> {
+        Vector3::new(self.xx, self.yy, self.zz)
+    }
+
+    /// The trace.
+    #[inline]
+    pub(crate) fn trace(&self) -> f64 {
+        self.xx + self.yy + self.zz
+    }
+}
+
+/// L D Lᵀ of a symmetric positive definite 3×3 matrix, eliminated in the given order of axes: stiffest
+/// first keeps the softest direction to full relative precision.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Factor<N = f64> {
+    l10: N,
+    l20: N,
+    l21: N,
+    inverse_d: [N; 3],
+}
+
+impl<N: Number> Factor<N> {
+    /// `least` bounds the eigenvalues from below, and so every pivot: rounding may not take it further.
+    /// `None` when something is not finite.
+    #[inline]
+    pub fn of(h: &Symmetric<N>, least: N) -> Option<Self> {
+        let one = N::splat(1.0);
+        let i0 = one / h.xx.larger(least);
+        let (l10, l20) = (h.yx * i0, h.zx * i0);
+        let i1 = one / (h.yy - l10 * h.yx).larger(least);
+        let c21 = h.zy - l20 * h.yx;
+        let l21 = c21 * i1;
+        let i2 = one / (h.zz - l20 * h.zx - l21 * c21).larger(least);
+        // A sum is finite only if all its terms are.
+        (least.is_positive() && (i0 + i1 + i2).is_finite()).then_some(Self { l10, l20, l21, inverse_d: [i0, i1, i2] })
+    }
+
+    #[inline]
+    pub fn solve(&self, r: &Vector3<N>) -> Vector3<N> {
+        let y0 = r.x;
+        let y1 = r.y - self.l10 * y0;
+        let y2 = r.z - self.l20 * y0 - self.l21 * y1;
+        let z = y2 * self.inverse_d[2];
+        let y = y1 * self.inverse_d[1] - self.l21 * z;
+        let x = y0 * self.inverse_d[0] - self.l10 * y - self.l20 * z;
+        Vector3::new(x, y, z)
+    }
+}
+
+impl Factor<Twin> {
+    /// That of one lane.
+    #[inline]
+    pub fn lane(&self, i: usize) -> Factor {
+        let Self { l10, l20, l21, inverse_d } = self;
+        Factor { l10: l10.0[i], l20: l20.0[i], l21: l21.0[i], inverse_d: inverse_d.map(|d| d.0[i]) }
+    }
+}
+
+impl Factor {
+    /// The inverse matrix, for what needs no more digits than a bound does.
+    #[inline(always)]
+    pub fn inverse(&self) -> Symmetric {
+        let [i0, i1, i2] = self.inverse_d;
+        // L⁻¹ has −l10, m = l10 l21 − l20 and −l21 below its diagonal.
+        let m = self.l10 * self.l21 - self.l20;
+        Symmetric {
+            xx: i0 + self.l10 * self.l10 * i1 + m * m * i2,
+            yx: -self.l10 * i1 - self.l21 * m * i2,
+            yy: i1 + self.l21 * self.l21 * i2,
+            zx: m * i2,
+            zy: -self.l21 * i2,
+            zz: i2,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_inverse_and_the_solution_are_those_of_the_matrix() {
+        let h = Symmetric { xx: 4.0, yx: -1.0, yy: 3.0, zx: 0.5, zy: 0.25, zz: 2.0 };
+        let factor = Factor::of(&h, 1e-3).unwrap();
+        assert!((h.matrix() * factor.inverse().matrix() - Matrix3::identity()).norm() < 1e-15);
+        let r = Vector3::new(1.0, -2.0, 3.0);
+        assert!((h.times(&factor.solve(&r)) - r).norm() < 1e-15);
+        assert!((factor.inverse().times(&r) - factor.solve(&r)).norm() < 1e-15);
+    }
+
+    #[test]
+    fn no_pivot_falls_below_the_least_curvature() {
+        let flat = Symmetric { xx: 1.0, yx: 1.0, yy: 1.0, zx: 0.0, zy: 0.0, zz: 0.0 };
+        let step = Factor::of(&flat, 0.5).unwrap().solve(&Vector3::new(0.0, 0.0, 1.0));
+        assert_eq!(step, Vector3::new(0.0, 0.0, 2.0));
+        assert!(Factor::of(&flat, f64::NAN).is_none() && Factor::of(&flat, 0.0).is_none());
+    }
+}

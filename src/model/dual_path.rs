@@ -1,0 +1,239 @@
+//! The curve on which both quadratics at a point are optimal for some weights, in numbers or in lanes of numbers.
+//!
+//! For weights a, b ≥ 0 let v minimise a·q_A + b·q_B, that is H v = −g with H = a H_A + b H_B, g = a g_A + b g_B. As
+//! the weight θ of the target changes, v runs along a curve from the minimum of one particle to that of the other;
+//! the wanted point is where the mismatch m(θ) = c − (α q_A + β q_B) is zero, with α, β the rates of a, b and
+//! c = 0 for midway, 1 for the two closest points. One search in one variable serves all three ([`crate::model::quadratic_model`]).
+//!
+//! One factorisation of H gives the curve's whole Taylor series: with D = α H_A + β H_B and w₀ = α g_A + β g_B at v₀,
+//!
+//! ```text
+//! v(δ) = Σ δⁿ v_n,   v_n = −H⁻¹ w_{n−1},   w_n = D v_n,   m_n = −(n+1)/2 · v_i·w_j  for any i + j = n, i ≥ 1
+//! ```
+//!
+//! so that v₁ and v₂ give m to the fourth order, and each search multiplies the number of right digits by five; v₃ gives
+//! it to the sixth.
+
+use crate::linalg::number::Number;
+use crate::linalg::symmetric::{Factor, Symmetric};
+use crate::model::problem::Target;
+use nalgebra::Vector3;
+
+/// Slope relative to either force that is but rounding.
+const BALANCED: f64 = 16.0 * f64::EPSILON;
+
+/// One of the two quadratics: value, gradient and curvature where the step begins.
+#[derive(Clone, Copy)]
+pub(crate) struct Side<'a, N> {
+    pub value: N,
+    pub gradient: &'a Vector3<N>,
+    pub hessian: &'a Symmetric<N>,
+    /// Least curvature in any direction (its sphere's).
+    pub soft: N,
+}
+
+/// The pair of quadratics and the target: what stays the same while λ is searched.
+///
+/// Rare parts take it and the probes by value: whose address is known has to stay in memory on the common way, too.
+#[derive(Clone, Copy)]
+pub(crate) struct Curve<'a, N> {
+    a: Side<'a, N>,
+    b: Side<'a, N>,
+    target: Target,
+    /// D, and α·q_A + β·q_B at the point of expansion.
+    turning: Symmetric<N>,
+    turned: N,
+}
+
+/// Optimum of the two quadratics for a weight ratio λ.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Optimum<N = f64> {
+    /// Step from the point of expansion.
+    pub step: Vector3<N>,
+    /// ∇S_A and ∇S_B there: a·g_A + b·g_B = 0. Where a stiff plane is on by less than rounding, only the
+    /// model knows them.
+    pub gradients: [Vector3<N>; 2],
+    /// q_A and q_B there.
+    pub values: (N, N),
+    /// Weight ratio λ = b/a.
+    pub lambda: N,
+    /// Whether λ is as good as rounding allows.
+    pub settled: bool,
+    /// Of H, at λ or very near.
+    pub factor: Factor<N>,
+    /// The λ of the factor.
+    pub factored: N,
+    /// dv/dθ and dm/dθ.
+    pub along: Vector3<N>,
+    pub rate: N,
+}
+
+/// The point of the curve at some λ: as much as the search for λ takes.
+#[derive(Clone, Copy)]
+pub(crate) struct Probe<N> {
+    pub lambda: N,
+    pub weights: (N, N),
+    step: Vector3<N>,
+    factor: Factor<N>,
+    along: Vector3<N>,
+    pub rate: N,
+    /// m.
+    pub mismatch: N,
+    /// q_A and q_B, to what a·q_A + b·q_B loses.
+    pub values: (N, N),
+}
+
+/// The way to the root along the series of the curve.
+#[derive(Clone, Copy)]
+pub(crate) struct Series<N> {
+    /// Change of θ.
+    delta: N,
+    /// λ after it.
+    pub lambda: N,
+    v2: Vector3<N>,
+    w2: Vector3<N>,
+    /// m₂, m₃ and m₄.
+    rates: [N; 3],
+    /// Share of the higher terms in the first.
+    pub share: N,
+}
+
+impl<'a, N: Number> Curve<'a, N> {
+    #[inline(always)]
+    pub fn new(a: Side<'a, N>, b: Side<'a, N>, target: Target) -> Self {
+        let (alpha, beta) = target.turning();
+        let turning = a.hessian.weighted(alpha, b.hessian, beta);
+        let turned = alpha * a.value + beta * b.value;
+        Self { a, b, target, turning, turned }
+    }
+
+    /// With H v = −g the weighted sum is ½ g·v more than at the point of expansion, and D v gives the other sum: q_A and
+    /// q_B follow from the two.
+    #[inline(always)]
+    pub fn probe(&self, lambda: N) -> Option<Probe<N>> {
+        let (half, weights @ (a, b)) = (N::splat(0.5), self.target.weights(lambda));
+        let h = self.a.hessian.weighted(a, self.b.hessian, b);
+        let factor = Factor::of(&h, a * self.a.soft + b * self.b.soft)?;
+        let g = self.a.gradient * a + self.b.gradient * b;
+        let step = -factor.solve(&g);
+        let before = self.of_turning(self.a.gradient, self.b.gradient);
+        let w0 = before + self.turning.times(&step);
+        let along = -factor.solve(&w0);
+        let turning = self.turned + half * step.dot(&(before + w0));
+        let fixed = a * self.a.value + b * self.b.value + half * step.dot(&g);
+        let (values, mismatch) = (self.target.apart(fixed, turning, weights), self.target.level::<N>() - turning);
+        Some(Probe { lambda, weights, step, factor, along, rate: -w0.dot(&along), mismatch, values })
+    }
+
+    /// α·x + β·y.
+    #[inline(always)]
+    fn of_turning(&self, x: &Vector3<N>, y: &Vector3<N>) -> Vector3<N> {
+        match self.target {
+            Target::Midway => y - x,
+            Target::OnB => *y,
+            Target::OnA => *x,
+        }
+    }
+
+    /// The optimum at a point of the curve.
+    #[inline(always)]
+    pub fn optimum(&self, probe: &Probe<N>) -> Optimum<N> {
+        self.after(probe.step, probe.lambda, probe)
+    }
+
+    /// The quadratics after a step, which lies on the curve near a probe.
+    #[inline(always)]
+    pub fn after(&self, step: Vector3<N>, lambda: N, near: &Probe<N>) -> Optimum<N> {
+        let gradient = |side: &Side<N>| side.gradient + side.hessian.times(&step);
+        let gradients = [gradient(&self.a), gradient(&self.b)];
+        let value = |side: &Side<N>, g: &Vector3<N>| side.value + N::splat(0.5) * step.dot(&(side.gradient + g));
+        let values = (value(&self.a, &gradients[0]), value(&self.b, &gradients[1]));
+        let Probe { factor, along, rate, lambda: factored, .. } = *near;
+        Optimum { step, gradients, values, lambda, settled: false, factor, factored, along, rate }
+    }
+
+    /// Root of m(δ) to the fourth order, by reversion of the series; `None` where it would move a weight by more
+    /// than half.
+    #[inline(always)]
+    pub fn series(&self, found: &Probe<N>) -> Option<Series<N>> {
+        let (v1, inverse, (a, b)) = (&found.along, N::splat(1.0) / found.rate, found.weights);
+        let w1 = self.turning.times(v1);
+        let v2 = -found.factor.solve(&w1);
+        let w2 = self.turning.times(&v2);
+        let of = N::splat;
+        let (m2, m3, m4) = (of(-1.5) * v1.dot(&w1), of(-2.0) * v2.dot(&w1), of(-2.5) * v2.dot(&w2));
+        let y = -found.mismatch * inverse;
+        let (c2, c3, c4) = (m2 * inverse * y, m3 * inverse * y * y, m4 * inverse * y * y * y);
+        let delta = y * (of(1.0) - c2 + (of(2.0) * c2 * c2 - c3) + (of(5.0) * c2 * (c3 - c2 * c2) - c4));
+        let (alpha, beta) = self.target.turning::<N>();
+        let stays =
+            (alpha * delta).magnitude().is_at_most(of(0.5) * a) && (beta * delta).magnitude().is_at_most(of(0.5) * b);
+        let lambda = self.lambda_after(found, delta);
+        let share = c2.magnitude() + c3.magnitude() + c4.magnitude();
+        stays.then_some(Series { delta, lambda, v2, w2, rates: [m2, m3, m4], share })
+    }
+
+    #[inline(always)]
+    fn lambda_after(&self, found: &Probe<N>, delta: N) -> N {
+        let ((alpha, beta), (a, b)) = (self.target.turning::<N>(), found.weights);
+        (b + beta * delta) / (a + alpha * delta)
+    }
+
+    /// The optimum at the end of a series, without another factorisation: to the third order.
+    #[inline(always)]
+    pub fn along(&self, found: &Probe<N>, series: &Series<N>) -> Optimum<N> {
+        let v3 = -found.factor.solve(&series.w2);
+        let delta = series.delta;
+        let step = found.step + (found.along + (series.v2 + v3 * delta) * delta) * delta;
+        self.after(step, series.lambda, found)
+    }
+
+    /// The same to the fourth order, the way to it by one more step of Newton's method on the mismatch to the sixth.
+    #[inline(always)]
+    pub fn further_along(&self, found: &Probe<N>, series: &Series<N>) -> Optimum<N> {
+        let v3 = -found.factor.solve(&series.w2);
+        let w3 = self.turning.times(&v3);
+        let v4 = -found.factor.solve(&w3);
+        let (of, d, [m2, m3, m4]) = (N::splat, series.delta, series.rates);
+        let (m5, m6) = (of(-3.0) * v3.dot(&series.w2), of(-3.5) * v3.dot(&w3));
+        let mismatch = found.mismatch + d * (found.rate + d * (m2 + d * (m3 + d * (m4 + d * (m5 + d * m6)))));
+        let higher = of(4.0) * m4 + d * (of(5.0) * m5 + d * of(6.0) * m6);
+        let slope = found.rate + d * (of(2.0) * m2 + d * (of(3.0) * m3 + d * higher));
+        let delta = d - mismatch / slope;
+        let step = found.step + (found.along + (series.v2 + (v3 + v4 * delta) * delta) * delta) * delta;
+        self.after(step, self.lambda_after(found, delta), found)
+    }
+
+    /// Whether the slope a·g_A + b·g_B is zero to rounding. In a pair that is alike on both sides the terms of the mismatch
+    /// cancel and say nothing about those of the curve.
+    #[inline(always)]
+    pub fn is_balanced(&self, found: &Optimum<N>) -> bool {
+        let (a, _) = self.target.weights(found.lambda);
+        let force = a * a * (square(self.a.gradient) + square(&found.gradients[0]));
+        square(&found.slope(self.target)).is_at_most(N::splat(BALANCED * BALANCED) * force)
+    }
+}
+
+/// The λ of P1 and of P2 as seen from a point between them where S_A and S_B have these values, and the λ of midway.
+///
+/// Where a single curvature decides along the curve, √S_A and √S_B are linear on it, with slopes whose ratio is λ. At P2
+/// √S_A is s_a = √S_A + λ·(√S_B − 1), at P1 √S_B is s_b = √S_B + (√S_A − 1)/λ, and what is sought is λ/s_b and λ·s_a.
+#[inline(always)]
+pub(crate) fn closest_from_between([value_a, value_b]: [f64; 2], lambda: f64) -> [f64; 2] {
+    let (s_a, s_b) = (value_a.sqrt(), value_b.sqrt());
+    [lambda / (s_b + (s_a - 1.0) / lambda), lambda * (s_a + lambda * (s_b - 1.0))]
+}
+
+#[inline(always)]
+fn square<N: Number>(v: &Vector3<N>) -> N {
+    v.dot(v)
+}
+
+impl<N: Number> Optimum<N> {
+    /// a·g_A + b·g_B: zero but for rounding.
+    #[inline]
+    pub fn slope(&self, target: Target) -> Vector3<N> {
+        let (a, b) = target.weights(self.lambda);
+        self.gradients[0] * a + self.gradients[1] * b
+    }
+}

@@ -1,0 +1,79 @@
+//! Axes aligned with the stiffest planes at a point: the safer factorisation.
+//!
+//! Plane curvature (1−k)/r² and sphere curvature k/R² can differ by 1e18. Summed in arbitrary axes, the
+//! sphere's share drowns in the rounding of the planes'. In axes q₁ = stiffest normal, q₂ = stiffest
+//! remainder, q₃ = q₁ × q₂ the Hessian is graded, and elimination in this order keeps each
+//! direction's own relative precision.
+
+use crate::pair::active_set::Place;
+use crate::pair::placed_particle::Body;
+use nalgebra::{Matrix3, Vector3};
+
+/// Square of the sine below which what is left of a normal is rounding.
+const PARALLEL: f64 = 1e-30;
+
+/// Most normals that are kept from the first look at the planes for the second: few points have more planes on.
+const MOST_KEPT: usize = 16;
+
+/// Orthonormal axes (columns), stiffest first, from the planes of both quadratics with weights (a, b).
+pub(crate) fn aligned(bodies: [&Body; 2], weights: (f64, f64), places: &[impl Place; 2]) -> Matrix3<f64> {
+    let bodies = [(bodies[0], &places[0], weights.0), (bodies[1], &places[1], weights.1)];
+    let (mut stiffest, mut kept, mut count) = (Stiffest::default(), [(Vector3::zeros(), 0.0); MOST_KEPT], 0);
+    visit(bodies, |n, weight| {
+        stiffest.meet(&n, n, weight);
+        if let Some(place) = kept.get_mut(count) {
+            *place = (n, weight);
+        }
+        count += 1;
+    });
+    let Some(first) = stiffest.normal.try_normalize(0.0) else {
+        return Matrix3::identity();
+    };
+    // Twice is enough (Kahan): the second pass removes what rounding left of the first axis.
+    let across = |n: Vector3<f64>| n - n.dot(&first) * first;
+    let mut stiffest = Stiffest::default();
+    let mut meet = |n: Vector3<f64>, weight| stiffest.meet(&n, across(across(n)), weight);
+    match kept.get(..count) {
+        Some(kept) => kept.iter().for_each(|(n, weight)| meet(*n, *weight)),
+        None => visit(bodies, meet),
+    }
+    let second = stiffest
+        .normal
+        .try_normalize(0.0)
+        .and_then(|v| across(v).try_normalize(0.5))
+        .unwrap_or_else(|| any_across(&first));
+    Matrix3::from_columns(&[first, second, first.cross(&second)])
+}
+
+/// The normals of the planes of both quadratics, each with the weight of its plane.
+#[inline(always)]
+fn visit(bodies: [(&Body, &impl Place, f64); 2], mut visit: impl FnMut(Vector3<f64>, f64)) {
+    for (body, place, scale) in bodies {
+        let weight = scale * body.plane_curvature();
+        body.normals(place, |n| visit(n, weight));
+    }
+}
+
+/// The remainder of an active normal that carries the largest curvature.
+#[derive(Default)]
+struct Stiffest {
+    normal: Vector3<f64>,
+    most: f64,
+}
+
+impl Stiffest {
+    #[inline(always)]
+    fn meet(&mut self, n: &Vector3<f64>, rest: Vector3<f64>, weight: f64) {
+        let stiffness = weight * rest.norm_squared();
+        if stiffness > self.most && rest.norm_squared() > PARALLEL * n.norm_squared() {
+            (self.normal, self.most) = (rest, stiffness);
+        }
+    }
+}
+
+/// A unit vector at right angles to a unit vector.
+fn any_across(n: &Vector3<f64>) -> Vector3<f64> {
+    // Of equally good axes the last: across a normal in the plane z = 0 that gives another one in it.
+    let axis = (0..3).rev().min_by(|&i, &j| n[i].abs().total_cmp(&n[j].abs())).unwrap_or(2);
+    n.cross(&Vector3::ith(axis, 1.0)).normalize()
+}

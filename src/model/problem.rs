@@ -1,0 +1,155 @@
+//! Which point of two bodies is wanted, and what that makes of the two potentials.
+//!
+//! Every target is a dual problem in one weight θ: minimise a(θ)·S_A + b(θ)·S_B, a and b linear in θ. Midway:
+//! a = 1 − θ, b = θ; on B: a = 1, b = θ; on A: a = θ, b = 1. What is passed around is the ratio λ = b/a, which keeps
+//! its digits where one weight is all but zero.
+
+use crate::linalg::number::{Number, larger};
+
+/// Which point of the curve is wanted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Target {
+    /// S_A = S_B: minimise the larger (paper eq. 44).
+    Midway,
+    /// S_B = 1: the point P2 on B closest to A, minimising S_A (paper eqs 9, 34).
+    OnB,
+    /// S_A = 1: the point P1 on A closest to B, minimising S_B.
+    OnA,
+}
+
+/// Price of infeasibility in units of the multiplier; anything above 1 makes the penalty exact.
+pub(crate) const PRICE: f64 = 2.0;
+
+impl Target {
+    /// Weights (a, b) at λ.
+    #[inline]
+    pub fn weights<N: Number>(self, lambda: N) -> (N, N) {
+        let one = N::splat(1.0);
+        match self {
+            Self::Midway => {
+                let a = one / (one + lambda);
+                (a, lambda * a)
+            }
+            Self::OnB => (one, lambda),
+            Self::OnA => (one / lambda, one),
+        }
+    }
+
+    /// (da/dθ, db/dθ).
+    #[inline]
+    pub fn turning<N: Number>(self) -> (N, N) {
+        let (alpha, beta) = match self {
+            Self::Midway => (-1.0, 1.0),
+            Self::OnB => (0.0, 1.0),
+            Self::OnA => (1.0, 0.0),
+        };
+        (N::splat(alpha), N::splat(beta))
+    }
+
+    /// dθ/d ln λ at the weights (a, b).
+    #[inline]
+    pub fn per_logarithm(self, (a, b): (f64, f64)) -> f64 {
+        match self {
+            Self::Midway => a * b,
+            Self::OnB => b,
+            Self::OnA => -a,
+        }
+    }
+
+    /// The quantity being minimised, given both potentials: S_A, S_B or the larger. Infeasibility of the
+    /// constraint counts with a price above its multiplier (exact penalty).
+    #[inline]
+    pub fn merit(self, s_a: f64, s_b: f64, lambda: f64) -> f64 {
+        match self {
+            Self::Midway => larger(s_a, s_b),
+            Self::OnB => s_a + PRICE * lambda * larger(s_b - 1.0, 0.0),
+            Self::OnA => s_b + PRICE / lambda * larger(s_a - 1.0, 0.0),
+        }
+    }
+
+    /// Bound on the error of the merit, from bounds on those of S_A and S_B.
+    #[inline]
+    pub fn merit_rounding(self, error_a: f64, error_b: f64, lambda: f64) -> f64 {
+        match self {
+            Self::Midway => larger(error_a, error_b),
+            Self::OnB => error_a + PRICE * lambda * error_b,
+            Self::OnA => error_b + PRICE / lambda * error_a,
+        }
+    }
+
+    /// Value of the dual function: a lower bound of the optimum for every λ.
+    #[inline]
+    pub fn dual(self, s_a: f64, s_b: f64, lambda: f64) -> f64 {
+        let (a, b) = self.weights(lambda);
+        match self {
+            Self::Midway => a * s_a + b * s_b,
+            Self::OnB => s_a + b * (s_b - 1.0),
+            Self::OnA => a * (s_a - 1.0) + s_b,
+        }
+    }
+
+    /// Bound on the error of the dual value, from bounds on those of S_A and S_B.
+    #[inline]
+    pub fn dual_weighted(self, error_a: f64, error_b: f64, lambda: f64) -> f64 {
+        let (a, b) = self.weights(lambda);
+        a * error_a + b * error_b
+    }
+
+    /// The two numbers that are equal at the wanted point; the first grows with λ.
+    #[inline]
+    pub fn sides(self, s_a: f64, s_b: f64) -> (f64, f64) {
+        match self {
+            Self::Midway => (s_a, s_b),
+            Self::OnB => (1.0, s_b),
+            Self::OnA => (s_a, 1.0),
+        }
+    }
+
+    /// The body held at S = 1 and the other one; `None` for midway, which holds neither.
+    pub fn held(self) -> Option<(usize, usize)> {
+        match self {
+            Self::Midway => None,
+            Self::OnB => Some((1, 0)),
+            Self::OnA => Some((0, 1)),
+        }
+    }
+
+    /// c in the mismatch m = c − (α·S_A + β·S_B).
+    #[inline]
+    pub fn level<N: Number>(self) -> N {
+        N::splat(if self == Self::Midway { 0.0 } else { 1.0 })
+    }
+
+    /// The first of the two numbers less the second, from m: λ falls as θ grows for a point on A.
+    #[inline]
+    pub fn difference(self, mismatch: f64) -> f64 {
+        if self == Self::OnA { -mismatch } else { mismatch }
+    }
+
+    /// S_A and S_B from a·S_A + b·S_B and α·S_A + β·S_B.
+    #[inline]
+    pub fn apart<N: Number>(self, fixed: N, turning: N, (a, b): (N, N)) -> (N, N) {
+        match self {
+            Self::Midway => (fixed - b * turning, fixed + a * turning),
+            Self::OnB => (fixed - b * turning, turning),
+            Self::OnA => (turning, fixed - a * turning),
+        }
+    }
+
+    /// How far the two numbers are from being equal.
+    #[inline]
+    pub fn mismatch(self, s_a: f64, s_b: f64) -> f64 {
+        let (growing, falling) = self.sides(s_a, s_b);
+        (growing - falling).abs()
+    }
+
+    /// What changes of S_A and S_B do to the two numbers.
+    #[inline]
+    pub fn changes(self, of_a: f64, of_b: f64) -> (f64, f64) {
+        match self {
+            Self::Midway => (of_a, of_b),
+            Self::OnB => (0.0, of_b),
+            Self::OnA => (of_a, 0.0),
+        }
+    }
+}

@@ -1,0 +1,259 @@
+//! The two quadratics at a point, solved exactly: one step of the fast solver.
+//!
+//! The optimum lies on their [`crate::model::dual_path`], where the mismatch of the target is zero: λ is searched along its series, or
+//! in logarithms where that is of no use.
+
+use crate::linalg::number::{Number, Twin, larger};
+use crate::linalg::symmetric::Symmetric;
+use crate::model::dual_path::{Curve, Optimum, Probe, Side};
+use crate::model::problem::Target;
+use crate::particle::potential::Quadratic;
+use nalgebra::{SimdValue, Vector3};
+
+/// The curve, and what the search along it has to know besides.
+#[derive(Clone, Copy)]
+pub(crate) struct Model<'a> {
+    curve: Curve<'a, f64>,
+    target: Target,
+    /// What the values at the point of expansion make of the mismatch.
+    expanded: f64,
+}
+
+/// Bound on the rounding of a mismatch, from what the values at the point of expansion make of it and from its larger side.
+#[inline(always)]
+fn noise<N: Number>(expanded: N, larger: N) -> N {
+    N::splat(2.0 * f64::EPSILON) * expanded + N::splat(4.0 * f64::EPSILON) * larger
+}
+
+/// Most searches for λ; a handful is enough where rounding does not interfere.
+const MOST_SEARCHES: usize = 40;
+
+/// λ stays in this range: beyond it one particle's weight is lost in rounding altogether.
+pub(crate) const LAMBDA_RANGE: (f64, f64) = (1e-30, 1e30);
+
+/// One search moves λ by at most this factor: quadratics that miss the planes further on may not
+/// reach the target at all.
+const FARTHEST: f64 = 1e6;
+
+/// Largest share of the higher terms of the series in the first one at which the series is used at all: what is left
+/// out then is some 1e-3 of the mismatch.
+const NEAR: f64 = 0.1;
+
+/// The same share at which what is left out is below rounding: of a point that is taken to the third order, and to the fourth.
+const VERY_NEAR: f64 = 3e-4;
+const RATHER_NEAR: f64 = 1.5e-3;
+
+/// Relative mismatch below which a search that no longer gains is at the end of its digits.
+const STALLING: f64 = 1e-9;
+
+/// Searches in a row that may gain less than half: a side that hardly changes with λ gains late.
+const MOST_SLOW: u32 = 4;
+
+impl<'a> Model<'a> {
+    #[inline(always)]
+    pub fn new(q_a: &'a Quadratic, q_b: &'a Quadratic, soft: (f64, f64), target: Target) -> Self {
+        let curve = Curve::new(side(q_a, soft.0), side(q_b, soft.1), target);
+        let (of_a, of_b) = target.changes(q_a.expansion, q_b.expansion);
+        Self { curve, target, expanded: of_a + of_b }
+    }
+
+    /// Searches λ from a guess until the mismatch of the two sides is `enough`; 0 for as good as rounding allows.
+    /// `None` when a factorisation breaks down.
+    #[inline(always)]
+    pub fn solve(&self, guess: f64, enough: f64) -> Option<Optimum> {
+        self.search(guess.clamp(LAMBDA_RANGE.0, LAMBDA_RANGE.1), enough)
+    }
+
+    /// The optimum at a given λ.
+    pub fn at(&self, lambda: f64) -> Option<Optimum> {
+        Some(self.curve.optimum(&self.curve.probe(lambda)?))
+    }
+
+    /// What a step and a λ are worth that another model found.
+    pub fn held(&self, step: Vector3<f64>, lambda: f64) -> Option<Optimum> {
+        Some(Optimum { settled: true, ..self.curve.after(step, lambda, &self.curve.probe(lambda)?) })
+    }
+
+    /// Searches λ from one that is in its range.
+    #[inline(always)]
+    pub fn search(&self, first: f64, enough: f64) -> Option<Optimum> {
+        let mut found = self.curve.probe(first)?;
+        let (nearest, farthest) = (found.lambda / FARTHEST, found.lambda * FARTHEST);
+        let (mut low, mut high) = (nearest, farthest);
+        let (mut last, mut slow) = (f64::INFINITY, 0);
+        for _ in 0..MOST_SEARCHES {
+            let (growing, falling) = self.target.sides(found.values.0, found.values.1);
+            let (difference, larger) = (self.target.difference(found.mismatch), larger(growing, falling));
+            if !difference.is_finite() {
+                return None;
+            }
+            // To rounding; or the search, which should do far better, does not even halve it any more.
+            let noise = noise(self.expanded, larger);
+            slow = if difference.abs() > 0.5 * last { slow + 1 } else { 0 };
+            let settled = difference.abs() <= noise;
+            if settled || difference.abs() <= enough {
+                return Some(Optimum { settled, ..self.curve.optimum(&found) });
+            }
+            if slow >= MOST_SLOW && difference.abs() <= STALLING * larger {
+                return Some(self.corrected(found));
+            }
+            last = difference.abs();
+            if difference > 0.0 {
+                high = found.lambda;
+            } else {
+                low = found.lambda;
+            }
+            let next = match self.curve.series(&found) {
+                Some(series) if series.share <= VERY_NEAR || (series.share <= NEAR && enough > 0.0) => {
+                    let further = self.curve.along(&found, &series);
+                    let left = self.target.mismatch(further.values.0, further.values.1);
+                    let settled = series.share <= VERY_NEAR && left <= noise && self.curve.is_balanced(&further);
+                    if settled || left <= enough {
+                        return Some(Optimum { settled, ..further });
+                    }
+                    series.lambda
+                }
+                Some(series) if series.share <= NEAR => series.lambda,
+                _ => self.far(found, growing, falling),
+            };
+            // Beyond what is known of the curve: to its end, and no further.
+            let next = if next >= high && high == farthest {
+                farthest
+            } else if next <= low && low == nearest {
+                nearest
+            } else if low < next && next < high {
+                next
+            } else {
+                (low * high).sqrt()
+            };
+            if next == found.lambda {
+                // No λ does better. At an end of the range there may be a better one, for other quadratics.
+                return Some(Optimum { settled: next != nearest && next != farthest, ..self.curve.optimum(&found) });
+            }
+            found = self.curve.probe(next)?;
+        }
+        Some(self.curve.optimum(&found))
+    }
+
+    /// Where the rounding of the factorisation moves a side by more than its noise, at random for each λ: the way to the root
+    /// along the curve is smooth.
+    #[cold]
+    fn corrected(self, found: Probe<f64>) -> Optimum {
+        let here = self.curve.optimum(&found);
+        let further = self.curve.series(&found).map(|series| self.curve.along(&found, &series));
+        let left = |optimum: &Optimum| self.target.mismatch(optimum.values.0, optimum.values.1);
+        let best = further.filter(|further| left(further) < left(&here)).unwrap_or(here);
+        Optimum { settled: true, ..best }
+    }
+
+    /// The next λ where the series is of no use: far off, the logarithms of both sides are nearly linear in ln λ.
+    #[cold]
+    fn far(self, found: Probe<f64>, growing: f64, falling: f64) -> f64 {
+        // The weighted sum stays what it is on the curve, to first order.
+        let turning = -self.target.per_logarithm(found.weights) * found.rate;
+        let (rate_a, rate_b) = self.target.apart(0.0, turning, found.weights);
+        let (rate_growing, rate_falling) = self.target.changes(rate_a, rate_b);
+        let change = if growing.min(falling) > 0.0 {
+            (falling / growing).ln() / (rate_growing / growing - rate_falling / falling)
+        } else {
+            (falling - growing) / (rate_growing - rate_falling)
+        };
+        found.lambda * change.clamp(-60.0, 60.0).exp()
+    }
+}
+
+/// A quadratic and its least curvature.
+#[inline(always)]
+fn side(q: &Quadratic, soft: f64) -> Side<'_, f64> {
+    Side { value: q.expansion, gradient: &q.gradient, hessian: &q.hessian, soft }
+}
+
+/// P1 and P2 by one step along the series of their curves, from guesses of their λ; `None` where that does not do.
+///
+/// Each holds one body at S = 1 and minimises the other's S: the same in two lanes, in one of them with the bodies swapped.
+#[inline(always)]
+pub(crate) fn both_closest([q_a, q_b]: [&Quadratic; 2], soft: (f64, f64), lambdas: [f64; 2]) -> Option<[Optimum; 2]> {
+    let is_weight = |lambda: f64| lambda > LAMBDA_RANGE.0 && lambda < LAMBDA_RANGE.1;
+    if !lambdas.into_iter().all(is_weight) {
+        return None;
+    }
+    let (of, twin) = (Twin::splat, |x: &Vector3<f64>, y: &Vector3<f64>| x.zip_map(y, Twin::new));
+    let (g_free, g_held) = (twin(&q_a.gradient, &q_b.gradient), twin(&q_b.gradient, &q_a.gradient));
+    let h_free = Symmetric::twin(&q_a.hessian, &q_b.hessian);
+    let h_held = Symmetric::twin(&q_b.hessian, &q_a.hessian);
+    let value = Twin::new(q_a.expansion, q_b.expansion);
+    let free = Side { value, gradient: &g_free, hessian: &h_free, soft: Twin::new(soft.0, soft.1) };
+    let value = Twin::new(q_b.expansion, q_a.expansion);
+    let held = Side { value, gradient: &g_held, hessian: &h_held, soft: Twin::new(soft.1, soft.0) };
+    let curve = Curve::new(free, held, Target::OnB);
+    let probe = curve.probe(Twin::new(lambdas[1], 1.0 / lambdas[0]))?;
+    let series = curve.series(&probe)?;
+    if !series.share.is_at_most(of(RATHER_NEAR)) {
+        return None;
+    }
+    let found = curve.further_along(&probe, &series);
+    let noise = noise(held.value, probe.values.1.larger(of(1.0)));
+    let settled = (found.values.1 - of(1.0)).magnitude().is_at_most(noise) && curve.is_balanced(&found);
+    settled.then(|| [found.lane(1).swapped(), found.lane(0)])
+}
+
+impl Optimum {
+    /// With A and B the other way round.
+    #[inline(always)]
+    fn swapped(self) -> Self {
+        let (gradients, values) = ([self.gradients[1], self.gradients[0]], (self.values.1, self.values.0));
+        Self { gradients, values, lambda: 1.0 / self.lambda, factored: 1.0 / self.factored, ..self }
+    }
+}
+
+impl Optimum<Twin> {
+    /// That of one lane, of which λ is as good as rounding allows.
+    #[inline(always)]
+    fn lane(&self, i: usize) -> Optimum {
+        let vector = |v: &Vector3<Twin>| v.map(|x| x.0[i]);
+        Optimum {
+            step: vector(&self.step),
+            gradients: [vector(&self.gradients[0]), vector(&self.gradients[1])],
+            values: (self.values.0.0[i], self.values.1.0[i]),
+            lambda: self.lambda.0[i],
+            settled: true,
+            factor: self.factor.lane(i),
+            factored: self.factored.0[i],
+            along: vector(&self.along),
+            rate: self.rate.0[i],
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// S of a body whose surface is an ellipsoid about a centre, seen from the origin.
+    fn about(centre: [f64; 3], hessian: Symmetric) -> Quadratic {
+        let to_centre = Vector3::from(centre);
+        let gradient = -hessian.times(&to_centre);
+        let value = -0.5 * gradient.dot(&to_centre);
+        Quadratic { value, expansion: value, gradient, hessian, pull: 0.0, count: 0, clear: f64::INFINITY }
+    }
+
+    #[test]
+    fn both_closest_points_in_lanes_are_those_of_the_search() {
+        let q_a = about([-0.9, 0.1, 0.2], Symmetric { xx: 2.5, yx: 0.3, yy: 4.0, zx: -0.2, zy: 0.1, zz: 1.5 });
+        let q_b = about([0.95, -0.2, 0.1], Symmetric { xx: 1.8, yx: -0.1, yy: 2.0, zx: 0.4, zy: 0.5, zz: 5.0 });
+        let soft = (1.0, 1.0);
+        let alone =
+            [Target::OnA, Target::OnB].map(|target| Model::new(&q_a, &q_b, soft, target).solve(1.0, 0.0).unwrap());
+        let guesses = [alone[0].lambda * (1.0 + 3e-4), alone[1].lambda * (1.0 - 3e-4)];
+        let both = both_closest([&q_a, &q_b], soft, guesses).expect("guesses from nearby");
+        for ((target, alone), both) in [Target::OnA, Target::OnB].into_iter().zip(&alone).zip(&both) {
+            assert!((both.step - alone.step).norm() < 1e-14, "{target:?}");
+            assert!((both.lambda / alone.lambda - 1.0).abs() < 1e-13, "{target:?}");
+            assert!(target.mismatch(both.values.0, both.values.1) < 1e-14, "{target:?}");
+            assert!(both.slope(target).norm() < 1e-14, "{target:?}");
+        }
+        // From too far, and of no weights, it is left to the search.
+        assert!(both_closest([&q_a, &q_b], soft, guesses.map(|guess| 1.5 * guess)).is_none());
+        assert!(both_closest([&q_a, &q_b], soft, [-1.0, 1.0]).is_none());
+    }
+}

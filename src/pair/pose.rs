@@ -1,0 +1,116 @@
+//! Rigid poses, and the one change of frame that a contact call makes.
+
+use nalgebra::{Isometry3, Matrix3, Rotation3, UnitQuaternion, Vector3};
+use thiserror::Error;
+
+/// Why numbers do not make a pose.
+#[derive(Clone, Copy, Debug, Error, PartialEq)]
+#[allow(missing_docs)]
+pub enum PoseError {
+    #[error("position ({0:?}, {1:?}, {2:?}) is not finite")]
+    Position(f64, f64, f64),
+    #[error("orientation w={0:?}, x={1:?}, y={2:?}, z={3:?} is not a quaternion that can be normalised")]
+    Orientation(f64, f64, f64, f64),
+    #[error(
+        "the rotation matrix is off from a rotation by {0:e} in an entry of its square: columns must be orthonormal"
+    )]
+    Rotation(f64),
+}
+
+/// Largest error of an entry of RᵀR − 1 at which R still counts as a rotation that was rounded or stored in few digits.
+const ORTHONORMAL: f64 = 1e-6;
+
+/// Where a body is: world = rotation · local + position.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pose {
+    position: Vector3<f64>,
+    /// As given, of any length: the extended tier derives the rotation from it in its own precision.
+    orientation: [f64; 4],
+    rotation: Matrix3<f64>,
+}
+
+impl Pose {
+    /// From a position and a quaternion (w, x, y, z), local to world, normalised here.
+    ///
+    /// # Errors
+    /// A position or quaternion that is not finite, or a quaternion shorter than 1e-150 or longer
+    /// than 1e150 (its square would leave the range of f64).
+    pub fn new(position: [f64; 3], orientation: [f64; 4]) -> Result<Self, PoseError> {
+        let [x, y, z] = position;
+        if !position.iter().all(|v| v.is_finite()) {
+            return Err(PoseError::Position(x, y, z));
+        }
+        let [w, i, j, k] = orientation;
+        let square = w * w + i * i + j * j + k * k;
+        if !(1e-300..=1e300).contains(&square) {
+            return Err(PoseError::Orientation(w, i, j, k));
+        }
+        // The matrix of the unit quaternion, without its root.
+        let t = 2.0 / square;
+        let (ti, tj, tk) = (t * i, t * j, t * k);
+        let rotation = Matrix3::new(
+            1.0 - (tj * j + tk * k),
+            ti * j - tk * w,
+            ti * k + tj * w,
+            ti * j + tk * w,
+            1.0 - (ti * i + tk * k),
+            tj * k - ti * w,
+            ti * k - tj * w,
+            tj * k + ti * w,
+            1.0 - (ti * i + tj * j),
+        );
+        Ok(Self { position: Vector3::from(position), orientation, rotation })
+    }
+
+    /// No rotation, at a position.
+    pub fn at(position: [f64; 3]) -> Result<Self, PoseError> {
+        Self::new(position, [1.0, 0.0, 0.0, 0.0])
+    }
+
+    /// From a rotation matrix, local to world; the pose is that of the nearest quaternion.
+    ///
+    /// # Errors
+    /// A position that is not finite, or a matrix that is no rotation to six digits.
+    pub fn from_rotation(position: [f64; 3], rotation: &Matrix3<f64>) -> Result<Self, PoseError> {
+        let off = (rotation.tr_mul(rotation) - Matrix3::identity()).amax();
+        if !(off <= ORTHONORMAL && rotation.determinant() > 0.0) {
+            return Err(PoseError::Rotation(off));
+        }
+        let quaternion = UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(*rotation));
+        Self::new(position, [quaternion.w, quaternion.i, quaternion.j, quaternion.k])
+    }
+
+    /// Centre of the particle, world frame.
+    pub fn position(&self) -> &Vector3<f64> {
+        &self.position
+    }
+
+    /// The quaternion (w, x, y, z), local to world, as it was given: of any length.
+    pub fn orientation(&self) -> [f64; 4] {
+        self.orientation
+    }
+
+    /// Local to world.
+    pub fn rotation(&self) -> &Matrix3<f64> {
+        &self.rotation
+    }
+
+    /// World point to local point.
+    pub fn to_local(&self, world: &Vector3<f64>) -> Vector3<f64> {
+        self.rotation.tr_mul(&(world - self.position))
+    }
+
+    /// Local direction to world direction.
+    pub fn rotate(&self, local: &Vector3<f64>) -> Vector3<f64> {
+        self.rotation * local
+    }
+}
+
+impl TryFrom<&Isometry3<f64>> for Pose {
+    type Error = PoseError;
+
+    fn try_from(isometry: &Isometry3<f64>) -> Result<Self, PoseError> {
+        let q = isometry.rotation.quaternion();
+        Self::new(isometry.translation.vector.into(), [q.w, q.i, q.j, q.k])
+    }
+}

@@ -1,0 +1,38 @@
+//! Two particles in one frame: the only place where poses are combined.
+
+use crate::pair::pose::Pose;
+use crate::particle::particle::Particle;
+use nalgebra::{Matrix3, Vector3};
+
+/// A pair seen from B: every solver works in the local frame of B.
+///
+/// The difference of the two positions is taken before anything is rotated, so that a pair far
+/// from the world origin loses no more than the rounding of its own positions.
+#[derive(Clone, Copy, Debug)]
+pub struct Pair<'a> {
+    /// Particle A.
+    pub a: &'a Particle,
+    /// Particle B.
+    pub b: &'a Particle,
+    /// Local frame of A to local frame of B.
+    pub rotation: Matrix3<f64>,
+    /// Centre of A in the local frame of B.
+    pub centre: Vector3<f64>,
+}
+
+impl<'a> Pair<'a> {
+    /// The pair (A, B) at the given poses.
+    pub fn new(a: &'a Particle, pose_a: &Pose, b: &'a Particle, pose_b: &Pose) -> Self {
+        Self {
+            a,
+            b,
+            rotation: pose_b.rotation().tr_mul(pose_a.rotation()),
+            centre: pose_b.rotation().tr_mul(&(pose_a.position() - pose_b.position())),
+        }
+    }
+
+    /// A point in the frame of B, seen in the local frame of A.
+    pub fn in_a(&self, x: &Vector3<f64>) -> Vector3<f64> {
+        self.rotation.tr_mul(&(x - self.centre))
+    }
+}

@@ -1,0 +1,185 @@
+//! Cheap proofs that a pair is separated. Each is one-sided: "no" means nothing.
+
+use crate::contact::contact::Flags;
+use crate::linalg::number::{larger, smaller};
+use crate::pair::pose::Pose;
+use crate::pair::relative_pose::Pair;
+use crate::particle::particle::Particle;
+use crate::particle::potential;
+use nalgebra::{Matrix3, Vector3};
+
+/// Rounding of the sums below, relative to the lengths in them; thirty times what they can lose.
+const MARGIN: f64 = 1e-14;
+
+/// A proof that two particles share no point.
+#[derive(Clone, Copy, Debug)]
+pub struct Apart {
+    /// Which proof.
+    pub by: Flags,
+    /// The particles are at least this far from each other, length.
+    pub distance: f64,
+}
+
+impl Apart {
+    /// From a distance that is known but for the rounding of a few operations on it.
+    fn new(by: Flags, distance: f64) -> Self {
+        Self { by, distance: distance * (1.0 - MARGIN) }
+    }
+}
+
+/// Two balls that hold the particles and do not meet.
+pub fn balls_apart(pair: &Pair) -> Option<Apart> {
+    let distance = pair.centre.norm() * (1.0 - MARGIN) - (pair.a.bounding_radius() + pair.b.bounding_radius());
+    (distance > 0.0).then(|| Apart::new(Flags::BY_SPHERES, distance))
+}
+
+/// A cheap proof, by balls or by faces, that the particles share no point.
+pub fn proof_of_separation(pair: &Pair) -> Option<Apart> {
+    let (a, b) = (pair.a, pair.b);
+    balls_apart(pair).or_else(|| {
+        let distance = pair.centre.norm();
+        let b_in_a = pair.in_a(&Vector3::zeros());
+        beyond_a_face(a, &b_in_a, b, &pair.rotation, distance)
+            .or_else(|| beyond_a_face(b, &pair.centre, a, &pair.rotation.transpose(), distance))
+            .map(|distance| Apart::new(Flags::BY_FACE, distance))
+    })
+}
+
+/// What the tangents of both potentials at x (local frame of B) prove, if that the particles share no point.
+///
+/// S is convex, so that for any λ > 0 and any y that both hold
+///
+/// ```text
+/// 1 + λ ≥ S_A(y) + λ S_B(y) ≥ S_A(x) + λ S_B(x) − |∇S_A(x) + λ ∇S_B(x)|·|y − x|
+/// ```
+///
+/// and |y − x| is at most the way to the far side of either ball. At the optimum of midway the gradients
+/// are opposite, and the point of the last call is near it.
+///
+/// Of two points at a distance d, one in A and one in B, the left side gains |∇S_A(x)|·d or λ|∇S_B(x)|·d, whichever of
+/// the two points y is: what is left above 1 + λ, over the larger of them, is a distance that no two points keep below.
+#[inline(always)]
+pub(crate) fn still_apart(
+    (particle_a, pose_a): (&Particle, &Pose),
+    (particle_b, pose_b): (&Particle, &Pose),
+    x: &Vector3<f64>,
+) -> Option<Apart> {
+    // In world axes: the pair itself, with its product of rotations, is not needed.
+    let from_a = pose_b.rotation() * x + (pose_b.position() - pose_a.position());
+    let a = potential::tangent(particle_a, &pose_a.rotation().tr_mul(&from_a));
+    let b = potential::tangent(particle_b, x);
+    let (to_a, to_b) = (from_a.norm(), x.norm());
+    let reach = smaller(to_a + particle_a.bounding_radius(), to_b + particle_b.bounding_radius());
+    let (gradient_a, gradient_b) = (pose_a.rotation() * a.gradient, pose_b.rotation() * b.gradient);
+    // The λ for which the sum of the gradients is shortest.
+    let lambda = -gradient_a.dot(&gradient_b) / gradient_b.norm_squared();
+    let slope = (gradient_a + lambda * gradient_b).norm();
+    // What rounding can do: to the distances of the planes, and with them to the values and the slope.
+    let lengths = 2.0 * (to_a + to_b + particle_a.bounds.offset_within(to_a) + particle_b.bounds.offset_within(to_b));
+    let blur = MARGIN * lengths;
+    let doubt = |t: &potential::Tangent| blur * (t.pull + t.stiffness * (blur + reach)) + MARGIN * t.value;
+    let least = a.value + lambda * b.value - slope * reach - doubt(&a) - lambda * doubt(&b);
+    if !(lambda > 0.0 && least > 1.0 + lambda) {
+        return None;
+    }
+    // λ|∇S_B| is the projection of ∇S_A, and no longer.
+    let steepest = gradient_a.norm() + blur * larger(a.stiffness, lambda * b.stiffness);
+    Some(Apart::new(Flags::BY_MEMORY, (least - (1.0 + lambda)) / steepest))
+}
+
+/// How far `other`, centred at `centre` in the frame of `host`, lies beyond a face of `host`, if it does.
+///
+/// f ≤ 0 implies n·x ≤ d + r/√(1−k). The ball of `other` is tried against every face; its corners, which
+/// are tighter, against the face that its centre lies furthest beyond. `to_other` takes
+/// directions from the frame of `host` to that of `other`.
+fn beyond_a_face(
+    host: &Particle,
+    centre: &Vector3<f64>,
+    other: &Particle,
+    to_other: &Matrix3<f64>,
+    distance: f64,
+) -> Option<f64> {
+    if host.is_sphere() {
+        return None;
+    }
+    let ball = other.bounding_radius();
+    let (most, face) = host.farthest_excess(centre);
+    let n = host.normal(face);
+    let length = n.norm();
+    let reach = host.bounds.face_reach;
+    let slack = MARGIN * (distance * length + host.offset(face).abs() + reach + ball * length);
+    let gap = most - reach - slack;
+    if gap > ball * length {
+        return Some(gap / length - ball);
+    }
+    let extent = other.support(&(to_other * (-n / length)));
+    (gap > length * extent).then(|| gap / length - extent)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Kind, Memory, Settings, detect};
+
+    fn cube() -> Particle {
+        Particle::cube(0.4, 0.1, 0.02, 0.9)
+    }
+
+    /// Numbers in (−1, 1) that look like chance.
+    fn scattered(seed: usize) -> impl FnMut() -> f64 {
+        let mut state = seed as f64;
+        move || {
+            state += 1.0;
+            2.0 * (1e4 * (12.9898 * state).sin()).rem_euclid(1.0) - 1.0
+        }
+    }
+
+    #[test]
+    fn whoever_moves_by_less_than_the_distance_meets_nobody() {
+        let (a, pose_a, settings) = (cube(), Pose::at([0.0; 3]).unwrap(), Settings::default());
+        let mut seen = [0; 3];
+        for seed in 0..200 {
+            let mut chance = scattered(1000 * seed);
+            let mut vector = || Vector3::from_fn(|_, _| chance());
+            let (turn, direction) = (vector(), vector().normalize());
+            let at = |position: Vector3<f64>| Pose::new(position.into(), [0.5, turn.x, turn.y, turn.z]).unwrap();
+            let mut memory = Memory::default();
+            // Closer from call to call, so that the proof changes.
+            for far in (0..40).map(|i| 2.2 - 0.03 * f64::from(i)) {
+                let pose_b = at(far * direction);
+                let contact = detect(&a, &pose_a, &a, &pose_b, &settings, Some(&mut memory)).unwrap();
+                if contact.kind == Kind::Overlapping {
+                    assert!(contact.distance.is_nan());
+                    break;
+                }
+                let proofs = [Flags::BY_SPHERES, Flags::BY_FACE, Flags::BY_MEMORY];
+                let Some(proof) = proofs.iter().position(|&proof| contact.flags.contains(proof)) else {
+                    assert_eq!(contact.distance, 0.0, "a solver knows no distance");
+                    continue;
+                };
+                seen[proof] += 1;
+                assert!(contact.distance > 0.0);
+                for towards in [-direction, vector().normalize(), vector().normalize()] {
+                    let moved = at(far * direction + 0.999_999 * contact.distance * towards);
+                    let then = detect(&a, &pose_a, &a, &moved, &settings, None).unwrap();
+                    assert_eq!(then.kind, Kind::Separated, "{contact:?} moved along {towards:?}");
+                }
+            }
+        }
+        assert!(seen.iter().all(|&count| count > 100), "{seen:?}");
+    }
+
+    #[test]
+    fn faces_and_balls_know_their_distance() {
+        let (cube, ball) = (cube(), Particle::sphere(0.5).unwrap());
+        let distance = |a: &Particle, b: &Particle, at: [f64; 3]| {
+            let (pose_a, pose_b) = (Pose::at([0.0; 3]).unwrap(), Pose::at(at).unwrap());
+            proof_of_separation(&Pair::new(a, &pose_a, b, &pose_b)).unwrap().distance
+        };
+        let between = 5.0 - 2.0 * ball.bounding_radius();
+        assert!((distance(&ball, &ball, [0.0, 3.0, 4.0]) - between).abs() < 1e-12 && between > 3.99);
+        // A face bulges by what the shadow sphere takes away and (1−k) gives: the bounds know it to a few percent of r.
+        let faces = distance(&cube, &cube, [0.0, 1.2, 0.0]);
+        assert!(0.19 < faces && faces <= 0.2 + 0.01, "{faces}");
+    }
+}

@@ -1,0 +1,49 @@
+//! What one ordered pair remembers between calls.
+
+use nalgebra::Vector3;
+
+/// The last solution of a pair, from which the next call starts.
+///
+/// It is a hint only: any content, even of another pair, leaves the answer within its gap.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Memory {
+    pub(crate) last: Option<Remembered>,
+}
+
+/// The solution of midway, or what comes near it where closest was found without.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Remembered {
+    /// P3 in the local frame of B.
+    pub x: Vector3<f64>,
+    /// Ratio of weights λ = u/(1−u).
+    pub lambda: f64,
+    /// Whether the particles overlapped: if so, cheap proofs of separation are hardly worth a try.
+    pub overlapping: bool,
+    /// By what the λ of P1 and P2 differ from what [`crate::model::dual_path::closest_from_between`] makes of the above: factors.
+    pub closest: [f64; 2],
+}
+
+impl Memory {
+    /// Marks a filled memory in its raw form; all-zero bytes are an empty one.
+    const FILLED: f64 = 1.0;
+
+    /// From the eight numbers of the C interface; whatever is not a filled memory is an empty one.
+    pub fn from_raw(state: [f64; 8]) -> Self {
+        let [tag, x, y, z, lambda, overlapping, of_p1, of_p2] = state;
+        let usable =
+            tag == Self::FILLED && [x, y, z].iter().all(|v| v.is_finite()) && lambda > 0.0 && lambda.is_finite();
+        let (x, overlapping, closest) = (Vector3::new(x, y, z), overlapping == 1.0, [of_p1, of_p2]);
+        let remembered = || Remembered { x, lambda, overlapping, closest };
+        Self { last: usable.then(remembered) }
+    }
+
+    /// To the eight numbers of the C interface.
+    pub fn into_raw(self) -> [f64; 8] {
+        match self.last {
+            Some(Remembered { x, lambda, overlapping, closest: [of_p1, of_p2] }) => {
+                [Self::FILLED, x.x, x.y, x.z, lambda, if overlapping { 1.0 } else { 0.0 }, of_p1, of_p2]
+            }
+            None => [0.0; 8],
+        }
+    }
+}

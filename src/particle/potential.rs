@@ -1,0 +1,170 @@
+//! S, its gradient and its Hessian: the only loops over planes.
+//!
+//! Everything here takes the point y in the particle's local frame. S is piecewise quadratic, so
+//! that value, gradient and Hessian at a point describe it exactly until a plane switches.
+
+use crate::linalg::number::{larger, smaller};
+use crate::linalg::symmetric::Symmetric;
+use crate::particle::particle::Particle;
+use nalgebra::Vector3;
+
+/// S near a point: S(x + h) = expansion + gradient·h + ½ hᵀ·hessian·h while the planes that are counted as
+/// active have n·(x + h) ≥ d, and no others.
+#[derive(Clone, Copy, Debug)]
+pub struct Quadratic {
+    /// S(x), no unit.
+    pub value: f64,
+    /// The quadratic at x; more than `value` only by planes counted before they switch on.
+    pub expansion: f64,
+    /// ∇S(x), 1/length.
+    pub gradient: Vector3<f64>,
+    /// ∇²S(x), 1/length²; where a plane is just switching on, the side without it.
+    pub hessian: Symmetric,
+    /// 2(1-k)/r² · Σ ⟨n_i·x − d_i⟩: how fast S changes when every plane moves in by one unit of
+    /// length. Times the rounding of a plane's distance it bounds the rounding of S.
+    pub pull: f64,
+    /// Planes that are counted.
+    pub count: u32,
+    /// No n·x − d is nearer to where its plane switches on or off; below 0 where one counts before it is on, or is on and
+    /// does not count.
+    pub clear: f64,
+}
+
+impl Quadratic {
+    /// Bound on the terms of S after a step v, in the axes of the quadratic: (√S + Σ|v_i|·√(h_ii/2))², at most fourfold.
+    #[inline]
+    pub(crate) fn terms(&self, v: &Vector3<f64>) -> f64 {
+        self.expansion + 1.5 * v.component_mul(v).dot(&self.hessian.diagonal())
+    }
+
+    /// Bound on the rounding of the sums by which S is taken along a step v with these terms, axis by axis: along a face a long
+    /// step has but the curvature of the face. By Cauchy's inequality no sum in the Hessian has terms above √(h_ii·h_jj).
+    #[inline]
+    pub(crate) fn rounding_after(&self, v: &Vector3<f64>, terms: f64) -> f64 {
+        2.0 * f64::EPSILON * (2.0 * terms + v.abs().dot(&self.gradient.abs()))
+    }
+}
+
+/// S and ∇S at a point.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Tangent {
+    /// S.
+    pub value: f64,
+    /// ∇S, 1/length.
+    pub gradient: Vector3<f64>,
+    /// As in [`Quadratic`].
+    pub pull: f64,
+    /// 2(1-k)/r² · Σ |n_i| over the active planes: how far ∇S moves when every plane moves in by one unit of length.
+    pub stiffness: f64,
+}
+
+/// S on a line: value, slope and curvature at one point of it.
+#[derive(Clone, Copy, Debug)]
+pub struct OnLine {
+    /// S.
+    pub value: f64,
+    /// dS/dα.
+    pub slope: f64,
+    /// d²S/dα².
+    pub curvature: f64,
+}
+
+/// S(y).
+pub fn value(particle: &Particle, y: &Vector3<f64>) -> f64 {
+    let mut sum = 0.0;
+    particle.visit_near(y, 0.0, |_, _, excess| sum += excess.max(0.0) * excess.max(0.0));
+    particle.plane_weight * sum + particle.sphere_weight * y.norm_squared()
+}
+
+/// S, ∇S, ∇²S at y, local frame.
+pub fn local(particle: &Particle, y: &Vector3<f64>) -> Quadratic {
+    turned(particle, (particle.plane_weight, particle.sphere_weight), |n| n, y, 0.0, |_, excess| excess > 0.0)
+}
+
+/// S, ∇S, ∇²S at the local point y, with derivatives in the frame that `turn` takes local directions to, and
+/// with weights of the planes and of the shadow sphere that may differ from the particle's own. `counts` says of a
+/// plane and its n·y − d whether it belongs to the quadratic; none below −`early` does.
+///
+/// Each active normal is turned before it is squared, not the finished Hessian: in a frame aligned
+/// with a face the stiff and the soft direction then stay apart to full relative precision.
+#[inline(always)]
+pub(crate) fn turned(
+    particle: &Particle,
+    (plane_weight, sphere_weight): (f64, f64),
+    turn: impl Fn(Vector3<f64>) -> Vector3<f64>,
+    y: &Vector3<f64>,
+    early: f64,
+    counts: impl Fn(usize, f64) -> bool,
+) -> Quadratic {
+    let (mut square, mut all, mut linear, mut count) = (0.0, 0.0, 0.0, 0);
+    let mut g = Vector3::zeros();
+    let mut squares = Symmetric::default();
+    let mut clear = f64::INFINITY;
+    let most_left_out = particle.visit_near(y, early, |i, n, excess| {
+        if !counts(i, excess) {
+            clear = smaller(-excess, clear);
+        } else {
+            clear = smaller(excess, clear);
+            let n = turn(n);
+            let reached = larger(excess, 0.0);
+            square += reached * reached;
+            all += excess * excess;
+            linear += reached;
+            count += 1;
+            g += excess * n;
+            squares.add_square(&n);
+        }
+    });
+    let (w2, m2) = (2.0 * plane_weight, 2.0 * sphere_weight);
+    let of_sphere = sphere_weight * y.norm_squared();
+    Quadratic {
+        value: plane_weight * square + of_sphere,
+        expansion: plane_weight * all + of_sphere,
+        gradient: w2 * g + m2 * turn(*y),
+        hessian: squares.scaled(w2, m2),
+        pull: w2 * linear,
+        count,
+        clear: smaller(clear, -most_left_out),
+    }
+}
+
+/// S, ∇S at y, local frame.
+#[inline(always)]
+pub(crate) fn tangent(particle: &Particle, y: &Vector3<f64>) -> Tangent {
+    let (mut square, mut linear, mut count) = (0.0, 0.0, 0.0);
+    let mut g = Vector3::zeros();
+    particle.visit_near(y, 0.0, |_, n, excess| {
+        if excess > 0.0 {
+            square += excess * excess;
+            linear += excess;
+            count += 1.0;
+            g += excess * n;
+        }
+    });
+    let (w, m) = (particle.plane_weight, particle.sphere_weight);
+    Tangent {
+        value: w * square + m * y.norm_squared(),
+        gradient: 2.0 * (w * g + m * y),
+        pull: 2.0 * w * linear,
+        stiffness: 2.0 * w * count * particle.bounds.longest_normal,
+    }
+}
+
+/// S, slope and curvature at y along the local direction `e` (any length; it sets the unit of α).
+pub fn on_line(particle: &Particle, sphere_weight: f64, y: &Vector3<f64>, e: &Vector3<f64>) -> OnLine {
+    let (mut square, mut mixed, mut steep) = (0.0, 0.0, 0.0);
+    particle.visit_near(y, 0.0, |_, n, excess| {
+        if excess > 0.0 {
+            let rate = n.dot(e);
+            square += excess * excess;
+            mixed += excess * rate;
+            steep += rate * rate;
+        }
+    });
+    let (w, m) = (particle.plane_weight, sphere_weight);
+    OnLine {
+        value: w * square + m * y.norm_squared(),
+        slope: 2.0 * (w * mixed + m * y.dot(e)),
+        curvature: 2.0 * (w * steep + m * e.norm_squared()),
+    }
+}

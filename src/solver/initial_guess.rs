@@ -1,0 +1,323 @@
+//! Where a search without memory begins.
+//!
+//! Near contact a few planes of each particle decide, and which ones is a question about the sharp polyhedra behind
+//! the particles. With w the weight (1−k)/r² of a particle's planes, let
+//!
+//! ```text
+//! F(x) = max over the planes of A and of B of √w·(n·x − d)
+//! ```
+//!
+//! Its minimum lies where up to four planes hold each other, Σ c_i g_i = 0 with g_i = √w n_i, c_i ≥ 0 and Σ c_i = 1:
+//! a linear program in x and F. It is solved by steepest descent: against the shortest vector y in the convex hull of
+//! the g_i in force, until another plane takes over, which joins the hull; those that y no longer needs leave it.
+//!
+//! As long as the same planes decide, the minimiser of max(S_A, S_B) without the spheres' shares then is known in closed
+//! form. Forces balance at excesses √w·(n_i·x − d_i) = τ c_i/α on A and τ c_i/β on B, where α² and β² are the
+//! sums of c_i² over the planes of A and of B; both S are τ², τ = F/(α + β), and the ratio of weights is λ = β/α.
+
+use crate::linalg::number::larger;
+use crate::model::local_model::Start;
+use crate::model::problem::Target;
+use crate::pair::placed_particle::Body;
+use crate::pair::relative_pose::Pair;
+use crate::particle::plane_clusters;
+use crate::solver::line_search::{self, Merit};
+use nalgebra::Vector3;
+
+/// Most planes that take over, one after the other, and most trials for each. A start need not be perfect.
+const MOST_PLANES: usize = 24;
+const MOST_TRIALS: usize = 24;
+
+/// Relative to F: no other plane lies higher.
+const LEVEL: f64 = 1e-9;
+
+/// Relative to the rate of F: a plane that falls slower than F by no more than this does not take over.
+const SLOW: f64 = 1e-6;
+
+/// Square of the shortest vector of the hull, relative to the longest, that is none: the planes hold each other.
+const BALANCED: f64 = 1e-20;
+
+/// Sphericity from which the spheres decide as much as the planes.
+const ROUND: f64 = 0.5;
+
+/// A start without memory.
+pub(crate) fn cold(pair: &Pair, a: &Body, b: &Body) -> Start {
+    let angular = |body: &Body| !body.particle.is_sphere() && body.particle.sphericity() < ROUND;
+    let between = if angular(a) && angular(b) { between_polyhedra([a, b], centre_line(pair)) } else { None };
+    between.unwrap_or_else(|| on_centre_line(pair, a, b))
+}
+
+/// The best point on the line of centres.
+pub(crate) fn on_centre_line(pair: &Pair, a: &Body, b: &Body) -> Start {
+    let from = a.centre();
+    let direction = -from;
+    let (ra, rb) = (pair.a.bounding_radius(), pair.b.bounding_radius());
+    let guess = ra / (ra + rb);
+    if direction.norm_squared() == 0.0 {
+        return Start { x: Vector3::zeros(), lambda: 1.0, near: false };
+    }
+    let line_search::Descent { alpha, slope_a, slope_b, .. } =
+        line_search::descend(a, b, Merit(Target::Midway, 1.0), &from, &direction, (guess, 1.0));
+    // (1−u) S_A' + u S_B' = 0 on the line.
+    let lambda = -slope_a / slope_b;
+    let lambda = if lambda > 0.0 && lambda.is_finite() { lambda } else { 1.0 };
+    Start { x: from + alpha * direction, lambda, near: false }
+}
+
+/// The point of the line of centres that divides it as the bounding radii do.
+fn centre_line(pair: &Pair) -> Vector3<f64> {
+    let (ra, rb) = (pair.a.bounding_radius(), pair.b.bounding_radius());
+    pair.centre * (rb / (ra + rb))
+}
+
+/// The minimum of F and what follows from it. `None` where the point to begin at is inside both, or no start is found.
+fn between_polyhedra(bodies: [&Body; 2], from: Vector3<f64>) -> Option<Start> {
+    let mut envelope = Envelope::of(bodies);
+    let mut x = from;
+    let (mut level, first) = envelope.first(&x);
+    if !(level > 0.0) {
+        // Inside both polyhedra, the line of centres is as good.
+        return None;
+    }
+    let mut hull = Hull::of(envelope.face(first));
+    for _ in 0..MOST_PLANES {
+        let y = hull.shortest();
+        let rate = y.norm_squared();
+        if hull.count == 4 || rate <= BALANCED * hull.longest {
+            return hull.start(x, level);
+        }
+        let (way, next) = envelope.next(&x, &y, level, rate);
+        x -= way * y;
+        let Some(plane) = next else {
+            // F = 0: inside both polyhedra.
+            return Some(Start { x, lambda: 1.0, near: false });
+        };
+        level -= way * rate;
+        hull.join(envelope.face(plane))?;
+    }
+    None
+}
+
+/// F.
+struct Envelope<'a> {
+    bodies: [&'a Body<'a>; 2],
+    /// √w of A and B.
+    roots: [f64; 2],
+    /// Whether planes are so few that looking through all is cheaper than leaving groups out.
+    few: bool,
+    /// If so, √w·(n·x − d) of all at the last x but one, how fast they fell from there, and how far it was to the last.
+    heights: [[f64; plane_clusters::MOST]; 2],
+    falls: [[f64; plane_clusters::MOST]; 2],
+    way: f64,
+}
+
+/// Body (0, 1) and place of a plane.
+type Which = (usize, usize);
+
+impl<'a> Envelope<'a> {
+    fn of(bodies: [&'a Body<'a>; 2]) -> Self {
+        let few = bodies.iter().all(|body| body.particle.leaves.single());
+        let roots = bodies.map(|body| body.plane_weight().sqrt());
+        Self { bodies, roots, few, heights: Default::default(), falls: Default::default(), way: 0.0 }
+    }
+
+    /// F where the search begins, and the plane that it is that of.
+    fn first(&mut self, x: &Vector3<f64>) -> (f64, Which) {
+        if !self.few {
+            return self.highest(x);
+        }
+        let mut highest = (f64::NEG_INFINITY, (0, 0));
+        for (i, (body, root)) in self.bodies.iter().zip(self.roots).enumerate() {
+            let heights = &mut self.heights[i];
+            body.particle.visit_near(&body.local(x), f64::INFINITY, |place, _, excess| {
+                heights[place] = root * excess;
+                if heights[place] > highest.0 {
+                    highest = (heights[place], (i, place));
+                }
+            });
+        }
+        highest
+    }
+
+    /// F, and the plane that it is that of.
+    fn highest(&self, x: &Vector3<f64>) -> (f64, Which) {
+        let [(of_a, place_a), (of_b, place_b)] = self.bodies.map(|body| body.farthest_excess(x));
+        let (of_a, of_b) = (self.roots[0] * of_a, self.roots[1] * of_b);
+        if of_a > of_b { (of_a, (0, place_a)) } else { (of_b, (1, place_b)) }
+    }
+
+    fn face(&self, (body, place): Which) -> Face {
+        Face { gradient: self.roots[body] * self.bodies[body].normal(place), on_a: body == 0 }
+    }
+
+    /// How far F, now `level`, falls by `rate` a unit of way against y, and which plane takes over there; as far as
+    /// F = 0 if none does. x has come all the way that the last call gave.
+    fn next(&mut self, x: &Vector3<f64>, y: &Vector3<f64>, level: f64, rate: f64) -> (f64, Option<Which>) {
+        if self.few { self.next_of_few(y, level, rate) } else { self.next_of_many(x, y, level, rate) }
+    }
+
+    fn next_of_few(&mut self, y: &Vector3<f64>, level: f64, rate: f64) -> (f64, Option<Which>) {
+        let (mut way, mut next) = (level / rate, None);
+        for (i, (body, root)) in self.bodies.iter().zip(self.roots).enumerate() {
+            let y = root * body.turn(y);
+            let known = self.heights[i].iter_mut().zip(&mut self.falls[i]);
+            for (place, (n, (height, fall))) in body.particle.normals().zip(known).enumerate() {
+                // Followed on its way, not looked up anew: a start need not be perfect.
+                *height -= self.way * *fall;
+                *fall = n.dot(&y);
+                let (below, closing) = (level - *height, rate - *fall);
+                // Planes in force fall as F does.
+                if closing > SLOW * rate && below < way * closing {
+                    (way, next) = (below / closing, Some((i, place)));
+                }
+            }
+        }
+        self.way = way;
+        (way, next)
+    }
+
+    /// By Newton's method from the far end: what lies above F there takes over earlier.
+    fn next_of_many(&self, x: &Vector3<f64>, y: &Vector3<f64>, level: f64, rate: f64) -> (f64, Option<Which>) {
+        let (mut way, mut next) = (level / rate, None);
+        for _ in 0..MOST_TRIALS {
+            let (here, plane) = self.highest(&(x - way * y));
+            let over = here - (level - way * rate);
+            if over <= LEVEL * level {
+                break;
+            }
+            way -= over / (rate - self.face(plane).gradient.dot(y));
+            next = Some(plane);
+        }
+        (way, next)
+    }
+}
+
+/// A plane in force.
+#[derive(Clone, Copy)]
+struct Face {
+    /// g = √w·n in the solver's frame.
+    gradient: Vector3<f64>,
+    on_a: bool,
+}
+
+/// Planes that balance each other as far as they can: y = Σ c_i g_i is the shortest vector of their convex hull.
+struct Hull {
+    faces: [Face; 4],
+    /// c_i > 0, Σ c_i = 1.
+    shares: [f64; 4],
+    count: usize,
+    /// Square of the longest g that was ever in it.
+    longest: f64,
+    /// Vectors in the span of the differences g_i − g_last, each with product 1 with its own and 0 with the others.
+    reciprocal: [Vector3<f64>; 3],
+}
+
+impl Hull {
+    fn of(face: Face) -> Self {
+        let longest = face.gradient.norm_squared();
+        let reciprocal = [Vector3::zeros(); 3];
+        Self { faces: [face; 4], shares: [1.0, 0.0, 0.0, 0.0], count: 1, longest, reciprocal }
+    }
+
+    /// y.
+    fn shortest(&self) -> Vector3<f64> {
+        (1..self.count).fold(self.shares[0] * self.g(0), |sum, i| sum + self.shares[i] * self.g(i))
+    }
+
+    fn g(&self, i: usize) -> &Vector3<f64> {
+        &self.faces[i].gradient
+    }
+
+    /// One more plane; those that y needs no longer go (Wolfe's algorithm). `None` where rounding decides.
+    fn join(&mut self, face: Face) -> Option<()> {
+        self.longest = larger(face.gradient.norm_squared(), self.longest);
+        self.faces[self.count] = face;
+        self.shares[self.count] = 0.0;
+        self.count += 1;
+        loop {
+            let wanted = self.affine();
+            // The way to `wanted` on which all shares stay positive, and which vanishes first.
+            let (mut way, mut first) = (1.0, None);
+            // By index: iterators make these short loops longer.
+            #[allow(clippy::needless_range_loop)]
+            for i in 0..self.count {
+                let (have, want) = (self.shares[i], wanted[i]);
+                if !want.is_finite() {
+                    return None;
+                }
+                if want <= 0.0 && have <= way * (have - want) {
+                    (way, first) = (have / (have - want), Some(i));
+                }
+            }
+            #[allow(clippy::needless_range_loop)]
+            for i in 0..self.count {
+                self.shares[i] += way * (wanted[i] - self.shares[i]);
+            }
+            let Some(i) = first else { return Some(()) };
+            self.count -= 1;
+            if i == self.count {
+                return None;
+            }
+            // The newest stays last.
+            for j in i..self.count {
+                (self.faces[j], self.shares[j]) = (self.faces[j + 1], self.shares[j + 1]);
+            }
+        }
+    }
+
+    /// Shares, of any sign, of the shortest vector in the affine hull.
+    fn affine(&mut self) -> [f64; 4] {
+        let last = self.count - 1;
+        self.reciprocal = self.reciprocal_to_last();
+        let g = self.g(last);
+        let shares = self.reciprocal.map(|r| -g.dot(&r));
+        let mut all = [0.0; 4];
+        all[..last].copy_from_slice(&shares[..last]);
+        all[last] = 1.0 - shares[..last].iter().sum::<f64>();
+        all
+    }
+
+    fn reciprocal_to_last(&self) -> [Vector3<f64>; 3] {
+        let last = self.g(self.count - 1);
+        let zero = Vector3::zeros();
+        match self.count {
+            2 => {
+                let u = self.g(0) - last;
+                [u * (1.0 / u.norm_squared()), zero, zero]
+            }
+            3 => {
+                let (u, v) = (self.g(0) - last, self.g(1) - last);
+                let across = u.cross(&v);
+                let per_area = 1.0 / across.norm_squared();
+                [v.cross(&across) * per_area, across.cross(&u) * per_area, zero]
+            }
+            _ => {
+                let (u, v, w) = (self.g(0) - last, self.g(1) - last, self.g(2) - last);
+                let across = v.cross(&w);
+                let per_volume = 1.0 / u.dot(&across);
+                [across * per_volume, w.cross(&u) * per_volume, u.cross(&v) * per_volume]
+            }
+        }
+    }
+
+    /// The minimiser of max(S_A, S_B) from that of F, and its λ.
+    fn start(&self, x: Vector3<f64>, level: f64) -> Option<Start> {
+        let squares = |on_a: bool| {
+            let of = (0..self.count).filter(|&i| self.faces[i].on_a == on_a);
+            of.map(|i| self.shares[i] * self.shares[i]).sum::<f64>().sqrt()
+        };
+        let (alpha, beta) = (squares(true), squares(false));
+        // One particle's planes alone: its own centre is meant, not a contact.
+        if !(alpha > 0.0 && beta > 0.0) {
+            return None;
+        }
+        let tau = level / (alpha + beta);
+        let per_share = [tau / beta, tau / alpha];
+        let excess = |i: usize| per_share[usize::from(self.faces[i].on_a)] * self.shares[i];
+        let last = self.count - 1;
+        let to_last = excess(last);
+        let step = (0..last).fold(Vector3::zeros(), |sum, i| sum + (excess(i) - to_last) * self.reciprocal[i]);
+        let (x, lambda) = (x + step, beta / alpha);
+        (lambda.is_finite() && x.iter().all(|v| v.is_finite())).then_some(Start { x, lambda, near: true })
+    }
+}
