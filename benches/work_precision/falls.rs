@@ -20,9 +20,7 @@ const BLOCK: usize = 1000;
 pub struct Falls {
     pub calls: usize,
     /// Needed the safe way.
-    pub safer: usize,
-    /// Answered by the conic back end.
-    pub conic: usize,
+    pub extended: usize,
     /// Answered with a gap above the tolerance, because rounding allows no better.
     pub rounding_limited: usize,
     /// Not answered at all.
@@ -60,8 +58,7 @@ fn over(pool: &[Particle], calls: usize, progress: &ProgressBar) -> Falls {
             falls.calls += 1;
             match detect(a, &pose_a, b, &pose_b, &settings, None) {
                 Ok(contact) => {
-                    falls.safer += usize::from(contact.flags.contains(Flags::SAFER));
-                    falls.conic += usize::from(contact.flags.contains(Flags::FELL_BACK));
+                    falls.extended += usize::from(contact.flags.contains(Flags::EXTENDED));
                     falls.rounding_limited += usize::from(contact.flags.contains(Flags::ROUNDING_LIMITED));
                 }
                 Err(_) => falls.failed += 1,

@@ -43,8 +43,7 @@ struct Failures {
 #[derive(Serialize)]
 struct PerMillion {
     calls: usize,
-    safer: f64,
-    conic: f64,
+    extended: f64,
     rounding_limited: f64,
     failed: f64,
 }
@@ -121,10 +120,10 @@ impl Report {
                 println!("{:31} {area_ns:10.0} {area_units:10.0} {:15.0} ns", group.shape, rays.nanoseconds);
             }
         }
-        println!("\nfalls per million calls      safer      conic  rounding-limited     failed");
+        println!("\nfalls per million calls   extended  rounding-limited     failed");
         for (name, falls) in &self.falls_per_million {
-            let PerMillion { safer, conic, rounding_limited, failed, .. } = falls;
-            println!("{name:22} {safer:11.0} {conic:10.0} {rounding_limited:17.0} {failed:10.0}");
+            let PerMillion { extended, rounding_limited, failed, .. } = falls;
+            println!("{name:22} {extended:11.0} {rounding_limited:17.0} {failed:10.0}");
         }
         println!("\nfailures over the pairs known to 40 digits, at each solver's usual tolerance");
         println!("{:34} {:8} {:>9} {:>6} {:>7} {:>11}", "solver", "", "tolerance", "pairs", "failed", "wrong side");
@@ -238,8 +237,7 @@ fn per_million(falls: &Falls) -> PerMillion {
     let scaled = |count: usize| 1e6 * count as f64 / falls.calls.max(1) as f64;
     PerMillion {
         calls: falls.calls,
-        safer: scaled(falls.safer),
-        conic: scaled(falls.conic),
+        extended: scaled(falls.extended),
         rounding_limited: scaled(falls.rounding_limited),
         failed: scaled(falls.failed),
     }

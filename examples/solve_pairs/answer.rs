@@ -70,8 +70,9 @@ impl Answer {
             arguments::BackEnd::Fast => BackEnd::Fast,
             arguments::BackEnd::Conic => BackEnd::Conic,
         };
-        let midway = (wanted != arguments::Formulation::Closest).then(|| midway(input, back_end)).transpose()?;
-        let closest = (wanted != arguments::Formulation::Midway).then(|| closest(input, back_end)).transpose()?;
+        let settings = Settings { back_end, gap_tolerance: arguments.gap_tolerance, ..Settings::default() };
+        let midway = (wanted != arguments::Formulation::Closest).then(|| midway(input, settings)).transpose()?;
+        let closest = (wanted != arguments::Formulation::Midway).then(|| closest(input, settings)).transpose()?;
         Ok(Self { line, midway, closest })
     }
 }
@@ -82,8 +83,8 @@ fn solve(input: &Input, settings: Settings) -> Result<Contact, String> {
     detect(&input.a, &input.pose_a, &input.b, &input.pose_b, &settings, None).map_err(|error| error.to_string())
 }
 
-fn midway(input: &Input, back_end: BackEnd) -> Result<Midway, String> {
-    let contact = solve(input, Settings { formulation: Formulation::Midway, back_end, ..Settings::default() })?;
+fn midway(input: &Input, settings: Settings) -> Result<Midway, String> {
+    let contact = solve(input, Settings { formulation: Formulation::Midway, ..settings })?;
     // Branches lose no digit to a position far from the origin.
     let relative = |point: Vector3<f64>| (point - input.pose_b.position()).into();
     Ok(Midway {
@@ -102,14 +103,14 @@ fn midway(input: &Input, back_end: BackEnd) -> Result<Midway, String> {
     })
 }
 
-fn closest(input: &Input, back_end: BackEnd) -> Result<Closest, String> {
+fn closest(input: &Input, settings: Settings) -> Result<Closest, String> {
     // With all weight on one of them, the contact point is that closest point, of separated particles as well.
     let weighted = |weight_on_a| {
-        solve(input, Settings { formulation: Formulation::Closest, back_end, weight_on_a, ..Settings::default() })
+        solve(input, Settings { formulation: Formulation::Closest, weight_on_a, ..settings })
     };
     let on_b = weighted(0.0)?;
     if on_b.flags.contains(Flags::SLACK) {
-        return slack(input, &on_b, &Settings { back_end, ..Settings::default() });
+        return slack(input, &on_b, &settings);
     }
     let on_a = weighted(1.0)?;
     Ok(Closest {
@@ -155,7 +156,7 @@ fn kind(contact: &Contact) -> &'static str {
 fn path(contact: &Contact) -> &'static str {
     match contact.back_end {
         BackEnd::Conic => "conic",
-        BackEnd::Fast if contact.flags.contains(Flags::SAFER) => "fast safer",
+        BackEnd::Fast if contact.flags.contains(Flags::EXTENDED) => "extended",
         BackEnd::Fast if contact.flags.contains(Flags::WARM) => "fast warm",
         BackEnd::Fast => "fast cold",
     }

@@ -1,6 +1,7 @@
 //! What the command line says.
 
 use clap::{Parser, ValueEnum};
+use potential_particles::Settings;
 use std::path::PathBuf;
 
 /// Solves the contact of each pair of a JSON-lines file; writes one JSON line a pair.
@@ -19,6 +20,9 @@ pub struct Arguments {
     /// Who solves it.
     #[arg(long, value_enum, default_value_t = BackEnd::Fast)]
     pub back_end: BackEnd,
+    /// Relative gap of s² at which to stop, in (0, 0.1]; below 1e-13 the solver goes on in extended precision.
+    #[arg(long, default_value_t = Settings::default().gap_tolerance)]
+    pub gap_tolerance: f64,
 }
 
 /// The problems on offer.

@@ -78,19 +78,18 @@ pub struct Measures {
 }
 
 /// The path that answered a call.
-pub const PATHS: [&str; 8] = [
+pub const PATHS: [&str; 7] = [
     "rejected by spheres",
     "rejected by a face",
     "rejected from memory",
     "separated, proved on the way",
     "solved cold",
     "solved warm",
-    "solved by the safe solver",
-    "fell back to the cone program",
+    "solved in extended precision",
 ];
 
 /// From here on, paths that few pairs take.
-const SAFER: usize = 6;
+const RARE: usize = 6;
 
 /// Why a pair whose turn it is not is put to the second solver all the same.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
@@ -102,7 +101,7 @@ pub enum Doubt {
     Enclosure,
     /// Two answers to the same question use up most of their bounds.
     Disagreement,
-    /// Solved by the safe solver or the cone program.
+    /// Solved in extended precision.
     Path,
     /// Something failed already.
     Failed,
@@ -303,7 +302,7 @@ fn all(
     in_other_units(verdict, &scene, &contact, shared);
     warm(verdict, &scene, &contact, &mut clock, random);
 
-    let unusual = verdict.paths.iter().any(|(_, path)| *path >= SAFER);
+    let unusual = verdict.paths.iter().any(|(_, path)| *path >= RARE);
     verdict.doubt(unusual, Doubt::Path);
     verdict.doubt(!verdict.failures.is_empty(), Doubt::Failed);
     verdict.settled = trial.settle || !verdict.doubts.is_empty();
@@ -342,9 +341,7 @@ pub fn path(contact: &Contact) -> usize {
         1
     } else if has(Flags::BY_MEMORY) {
         2
-    } else if has(Flags::FELL_BACK) {
-        7
-    } else if has(Flags::SAFER) {
+    } else if has(Flags::EXTENDED) {
         6
     } else if has(Flags::REJECTED) {
         3

@@ -28,7 +28,6 @@ pub const PP_FLAG_WARM: u32 = 8;
 /// The fast solver had no answer; its safe way, which always ends, found it.
 pub const PP_FLAG_SAFER: u32 = 16;
 /// The fast solver failed and the conic back end answered in its place.
-pub const PP_FLAG_FELL_BACK: u32 = 32;
 /// The gap is above the tolerance asked for: rounding allows no better. It is still a bound.
 pub const PP_FLAG_ROUNDING_LIMITED: u32 = 64;
 /// Rejected by balls: two that hold the particles do not meet.

@@ -1,13 +1,13 @@
 //! One of the two closest points alone, for pairs of which the other has none.
 
 use crate::contact::detect::DetectError;
-use crate::model::problem::Target;
+use crate::model::problem::Problem;
 use crate::pair::pose::Pose;
 use crate::pair::relative_pose::Pair;
 use crate::particle::particle::Particle;
 use crate::reference::Role;
 use crate::settings::Settings;
-use crate::solver::search::Search;
+use crate::solver::call::Call;
 use nalgebra::Vector3;
 
 /// The closest point on one particle.
@@ -43,12 +43,11 @@ pub fn closest_point(
 ) -> Result<Option<Half>, DetectError> {
     settings.validate()?;
     let pair = Pair::new(a, pose_a, b, pose_b);
-    let target = match on {
-        Role::A => Target::OnA,
-        Role::B => Target::OnB,
+    let problem = match on {
+        Role::A => Problem::OnA,
+        Role::B => Problem::OnB,
     };
-    let mut search = Search::new(&pair, settings);
-    let found = search.constrained(target, None)?;
+    let found = Call::new(&pair, settings).closest_point(problem, None)?;
     Ok(found.map(|found| {
         let branch_b = pose_b.rotate(&found.x);
         let (s, gap, point) = (found.scale.s, found.scale.gap, pose_b.position() + branch_b);

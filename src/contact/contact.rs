@@ -1,11 +1,12 @@
 //! The contact: point, normal and overlap from a solution.
 
-use crate::bounds::certificate::{Certified, Closest};
-use crate::bounds::solution::Outcome;
+use crate::bounds::gap::Scale;
+use crate::bounds::solution::Solution;
 use crate::linalg::number::larger;
 use crate::model::local_model::Piece;
 use crate::pair::placed_particle;
 use crate::pair::pose::Pose;
+use crate::solver::call::ClosestPoint;
 use crate::pair::relative_pose::Pair;
 use crate::particle::particle::Particle;
 use crate::particle::potential;
@@ -35,10 +36,8 @@ impl Flags {
     pub const NORMAL_BY_CENTRES: Self = Self(4);
     /// Started from memory.
     pub const WARM: Self = Self(8);
-    /// The fast solver had no answer; its safe way, which always ends, found it.
-    pub const SAFER: Self = Self(16);
-    /// The fast solver failed; the conic back end answered.
-    pub const FELL_BACK: Self = Self(32);
+    /// Answered in extended precision (about 32 digits): doubles did not settle it, or not to the gap that was asked for.
+    pub const EXTENDED: Self = Self(16);
     /// The gap exceeds the tolerance, because rounding allows no better.
     pub const ROUNDING_LIMITED: Self = Self(64);
 
@@ -142,20 +141,20 @@ impl LocalContact {
     #[inline(always)]
     pub fn midway(
         pair: &Pair,
-        outcome: &Outcome,
-        scale: Certified,
+        solution: &Solution,
+        scale: Scale,
         point_bound: impl Fn() -> f64,
         pieces: impl Fn(&Vector3<f64>) -> [Piece; 2],
         overlapping: bool,
     ) -> Option<Self> {
-        let (x, gradients) = (&outcome.x, &outcome.gradients);
-        let across = Across::of(pair, gradients, outcome.steep);
+        let (x, gradients) = (&solution.x, &solution.gradients);
+        let across = Across::of(pair, gradients, solution.gradient_norms);
         let normal = across.normal();
         let surface = if overlapping {
             let pieces = pieces(&across.vector);
             let (ray_a, ray_b) = (|| Ray::of_a(pair, x, &normal), || Ray::of_b(pair, x, &normal));
-            let to_a = across.way(outcome.values[0], pieces[0], &gradients[0], |guess| ray_a().way(guess))?;
-            let to_b = across.way(outcome.values[1], pieces[1], &-gradients[1], |guess| ray_b().way(guess))?;
+            let to_a = across.way(solution.values[0], pieces[0], &gradients[0], |guess| ray_a().way(guess))?;
+            let to_b = across.way(solution.values[1], pieces[1], &-gradients[1], |guess| ray_b().way(guess))?;
             // Where s < 1 by less than the rounding of the point, the surfaces seem to have passed each other.
             let passed = to_a + to_b < 0.0;
             let (to_a, to_b) = if passed { meeting([ray_a(), ray_b()], [to_a, to_b]) } else { (to_a, to_b) };
@@ -167,7 +166,7 @@ impl LocalContact {
             formulation: Formulation::Midway,
             s: scale.s,
             s_b: f64::NAN,
-            lambda: outcome.lambda,
+            lambda: solution.lambda,
             gap: scale.gap,
             point_bound: point_bound(),
             point: *x,
@@ -179,8 +178,8 @@ impl LocalContact {
 
     /// Closest: overlap distance |P1 − P2|, contact point their weighted mean, normal from the gradients
     /// of A at P1 and of B at P2.
-    pub fn closest(pair: &Pair, [p1, p2]: &[Closest; 2], weight_on_a: f64, overlapping: bool) -> Self {
-        let across = Across::of(pair, &[p1.gradients[0], p2.gradients[1]], [p1.steep[0], p2.steep[1]]);
+    pub fn closest(pair: &Pair, [p1, p2]: &[ClosestPoint; 2], weight_on_a: f64, overlapping: bool) -> Self {
+        let across = Across::of(pair, &[p1.gradients[0], p2.gradients[1]], [p1.gradient_norms[0], p2.gradient_norms[1]]);
         let way = p1.x - p2.x;
         Self {
             formulation: Formulation::Closest,
@@ -276,8 +275,8 @@ struct Across {
 impl Across {
     /// From ∇S_A and ∇S_B and their lengths, frame of B.
     #[inline(always)]
-    fn of(pair: &Pair, gradients: &[Vector3<f64>; 2], steep: [f64; 2]) -> Self {
-        let vector = gradients[0] * (1.0 / steep[0]) - gradients[1] * (1.0 / steep[1]);
+    fn of(pair: &Pair, gradients: &[Vector3<f64>; 2], gradient_norms: [f64; 2]) -> Self {
+        let vector = gradients[0] * (1.0 / gradient_norms[0]) - gradients[1] * (1.0 / gradient_norms[1]);
         let square = vector.norm_squared();
         if square > OPPOSED && square < f64::INFINITY {
             Self { vector, length: square.sqrt(), by_centres: false }

@@ -1,18 +1,17 @@
 //! The whole of contact detection: reject, solve, prove, describe.
 
-use crate::bounds::certificate::Closest;
-use crate::bounds::solution::{Ending, Outcome};
+use crate::bounds::solution::{Ending, Solution};
 use crate::contact::contact::{Contact, Flags, LocalContact};
 use crate::model::dual_path;
-use crate::model::local_model::{Expansion, Start};
-use crate::model::problem::Target;
+use crate::model::local_model::{LocalModel, Start};
+use crate::model::problem::Problem;
 use crate::pair::pose::Pose;
 use crate::pair::relative_pose::Pair;
 use crate::pair::separation_tests::{self, Apart};
 use crate::pair::warm_start::{Memory, Remembered};
 use crate::particle::particle::Particle;
 use crate::settings::{BackEnd, Formulation, Settings, SettingsError};
-use crate::solver::search::Search;
+use crate::solver::call::{Call, ClosestPoint, SolveError};
 use nalgebra::Vector3;
 use thiserror::Error;
 
@@ -23,16 +22,16 @@ pub enum DetectError {
     #[error(transparent)]
     Settings(#[from] SettingsError),
     /// No solver reached an answer. The contact is unknown; this does not mean separated.
-    #[error("no solver reached an answer (the conic one: {conic}); the contact is unknown")]
+    #[error("no solver reached an answer ({reason}); the contact is unknown")]
     Failed {
         /// What stopped the last solver.
-        conic: String,
+        reason: String,
     },
 }
 
-impl From<crate::reference::ConicError> for DetectError {
-    fn from(error: crate::reference::ConicError) -> Self {
-        Self::Failed { conic: error.to_string() }
+impl From<SolveError> for DetectError {
+    fn from(error: SolveError) -> Self {
+        Self::Failed { reason: error.to_string() }
     }
 }
 
@@ -68,32 +67,32 @@ pub(crate) fn solved(
     settings: &Settings,
     memory: Option<&mut Memory>,
 ) -> Result<Contact, DetectError> {
-    let mut search = Search::new(pair, settings);
+    let mut call = Call::new(pair, settings);
     let last = memory.as_deref().and_then(|memory| memory.last);
     let start = match last {
         Some(last) => {
             if settings.back_end == BackEnd::Fast {
-                search.flags.insert(Flags::WARM);
+                call.flags.insert(Flags::WARM);
             }
             Start { x: last.x, lambda: last.lambda, near: true }
         }
-        None => search.cold(),
+        None => call.cold(),
     };
-    let mut here = search.expansion(&start, Target::Midway);
+    let mut model = call.model(&start, Problem::Midway);
     if settings.formulation == Formulation::Closest
         && let Some(last) = last.filter(|last| last.overlapping)
-        && let Some(points) = search.overlapping_still(&last, &here)
+        && let Some(points) = call.both_from_memory(&last, &model)
     {
         remember(memory, midway_between(&points));
         let local = LocalContact::closest(pair, &points, settings.weight_on_a, true);
-        return Ok(local.placed(pair, pose_b, search.call()));
+        return Ok(local.placed(pair, pose_b, call.summary()));
     }
-    // Written so that the outcome need not be copied.
-    let midway = match search.at_once(Target::Midway, start.lambda, &here) {
-        Some(outcome) => outcome,
-        None => search.climb(Target::Midway, &start, last.is_some(), &mut here)?,
+    // Written so that the solution need not be copied.
+    let midway = match call.first_step(Problem::Midway, start.lambda, &model) {
+        Some(solution) => solution,
+        None => call.solve(Problem::Midway, &start, &mut model)?,
     };
-    let scale = search.certify(&midway, Target::Midway);
+    let scale = call.scale(&midway, Problem::Midway);
     let separated = midway.ending == Ending::Separated;
     let least = Settings::default().flat_regularisation;
     if !separated && scale.s >= 1.0 && scale.low < 1.0 && settings.flat_regularisation > least {
@@ -106,11 +105,11 @@ pub(crate) fn solved(
     if separated {
         remember(memory, remembered);
         let contact = Contact::separated(settings.formulation, scale.low.max(1.0));
-        let flags = contact.flags.with(search.flags);
-        return Ok(Contact { flags, iterations: search.iterations, back_end: search.answered, ..contact });
+        let flags = contact.flags.with(call.flags);
+        return Ok(Contact { flags, iterations: call.iterations, back_end: call.answered, ..contact });
     }
     let found = match settings.formulation {
-        Formulation::Closest => closest(&mut search, (&midway, &here))?,
+        Formulation::Closest => closest(&mut call, &midway, &model)?,
         Formulation::Midway => None,
     };
     let local = match &found {
@@ -119,24 +118,24 @@ pub(crate) fn solved(
             LocalContact::closest(pair, points, settings.weight_on_a, overlapping)
         }
         None => {
-            let bound = || search.bound(&midway, &here, Target::Midway);
-            let pieces = |n: &Vector3<f64>| search.pieces(&midway, &here, n);
+            let bound = || call.point_bound(&midway, &model, Problem::Midway);
+            let pieces = |n: &Vector3<f64>| call.pieces(&midway, &model, n);
             LocalContact::midway(pair, &midway, scale, bound, pieces, overlapping)
-                .ok_or_else(|| DetectError::Failed { conic: "the surface was not found along the normal".into() })?
+                .ok_or_else(|| DetectError::Failed { reason: "the surface was not found along the normal".into() })?
         }
     };
     remember(memory, remembered);
-    Ok(local.placed(pair, pose_b, search.call()))
+    Ok(local.placed(pair, pose_b, call.summary()))
 }
 
 /// What to remember of P1 and P2 with the place and λ of midway, where S_A and S_B have these values.
-fn seen_from(midway: Remembered, values: [f64; 2], [p1, p2]: &[Closest; 2]) -> Remembered {
+fn seen_from(midway: Remembered, values: [f64; 2], [p1, p2]: &[ClosestPoint; 2]) -> Remembered {
     let [of_p1, of_p2] = dual_path::closest_from_between(values, midway.lambda);
     Remembered { closest: [p1.lambda / of_p1, p2.lambda / of_p2], ..midway }
 }
 
 /// What to remember of P1 and P2 alone of a pair that overlaps: a place between them and a λ that come near those of midway.
-fn midway_between(points: &[Closest; 2]) -> Remembered {
+fn midway_between(points: &[ClosestPoint; 2]) -> Remembered {
     let [p1, p2] = points;
     let square = (p1.lambda * p1.scale.s) * (p2.lambda / p2.scale.s);
     // On the way from one to the other S is the same quadratic.
@@ -182,15 +181,15 @@ pub(crate) fn begin<T>(
 }
 
 /// Both closest points; midway lies between them. `None` where a constraint is slack, which is flagged.
-fn closest(search: &mut Search, midway: (&Outcome, &Expansion)) -> Result<Option<[Closest; 2]>, DetectError> {
-    if let Some(both) = search.both_at_once(midway) {
+fn closest(call: &mut Call, midway: &Solution, model: &LocalModel) -> Result<Option<[ClosestPoint; 2]>, DetectError> {
+    if let Some(both) = call.both_from_midway(midway, model) {
         return Ok(Some(both));
     }
-    if let Some(p2) = search.constrained(Target::OnB, Some(midway))?
-        && let Some(p1) = search.constrained(Target::OnA, Some(midway))?
+    if let Some(p2) = call.closest_point(Problem::OnB, Some((midway, model)))?
+        && let Some(p1) = call.closest_point(Problem::OnA, Some((midway, model)))?
     {
         return Ok(Some([p1, p2]));
     }
-    search.flags.insert(Flags::SLACK);
+    call.flags.insert(Flags::SLACK);
     Ok(None)
 }

@@ -1,15 +1,32 @@
-//! Numbers of the solver: one, or two in lanes; and the larger and the smaller of two in one instruction (`f64::max` and `min`
-//! take five to be right about NaN).
+//! What the solver asks of a number: one double, two of them in lanes, or one of 32 digits.
 
-use nalgebra::SimdRealField;
+use super::double_double::DoubleDouble;
+use nalgebra::{ClosedAddAssign, ClosedDivAssign, ClosedMulAssign, ClosedSubAssign, Scalar, SimdValue};
+use num_traits::{One, Zero};
 use simba::simd::AutoF64x2;
+use std::ops::Neg;
 
-/// Two numbers on which the same is done at once.
+/// Two doubles on which the same is done at once.
 pub type Twin = AutoF64x2;
 
 /// A number, or two of them in lanes. What is asked of a number is asked of both.
-pub trait Number: SimdRealField<Element = f64> + Copy {
-    /// The larger; the other if one of the two is no number.
+pub trait Number:
+    Scalar
+    + Copy
+    + Zero
+    + One
+    + ClosedAddAssign
+    + ClosedSubAssign
+    + ClosedMulAssign
+    + ClosedDivAssign
+    + Neg<Output = Self>
+{
+    /// Bound on the relative error of one operation.
+    const UNIT: f64;
+
+    /// The number that equals a double.
+    fn of(value: f64) -> Self;
+    /// The larger; `other` if one of the two is not a number.
     fn larger(self, other: Self) -> Self;
     /// |x|.
     fn magnitude(self) -> Self;
@@ -17,11 +34,24 @@ pub trait Number: SimdRealField<Element = f64> + Copy {
     fn is_at_most(self, other: Self) -> bool;
     /// x > 0.
     fn is_positive(self) -> bool;
-    /// Neither infinite nor no number.
+    /// Neither infinite nor not a number.
     fn is_finite(self) -> bool;
 }
 
+/// A single number, of which an approximation decides where the search goes next.
+pub trait Single: Number {
+    /// The nearest double.
+    fn approximate(self) -> f64;
+}
+
 impl Number for f64 {
+    const UNIT: f64 = 0.5 * f64::EPSILON;
+
+    #[inline(always)]
+    fn of(value: f64) -> Self {
+        value
+    }
+
     #[inline(always)]
     fn larger(self, other: Self) -> Self {
         larger(self, other)
@@ -48,7 +78,21 @@ impl Number for f64 {
     }
 }
 
+impl Single for f64 {
+    #[inline(always)]
+    fn approximate(self) -> f64 {
+        self
+    }
+}
+
 impl Number for Twin {
+    const UNIT: f64 = 0.5 * f64::EPSILON;
+
+    #[inline(always)]
+    fn of(value: f64) -> Self {
+        Self::splat(value)
+    }
+
     #[inline(always)]
     fn larger(self, other: Self) -> Self {
         Self::new(larger(self.0[0], other.0[0]), larger(self.0[1], other.0[1]))
@@ -75,13 +119,47 @@ impl Number for Twin {
     }
 }
 
-/// The larger; b if one of the two is no number.
+impl Number for DoubleDouble {
+    const UNIT: f64 = DoubleDouble::UNIT;
+
+    fn of(value: f64) -> Self {
+        Self::from(value)
+    }
+
+    fn larger(self, other: Self) -> Self {
+        if self > other { self } else { other }
+    }
+
+    fn magnitude(self) -> Self {
+        self.abs()
+    }
+
+    fn is_at_most(self, other: Self) -> bool {
+        self <= other
+    }
+
+    fn is_positive(self) -> bool {
+        self > Self::zero()
+    }
+
+    fn is_finite(self) -> bool {
+        DoubleDouble::is_finite(self)
+    }
+}
+
+impl Single for DoubleDouble {
+    fn approximate(self) -> f64 {
+        self.rounded()
+    }
+}
+
+/// The larger; b if one of the two is not a number. One instruction, where `f64::max` takes five to be right about NaN.
 #[inline(always)]
 pub(crate) fn larger(a: f64, b: f64) -> f64 {
     if a > b { a } else { b }
 }
 
-/// The smaller; b if one of the two is no number.
+/// The smaller; b if one of the two is not a number.
 #[inline(always)]
 pub(crate) fn smaller(a: f64, b: f64) -> f64 {
     if a < b { a } else { b }

@@ -29,6 +29,17 @@ impl<N: Number> Symmetric<N> {
         }
     }
 
+    /// self += n nᵀ.
+    #[inline]
+    pub(crate) fn add_square(&mut self, n: &Vector3<N>) {
+        self.xx += n.x * n.x;
+        self.yx += n.y * n.x;
+        self.yy += n.y * n.y;
+        self.zx += n.z * n.x;
+        self.zy += n.z * n.y;
+        self.zz += n.z * n.z;
+    }
+
     #[inline]
     pub(crate) fn times(&self, v: &Vector3<N>) -> Vector3<N> {
         Vector3::new(
@@ -59,17 +70,6 @@ impl Symmetric {
     /// All nine entries.
     pub fn matrix(&self) -> Matrix3<f64> {
         Matrix3::new(self.xx, self.yx, self.zx, self.yx, self.yy, self.zy, self.zx, self.zy, self.zz)
-    }
-
-    /// self += n nᵀ.
-    #[inline]
-    pub(crate) fn add_square(&mut self, n: &Vector3<f64>) {
-        self.xx += n.x * n.x;
-        self.yx += n.y * n.x;
-        self.yy += n.y * n.y;
-        self.zx += n.z * n.x;
-        self.zy += n.z * n.y;
-        self.zz += n.z * n.z;
     }
 
     /// factor·self + diagonal·1.
@@ -119,7 +119,7 @@ impl<N: Number> Factor<N> {
     /// `None` when something is not finite.
     #[inline]
     pub fn of(h: &Symmetric<N>, least: N) -> Option<Self> {
-        let one = N::splat(1.0);
+        let one = N::of(1.0);
         let i0 = one / h.xx.larger(least);
         let (l10, l20) = (h.yx * i0, h.zx * i0);
         let i1 = one / (h.yy - l10 * h.yx).larger(least);
@@ -142,12 +142,18 @@ impl<N: Number> Factor<N> {
     }
 }
 
+impl<N: Number> Factor<N> {
+    /// The same in other numbers.
+    pub fn map<M: Number>(&self, to: impl Fn(N) -> M) -> Factor<M> {
+        Factor { l10: to(self.l10), l20: to(self.l20), l21: to(self.l21), inverse_d: self.inverse_d.map(to) }
+    }
+}
+
 impl Factor<Twin> {
     /// That of one lane.
     #[inline]
     pub fn lane(&self, i: usize) -> Factor {
-        let Self { l10, l20, l21, inverse_d } = self;
-        Factor { l10: l10.0[i], l20: l20.0[i], l21: l21.0[i], inverse_d: inverse_d.map(|d| d.0[i]) }
+        self.map(|lanes| lanes.0[i])
     }
 }
 

@@ -1,7 +1,7 @@
 //! The curve on which both quadratics at a point are optimal for some weights, in numbers or in lanes of numbers.
 //!
 //! For weights a, b ≥ 0 let v minimise a·q_A + b·q_B, that is H v = −g with H = a H_A + b H_B, g = a g_A + b g_B. As
-//! the weight θ of the target changes, v runs along a curve from the minimum of one particle to that of the other;
+//! the weight θ of the problem changes, v runs along a curve from the minimum of one particle to that of the other;
 //! the wanted point is where the mismatch m(θ) = c − (α q_A + β q_B) is zero, with α, β the rates of a, b and
 //! c = 0 for midway, 1 for the two closest points. One search in one variable serves all three ([`crate::model::quadratic_model`]).
 //!
@@ -16,11 +16,11 @@
 
 use crate::linalg::number::Number;
 use crate::linalg::symmetric::{Factor, Symmetric};
-use crate::model::problem::Target;
+use crate::model::problem::Problem;
 use nalgebra::Vector3;
 
-/// Slope relative to either force that is but rounding.
-const BALANCED: f64 = 16.0 * f64::EPSILON;
+/// Slope relative to either force that is but rounding, in units of it.
+const BALANCED: f64 = 32.0;
 
 /// One of the two quadratics: value, gradient and curvature where the step begins.
 #[derive(Clone, Copy)]
@@ -32,14 +32,14 @@ pub(crate) struct Side<'a, N> {
     pub soft: N,
 }
 
-/// The pair of quadratics and the target: what stays the same while λ is searched.
+/// The pair of quadratics and the problem: what stays the same while λ is searched.
 ///
 /// Rare parts take it and the probes by value: whose address is known has to stay in memory on the common way, too.
 #[derive(Clone, Copy)]
 pub(crate) struct Curve<'a, N> {
     a: Side<'a, N>,
     b: Side<'a, N>,
-    target: Target,
+    problem: Problem,
     /// D, and α·q_A + β·q_B at the point of expansion.
     turning: Symmetric<N>,
     turned: N,
@@ -65,7 +65,7 @@ pub(crate) struct Optimum<N = f64> {
     pub factored: N,
     /// dv/dθ and dm/dθ.
     pub along: Vector3<N>,
-    pub rate: N,
+    pub rate_of_weight: N,
 }
 
 /// The point of the curve at some λ: as much as the search for λ takes.
@@ -100,18 +100,18 @@ pub(crate) struct Series<N> {
 
 impl<'a, N: Number> Curve<'a, N> {
     #[inline(always)]
-    pub fn new(a: Side<'a, N>, b: Side<'a, N>, target: Target) -> Self {
-        let (alpha, beta) = target.turning();
+    pub fn new(a: Side<'a, N>, b: Side<'a, N>, problem: Problem) -> Self {
+        let (alpha, beta) = problem.turning();
         let turning = a.hessian.weighted(alpha, b.hessian, beta);
         let turned = alpha * a.value + beta * b.value;
-        Self { a, b, target, turning, turned }
+        Self { a, b, problem, turning, turned }
     }
 
     /// With H v = −g the weighted sum is ½ g·v more than at the point of expansion, and D v gives the other sum: q_A and
     /// q_B follow from the two.
     #[inline(always)]
     pub fn probe(&self, lambda: N) -> Option<Probe<N>> {
-        let (half, weights @ (a, b)) = (N::splat(0.5), self.target.weights(lambda));
+        let (half, weights @ (a, b)) = (N::of(0.5), self.problem.weights(lambda));
         let h = self.a.hessian.weighted(a, self.b.hessian, b);
         let factor = Factor::of(&h, a * self.a.soft + b * self.b.soft)?;
         let g = self.a.gradient * a + self.b.gradient * b;
@@ -121,17 +121,17 @@ impl<'a, N: Number> Curve<'a, N> {
         let along = -factor.solve(&w0);
         let turning = self.turned + half * step.dot(&(before + w0));
         let fixed = a * self.a.value + b * self.b.value + half * step.dot(&g);
-        let (values, mismatch) = (self.target.apart(fixed, turning, weights), self.target.level::<N>() - turning);
+        let (values, mismatch) = (self.problem.apart(fixed, turning, weights), self.problem.level::<N>() - turning);
         Some(Probe { lambda, weights, step, factor, along, rate: -w0.dot(&along), mismatch, values })
     }
 
     /// α·x + β·y.
     #[inline(always)]
     fn of_turning(&self, x: &Vector3<N>, y: &Vector3<N>) -> Vector3<N> {
-        match self.target {
-            Target::Midway => y - x,
-            Target::OnB => *y,
-            Target::OnA => *x,
+        match self.problem {
+            Problem::Midway => y - x,
+            Problem::OnB => *y,
+            Problem::OnA => *x,
         }
     }
 
@@ -146,26 +146,26 @@ impl<'a, N: Number> Curve<'a, N> {
     pub fn after(&self, step: Vector3<N>, lambda: N, near: &Probe<N>) -> Optimum<N> {
         let gradient = |side: &Side<N>| side.gradient + side.hessian.times(&step);
         let gradients = [gradient(&self.a), gradient(&self.b)];
-        let value = |side: &Side<N>, g: &Vector3<N>| side.value + N::splat(0.5) * step.dot(&(side.gradient + g));
+        let value = |side: &Side<N>, g: &Vector3<N>| side.value + N::of(0.5) * step.dot(&(side.gradient + g));
         let values = (value(&self.a, &gradients[0]), value(&self.b, &gradients[1]));
-        let Probe { factor, along, rate, lambda: factored, .. } = *near;
-        Optimum { step, gradients, values, lambda, settled: false, factor, factored, along, rate }
+        let Probe { factor, along, rate: rate_of_weight, lambda: factored, .. } = *near;
+        Optimum { step, gradients, values, lambda, settled: false, factor, factored, along, rate_of_weight }
     }
 
     /// Root of m(δ) to the fourth order, by reversion of the series; `None` where it would move a weight by more
     /// than half.
     #[inline(always)]
     pub fn series(&self, found: &Probe<N>) -> Option<Series<N>> {
-        let (v1, inverse, (a, b)) = (&found.along, N::splat(1.0) / found.rate, found.weights);
+        let (v1, inverse, (a, b)) = (&found.along, N::of(1.0) / found.rate, found.weights);
         let w1 = self.turning.times(v1);
         let v2 = -found.factor.solve(&w1);
         let w2 = self.turning.times(&v2);
-        let of = N::splat;
+        let of = N::of;
         let (m2, m3, m4) = (of(-1.5) * v1.dot(&w1), of(-2.0) * v2.dot(&w1), of(-2.5) * v2.dot(&w2));
         let y = -found.mismatch * inverse;
         let (c2, c3, c4) = (m2 * inverse * y, m3 * inverse * y * y, m4 * inverse * y * y * y);
         let delta = y * (of(1.0) - c2 + (of(2.0) * c2 * c2 - c3) + (of(5.0) * c2 * (c3 - c2 * c2) - c4));
-        let (alpha, beta) = self.target.turning::<N>();
+        let (alpha, beta) = self.problem.turning::<N>();
         let stays =
             (alpha * delta).magnitude().is_at_most(of(0.5) * a) && (beta * delta).magnitude().is_at_most(of(0.5) * b);
         let lambda = self.lambda_after(found, delta);
@@ -175,7 +175,7 @@ impl<'a, N: Number> Curve<'a, N> {
 
     #[inline(always)]
     fn lambda_after(&self, found: &Probe<N>, delta: N) -> N {
-        let ((alpha, beta), (a, b)) = (self.target.turning::<N>(), found.weights);
+        let ((alpha, beta), (a, b)) = (self.problem.turning::<N>(), found.weights);
         (b + beta * delta) / (a + alpha * delta)
     }
 
@@ -194,7 +194,7 @@ impl<'a, N: Number> Curve<'a, N> {
         let v3 = -found.factor.solve(&series.w2);
         let w3 = self.turning.times(&v3);
         let v4 = -found.factor.solve(&w3);
-        let (of, d, [m2, m3, m4]) = (N::splat, series.delta, series.rates);
+        let (of, d, [m2, m3, m4]) = (N::of, series.delta, series.rates);
         let (m5, m6) = (of(-3.0) * v3.dot(&series.w2), of(-3.5) * v3.dot(&w3));
         let mismatch = found.mismatch + d * (found.rate + d * (m2 + d * (m3 + d * (m4 + d * (m5 + d * m6)))));
         let higher = of(4.0) * m4 + d * (of(5.0) * m5 + d * of(6.0) * m6);
@@ -208,9 +208,9 @@ impl<'a, N: Number> Curve<'a, N> {
     /// cancel and say nothing about those of the curve.
     #[inline(always)]
     pub fn is_balanced(&self, found: &Optimum<N>) -> bool {
-        let (a, _) = self.target.weights(found.lambda);
+        let (a, _) = self.problem.weights(found.lambda);
         let force = a * a * (square(self.a.gradient) + square(&found.gradients[0]));
-        square(&found.slope(self.target)).is_at_most(N::splat(BALANCED * BALANCED) * force)
+        square(&found.slope(self.problem)).is_at_most(N::of(BALANCED * N::UNIT * BALANCED * N::UNIT) * force)
     }
 }
 
@@ -232,8 +232,15 @@ fn square<N: Number>(v: &Vector3<N>) -> N {
 impl<N: Number> Optimum<N> {
     /// a·g_A + b·g_B: zero but for rounding.
     #[inline]
-    pub fn slope(&self, target: Target) -> Vector3<N> {
-        let (a, b) = target.weights(self.lambda);
+    pub fn slope(&self, problem: Problem) -> Vector3<N> {
+        let (a, b) = problem.weights(self.lambda);
         self.gradients[0] * a + self.gradients[1] * b
+    }
+}
+
+impl Optimum {
+    /// How fast the two sides part with ln λ.
+    pub fn rate(&self, problem: Problem) -> f64 {
+        self.rate_of_weight * problem.per_logarithm(problem.weights(self.lambda))
     }
 }

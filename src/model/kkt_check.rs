@@ -1,219 +1,152 @@
-//! What a step does to the planes of a quadratic: whether its model was that of S, and a lower bound.
+//! Whether the active set of a local model is still right after a step: the KKT check.
 
-use crate::pair::active_set::{Local, Place};
+use crate::pair::active_set::LocalPoint;
 use crate::pair::placed_particle::Body;
 use crate::particle::potential::Quadratic;
 use nalgebra::Vector3;
 
-/// Rounding of a depth, relative to the terms of its sum.
-pub(crate) const DOUBT: f64 = 8.0 * f64::EPSILON;
-
-/// Share of the regularisation below which a plane's pull changes nothing that counts about where it puts the point.
-const WEAK: f64 = 1e-9;
+/// Rounding of a depth n·x − d + n·v after a step, relative to the terms of its sum.
+pub(crate) const DEPTH_ROUNDING: f64 = 8.0 * f64::EPSILON;
 
 /// Less than 1 by more than the rounding of a distance to a plane, relative to the terms of its sum.
-const CLEAR: f64 = 1.0 - 4.0 * DOUBT;
+const CLEAR: f64 = 1.0 - 4.0 * DEPTH_ROUNDING;
 
-/// What a step does to the planes of a quadratic.
+/// What a step does to the active set of one body.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Verdict {
-    pub planes: Planes,
+pub(crate) struct KktCheck {
+    pub change: Change,
     /// The plane to be dropped before the model is solved again.
     pub drop: Option<usize>,
-    /// Sum of the depths by which planes of doubtful sign may pull after all, each times the length of its normal.
+    /// Σ |n|·depth over planes of doubtful sign: the depth by which each may pull after all.
     pub doubtful: f64,
-    /// The least depth of a plane of the quadratic after the step.
-    pub least: f64,
-    /// A lower bound of the depth of any of them times the length of its normal; mostly the least.
-    pub push: f64,
-    /// Bound on the pull after the step.
+    /// A lower bound of |n|·depth over the active planes, after the step.
+    pub least_push: f64,
+    /// Bound on 2w Σ depth after the step.
     pub pull: f64,
-    /// How many planes there are, or may be by rounding.
+    /// Number of planes that are active after the step, or may be by rounding.
     pub near: f64,
+    /// Whether an inactive plane may be on by rounding.
+    pub near_inactive: bool,
 }
 
-/// What a step does to the planes of a model, from best to worst.
+/// What a step does to an active set, from best to worst.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) enum Planes {
-    /// All still push and no other has switched on: the quadratic is S there, and a lower bound of it
+pub(crate) enum Change {
+    /// Every active plane still pushes and no other has become active: the model is S there, and a lower bound of S
     /// everywhere.
-    Exact,
-    /// All still push, but another is met on the way: the quadratic is a lower bound only.
-    Met,
-    /// One that had hardly switched on pulls; without it, the model should be solved again.
-    Dropped,
-    /// Some that are clearly on at the point pull after the step: the point has to move first.
+    None,
+    /// Every active plane still pushes, but another has become active: the model is a lower bound only.
+    Entering,
+    /// A plane that was active by no more than its rounding pulls; without it, the model should be solved again.
+    Leaving,
+    /// Planes that are clearly on at the point pull after the step: the point has to move first.
     Pulling,
 }
 
-impl Body<'_> {
-    /// Checks the planes of the quadratic after the step v.
+impl KktCheck {
+    /// Checks the planes of a body after the step v, of the given length.
     ///
-    /// The quadratic with depth n·x − d + n·v ≥ 0 for each of its planes is a lower bound of S everywhere:
-    /// ⟨t⟩² ≥ 2λt − λ² for every λ ≥ 0. The sign is judged in the model's own arithmetic, to which the rounding
-    /// of n·x − d is but a shift of the plane.
+    /// A quadratic whose planes all have a depth n·x − d + n·v ≥ 0 is a lower bound of S everywhere: the depths are
+    /// admissible multipliers, by ⟨t⟩² ≥ 2pt − p² for every p ≥ 0. The sign is judged in the model's own arithmetic, to which the
+    /// rounding of n·x − d is but a shift of the plane.
     #[inline(always)]
-    pub fn check(&self, local: &Local, q: &Quadratic, v: &Vector3<f64>, length: f64) -> Verdict {
-        if self.stays(q, length) { Verdict::clear(self, local, q, length) } else { self.check_each(local, q, *v) }
+    pub fn after(body: &Body, point: &LocalPoint, q: &Quadratic, v: &Vector3<f64>, length: f64) -> Self {
+        let moved = body.particle.bounds.longest_normal * length;
+        if moved + point.blur <= CLEAR * q.clear {
+            Self::of_short_step(body, point, q, moved)
+        } else {
+            Self::plane_by_plane(body, point, *v)
+        }
     }
 
-    /// Whether no plane of the quadratic switches within a distance.
+    /// Of a step so short that no plane switches.
     #[inline(always)]
-    fn stays(&self, q: &Quadratic, distance: f64) -> bool {
-        self.particle.bounds.longest_normal * distance <= CLEAR * q.clear
-    }
-
-    /// The distance within which no plane of the quadratic switches.
-    #[inline]
-    pub fn stays_for(&self, q: &Quadratic) -> f64 {
-        CLEAR * q.clear / self.particle.bounds.longest_normal
-    }
-
-    /// The depth at which a plane pushes as much as a share of the regularisation at the surface, or as the rounding of the
-    /// forces.
-    fn weakest(&self, q: &Quadratic) -> f64 {
-        let force = WEAK * self.sphere_curvature() * self.particle.bounding_radius() + DOUBT * q.pull;
-        force / (self.plane_curvature() * self.particle.bounds.longest_normal)
-    }
-
-    /// The plane of the quadratic that is least deep after a step.
-    pub fn shallowest(&self, local: &Local, v: &Vector3<f64>) -> Option<usize> {
-        let e = self.turn(v);
-        let (mut weakest, mut least) = (None, f64::INFINITY);
-        self.particle.visit_near(&local.y, local.early, |i, n, excess| {
-            let depth = excess + n.dot(&e);
-            if local.counts(self.particle, i, excess) && depth < least {
-                (weakest, least) = (Some(i), depth);
-            }
-        });
-        weakest
-    }
-
-    /// Visits the planes that do not count at a place and may be on after the step v for all that rounding tells, with their
-    /// normals in the frame of the particle, their depths and their own blurs.
-    pub fn beside(
-        &self,
-        place: &impl Place,
-        local: &Local,
-        v: &Vector3<f64>,
-        mut visit: impl FnMut(Vector3<f64>, f64, f64),
-    ) {
-        let (p, e) = (self.particle, self.turn(v));
-        let far = place.early().max(p.bounds.longest_normal * e.norm() * (1.0 + 1e-14) + local.blur);
-        p.visit_near(&local.y, far, |i, n, excess| {
-            let (depth, blur) = (excess + n.dot(&e), self.blur_of(&n, local));
-            if depth > -blur && !place.counts(p, i, excess) {
-                visit(n, depth, blur);
-            }
-        });
-    }
-
-    /// Whether a plane that does not count is on after the step v, beyond what rounding does to this very plane.
-    #[cold]
-    #[inline(never)]
-    fn meets(&self, local: &Local, v: &Vector3<f64>) -> bool {
-        let mut met = false;
-        self.beside(local, local, v, |_, depth, blur| met |= depth > blur);
-        met
+    fn of_short_step(body: &Body, point: &LocalPoint, q: &Quadratic, moved: f64) -> Self {
+        let near = f64::from(q.count);
+        Self {
+            change: Change::None,
+            drop: None,
+            doubtful: 0.0,
+            least_push: (q.clear - moved) * body.particle.bounds.shortest_normal_at(&point.y),
+            pull: q.pull + near * body.plane_curvature() * moved,
+            near,
+            near_inactive: false,
+        }
     }
 
     #[inline(never)]
-    fn check_each(&self, local: &Local, q: &Quadratic, v: Vector3<f64>) -> Verdict {
-        let (y, blur, e) = (local.y, local.blur, self.turn(&v));
-        let p = self.particle;
+    fn plane_by_plane(body: &Body, point: &LocalPoint, v: Vector3<f64>) -> Self {
+        let (y, blur, e) = (point.y, point.blur, body.turn(&v));
+        let particle = body.particle;
         let mut worst: Option<(usize, f64)> = None;
         let (mut pulling, mut doubtful, mut depths, mut near) = (false, 0.0, 0.0, 0.0);
-        let (mut nearest, mut least, mut push) = (f64::NEG_INFINITY, f64::INFINITY, f64::INFINITY);
-        // Planes of the quadratic are near y, planes that are met near y + e: no other is near either.
-        let far = if p.leaves.single() { 0.0 } else { local.early.max(p.bounds.longest_normal * e.norm()) };
+        let (mut entering, mut near_inactive, mut least_push) = (false, false, f64::INFINITY);
+        // Active planes are near y, entering ones near y + e: no other plane is within reach of either.
+        let far = if particle.leaves.single() {
+            0.0
+        } else {
+            blur + particle.bounds.longest_normal * e.norm() * (1.0 + DEPTH_ROUNDING)
+        };
         // The step was turned: what is left of a long one across a plane is but rounding.
-        let turned = DOUBT * (e.x.abs() + e.y.abs() + e.z.abs());
-        let doubt = turned * p.bounds.longest_normal;
-        // Where only the regularisation tells one point of a face from another, pulls far weaker than itself or as the rounding of
-        // the forces would let planes take turns without end.
-        let weak = if self.is_plain() { 0.0 } else { self.weakest(q) };
-        p.visit_near(&y, far, |i, n, excess| {
+        let turned = DEPTH_ROUNDING * (e.x.abs() + e.y.abs() + e.z.abs());
+        let doubt_of_all = turned * particle.bounds.longest_normal;
+        particle.visit_near(&y, far, |place, n, excess| {
             let depth = excess + n.dot(&e);
-            if !local.counts(p, i, excess) {
-                nearest = nearest.max(depth);
+            if !point.is_active(place, excess) {
+                if depth > -blur {
+                    near += 1.0;
+                    near_inactive = true;
+                    entering |= depth > blur;
+                }
                 return;
             }
             depths += depth.max(0.0);
             near += 1.0;
-            least = least.min(depth);
-            if depth * p.bounds.shortest_normal < push {
-                push = push.min(depth * n.norm());
+            if depth * particle.bounds.shortest_normal < least_push {
+                least_push = least_push.min(depth * n.norm());
             }
-            if depth >= doubt + DOUBT * excess.abs() {
+            if depth >= doubt_of_all + DEPTH_ROUNDING * excess.abs() {
                 return;
             }
             // The longest normal may be that of another plane.
             let length = n.norm();
-            let doubt = turned * length + DOUBT * excess.abs();
-            if depth >= doubt {
-                return;
-            }
-            if depth >= -doubt.max(weak) {
-                // The depth itself is known to the doubt only.
-                doubtful += length * (doubt + (-depth).max(0.0));
+            let doubt = turned * length + DEPTH_ROUNDING * excess.abs();
+            if depth >= -doubt {
+                if depth < doubt {
+                    doubtful += length * (doubt + (-depth).max(0.0));
+                }
             } else if excess > blur {
                 pulling = true;
             } else if worst.is_none_or(|(_, most)| depth < most) {
-                worst = Some((i, depth));
+                worst = Some((place, depth));
             }
         });
-        near += if nearest > -blur { 1.0 } else { 0.0 };
-        // The blur is that of the longest normal: a plane with a short one may be on for sure.
-        let met = nearest > blur || (nearest > 0.0 && self.meets(local, &v));
-        let pull = self.plane_curvature() * depths;
-        if pulling {
-            return Verdict { planes: Planes::Pulling, drop: None, doubtful: f64::INFINITY, least, push, pull, near };
-        }
         // One at a time: without the worst, the others may push again.
-        let drop = worst.map(|(i, _)| i);
-        let planes = match drop {
-            None if met => Planes::Met,
-            None => Planes::Exact,
-            Some(_) if !local.is_full() => Planes::Dropped,
-            Some(_) => Planes::Pulling,
+        let drop = worst.map(|(place, _)| place).filter(|_| !pulling);
+        let change = match drop {
+            _ if pulling => Change::Pulling,
+            None if entering => Change::Entering,
+            None => Change::None,
+            Some(_) if point.is_full() => Change::Pulling,
+            Some(_) => Change::Leaving,
         };
-        Verdict { planes, drop, doubtful, least, push, pull, near }
+        let pull = body.plane_curvature() * depths;
+        Self { change, drop, doubtful, least_push, pull, near, near_inactive }
     }
-}
 
-impl Verdict {
-    /// Of a step so short that no plane switches.
+    /// Whether every active plane pushes with more than a force, for a body of this weight.
     #[inline(always)]
-    fn clear(body: &Body, local: &Local, q: &Quadratic, length: f64) -> Self {
-        let (moved, count) = (body.particle.bounds.longest_normal * length, f64::from(q.count));
-        let least = q.clear - moved;
-        let pull = q.pull + count * body.plane_curvature() * moved;
-        let near = if least < local.blur { count + 1.0 } else { count };
-        let push = least * body.particle.bounds.shortest_normal;
-        Self { planes: Planes::Exact, drop: None, doubtful: 0.0, least, push, pull, near }
+    pub fn pushes_more(&self, body: &Body, weight: f64, force: f64) -> bool {
+        // Without planes ∞ times 0 is not a number: then none fails to.
+        !(weight * body.plane_curvature() * self.least_push < force)
     }
 
-    /// Whether a plane that does not count may be on by rounding.
+    /// Bound on the slope that planes of doubtful sign may leave, for a body of this weight whose slope is rounded by
+    /// `rounding`: a force that is known to rounding only may be a pull.
     #[inline(always)]
-    pub fn has_beside(&self, q: &Quadratic) -> bool {
-        self.near > f64::from(q.count)
-    }
-
-    /// Whether some plane may push less than a force, for a body of this weight. Without planes none does: ∞ times 0 is no
-    /// number.
-    #[inline(always)]
-    pub fn pushes_less(&self, body: &Body, local: &Local, weight: f64, force: f64) -> bool {
-        let stiffness = weight * body.plane_curvature();
-        // The shortest normal may be that of a plane which is not on.
-        let of_nearby = || body.particle.bounds.shortest_normal_at(&local.y) * self.least;
-        stiffness * self.push < force && stiffness * of_nearby() < force
-    }
-
-    /// Slope that planes of doubtful sign may leave, for a body of this weight: a force that is found to rounding only may
-    /// be a pull.
-    pub fn doubtful_slope(&self, body: &Body, local: &Local, weight: f64, rounding: f64) -> f64 {
-        let lost = if self.pushes_less(body, local, weight, rounding) { self.near * rounding } else { 0.0 };
-        // No plane may be doubtful, of weights that overflow.
+    pub fn doubtful_slope(&self, body: &Body, weight: f64, rounding: f64) -> f64 {
+        let lost = if self.pushes_more(body, weight, rounding) { 0.0 } else { self.near * rounding };
+        // Weights that overflow times no doubt at all would not be a number.
         if self.doubtful > 0.0 { lost + weight * body.plane_curvature() * self.doubtful } else { lost }
     }
 }

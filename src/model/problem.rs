@@ -1,6 +1,6 @@
 //! Which point of two bodies is wanted, and what that makes of the two potentials.
 //!
-//! Every target is a dual problem in one weight θ: minimise a(θ)·S_A + b(θ)·S_B, a and b linear in θ. Midway:
+//! Every problem is a dual problem in one weight θ: minimise a(θ)·S_A + b(θ)·S_B, a and b linear in θ. Midway:
 //! a = 1 − θ, b = θ; on B: a = 1, b = θ; on A: a = θ, b = 1. What is passed around is the ratio λ = b/a, which keeps
 //! its digits where one weight is all but zero.
 
@@ -8,7 +8,7 @@ use crate::linalg::number::{Number, larger};
 
 /// Which point of the curve is wanted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Target {
+pub(crate) enum Problem {
     /// S_A = S_B: minimise the larger (paper eq. 44).
     Midway,
     /// S_B = 1: the point P2 on B closest to A, minimising S_A (paper eqs 9, 34).
@@ -20,11 +20,11 @@ pub(crate) enum Target {
 /// Price of infeasibility in units of the multiplier; anything above 1 makes the penalty exact.
 pub(crate) const PRICE: f64 = 2.0;
 
-impl Target {
+impl Problem {
     /// Weights (a, b) at λ.
     #[inline]
     pub fn weights<N: Number>(self, lambda: N) -> (N, N) {
-        let one = N::splat(1.0);
+        let one = N::of(1.0);
         match self {
             Self::Midway => {
                 let a = one / (one + lambda);
@@ -43,7 +43,7 @@ impl Target {
             Self::OnB => (0.0, 1.0),
             Self::OnA => (1.0, 0.0),
         };
-        (N::splat(alpha), N::splat(beta))
+        (N::of(alpha), N::of(beta))
     }
 
     /// dθ/d ln λ at the weights (a, b).
@@ -79,29 +79,29 @@ impl Target {
 
     /// Value of the dual function: a lower bound of the optimum for every λ.
     #[inline]
-    pub fn dual(self, s_a: f64, s_b: f64, lambda: f64) -> f64 {
+    pub fn dual<N: Number>(self, s_a: N, s_b: N, lambda: N) -> N {
         let (a, b) = self.weights(lambda);
         match self {
             Self::Midway => a * s_a + b * s_b,
-            Self::OnB => s_a + b * (s_b - 1.0),
-            Self::OnA => a * (s_a - 1.0) + s_b,
+            Self::OnB => s_a + b * (s_b - N::of(1.0)),
+            Self::OnA => a * (s_a - N::of(1.0)) + s_b,
         }
     }
 
     /// Bound on the error of the dual value, from bounds on those of S_A and S_B.
     #[inline]
-    pub fn dual_weighted(self, error_a: f64, error_b: f64, lambda: f64) -> f64 {
+    pub fn weighted(self, error_a: f64, error_b: f64, lambda: f64) -> f64 {
         let (a, b) = self.weights(lambda);
         a * error_a + b * error_b
     }
 
     /// The two numbers that are equal at the wanted point; the first grows with λ.
     #[inline]
-    pub fn sides(self, s_a: f64, s_b: f64) -> (f64, f64) {
+    pub fn sides<N: Number>(self, s_a: N, s_b: N) -> (N, N) {
         match self {
             Self::Midway => (s_a, s_b),
-            Self::OnB => (1.0, s_b),
-            Self::OnA => (s_a, 1.0),
+            Self::OnB => (N::of(1.0), s_b),
+            Self::OnA => (s_a, N::of(1.0)),
         }
     }
 
@@ -117,7 +117,7 @@ impl Target {
     /// c in the mismatch m = c − (α·S_A + β·S_B).
     #[inline]
     pub fn level<N: Number>(self) -> N {
-        N::splat(if self == Self::Midway { 0.0 } else { 1.0 })
+        N::of(if self == Self::Midway { 0.0 } else { 1.0 })
     }
 
     /// The first of the two numbers less the second, from m: λ falls as θ grows for a point on A.
@@ -138,9 +138,9 @@ impl Target {
 
     /// How far the two numbers are from being equal.
     #[inline]
-    pub fn mismatch(self, s_a: f64, s_b: f64) -> f64 {
+    pub fn mismatch<N: Number>(self, s_a: N, s_b: N) -> N {
         let (growing, falling) = self.sides(s_a, s_b);
-        (growing - falling).abs()
+        (growing - falling).magnitude()
     }
 
     /// What changes of S_A and S_B do to the two numbers.

@@ -1,20 +1,20 @@
 //! The two quadratics at a point, solved exactly: one step of the fast solver.
 //!
-//! The optimum lies on their [`crate::model::dual_path`], where the mismatch of the target is zero: λ is searched along its series, or
+//! The optimum lies on their [`crate::model::dual_path`], where the mismatch of the problem is zero: λ is searched along its series, or
 //! in logarithms where that is of no use.
 
-use crate::linalg::number::{Number, Twin, larger};
+use crate::linalg::number::{Number, Single, Twin, larger};
 use crate::linalg::symmetric::Symmetric;
 use crate::model::dual_path::{Curve, Optimum, Probe, Side};
-use crate::model::problem::Target;
+use crate::model::problem::Problem;
 use crate::particle::potential::Quadratic;
 use nalgebra::{SimdValue, Vector3};
 
 /// The curve, and what the search along it has to know besides.
 #[derive(Clone, Copy)]
-pub(crate) struct Model<'a> {
-    curve: Curve<'a, f64>,
-    target: Target,
+pub(crate) struct Model<'a, N = f64> {
+    curve: Curve<'a, N>,
+    problem: Problem,
     /// What the values at the point of expansion make of the mismatch.
     expanded: f64,
 }
@@ -22,7 +22,7 @@ pub(crate) struct Model<'a> {
 /// Bound on the rounding of a mismatch, from what the values at the point of expansion make of it and from its larger side.
 #[inline(always)]
 fn noise<N: Number>(expanded: N, larger: N) -> N {
-    N::splat(2.0 * f64::EPSILON) * expanded + N::splat(4.0 * f64::EPSILON) * larger
+    N::of(4.0 * N::UNIT) * expanded + N::of(8.0 * N::UNIT) * larger
 }
 
 /// Most searches for λ; a handful is enough where rounding does not interfere.
@@ -32,69 +32,64 @@ const MOST_SEARCHES: usize = 40;
 pub(crate) const LAMBDA_RANGE: (f64, f64) = (1e-30, 1e30);
 
 /// One search moves λ by at most this factor: quadratics that miss the planes further on may not
-/// reach the target at all.
+/// reach the problem at all.
 const FARTHEST: f64 = 1e6;
 
 /// Largest share of the higher terms of the series in the first one at which the series is used at all: what is left
 /// out then is some 1e-3 of the mismatch.
 const NEAR: f64 = 0.1;
 
-/// The same share at which what is left out is below rounding: of a point that is taken to the third order, and to the fourth.
+/// The same share at which what is left out is below the rounding of a double: of a point that is taken to the third order, and
+/// to the fourth.
 const VERY_NEAR: f64 = 3e-4;
 const RATHER_NEAR: f64 = 1.5e-3;
 
-/// Relative mismatch below which a search that no longer gains is at the end of its digits.
-const STALLING: f64 = 1e-9;
+/// Relative mismatch below which a search that no longer gains is at the end of its digits, in units of rounding.
+const STALLING: f64 = 1e7;
 
 /// Searches in a row that may gain less than half: a side that hardly changes with λ gains late.
 const MOST_SLOW: u32 = 4;
 
-impl<'a> Model<'a> {
+impl<'a, N: Single> Model<'a, N> {
     #[inline(always)]
-    pub fn new(q_a: &'a Quadratic, q_b: &'a Quadratic, soft: (f64, f64), target: Target) -> Self {
-        let curve = Curve::new(side(q_a, soft.0), side(q_b, soft.1), target);
-        let (of_a, of_b) = target.changes(q_a.expansion, q_b.expansion);
-        Self { curve, target, expanded: of_a + of_b }
+    pub fn new(a: Side<'a, N>, b: Side<'a, N>, problem: Problem) -> Self {
+        let (of_a, of_b) = problem.changes(a.value.approximate(), b.value.approximate());
+        Self { curve: Curve::new(a, b, problem), problem, expanded: of_a + of_b }
     }
 
     /// Searches λ from a guess until the mismatch of the two sides is `enough`; 0 for as good as rounding allows.
     /// `None` when a factorisation breaks down.
     #[inline(always)]
-    pub fn solve(&self, guess: f64, enough: f64) -> Option<Optimum> {
-        self.search(guess.clamp(LAMBDA_RANGE.0, LAMBDA_RANGE.1), enough)
-    }
-
-    /// The optimum at a given λ.
-    pub fn at(&self, lambda: f64) -> Option<Optimum> {
-        Some(self.curve.optimum(&self.curve.probe(lambda)?))
-    }
-
-    /// What a step and a λ are worth that another model found.
-    pub fn held(&self, step: Vector3<f64>, lambda: f64) -> Option<Optimum> {
-        Some(Optimum { settled: true, ..self.curve.after(step, lambda, &self.curve.probe(lambda)?) })
+    pub fn solve(&self, guess: N, enough: f64) -> Option<Optimum<N>> {
+        let approximate = guess.approximate();
+        let kept = approximate.clamp(LAMBDA_RANGE.0, LAMBDA_RANGE.1);
+        self.search(if kept == approximate { guess } else { N::of(kept) }, enough)
     }
 
     /// Searches λ from one that is in its range.
     #[inline(always)]
-    pub fn search(&self, first: f64, enough: f64) -> Option<Optimum> {
+    pub fn search(&self, first: N, enough: f64) -> Option<Optimum<N>> {
         let mut found = self.curve.probe(first)?;
-        let (nearest, farthest) = (found.lambda / FARTHEST, found.lambda * FARTHEST);
+        let (nearest, farthest) = (found.lambda / N::of(FARTHEST), found.lambda * N::of(FARTHEST));
         let (mut low, mut high) = (nearest, farthest);
         let (mut last, mut slow) = (f64::INFINITY, 0);
+        // In numbers of 32 digits the series gains as many digits a search, but has more to gain.
+        let last_at_once = VERY_NEAR * (2.0 * N::UNIT / f64::EPSILON).sqrt().sqrt();
         for _ in 0..MOST_SEARCHES {
-            let (growing, falling) = self.target.sides(found.values.0, found.values.1);
-            let (difference, larger) = (self.target.difference(found.mismatch), larger(growing, falling));
+            let (growing, falling) = self.sides(&found.values);
+            let (difference, larger) =
+                (self.problem.difference(found.mismatch.approximate()), larger(growing, falling));
             if !difference.is_finite() {
                 return None;
             }
             // To rounding; or the search, which should do far better, does not even halve it any more.
-            let noise = noise(self.expanded, larger);
+            let noise = 4.0 * N::UNIT * self.expanded + 8.0 * N::UNIT * larger;
             slow = if difference.abs() > 0.5 * last { slow + 1 } else { 0 };
             let settled = difference.abs() <= noise;
             if settled || difference.abs() <= enough {
                 return Some(Optimum { settled, ..self.curve.optimum(&found) });
             }
-            if slow >= MOST_SLOW && difference.abs() <= STALLING * larger {
+            if slow >= MOST_SLOW && difference.abs() <= STALLING * N::UNIT * larger {
                 return Some(self.corrected(found));
             }
             last = difference.abs();
@@ -104,67 +99,82 @@ impl<'a> Model<'a> {
                 low = found.lambda;
             }
             let next = match self.curve.series(&found) {
-                Some(series) if series.share <= VERY_NEAR || (series.share <= NEAR && enough > 0.0) => {
+                Some(series) if series.share.approximate() <= last_at_once || (series.share.approximate() <= NEAR && enough > 0.0) => {
                     let further = self.curve.along(&found, &series);
-                    let left = self.target.mismatch(further.values.0, further.values.1);
-                    let settled = series.share <= VERY_NEAR && left <= noise && self.curve.is_balanced(&further);
+                    let left = self.mismatch(&further);
+                    let settled =
+                        series.share.approximate() <= last_at_once && left <= noise && self.curve.is_balanced(&further);
                     if settled || left <= enough {
                         return Some(Optimum { settled, ..further });
                     }
                     series.lambda
                 }
-                Some(series) if series.share <= NEAR => series.lambda,
-                _ => self.far(found, growing, falling),
+                Some(series) if series.share.approximate() <= NEAR => series.lambda,
+                _ => N::of(self.far(found, growing, falling)),
             };
             // Beyond what is known of the curve: to its end, and no further.
-            let next = if next >= high && high == farthest {
+            let (beyond_high, beyond_low) = (high.is_at_most(next), next.is_at_most(low));
+            let next = if beyond_high && high == farthest {
                 farthest
-            } else if next <= low && low == nearest {
+            } else if beyond_low && low == nearest {
                 nearest
-            } else if low < next && next < high {
+            } else if !beyond_high && !beyond_low {
                 next
             } else {
-                (low * high).sqrt()
+                N::of((low * high).approximate().sqrt())
             };
             if next == found.lambda {
                 // No λ does better. At an end of the range there may be a better one, for other quadratics.
-                return Some(Optimum { settled: next != nearest && next != farthest, ..self.curve.optimum(&found) });
+                let settled = next != nearest && next != farthest;
+                return Some(Optimum { settled, ..self.curve.optimum(&found) });
             }
             found = self.curve.probe(next)?;
         }
         Some(self.curve.optimum(&found))
     }
 
+    #[inline(always)]
+    fn sides(&self, values: &(N, N)) -> (f64, f64) {
+        self.problem.sides(values.0.approximate(), values.1.approximate())
+    }
+
+    /// How far the two sides are from being equal.
+    #[inline(always)]
+    fn mismatch(&self, optimum: &Optimum<N>) -> f64 {
+        let (growing, falling) = self.problem.sides(optimum.values.0, optimum.values.1);
+        (growing - falling).approximate().abs()
+    }
+
     /// Where the rounding of the factorisation moves a side by more than its noise, at random for each λ: the way to the root
     /// along the curve is smooth.
     #[cold]
-    fn corrected(self, found: Probe<f64>) -> Optimum {
+    fn corrected(self, found: Probe<N>) -> Optimum<N> {
         let here = self.curve.optimum(&found);
         let further = self.curve.series(&found).map(|series| self.curve.along(&found, &series));
-        let left = |optimum: &Optimum| self.target.mismatch(optimum.values.0, optimum.values.1);
-        let best = further.filter(|further| left(further) < left(&here)).unwrap_or(here);
+        let best = further.filter(|further| self.mismatch(further) < self.mismatch(&here)).unwrap_or(here);
         Optimum { settled: true, ..best }
     }
 
     /// The next λ where the series is of no use: far off, the logarithms of both sides are nearly linear in ln λ.
     #[cold]
-    fn far(self, found: Probe<f64>, growing: f64, falling: f64) -> f64 {
+    fn far(self, found: Probe<N>, growing: f64, falling: f64) -> f64 {
+        let weights = (found.weights.0.approximate(), found.weights.1.approximate());
         // The weighted sum stays what it is on the curve, to first order.
-        let turning = -self.target.per_logarithm(found.weights) * found.rate;
-        let (rate_a, rate_b) = self.target.apart(0.0, turning, found.weights);
-        let (rate_growing, rate_falling) = self.target.changes(rate_a, rate_b);
+        let turning = -self.problem.per_logarithm(weights) * found.rate.approximate();
+        let (rate_a, rate_b) = self.problem.apart(0.0, turning, weights);
+        let (rate_growing, rate_falling) = self.problem.changes(rate_a, rate_b);
         let change = if growing.min(falling) > 0.0 {
             (falling / growing).ln() / (rate_growing / growing - rate_falling / falling)
         } else {
             (falling - growing) / (rate_growing - rate_falling)
         };
-        found.lambda * change.clamp(-60.0, 60.0).exp()
+        found.lambda.approximate() * change.clamp(-60.0, 60.0).exp()
     }
 }
 
 /// A quadratic and its least curvature.
 #[inline(always)]
-fn side(q: &Quadratic, soft: f64) -> Side<'_, f64> {
+pub(crate) fn side(q: &Quadratic, soft: f64) -> Side<'_, f64> {
     Side { value: q.expansion, gradient: &q.gradient, hessian: &q.hessian, soft }
 }
 
@@ -185,7 +195,7 @@ pub(crate) fn both_closest([q_a, q_b]: [&Quadratic; 2], soft: (f64, f64), lambda
     let free = Side { value, gradient: &g_free, hessian: &h_free, soft: Twin::new(soft.0, soft.1) };
     let value = Twin::new(q_b.expansion, q_a.expansion);
     let held = Side { value, gradient: &g_held, hessian: &h_held, soft: Twin::new(soft.1, soft.0) };
-    let curve = Curve::new(free, held, Target::OnB);
+    let curve = Curve::new(free, held, Problem::OnB);
     let probe = curve.probe(Twin::new(lambdas[1], 1.0 / lambdas[0]))?;
     let series = curve.series(&probe)?;
     if !series.share.is_at_most(of(RATHER_NEAR)) {
@@ -220,7 +230,7 @@ impl Optimum<Twin> {
             factor: self.factor.lane(i),
             factored: self.factored.0[i],
             along: vector(&self.along),
-            rate: self.rate.0[i],
+            rate_of_weight: self.rate_of_weight.0[i],
         }
     }
 }
@@ -243,14 +253,14 @@ mod tests {
         let q_b = about([0.95, -0.2, 0.1], Symmetric { xx: 1.8, yx: -0.1, yy: 2.0, zx: 0.4, zy: 0.5, zz: 5.0 });
         let soft = (1.0, 1.0);
         let alone =
-            [Target::OnA, Target::OnB].map(|target| Model::new(&q_a, &q_b, soft, target).solve(1.0, 0.0).unwrap());
+            [Problem::OnA, Problem::OnB].map(|problem| Model::new(side(&q_a, soft.0), side(&q_b, soft.1), problem).solve(1.0, 0.0).unwrap());
         let guesses = [alone[0].lambda * (1.0 + 3e-4), alone[1].lambda * (1.0 - 3e-4)];
         let both = both_closest([&q_a, &q_b], soft, guesses).expect("guesses from nearby");
-        for ((target, alone), both) in [Target::OnA, Target::OnB].into_iter().zip(&alone).zip(&both) {
-            assert!((both.step - alone.step).norm() < 1e-14, "{target:?}");
-            assert!((both.lambda / alone.lambda - 1.0).abs() < 1e-13, "{target:?}");
-            assert!(target.mismatch(both.values.0, both.values.1) < 1e-14, "{target:?}");
-            assert!(both.slope(target).norm() < 1e-14, "{target:?}");
+        for ((problem, alone), both) in [Problem::OnA, Problem::OnB].into_iter().zip(&alone).zip(&both) {
+            assert!((both.step - alone.step).norm() < 1e-14, "{problem:?}");
+            assert!((both.lambda / alone.lambda - 1.0).abs() < 1e-13, "{problem:?}");
+            assert!(problem.mismatch(both.values.0, both.values.1) < 1e-14, "{problem:?}");
+            assert!(both.slope(problem).norm() < 1e-14, "{problem:?}");
         }
         // From too far, and of no weights, it is left to the search.
         assert!(both_closest([&q_a, &q_b], soft, guesses.map(|guess| 1.5 * guess)).is_none());

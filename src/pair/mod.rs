@@ -6,3 +6,4 @@ pub mod pose;
 pub mod relative_pose;
 pub mod separation_tests;
 pub mod warm_start;
+pub mod extended_body;

@@ -14,6 +14,8 @@ pub struct Pair<'a> {
     pub a: &'a Particle,
     /// Particle B.
     pub b: &'a Particle,
+    /// The poses as given, from which the extended tier takes its own digits.
+    pub poses: [&'a Pose; 2],
     /// Local frame of A to local frame of B.
     pub rotation: Matrix3<f64>,
     /// Centre of A in the local frame of B.
@@ -22,10 +24,11 @@ pub struct Pair<'a> {
 
 impl<'a> Pair<'a> {
     /// The pair (A, B) at the given poses.
-    pub fn new(a: &'a Particle, pose_a: &Pose, b: &'a Particle, pose_b: &Pose) -> Self {
+    pub fn new(a: &'a Particle, pose_a: &'a Pose, b: &'a Particle, pose_b: &'a Pose) -> Self {
         Self {
             a,
             b,
+            poses: [pose_a, pose_b],
             rotation: pose_b.rotation().tr_mul(pose_a.rotation()),
             centre: pose_b.rotation().tr_mul(&(pose_a.position() - pose_b.position())),
         }

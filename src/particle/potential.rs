@@ -78,11 +78,11 @@ pub fn value(particle: &Particle, y: &Vector3<f64>) -> f64 {
 
 /// S, ∇S, ∇²S at y, local frame.
 pub fn local(particle: &Particle, y: &Vector3<f64>) -> Quadratic {
-    turned(particle, (particle.plane_weight, particle.sphere_weight), |n| n, y, 0.0, |_, excess| excess > 0.0)
+    turned(particle, particle.sphere_weight, |n| n, y, 0.0, |_, excess| excess > 0.0)
 }
 
 /// S, ∇S, ∇²S at the local point y, with derivatives in the frame that `turn` takes local directions to, and
-/// with weights of the planes and of the shadow sphere that may differ from the particle's own. `counts` says of a
+/// with a weight of the shadow sphere that may differ from the particle's own. `counts` says of a
 /// plane and its n·y − d whether it belongs to the quadratic; none below −`early` does.
 ///
 /// Each active normal is turned before it is squared, not the finished Hessian: in a frame aligned
@@ -90,12 +90,13 @@ pub fn local(particle: &Particle, y: &Vector3<f64>) -> Quadratic {
 #[inline(always)]
 pub(crate) fn turned(
     particle: &Particle,
-    (plane_weight, sphere_weight): (f64, f64),
+    sphere_weight: f64,
     turn: impl Fn(Vector3<f64>) -> Vector3<f64>,
     y: &Vector3<f64>,
     early: f64,
     counts: impl Fn(usize, f64) -> bool,
 ) -> Quadratic {
+    let plane_weight = particle.plane_weight;
     let (mut square, mut all, mut linear, mut count) = (0.0, 0.0, 0.0, 0);
     let mut g = Vector3::zeros();
     let mut squares = Symmetric::default();

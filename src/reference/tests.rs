@@ -24,6 +24,11 @@ fn near(a: &Vector3<f64>, b: &Vector3<f64>, distance: f64) {
     assert!((a - b).norm() <= distance, "{a:?} is not {b:?} to {distance:e}");
 }
 
+/// A pose that outlives the pair made of it.
+fn at(position: [f64; 3]) -> &'static Pose {
+    Box::leak(Box::new(Pose::at(position).unwrap()))
+}
+
 #[test]
 fn spheres_have_the_closed_form() {
     let (small, large) = (Particle::sphere(0.5).unwrap(), Particle::sphere(2.0).unwrap());
@@ -44,7 +49,7 @@ fn spheres_have_the_closed_form() {
 #[test]
 fn closest_points_of_spheres_lie_on_the_constrained_one() {
     let (small, large) = (Particle::sphere(0.5).unwrap(), Particle::sphere(2.0).unwrap());
-    let pair = Pair::new(&small, &Pose::at([0.0, 2.3, 0.0]).unwrap(), &large, &Pose::at([0.0; 3]).unwrap());
+    let pair = Pair::new(&small, at([0.0, 2.3, 0.0]), &large, at([0.0; 3]));
     let p2 = closest(&pair, Role::B).unwrap();
     close(p2.s, 0.3 / 0.5, 1e-8);
     near(&p2.x, &Vector3::new(0.0, 2.0, 0.0), 1e-7);
@@ -56,7 +61,7 @@ fn closest_points_of_spheres_lie_on_the_constrained_one() {
 #[test]
 fn a_slack_constraint_gives_the_centre() {
     let (small, large) = (Particle::sphere(0.5).unwrap(), cube(1.0, 0.1, 0.2, 1.5));
-    let pair = Pair::new(&small, &Pose::at([0.4, 0.0, 0.2]).unwrap(), &large, &Pose::at([0.0; 3]).unwrap());
+    let pair = Pair::new(&small, at([0.4, 0.0, 0.2]), &large, at([0.0; 3]));
     let p2 = closest(&pair, Role::B).unwrap();
     assert!(p2.s <= 1e-10, "s = {:e}", p2.s);
     near(&p2.x, &pair.centre, 1e-9);
@@ -67,16 +72,16 @@ fn a_slack_constraint_gives_the_centre() {
 fn concise_programs_for_flat_cubes_and_spheres() {
     // k = 0 on both sides: faces at distance d + r, S = ((x−d)/r)² in front of a face.
     let (a, b) = (cube(0.5, 0.02, 0.0, 1.0), cube(0.7, 0.04, 0.0, 1.0));
-    let at = Pose::at([1.25, 0.1, -0.05]).unwrap();
+    let beside = Pose::at([1.25, 0.1, -0.05]).unwrap();
     let home = Pose::at([0.0; 3]).unwrap();
-    let pair = Pair::new(&a, &at, &b, &home);
+    let pair = Pair::new(&a, &beside, &b, &home);
     close(midway(&pair).unwrap().s, (1.25 - 1.2) / 0.06, 1e-9);
     close(closest(&pair, Role::B).unwrap().s, (1.25 - 0.5 - 0.74) / 0.02, 1e-8);
     close(closest(&pair, Role::A).unwrap().s, (1.25 - 0.7 - 0.52) / 0.04, 1e-8);
 
     // A flat face and a pure sphere, face on.
     let ball = Particle::sphere(0.3).unwrap();
-    let mixed = Pair::new(&ball, &Pose::at([1.04, 0.0, 0.0]).unwrap(), &b, &home);
+    let mixed = Pair::new(&ball, at([1.04, 0.0, 0.0]), &b, &home);
     let found = midway(&mixed).unwrap();
     close(found.s, (1.04 - 0.7) / 0.34, 1e-9);
     near(&found.x, &Vector3::new(1.04 - 0.3, 0.0, 0.0), 1e-6);
@@ -91,7 +96,7 @@ fn near_polyhedral_faces_keep_their_digits() {
         let particle = cube(d, r, k, shadow);
         let distance = 2.0 * d + 1.5 * r;
         let pair =
-            Pair::new(&particle, &Pose::at([0.0, 0.0, distance]).unwrap(), &particle, &Pose::at([0.0; 3]).unwrap());
+            Pair::new(&particle, at([0.0, 0.0, distance]), &particle, at([0.0; 3]));
         let x = 0.5 * distance;
         let exact = ((1.0 - k) * ((x - d) / r).powi(2) + k * (x / shadow).powi(2)).sqrt();
         let found = midway(&pair).unwrap();
@@ -135,8 +140,8 @@ fn units_do_not_matter() {
     let s = sizes.map(|unit| {
         let a = cube(0.5 * unit, 0.02 * unit, 0.05, 0.8 * unit);
         let b = cube(0.2 * unit, 1e-3 * unit, 0.3, 0.4 * unit);
-        let at = Pose::new([0.55 * unit, 0.3 * unit, 0.2 * unit], TURNED).unwrap();
-        midway(&Pair::new(&a, &at, &b, &Pose::at([0.0; 3]).unwrap())).unwrap().s
+        let turned = Pose::new([0.55 * unit, 0.3 * unit, 0.2 * unit], TURNED).unwrap();
+        midway(&Pair::new(&a, &turned, &b, at([0.0; 3]))).unwrap().s
     });
     close(s[0], s[1], 1e-9);
     close(s[2], s[1], 1e-9);

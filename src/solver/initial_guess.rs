@@ -17,7 +17,7 @@
 
 use crate::linalg::number::larger;
 use crate::model::local_model::Start;
-use crate::model::problem::Target;
+use crate::model::problem::Problem;
 use crate::pair::placed_particle::Body;
 use crate::pair::relative_pose::Pair;
 use crate::particle::plane_clusters;
@@ -41,14 +41,14 @@ const BALANCED: f64 = 1e-20;
 const ROUND: f64 = 0.5;
 
 /// A start without memory.
-pub(crate) fn cold(pair: &Pair, a: &Body, b: &Body) -> Start {
+pub(crate) fn cold(pair: &Pair, [a, b]: [&Body; 2]) -> Start {
     let angular = |body: &Body| !body.particle.is_sphere() && body.particle.sphericity() < ROUND;
     let between = if angular(a) && angular(b) { between_polyhedra([a, b], centre_line(pair)) } else { None };
-    between.unwrap_or_else(|| on_centre_line(pair, a, b))
+    between.unwrap_or_else(|| on_centre_line(pair, [a, b]))
 }
 
 /// The best point on the line of centres.
-pub(crate) fn on_centre_line(pair: &Pair, a: &Body, b: &Body) -> Start {
+pub(crate) fn on_centre_line(pair: &Pair, [a, b]: [&Body; 2]) -> Start {
     let from = a.centre();
     let direction = -from;
     let (ra, rb) = (pair.a.bounding_radius(), pair.b.bounding_radius());
@@ -56,8 +56,8 @@ pub(crate) fn on_centre_line(pair: &Pair, a: &Body, b: &Body) -> Start {
     if direction.norm_squared() == 0.0 {
         return Start { x: Vector3::zeros(), lambda: 1.0, near: false };
     }
-    let line_search::Descent { alpha, slope_a, slope_b, .. } =
-        line_search::descend(a, b, Merit(Target::Midway, 1.0), &from, &direction, (guess, 1.0));
+    let line_search::Descent { alpha, slope_a, slope_b } =
+        line_search::descend([a, b], Merit(Problem::Midway, 1.0), &from, &direction, (guess, 1.0));
     // (1−u) S_A' + u S_B' = 0 on the line.
     let lambda = -slope_a / slope_b;
     let lambda = if lambda > 0.0 && lambda.is_finite() { lambda } else { 1.0 };

@@ -1,9 +1,9 @@
-//! Descent along a line: the merit of a target, minimised exactly enough on a segment.
+//! Descent along a line: the merit of a problem, minimised exactly enough on a segment.
 //!
 //! On a line both potentials are convex, piecewise quadratic functions of one variable, and every
 //! merit is the larger of two sums of them.
 
-use crate::model::problem::{PRICE, Target};
+use crate::model::problem::{PRICE, Problem};
 use crate::pair::placed_particle::Body;
 use crate::particle::potential::OnLine;
 use nalgebra::Vector3;
@@ -20,8 +20,7 @@ struct Trial {
 
 /// Looks for the minimum over α in (0, most) of the merit at `from + α·direction`, from `start` on.
 pub(crate) fn descend(
-    a: &Body,
-    b: &Body,
+    [a, b]: [&Body; 2],
     merit: Merit,
     from: &Vector3<f64>,
     direction: &Vector3<f64>,
@@ -38,8 +37,7 @@ pub(crate) fn descend(
         let step = trial.minimise_pieces();
         let close = step.abs() <= CLOSE * alpha.abs();
         if best.is_none_or(|(b, _)| trial.merit < b.merit) {
-            let ahead = if close || step < 0.0 { 0.0 } else { f64::INFINITY };
-            best = Some((trial, Descent { alpha, ahead, slope_a: on_a.slope, slope_b: on_b.slope }));
+            best = Some((trial, Descent { alpha, slope_a: on_a.slope, slope_b: on_b.slope }));
         }
         if step > 0.0 {
             low = alpha
@@ -53,10 +51,7 @@ pub(crate) fn descend(
         }
         alpha = next;
     }
-    match best {
-        Some((_, descent)) => Descent { ahead: descent.ahead.min((high - descent.alpha).max(0.0)), ..descent },
-        None => Descent { alpha: 0.0, ahead: most, slope_a: 0.0, slope_b: 0.0 },
-    }
+    best.map_or(Descent { alpha: 0.0, slope_a: 0.0, slope_b: 0.0 }, |(_, descent)| descent)
 }
 
 /// Relative accuracy of the minimum: the direction is itself an approximation.
@@ -67,16 +62,14 @@ const CLOSE: f64 = 1e-3;
 pub(crate) struct Descent {
     /// The best α tried.
     pub alpha: f64,
-    /// The way from there to a point where a plane has stopped the descent; 0 if none did.
-    pub ahead: f64,
     /// dS_A/dα and dS_B/dα at the best α.
     pub slope_a: f64,
     pub slope_b: f64,
 }
 
-/// The merit of a target at λ.
+/// The merit of a problem at λ.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Merit(pub Target, pub f64);
+pub(crate) struct Merit(pub Problem, pub f64);
 
 impl Merit {
     /// The two functions whose larger one is the merit.
@@ -86,11 +79,11 @@ impl Merit {
             slope: weight_p * p.slope + weight_q * q.slope,
             curvature: weight_p * p.curvature + weight_q * q.curvature,
         };
-        let Self(target, lambda) = self;
-        match target {
-            Target::Midway => [a, b],
-            Target::OnB => [a, sum(a, 1.0, b, PRICE * lambda, 1.0)],
-            Target::OnA => [b, sum(b, 1.0, a, PRICE / lambda, 1.0)],
+        let Self(problem, lambda) = self;
+        match problem {
+            Problem::Midway => [a, b],
+            Problem::OnB => [a, sum(a, 1.0, b, PRICE * lambda, 1.0)],
+            Problem::OnA => [b, sum(b, 1.0, a, PRICE / lambda, 1.0)],
         }
     }
 }

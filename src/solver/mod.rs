@@ -1,8 +1,7 @@
-//! From a start to a certified optimum.
+//! From a start to a solution with its bounds.
 
-pub(crate) mod anchor;
-pub(crate) mod anchored;
+pub(crate) mod call;
+pub(crate) mod extended;
 pub(crate) mod initial_guess;
 pub(crate) mod line_search;
 pub(crate) mod newton;
-pub(crate) mod search;

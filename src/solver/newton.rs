@@ -1,29 +1,23 @@
-//! The fast solver: Newton on the exact quadratic pieces, with a dual bound at every step.
+//! Newton's method on the exact quadratic pieces, with a dual bound at every step.
 //!
-//! Each iteration expands both potentials at x, solves the pair of quadratics exactly ([`crate::model::quadratic_model`]),
-//! and moves there. The model's optimum is also a dual bound: once the active planes stay, upper and
-//! lower bound meet, and the answer is proved. A step that overshoots (a plane switched on behind x) is
-//! shortened by an exact search along it.
+//! Each iteration makes both quadratics at x, solves the pair exactly ([`crate::model::quadratic_model`]) and steps to their
+//! optimum. If the active set is unchanged after the step, the point is optimal and the dual value is a lower bound. A step that
+//! does not reduce the merit (planes became active on the way) is shortened by an exact line search.
 
-use crate::bounds::rounding::Care;
-use crate::bounds::solution::{Ending, Outcome};
+use crate::bounds::solution::{Ending, Solution};
 use crate::linalg::number::larger;
 use crate::model::dual_path::Optimum;
-use crate::model::kkt_check::Planes;
-use crate::model::local_model::{self, Expansion, Factorisation, Start, Step};
-use crate::model::problem::Target;
-use crate::model::quadratic_model::{LAMBDA_RANGE, Model};
-use crate::pair::active_set::Local;
+use crate::model::kkt_check::Change;
+use crate::model::local_model::{self, Axes, LocalModel, Start};
+use crate::model::problem::Problem;
 use crate::pair::placed_particle::Body;
 use crate::solver::line_search::{self, Merit};
 use nalgebra::Vector3;
 
-/// Most iterations. One call in 20,000 would come to its end after more; the others are in circles, and the safe
-/// solver is faster.
-pub(crate) const MOST_ITERATIONS: u32 = 30;
-
-/// The same from memory or from midway: what takes longer than from a cold start goes on from there.
-pub(crate) const MOST_FROM_MEMORY: u32 = 20;
+/// Most iterations from nothing, and from memory or a neighbouring problem. What takes longer goes in circles, and the extended
+/// tier is faster.
+pub(crate) const MOST_ITERATIONS: u32 = 20;
+pub(crate) const MOST_FROM_NEAR: u32 = 8;
 
 /// Relative to the smaller particle, a step too short for the next one to be more precise.
 const SHORT: f64 = 1e-9;
@@ -31,7 +25,7 @@ const SHORT: f64 = 1e-9;
 /// Factor of the least possible gap that is as good as any.
 const AS_SHARP: f64 = 8.0;
 
-/// Relative gap above which a proof is not taken for good at once.
+/// Relative gap above which an optimum is sought again from nearby.
 const SHARP: f64 = 1e-2;
 
 /// Share of what is still to be gained to which λ is searched, early on and after a step that failed.
@@ -41,50 +35,51 @@ const FINE: f64 = 1e-4;
 /// Steps in a row that may come to nothing.
 const MOST_STOPS: u32 = 3;
 
-/// Steps in a row that may leave λ at the very end of its range, where one body has no weight: it does not come back.
-const MOST_LOST: u32 = 3;
+/// Iterations granted to sharpen an optimum that is known already.
+const MOST_SHARPENING: u32 = 3;
 
-/// Iterations granted to sharpen what is proved already.
-const MOST_TO_ARRIVE: u32 = 5;
+/// Share of the promised decrease of the merit that a step must bring (Armijo's rule).
+const DECREASE: f64 = 1e-4;
 
 /// What the solver is asked for.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Goal {
-    pub target: Target,
+    pub problem: Problem,
     /// Relative gap at which to stop.
     pub tolerance: f64,
     /// Whether a proof that the optimum exceeds 1 is enough.
     pub stop_when_separated: bool,
-    /// Most iterations.
-    pub most: u32,
-    /// What the bounds may take.
-    pub care: Care,
 }
 
-/// The answer where the first step is the last: the planes of the quadratics stay on, no other is met, and the bounds
-/// meet. So it is for nearly all pairs whose start is from memory or from the polyhedra.
-#[inline(always)]
-pub(crate) fn at_once(bodies: [&Body; 2], goal: &Goal, lambda: f64, here: &Expansion) -> Option<Outcome> {
-    let [a, b] = bodies;
-    let model = Model::new(&here.q_a, &here.q_b, local_model::softest(a, b), goal.target);
-    proved(bodies, goal, here, model.solve(lambda, 0.0)?)
+/// Smallest tolerance at which the rounding of doubles is taken for an answer.
+const LEAST_OF_DOUBLES: f64 = 1e-13;
+
+impl Goal {
+    /// Whether an answer that is as good as doubles allow will do, though its gap exceeds the tolerance.
+    pub fn takes_rounding(&self) -> bool {
+        self.tolerance >= LEAST_OF_DOUBLES
+    }
 }
 
-/// The outcome of an optimum, if it is final.
+/// The solution that an optimum of unchanged active set is, if its bounds are as good as they can be.
 #[inline(always)]
-pub(crate) fn proved(bodies: [&Body; 2], goal: &Goal, here: &Expansion, optimum: Optimum) -> Option<Outcome> {
-    let step = here.step(bodies, optimum);
-    if step.planes != Planes::Exact || !step.optimum.settled {
+pub(crate) fn accepted(
+    bodies: [&Body; 2],
+    goal: &Goal,
+    model: &LocalModel,
+    optimum: Optimum,
+) -> Option<Solution> {
+    let step = model.step(bodies, optimum);
+    if step.change != Change::None || !step.optimum.settled {
         return None;
     }
-    let outcome = Outcome { iterations: 1, ..Outcome::of(here, bodies, goal.target, &step, Care::Once) };
-    if goal.stop_when_separated && outcome.separates(flat(bodies)) {
-        return Some(Outcome { ending: Ending::Separated, ..outcome });
+    let solution = Solution { iterations: 1, ..Solution::of(model, bodies, goal.problem, &step) };
+    if goal.stop_when_separated && solution.separates(flat(bodies)) {
+        return Some(Solution { ending: Ending::Separated, ..solution });
     }
-    let proof = Proof::of(&outcome, goal, bodies, here, step.v.norm());
-    // What is merely short may be proved again ([`crate::solver::search`]).
-    let good = proof.precise || proof.rounded;
-    (good && proof.is_final(false)).then_some(Outcome { ending: proof.ending(), ..outcome })
+    let quality = Quality::of(&solution, goal, model);
+    let good = quality.precise || (quality.rounded && quality.telling && goal.takes_rounding());
+    (good && solution.linear).then_some(Solution { ending: quality.ending(), ..solution })
 }
 
 /// What the regularisation itself leaves open.
@@ -92,178 +87,127 @@ fn flat([a, b]: [&Body; 2]) -> f64 {
     larger(a.most_surplus(1.0), b.most_surplus(1.0))
 }
 
-/// How good the bounds of an outcome are.
-struct Proof {
+/// How good the bounds of a solution are.
+struct Quality {
     /// They meet within the tolerance.
     precise: bool,
     /// As near as rounding lets any bounds come.
     rounded: bool,
-    /// The step was so short that the next one is no more precise.
-    short: bool,
-    /// A plane that only seems to push holds the point where it does not belong, whatever it does to s: from nearby its
-    /// sign is known.
-    decided: bool,
     /// They leave little open, however large what rounding leaves.
     telling: bool,
 }
 
-impl Proof {
+impl Quality {
     #[inline(always)]
-    fn of(outcome: &Outcome, goal: &Goal, bodies: [&Body; 2], here: &Expansion, length: f64) -> Self {
-        let (gap, short) = (outcome.gap(), length <= SHORT * local_model::smallest(bodies));
+    fn of(solution: &Solution, goal: &Goal, model: &LocalModel) -> Self {
+        let gap = solution.gap();
         Self {
-            precise: gap <= goal.tolerance * outcome.upper,
-            rounded: gap <= AS_SHARP * outcome.least_rounding(here, goal.target),
-            short,
-            decided: outcome.sure || short,
-            telling: gap <= SHARP * outcome.upper,
+            precise: gap <= goal.tolerance * solution.upper,
+            rounded: gap <= AS_SHARP * solution.least_rounding(model, goal.problem),
+            telling: gap <= SHARP * solution.upper,
         }
     }
 
     fn ending(&self) -> Ending {
         if self.precise { Ending::Converged } else { Ending::RoundingLimited }
     }
-
-    /// Whether to look no further. After a step that should have gained more, this is what rounding allows, however much
-    /// it is.
-    fn is_final(&self, again: bool) -> bool {
-        self.decided && (self.precise || ((self.short || self.rounded) && (self.telling || again)))
-    }
 }
 
-/// Solves for the goal, beginning with the quadratics in `here`; those of the answer are left there.
+/// The best solution so far, with the model it is an optimum of.
+struct Best {
+    solution: Solution,
+    model: LocalModel,
+    /// Iterations since the first.
+    age: u32,
+}
+
+/// Solves for the goal, beginning with the model at hand; that of the solution is left there.
 pub(crate) fn solve(
-    a: &Body,
-    b: &Body,
+    bodies: [&Body; 2],
     goal: &Goal,
     start: &Start,
-    factorisation: Factorisation,
-    here: &mut Expansion,
-) -> Outcome {
-    let (bodies, target) = ([a, b], goal.target);
-    let flat = flat(bodies);
-    let mut lambda = start.lambda;
-    let mut thorough = start.near;
-    let mut previous: Option<Attempt> = None;
-    let (mut proved, mut arriving, mut stopped) = (None::<(Outcome, Step, Expansion)>, 0, 0);
-    let (mut nearest, mut dropped) = (None::<(f64, Step, Expansion)>, false);
-    let (mut lower, mut lost) = (f64::NEG_INFINITY, 0);
-    let mut iterations = 0;
-    while iterations < goal.most {
+    axes: Axes,
+    model: &mut LocalModel,
+) -> Solution {
+    let problem = goal.problem;
+    let most = if start.near { MOST_FROM_NEAR } else { MOST_ITERATIONS };
+    let (flat, shortest) = (flat(bodies), SHORT * local_model::smallest(bodies));
+    let (mut lambda, mut lower) = (start.lambda, f64::NEG_INFINITY);
+    let (mut attempt, mut best, mut stops, mut iterations) = (None::<Attempt>, None::<Best>, 0, 0);
+    while iterations < most && stops <= MOST_STOPS {
         iterations += 1;
-        if let Some(attempt) = previous.as_ref().filter(|_| !thorough) {
-            let merit = here.merit(target, attempt.lambda);
-            let enough = attempt.merit - 1e-4 * attempt.promised;
-            // Two values of S cannot be told apart below their rounding.
-            if !(merit <= enough || merit <= enough + here.merit_rounding(bodies, target, attempt.lambda)) {
-                let moved = attempt.shorten(bodies, target, lambda, factorisation, here);
-                // Stopped at once, again and again: the planes take turns, and λ has to be found otherwise.
-                stopped = if moved { 0 } else { stopped + 1 };
-                if stopped > MOST_STOPS {
-                    break;
-                }
-                thorough = true;
-            }
+        let failed = attempt.as_ref().is_some_and(|attempt| !attempt.is_descent(bodies, problem, model));
+        if let Some(attempt) = attempt.as_ref().filter(|_| failed) {
+            let moved = attempt.shorten(bodies, problem, lambda, axes, model);
+            stops = if moved { 0 } else { stops + 1 };
         }
-        let upper = here.merit(target, lambda);
+        let upper = model.merit(problem, lambda);
         if !upper.is_finite() {
             break;
         }
-        // Where the planes are likely right, at once the best λ; else a rough one will do, but for a better one after
+        // Where the active set is likely right, at once the best λ; else a rough one will do, but for a better one after
         // a step that failed.
         let share = match () {
             () if start.near && iterations == 1 => 0.0,
-            () if thorough => FINE,
+            () if failed => FINE,
             () => ROUGH,
         };
-        let behind = if target == Target::Midway { upper - lower } else { 0.0 };
-        let mismatch = target.mismatch(here.q_a.expansion, here.q_b.expansion);
+        let behind = if problem == Problem::Midway { upper - lower } else { 0.0 };
+        let mismatch = problem.mismatch(model.q_a.expansion, model.q_b.expansion);
         let enough = share * mismatch.max(behind).min(upper);
-        let Some(step) = here.optimum(bodies, target, lambda, enough) else { break };
-        let at_end = step.optimum.lambda == lambda && !(LAMBDA_RANGE.0..=LAMBDA_RANGE.1).contains(&lambda);
-        lost = if at_end { lost + 1 } else { 0 };
+        let Some(step) = model.optimum(bodies, problem, lambda, enough) else { break };
         lambda = step.optimum.lambda;
-        if lost > MOST_LOST {
-            break;
-        }
-        if step.planes == Planes::Dropped {
-            here.drop(bodies, &step, target, lambda, factorisation);
-            (previous, thorough, dropped) = (None, false, true);
+        if step.change == Change::Leaving {
+            *model = model.without_leaving(bodies, &step, problem.weights(lambda), axes);
+            attempt = None;
             continue;
         }
-        let upper = here.merit(target, lambda);
-        lower = target.dual(step.optimum.values.0, step.optimum.values.1, lambda);
-        let separating = goal.stop_when_separated && lower > 1.0 && step.planes != Planes::Pulling;
-        let proving = step.planes == Planes::Exact && step.optimum.settled;
-        // Inside both cores nothing but the regularisation tells one point from another.
-        let inside = flat > 0.0 && step.planes == Planes::Met && upper - lower <= flat;
-        // Where planes act as walls it may be rounding that tells whether one is on, and the search goes in circles about the optimum.
-        let left = if target == Target::Midway && dropped { upper - lower } else { f64::INFINITY };
-        if step.planes == Planes::Met
-            && left <= SHARP * upper
-            && nearest.as_ref().is_none_or(|(least, ..)| left < *least)
-        {
-            nearest = Some((left, step, *here));
-        }
-        if separating || proving || inside {
-            let mut outcome = Outcome { iterations, ..Outcome::of(here, bodies, target, &step, goal.care) };
-            if separating && outcome.separates(flat) {
-                return Outcome { ending: Ending::Separated, ..outcome };
+        let upper = model.merit(problem, lambda);
+        lower = problem.dual(step.optimum.values.0, step.optimum.values.1, lambda);
+        let separating = goal.stop_when_separated && lower > 1.0 && step.change != Change::Pulling;
+        let optimal = step.change == Change::None && step.optimum.settled;
+        if separating || optimal {
+            let solution = Solution { iterations, ..Solution::of(model, bodies, problem, &step) };
+            if separating && solution.separates(flat) {
+                return Solution { ending: Ending::Separated, ..solution };
             }
-            if proving {
-                let proof = Proof::of(&outcome, goal, bodies, here, step.v.norm());
-                outcome.ending = proof.ending();
-                if proof.is_final(arriving > 1) {
-                    outcome.refine(here, bodies, target, &step);
-                    return outcome;
+            if optimal {
+                let quality = Quality::of(&solution, goal, model);
+                let solution = Solution { ending: quality.ending(), ..solution };
+                let short = step.length <= shortest;
+                if quality.precise || ((short || quality.rounded) && quality.telling) {
+                    return solution;
                 }
-            } else if inside {
-                outcome = Outcome { ending: Ending::RoundingLimited, ..outcome.at(here) };
-            }
-            // Proved, but over a long step; the same from nearby is sharper.
-            if (proving || inside) && proved.as_ref().is_none_or(|(old, ..)| outcome.gap() < old.gap()) {
-                proved = Some((outcome, step, *here));
+                // Optimal, but over a long step; the same from nearby is sharper.
+                if best.as_ref().is_none_or(|best| solution.gap() < best.solution.gap()) {
+                    let age = best.map_or(0, |best| best.age);
+                    best = Some(Best { solution, model: *model, age });
+                }
             }
         }
-        arriving += u32::from(proved.is_some());
-        if arriving > MOST_TO_ARRIVE {
-            break;
+        if let Some(best) = &mut best {
+            best.age += 1;
+            if best.age > MOST_SHARPENING {
+                break;
+            }
         }
-        let promised = (upper - lower).max(0.0);
-        let x = here.x + step.v;
-        previous = Some(Attempt { from: here.x, locals: here.locals, step: step.v, lambda, merit: upper, promised });
-        thorough = false;
-        *here = Expansion::of(bodies, x, [a.locate(&x, 0.0), b.locate(&x, 0.0)], target.weights(lambda), factorisation);
+        let promised = larger(upper - lower, 0.0);
+        let x = model.x + step.v;
+        attempt = Some(Attempt { from: *model, step: step.v, lambda, merit: upper, promised });
+        *model = LocalModel::of(bodies, x, bodies.map(|body| body.locate(&x)), problem.weights(lambda), axes);
     }
-    // A proof that leaves everything open is none. Where S all but vanishes, deep inside both, what counts is its gap beside the
-    // 1 of the surfaces.
-    let tells = |outcome: &Outcome| outcome.gap() <= (SHARP * outcome.upper.max(flat)).max(goal.tolerance);
-    let unproved = if stopped > MOST_STOPS || arriving > MOST_TO_ARRIVE { Ending::Circling } else { Ending::Stuck };
-    let refined = |(mut outcome, step, expansion): (Outcome, Step, Expansion)| {
-        outcome.refine(&expansion, bodies, target, &step);
-        (outcome, expansion)
-    };
-    let bracketed = || {
-        let (_, step, expansion) = nearest?;
-        let outcome = Outcome::of(&expansion, bodies, target, &step, goal.care).at(&expansion);
-        let (outcome, expansion) = refined((outcome, step, expansion));
-        let rounding = larger(outcome.rounding, expansion.merit_rounding(bodies, target, outcome.lambda));
-        Some((Outcome { rounding, ending: unproved, ..outcome }, expansion)).filter(|(outcome, _)| tells(outcome))
-    };
-    match proved.filter(|(outcome, ..)| tells(outcome)).map(refined).or_else(bracketed) {
-        Some((outcome, expansion)) => {
-            *here = expansion;
-            Outcome { iterations, ..outcome }
+    match best {
+        Some(best) => {
+            *model = best.model;
+            Solution { iterations, ..best.solution }
         }
-        None => Outcome { x: here.x, lambda, lower, iterations, ending: unproved, ..Outcome::UNKNOWN },
+        None => Solution::unsettled(model.x, lambda, iterations),
     }
 }
 
 /// A step that was tried, to be shortened if it made things worse.
-#[derive(Clone, Copy)]
 struct Attempt {
-    from: Vector3<f64>,
-    locals: [Local; 2],
+    from: LocalModel,
     step: Vector3<f64>,
     lambda: f64,
     merit: f64,
@@ -271,27 +215,28 @@ struct Attempt {
 }
 
 impl Attempt {
-    /// Expands at the best point along the step instead; whether that is another point.
+    /// Whether the merit at the end of the step is lower than before by a share of what was promised.
+    fn is_descent(&self, bodies: [&Body; 2], problem: Problem, model: &LocalModel) -> bool {
+        let merit = model.merit(problem, self.lambda);
+        let enough = self.merit - DECREASE * self.promised;
+        // Two values of S cannot be told apart below their rounding.
+        merit <= enough || merit <= enough + model.merit_rounding(bodies, problem, self.lambda)
+    }
+
+    /// The model at the best point along the step instead; whether that is another point.
     #[cold]
     fn shorten(
         &self,
         bodies: [&Body; 2],
-        target: Target,
+        problem: Problem,
         lambda: f64,
-        factorisation: Factorisation,
-        here: &mut Expansion,
+        axes: Axes,
+        model: &mut LocalModel,
     ) -> bool {
-        let [a, b] = bodies;
-        let descent = line_search::descend(a, b, Merit(target, self.lambda), &self.from, &self.step, (0.5, 1.0));
-        let x = self.from + descent.alpha * self.step;
-        let early = descent.ahead * self.step.norm();
-        let mut locals = [a.locate(&x, early), b.locate(&x, early)];
-        let moved = (x - self.from).norm() > self.locals[0].shift.max(self.locals[1].shift);
-        if !moved {
-            locals[0].carry_dropped(&self.locals[0], a, &self.step);
-            locals[1].carry_dropped(&self.locals[1], b, &self.step);
-        }
-        *here = Expansion::of(bodies, x, locals, target.weights(lambda), factorisation);
-        moved
+        let descent =
+            line_search::descend(bodies, Merit(problem, self.lambda), &self.from.x, &self.step, (0.5, 1.0));
+        let x = self.from.x + descent.alpha * self.step;
+        *model = LocalModel::of(bodies, x, bodies.map(|body| body.locate(&x)), problem.weights(lambda), axes);
+        (x - self.from.x).norm() > larger(self.from.points[0].shift, self.from.points[1].shift)
     }
 }

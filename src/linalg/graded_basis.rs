@@ -1,12 +1,10 @@
-//! Axes aligned with the stiffest planes at a point: the safer factorisation.
+//! Axes aligned with the stiffest planes at a point, in which a Hessian is graded.
 //!
 //! Plane curvature (1−k)/r² and sphere curvature k/R² can differ by 1e18. Summed in arbitrary axes, the
-//! sphere's share drowns in the rounding of the planes'. In axes q₁ = stiffest normal, q₂ = stiffest
+//! sphere's share is lost in the rounding of the planes'. In axes q₁ = stiffest normal, q₂ = stiffest
 //! remainder, q₃ = q₁ × q₂ the Hessian is graded, and elimination in this order keeps each
 //! direction's own relative precision.
 
-use crate::pair::active_set::Place;
-use crate::pair::placed_particle::Body;
 use nalgebra::{Matrix3, Vector3};
 
 /// Square of the sine below which what is left of a normal is rounding.
@@ -15,11 +13,16 @@ const PARALLEL: f64 = 1e-30;
 /// Most normals that are kept from the first look at the planes for the second: few points have more planes on.
 const MOST_KEPT: usize = 16;
 
-/// Orthonormal axes (columns), stiffest first, from the planes of both quadratics with weights (a, b).
-pub(crate) fn aligned(bodies: [&Body; 2], weights: (f64, f64), places: &[impl Place; 2]) -> Matrix3<f64> {
-    let bodies = [(bodies[0], &places[0], weights.0), (bodies[1], &places[1], weights.1)];
+/// The normals of planes that are on, each with the curvature that its plane gives the weighted sum.
+pub(crate) trait StiffNormals {
+    /// Calls `visit` with each normal and curvature, in the same order each time.
+    fn visit(&self, visit: impl FnMut(Vector3<f64>, f64));
+}
+
+/// Orthonormal axes (columns), stiffest first.
+pub(crate) fn aligned(normals: &impl StiffNormals) -> Matrix3<f64> {
     let (mut stiffest, mut kept, mut count) = (Stiffest::default(), [(Vector3::zeros(), 0.0); MOST_KEPT], 0);
-    visit(bodies, |n, weight| {
+    normals.visit(|n, weight| {
         stiffest.meet(&n, n, weight);
         if let Some(place) = kept.get_mut(count) {
             *place = (n, weight);
@@ -35,7 +38,7 @@ pub(crate) fn aligned(bodies: [&Body; 2], weights: (f64, f64), places: &[impl Pl
     let mut meet = |n: Vector3<f64>, weight| stiffest.meet(&n, across(across(n)), weight);
     match kept.get(..count) {
         Some(kept) => kept.iter().for_each(|(n, weight)| meet(*n, *weight)),
-        None => visit(bodies, meet),
+        None => normals.visit(meet),
     }
     let second = stiffest
         .normal
@@ -43,15 +46,6 @@ pub(crate) fn aligned(bodies: [&Body; 2], weights: (f64, f64), places: &[impl Pl
         .and_then(|v| across(v).try_normalize(0.5))
         .unwrap_or_else(|| any_across(&first));
     Matrix3::from_columns(&[first, second, first.cross(&second)])
-}
-
-/// The normals of the planes of both quadratics, each with the weight of its plane.
-#[inline(always)]
-fn visit(bodies: [(&Body, &impl Place, f64); 2], mut visit: impl FnMut(Vector3<f64>, f64)) {
-    for (body, place, scale) in bodies {
-        let weight = scale * body.plane_curvature();
-        body.normals(place, |n| visit(n, weight));
-    }
 }
 
 /// The remainder of an active normal that carries the largest curvature.

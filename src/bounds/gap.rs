@@ -1,0 +1,43 @@
+//! The scale s of a solution, and the bound on its error.
+
+use crate::bounds::solution::Solution;
+use crate::linalg::number::{larger, smaller};
+use crate::model::problem::Problem;
+use crate::pair::placed_particle::Body;
+
+/// s with its error bound.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Scale {
+    /// Best estimate of s.
+    pub s: f64,
+    /// |s − s*| ≤ gap.
+    pub gap: f64,
+    /// s* ≥ low.
+    pub low: f64,
+}
+
+/// Root of the least normal number: an s below it has a square that is lost.
+const UNDERFLOW: f64 = 1.5e-154;
+
+impl Scale {
+    /// With the regularisation taken out again.
+    #[inline(always)]
+    pub fn of(solution: &Solution, [a, b]: [&Body; 2], problem: Problem) -> Self {
+        let weighted = |of_a, of_b| problem.weighted(of_a, of_b, solution.lambda);
+        // Regularised S exceeds S by at most this where the optimum can be.
+        let level = larger(solution.upper, 1.0);
+        let most = weighted(a.most_surplus(level), b.most_surplus(level));
+        let square = larger(solution.estimate - weighted(a.surplus(&solution.x), b.surplus(&solution.x)), 0.0);
+        let low = larger(solution.lower - most - solution.rounding, 0.0);
+        let high = larger(larger(solution.upper, solution.lower), square) + solution.rounding;
+        let low = smaller(low, square);
+        let s = square.sqrt();
+        let low = low.sqrt() * (1.0 - f64::EPSILON);
+        Self { s, gap: larger(high.sqrt() - s, s - low) + f64::EPSILON * s + UNDERFLOW, low }
+    }
+
+    /// Whether s cannot be told from 0, as where a constraint is slack.
+    pub fn tells_nothing(&self) -> bool {
+        !(self.s > self.gap)
+    }
+}

@@ -1,0 +1,74 @@
+//! Bounds for a point and a scale s that another solver found.
+
+use crate::bounds::dual_bound::DualBound;
+use crate::bounds::rounding::of_sums;
+use crate::bounds::solution::{Ending, Solution};
+use crate::model::kkt_check::Change;
+use crate::model::local_model::{self, Axes, LocalModel, Start};
+use crate::model::problem::Problem;
+use crate::pair::placed_particle::Body;
+use nalgebra::Vector3;
+
+/// The solution at x with the ratio of weights λ that came with it.
+///
+/// Two dual bounds are tried: the local model's where its multipliers are admissible, and the
+/// linear one, φ(x) − |∇φ|·D, for any optimum within a distance D of x.
+pub(crate) fn judged(x: &Vector3<f64>, lambda: f64, s: f64, bodies: [&Body; 2], problem: Problem) -> Solution {
+    let start = Start { x: *x, lambda, near: true };
+    let plain = LocalModel::at(bodies, &start, problem, Axes::OfB);
+    let values = [plain.q_a.value, plain.q_b.value];
+    let gradients = [plain.q_a.gradient, plain.q_b.gradient];
+    let upper = feasible(x, values, bodies, problem);
+    let of = |i: usize, q| bodies[i].rounding(&plain.points[i], q);
+    let rounding = problem.weighted(of(0, &plain.q_a), of(1, &plain.q_b), lambda);
+    let weights = problem.weights(lambda);
+    let slope = (weights.0 * gradients[0] + weights.1 * gradients[1]).norm();
+    let linear = problem.dual(values[0], values[1], lambda) - slope * local_model::farthest(bodies, x, upper);
+    let by_model = dual_value(bodies, &start, problem, upper).unwrap_or(f64::NEG_INFINITY);
+    Solution {
+        gradients,
+        gradient_norms: gradients.map(|g| g.norm()),
+        values,
+        estimate: s * s,
+        lower: linear.max(by_model),
+        upper,
+        rounding,
+        ending: Ending::Converged,
+        ..Solution::unsettled(*x, lambda, 0)
+    }
+}
+
+/// The dual value of the local model at the given λ, less all that is in doubt about it. Planes that only seem to be on are dropped
+/// one by one, as in the solver.
+fn dual_value(bodies: [&Body; 2], start: &Start, problem: Problem, upper: f64) -> Option<f64> {
+    let weights = problem.weights(start.lambda);
+    let mut model = LocalModel::at(bodies, start, problem, Axes::Graded);
+    loop {
+        let step = model.optimum(bodies, problem, start.lambda, 0.0)?;
+        match step.change {
+            Change::Pulling => return None,
+            Change::Leaving => model = model.without_leaving(bodies, &step, weights, Axes::Graded),
+            Change::None | Change::Entering => {
+                let (optimum, lambda) = (&step.optimum, step.optimum.lambda);
+                let (of_a, of_b) = (of_sums(&model.q_a, optimum), of_sums(&model.q_b, optimum));
+                let value = problem.dual(optimum.values.0, optimum.values.1, lambda);
+                let force = problem.weighted(optimum.gradients[0].norm(), optimum.gradients[1].norm(), lambda);
+                let bound = DualBound::after(&model, bodies, problem, &step, (upper, force, 0.0));
+                return Some(value - bound.height - problem.weighted(of_a, of_b, lambda));
+            }
+        }
+    }
+}
+
+/// The merit of x, or of a point on the way to the centre of the body that x should be in and is not: λ may be wrong, and
+/// with it the price of what is missing. s is convex on that way.
+fn feasible(x: &Vector3<f64>, values: [f64; 2], bodies: [&Body; 2], problem: Problem) -> f64 {
+    let Some((held, free)) = problem.held() else { return values[0].max(values[1]) };
+    let (s, centre) = (values[held].sqrt(), bodies[held].centre());
+    if s <= 1.0 {
+        return values[free];
+    }
+    let s0 = bodies[held].value(&centre).sqrt();
+    let share = (1.0 - s0) / (s - s0);
+    values[free].max(bodies[free].value(&(centre + share * (x - centre))))
+}

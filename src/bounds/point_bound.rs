@@ -1,0 +1,58 @@
+//! How far the point of a solution can be from the optimum.
+
+use crate::bounds::dual_bound::TURN;
+use crate::bounds::solution::Solution;
+use crate::linalg::number::larger;
+use crate::model::local_model::{self, LocalModel};
+use crate::model::problem::Problem;
+use crate::pair::placed_particle::Body;
+
+/// Units in the last place by which two sides that meet may still differ.
+const SIDES: f64 = 8.0;
+
+/// Bound on the distance from the point of a solution to the optimum, length.
+///
+/// Where the active set is certain, the optimum is that of known quadratics and only their data is in doubt: each plane's distance
+/// by its rounding, each body's force a·∇S_A by the rounding of its direction. The answer of the optimum to each is
+/// a linear problem that is solved already, and the lengths are added: an estimate of first order, with bounds on all data.
+/// Elsewhere strong convexity bounds it: ½·curvature·distance² ≤ upper − lower.
+#[inline(always)]
+pub(crate) fn point_bound(solution: &Solution, model: &LocalModel, bodies: [&Body; 2], problem: Problem) -> f64 {
+    if let Some(bound) = solution.point_bound {
+        return bound;
+    }
+    // Carried along from the point of expansion, and rounded at the end.
+    let step = solution.x - model.x;
+    let length = step.norm();
+    let carried = TURN * f64::EPSILON * (length + solution.x.norm());
+    let Some(sensitivity) = solution.sensitivity.as_ref() else {
+        return by_convexity(solution, bodies, problem) + carried;
+    };
+    let weights = problem.weights(solution.lambda);
+    let in_axes = model.to_axes(&step);
+    let turn = TURN * f64::EPSILON * sensitivity.per_slope(bodies[0].particle.dimensions);
+    let (mut sum, mut sides) = (sensitivity.unsolved(), [0.0; 2]);
+    for (i, (q, weight)) in [(&model.q_a, weights.0), (&model.q_b, weights.1)].into_iter().enumerate() {
+        let (shift, blur) = bodies[i].after(&model.points[i], length);
+        let planes = sensitivity.to_planes(i, q.count, problem, solution.lambda, bodies[i].plane_weight());
+        // The force, rounded at either end of the step.
+        let force = weight * (solution.gradient_norms[i] + q.gradient.norm());
+        sum += shift + blur * planes + force * turn + sensitivity.to_sums(q, weight, q.terms(&in_axes));
+        sides[i] =
+            SIDES * f64::EPSILON * q.expansion + solution.sums[i] + bodies[i].sphere_slope(solution.values[i]) * shift;
+    }
+    // The two sides meet to what was left, and to the rounding of what they are summed from. The centre of a sphere that is
+    // off by the shift moves the slope by its share, less than the shift moves the point, but S by more.
+    let left = problem.mismatch(solution.values[0], solution.values[1]);
+    let (side_a, side_b) = problem.changes(sides[0], sides[1]);
+    sum += sensitivity.to_value(left + side_a + side_b + SIDES * f64::EPSILON * larger(solution.upper, 1.0));
+    // Where both gradients vanish, the sensitivity has no digits.
+    if sum.is_finite() { sum + carried } else { by_convexity(solution, bodies, problem) + carried }
+}
+
+/// By strong convexity: what the bounds of the value leave.
+pub(crate) fn by_convexity(solution: &Solution, bodies: [&Body; 2], problem: Problem) -> f64 {
+    let (weights, soft) = (problem.weights(solution.lambda), local_model::softest(bodies));
+    let open = larger(solution.upper - solution.lower, 0.0) + solution.rounding;
+    (2.0 * open / (weights.0 * soft.0 + weights.1 * soft.1)).sqrt()
+}

@@ -1,0 +1,319 @@
+//! A body in numbers of 32 digits, about a point of reference.
+//!
+//! Everything is taken from the data as the caller gave it: the rotation from both quaternions, the centre from both positions, the
+//! weights from r, k and R. The depth of a plane at x₀ + δ is e + n·δ, where e = n·x₀ − d is found once: whatever e has lost to
+//! rounding is a shift of the plane, the same for every δ.
+
+use crate::linalg::double_double::DoubleDouble;
+use crate::linalg::number::Number;
+use crate::linalg::symmetric::Symmetric;
+use crate::pair::placed_particle::Body;
+use crate::pair::pose::Pose;
+use crate::pair::relative_pose::Pair;
+use nalgebra::{Matrix3, Vector3};
+
+/// A vector of 32 digits.
+pub(crate) type Wide = Vector3<DoubleDouble>;
+
+/// Bound on the rounding of e and of a rotated normal, in units of [`DoubleDouble::UNIT`] and of the lengths that enter
+/// (docs/theory.md, "Rounding").
+const ROUNDING: f64 = 64.0;
+
+/// A plane near the point of reference.
+#[derive(Clone, Copy)]
+struct Plane {
+    /// Solver frame.
+    normal: Wide,
+    /// e = n·x₀ − d.
+    excess: DoubleDouble,
+}
+
+/// A particle with its pose in the solver's frame.
+pub(crate) struct ExtendedBody<'a> {
+    body: &'a Body<'a>,
+    /// Columns: the axes of the particle in the solver's frame.
+    axes: [Wide; 3],
+    /// Centre to x₀, solver frame and local frame.
+    from_centre: Wide,
+    local: Wide,
+    planes: Vec<Plane>,
+    /// No other plane is on within this distance of x₀.
+    reach: f64,
+    plane_weight: DoubleDouble,
+    sphere_weight: DoubleDouble,
+    /// Bound on |x₀| + |centre|.
+    lengths: f64,
+}
+
+/// S and its derivatives at a point, in some axes.
+#[derive(Clone, Copy)]
+pub(crate) struct WideQuadratic {
+    pub value: DoubleDouble,
+    pub gradient: Wide,
+    pub hessian: Symmetric<DoubleDouble>,
+}
+
+/// What enters the bounds of a solution: S, ∇S in the solver's frame, 2w Σ depth, the number of planes on, and the bounds on the
+/// rounding of the depths and on the turn of ∇S.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct WideValue {
+    pub value: DoubleDouble,
+    pub gradient: Wide,
+    pub pull: f64,
+    pub count: u32,
+    pub blur: f64,
+    pub turn: f64,
+    /// Number of planes times their weight.
+    weight_of_planes: f64,
+    /// Rounding of the centre of the sphere, in S.
+    of_centre: f64,
+    /// Least |depth| of any plane.
+    pub clear: f64,
+}
+
+impl WideValue {
+    /// Bound on the rounding of S.
+    pub fn rounding(&self) -> f64 {
+        let planes = self.pull * self.blur + self.weight_of_planes * self.blur * self.blur;
+        planes + ROUNDING * DoubleDouble::UNIT * self.value.rounded() + self.of_centre
+    }
+}
+
+fn of(value: f64) -> DoubleDouble {
+    DoubleDouble::from(value)
+}
+
+/// A vector of doubles.
+pub(crate) fn wide(v: &Vector3<f64>) -> Wide {
+    v.map(of)
+}
+
+/// The nearest vector of doubles.
+pub(crate) fn rounded(v: &Wide) -> Vector3<f64> {
+    v.map(DoubleDouble::rounded)
+}
+
+impl<'a> ExtendedBody<'a> {
+    /// Both bodies of a pair about x₀, solver frame.
+    pub fn both(pair: &Pair, bodies: [&'a Body<'a>; 2], x: &Vector3<f64>) -> [Self; 2] {
+        let [pose_a, pose_b] = pair.poses;
+        let (of_b, identity) = (axes(pose_b), [0, 1, 2].map(|i| wide(&Vector3::ith(i, 1.0))));
+        let difference = pose_a.position().zip_map(pose_b.position(), |a, b| DoubleDouble::sum(a, -b));
+        let centre = Vector3::from(of_b.map(|axis| axis.dot(&difference)));
+        let of_a = axes(pose_a).map(|axis| Vector3::from(of_b.map(|b| b.dot(&axis))));
+        [Self::new(bodies[0], of_a, centre, x), Self::new(bodies[1], identity, wide(&Vector3::zeros()), x)]
+    }
+
+    fn new(body: &'a Body<'a>, axes: [Wide; 3], centre: Wide, x: &Vector3<f64>) -> Self {
+        let particle = body.particle;
+        let (r, k, shadow) = (particle.rounding_radius(), particle.sphericity(), particle.shadow_radius());
+        let from_centre = wide(x) - centre;
+        let local = Vector3::from([0, 1, 2].map(|i| axes[i].dot(&from_centre)));
+        Self {
+            body,
+            axes,
+            from_centre,
+            local,
+            planes: Vec::new(),
+            reach: 0.0,
+            plane_weight: if k == 1.0 { of(0.0) } else { DoubleDouble::sum(1.0, -k) / DoubleDouble::product(r, r) },
+            sphere_weight: if body.is_plain() {
+                of(k) / DoubleDouble::product(shadow, shadow)
+            } else {
+                of(body.sphere_weight())
+            },
+            lengths: x.norm() + 2.0 * rounded(&centre).norm(),
+        }
+    }
+
+    /// Makes sure that every plane that is on within a distance of x₀ is at hand.
+    pub fn cover(&mut self, distance: f64) {
+        if distance <= self.reach {
+            return;
+        }
+        let (particle, axes) = (self.body.particle, &self.axes);
+        self.reach = MARGIN * distance;
+        let early = particle.bounds.longest_normal * self.reach;
+        let (planes, local) = (&mut self.planes, &self.local);
+        planes.clear();
+        particle.visit_near(&rounded(local), early, |place, n, excess| {
+            if excess > -early {
+                let normal = axes[0] * of(n.x) + axes[1] * of(n.y) + axes[2] * of(n.z);
+                let excess = local.x * n.x + local.y * n.y + local.z * n.z - of(particle.offset(place));
+                planes.push(Plane { normal, excess });
+            }
+        });
+    }
+
+    /// Calls `visit` with the normal and the depth of each plane at x₀ + δ.
+    fn visit(&self, delta: &Wide, mut visit: impl FnMut(&Wide, DoubleDouble)) {
+        for Plane { normal, excess } in &self.planes {
+            visit(normal, *excess + normal.dot(delta));
+        }
+    }
+
+    /// Calls `visit` with the normal of each plane that is on at x₀ + δ.
+    pub fn active_normals(&self, delta: &Wide, mut visit: impl FnMut(Vector3<f64>)) {
+        self.visit(delta, |n, depth| {
+            if depth.is_positive() {
+                visit(rounded(n));
+            }
+        });
+    }
+
+    /// S at x₀ + δ with derivatives in `axes` (columns, solver frame; `metric` is the product of their transpose with them).
+    pub fn quadratic(&self, delta: &Wide, axes: &Matrix3<f64>, metric: &Symmetric<DoubleDouble>) -> WideQuadratic {
+        let (w2, m2) = (self.plane_weight * 2.0, self.sphere_weight * 2.0);
+        let turned = |v: &Wide| {
+            let along = |i: usize| v.x * axes[(0, i)] + v.y * axes[(1, i)] + v.z * axes[(2, i)];
+            Vector3::new(along(0), along(1), along(2))
+        };
+        let (mut square, mut linear, mut squares) = (of(0.0), wide(&Vector3::zeros()), Symmetric::default());
+        self.visit(delta, |n, depth| {
+            if depth.is_positive() {
+                let n = turned(n);
+                square += depth * depth;
+                linear += n * depth;
+                squares.add_square(&n);
+            }
+        });
+        let y = self.from_centre + delta;
+        WideQuadratic {
+            value: self.plane_weight * square + self.sphere_weight * y.dot(&y),
+            gradient: linear * w2 + turned(&y) * m2,
+            hessian: squares.weighted(w2, metric, m2),
+        }
+    }
+
+    /// Whether each plane is on at x₀ + δ + v if it is at x₀ + δ, and off if it is off, but for rounding.
+    pub fn keeps_active_set(&self, delta: &Wide, v: &Wide) -> bool {
+        let lengths = rounded(delta).norm() + rounded(v).norm();
+        self.planes.iter().all(|Plane { normal, excess }| {
+            let (before, change) = (*excess + normal.dot(delta), normal.dot(v));
+            let (after, doubt) = ((before + change).rounded(), self.depth_rounding(normal, *excess, lengths));
+            if before.is_positive() { after >= -doubt } else { after <= doubt }
+        })
+    }
+
+    /// Bound on the rounding of e + n·δ beyond that of e, for |δ| up to a length.
+    fn depth_rounding(&self, normal: &Wide, excess: DoubleDouble, length: f64) -> f64 {
+        8.0 * DoubleDouble::UNIT * (excess.rounded().abs() + rounded(normal).norm() * length)
+    }
+
+    /// Slope and curvature of S at x₀ + δ + α·v along v, in doubles, from [`ExtendedBody::line`].
+    pub fn line(&self, delta: &Wide, v: &Wide) -> Line {
+        let y = self.from_centre + delta;
+        let (m2, v64) = (2.0 * self.sphere_weight.rounded(), rounded(v));
+        Line {
+            planes: self
+                .planes
+                .iter()
+                .map(|Plane { normal, excess }| {
+                    ((*excess + normal.dot(delta)).rounded(), normal.dot(v).rounded())
+                })
+                .collect(),
+            weight: 2.0 * self.plane_weight.rounded(),
+            slope: m2 * y.dot(v).rounded(),
+            curvature: m2 * v64.norm_squared(),
+        }
+    }
+
+    /// S and what enters the bounds, at x₀ + δ.
+    pub fn value(&self, delta: &Wide) -> WideValue {
+        let particle = self.body.particle;
+        let (mut square, mut linear) = (of(0.0), wide(&Vector3::zeros()));
+        let (mut pull, mut count, mut clear) = (0.0, 0, f64::INFINITY);
+        self.visit(delta, |n, depth| {
+            clear = clear.min(depth.rounded().abs());
+            if depth.is_positive() {
+                square += depth * depth;
+                linear += n * depth;
+                pull += depth.rounded();
+                count += 1;
+            }
+        });
+        let y = self.from_centre + delta;
+        let lengths = self.lengths + rounded(delta).norm();
+        let unit = ROUNDING * DoubleDouble::UNIT;
+        let normals = particle.bounds.longest_normal;
+        let pull = 2.0 * self.plane_weight.rounded() * pull;
+        WideValue {
+            value: self.plane_weight * square + self.sphere_weight * y.dot(&y),
+            gradient: linear * (self.plane_weight * 2.0) + y * (self.sphere_weight * 2.0),
+            pull,
+            count,
+            blur: unit * (normals * lengths + particle.bounds.offset_within(lengths)),
+            weight_of_planes: f64::from(count + 1) * self.plane_weight.rounded(),
+            of_centre: 2.0 * self.sphere_weight.rounded() * rounded(&y).norm() * unit * lengths,
+            turn: unit * (normals * pull + 2.0 * self.sphere_weight.rounded() * lengths),
+            clear,
+        }
+    }
+
+    /// From x₀ + δ to the centre.
+    pub fn to_centre(&self, delta: &Wide) -> Wide {
+        -(self.from_centre + delta)
+    }
+
+    /// Longest normal of a plane.
+    pub fn longest_normal(&self) -> f64 {
+        self.body.particle.bounds.longest_normal
+    }
+
+    /// Planes' weight, 1/length².
+    pub fn plane_weight(&self) -> f64 {
+        self.plane_weight.rounded()
+    }
+
+    /// Least curvature of S in any direction.
+    pub fn soft(&self) -> f64 {
+        2.0 * self.sphere_weight.rounded()
+    }
+
+    /// Bound on the rounding of the centre of the sphere, length.
+    pub fn shift(&self, delta: &Wide) -> f64 {
+        ROUNDING * DoubleDouble::UNIT * (self.lengths + rounded(delta).norm())
+    }
+}
+
+/// How much farther planes are gathered than they are needed.
+const MARGIN: f64 = 2.0;
+
+/// S of one body along a line, in doubles.
+pub(crate) struct Line {
+    /// Depth and its change for each plane.
+    planes: Vec<(f64, f64)>,
+    weight: f64,
+    slope: f64,
+    curvature: f64,
+}
+
+impl Line {
+    /// dS/dα and d²S/dα².
+    pub fn at(&self, alpha: f64) -> (f64, f64) {
+        let (mut slope, mut curvature) = (self.slope + alpha * self.curvature, self.curvature);
+        for (depth, rate) in &self.planes {
+            let depth = depth + alpha * rate;
+            if depth > 0.0 {
+                slope += self.weight * depth * rate;
+                curvature += self.weight * rate * rate;
+            }
+        }
+        (slope, curvature)
+    }
+}
+
+/// The axes of a body in the world, from its quaternion of any length.
+fn axes(pose: &Pose) -> [Wide; 3] {
+    let [w, x, y, z] = pose.orientation();
+    let p = DoubleDouble::product;
+    let (ww, xx, yy, zz) = (p(w, w), p(x, x), p(y, y), p(z, z));
+    let square = ww + xx + yy + zz;
+    let twice = |v: DoubleDouble| (v + v) / square;
+    let (xy, xz, yz, wx, wy, wz) = (p(x, y), p(x, z), p(y, z), p(w, x), p(w, y), p(w, z));
+    [
+        Vector3::new((ww + xx - yy - zz) / square, twice(xy + wz), twice(xz - wy)),
+        Vector3::new(twice(xy - wz), (ww - xx + yy - zz) / square, twice(yz + wx)),
+        Vector3::new(twice(xz + wy), twice(yz - wx), (ww - xx - yy + zz) / square),
+    ]
+}

@@ -1,0 +1,370 @@
+//! The extended tier: the same problem in numbers of 32 digits, by a method that always ends.
+//!
+//! For a fixed ratio of weights λ the sum φ = a·S_A + b·S_B is strictly convex, continuously differentiable and piecewise
+//! quadratic: Newton's method with an exact line search ends at its minimum. Along the minima one side of the problem grows with λ
+//! and the other falls, so that λ is bracketed; from each minimum the dual path of its quadratics leads to the next λ, and if
+//! the active set is unchanged there, that is the optimum.
+//!
+//! The bounds need no active set: with the depths of the last point as multipliers, the dual value less half the square of the slope
+//! over the curvature of the spheres is a lower bound, and the merit of the point an upper one.
+
+use crate::bounds::sensitivity::Sensitivity;
+use crate::bounds::solution::{Ending, Solution};
+use crate::linalg::double_double::DoubleDouble;
+use crate::linalg::graded_basis::{self, StiffNormals};
+use crate::linalg::number::{Number, Single, larger};
+use crate::linalg::symmetric::{Factor, Symmetric};
+use crate::model::dual_path::{Optimum, Side};
+use crate::model::local_model::{self, Start};
+use crate::model::problem::Problem;
+use crate::model::quadratic_model::Model;
+use crate::pair::extended_body::{ExtendedBody, Wide, WideQuadratic, WideValue, rounded, wide};
+use crate::pair::placed_particle::Body;
+use crate::pair::relative_pose::Pair;
+use crate::solver::newton::Goal;
+use nalgebra::{Matrix3, Vector3};
+
+/// Most values of λ, most Newton steps for each, and most trial points of a line search.
+const MOST_WEIGHTS: u32 = 60;
+const MOST_STEPS: u32 = 100;
+const MOST_TRIALS: u32 = 60;
+
+/// Share of the first slope at which a line search ends.
+const FLAT: f64 = 1e-3;
+
+/// Factor by which λ moves while only one end of its bracket is known, at most.
+const STRIDE: f64 = 1e3;
+
+/// Share of the bracket of ln λ that a value of λ from the dual path has to leave at each end, after two that did not halve it.
+const INSIDE: f64 = 0.1;
+
+/// Both bodies about the start.
+struct Extended<'a> {
+    bodies: [ExtendedBody<'a>; 2],
+    problem: Problem,
+    x: Vector3<f64>,
+    /// Smallest length that counts.
+    steps: u32,
+}
+
+/// Both quadratics at x₀ + δ in graded axes.
+struct WideModel {
+    axes: Matrix3<f64>,
+    sides: [WideQuadratic; 2],
+    /// Bounds on the least curvatures from below.
+    soft: [DoubleDouble; 2],
+}
+
+/// What comes of Newton's method at fixed λ.
+enum Minimum {
+    Found(WideModel),
+    /// No further after all steps, or a number left the range.
+    Lost,
+}
+
+/// Solves for the goal from a start.
+pub(crate) fn solve(pair: &Pair, bodies: [&Body; 2], goal: &Goal, start: &Start) -> Solution {
+    let mut extended = Extended {
+        bodies: ExtendedBody::both(pair, bodies, &start.x),
+        problem: goal.problem,
+        x: start.x,
+        steps: 0,
+    };
+    let first = local_model::smallest(bodies);
+    extended.bodies.iter_mut().for_each(|body| body.cover(first));
+    let (delta, lambda, optimum) = extended.search(DoubleDouble::from(start.lambda));
+    extended.solution(bodies, goal, &delta, lambda, optimum)
+}
+
+impl Extended<'_> {
+    /// δ and λ of the optimum, with the optimum of its quadratics where the active set is right.
+    fn search(&mut self, first: DoubleDouble) -> (Wide, DoubleDouble, Option<(Optimum<DoubleDouble>, Matrix3<f64>)>) {
+        let (mut delta, mut lambda) = (wide(&Vector3::zeros()), first);
+        let (mut low, mut high, mut slow) = (0.0, f64::INFINITY, 0);
+        // The active set at the start may be that of the optimum.
+        let model = self.model(&delta, lambda);
+        if let Some(found) = self.optimum(&mut delta, &model, lambda) {
+            return (delta, found.0.lambda, Some(found));
+        }
+        for _ in 0..MOST_WEIGHTS {
+            let Minimum::Found(model) = self.minimise(&mut delta, lambda) else { break };
+            let quadratics = model.quadratics(self.problem);
+            let Some(optimum) = quadratics.solve(lambda, 0.0) else { break };
+            if let Some(found) = self.accept(&mut delta, &model, optimum) {
+                return (delta, found.0.lambda, Some(found));
+            }
+            let (growing, falling) =
+                self.problem.sides(model.sides[0].value.rounded(), model.sides[1].value.rounded());
+            let here = lambda.rounded();
+            let width = (high / low).ln();
+            if growing > falling { high = here } else { low = here }
+            let next = optimum.lambda.rounded();
+            lambda = if low > 0.0 && high < f64::INFINITY {
+                slow = if (high / low).ln() > 0.5 * width { slow + 1 } else { 0 };
+                let margin = if slow > 1 { (high / low).powf(INSIDE) } else { 1.0 };
+                if low * margin < next && next < high / margin {
+                    optimum.lambda
+                } else {
+                    DoubleDouble::from((low * high).sqrt())
+                }
+            } else if high < f64::INFINITY {
+                DoubleDouble::from(if next < high { next.max(high / STRIDE) } else { high / STRIDE })
+            } else {
+                DoubleDouble::from(if next > low { next.min(low * STRIDE) } else { low * STRIDE })
+            };
+            if lambda.rounded() <= low || lambda.rounded() >= high {
+                break;
+            }
+        }
+        (delta, lambda, None)
+    }
+
+    /// The optimum of the quadratics at x₀ + δ, if the active set is the same there; δ moves to it.
+    fn optimum(
+        &mut self,
+        delta: &mut Wide,
+        model: &WideModel,
+        lambda: DoubleDouble,
+    ) -> Option<(Optimum<DoubleDouble>, Matrix3<f64>)> {
+        let optimum = model.quadratics(self.problem).solve(lambda, 0.0)?;
+        self.accept(delta, model, optimum)
+    }
+
+    fn accept(
+        &mut self,
+        delta: &mut Wide,
+        model: &WideModel,
+        optimum: Optimum<DoubleDouble>,
+    ) -> Option<(Optimum<DoubleDouble>, Matrix3<f64>)> {
+        let v = model.to_solver(&optimum.step);
+        if !optimum.settled || !self.keeps_active_sets(delta, &v) {
+            return None;
+        }
+        *delta += v;
+        Some((optimum, model.axes))
+    }
+
+    fn keeps_active_sets(&mut self, delta: &Wide, v: &Wide) -> bool {
+        let reach = rounded(delta).norm() + rounded(v).norm();
+        self.bodies.iter_mut().all(|body| {
+            body.cover(reach);
+            body.keeps_active_set(delta, v)
+        })
+    }
+
+    /// Moves δ to the minimum of a·S_A + b·S_B, by Newton's method with an exact line search.
+    fn minimise(&mut self, delta: &mut Wide, lambda: DoubleDouble) -> Minimum {
+        let (a, b) = self.problem.weights(lambda);
+        for _ in 0..MOST_STEPS {
+            let model = self.model(delta, lambda);
+            let [q_a, q_b] = &model.sides;
+            let hessian = q_a.hessian.weighted(a, &q_b.hessian, b);
+            let soft = a * model.soft[0] + b * model.soft[1];
+            let Some(factor) = Factor::of(&hessian, soft) else { return Minimum::Lost };
+            let step = -factor.solve(&(q_a.gradient * a + q_b.gradient * b));
+            let v = model.to_solver(&step);
+            if !rounded(&v).iter().all(|c| c.is_finite()) {
+                return Minimum::Lost;
+            }
+            if self.keeps_active_sets(delta, &v) {
+                *delta += v;
+                // The quadratics are those of the minimum, but about another point.
+                return Minimum::Found(self.model(delta, lambda));
+            }
+            let alpha = self.best_step(delta, &v, (a.rounded(), b.rounded()));
+            let moved = *delta + v * DoubleDouble::from(alpha);
+            if moved == *delta {
+                return Minimum::Found(model);
+            }
+            *delta = moved;
+        }
+        Minimum::Lost
+    }
+
+    /// α > 0 at which a·S_A + b·S_B is least along v: a root of its slope, which grows with α and is piecewise linear.
+    fn best_step(&self, delta: &Wide, v: &Wide, (a, b): (f64, f64)) -> f64 {
+        let lines = [self.bodies[0].line(delta, v), self.bodies[1].line(delta, v)];
+        let at = |alpha: f64| {
+            let ((slope_a, curvature_a), (slope_b, curvature_b)) = (lines[0].at(alpha), lines[1].at(alpha));
+            (a * slope_a + b * slope_b, a * curvature_a + b * curvature_b)
+        };
+        let (first, _) = at(0.0);
+        let (mut low, mut high, mut alpha) = (0.0, f64::INFINITY, 1.0);
+        for _ in 0..MOST_TRIALS {
+            let (slope, curvature) = at(alpha);
+            if slope.abs() <= FLAT * first.abs() {
+                break;
+            }
+            if slope < 0.0 { low = alpha } else { high = alpha }
+            let next = alpha - slope / curvature;
+            alpha = if low < next && next < high {
+                next
+            } else if high < f64::INFINITY {
+                0.5 * (low + high)
+            } else {
+                2.0 * alpha
+            };
+        }
+        alpha
+    }
+
+    fn model(&mut self, delta: &Wide, lambda: DoubleDouble) -> WideModel {
+        self.steps += 1;
+        let reach = rounded(delta).norm();
+        self.bodies.iter_mut().for_each(|body| body.cover(reach));
+        let (a, b) = self.problem.weights(lambda.rounded());
+        let axes = graded_basis::aligned(&ActiveNormals { bodies: &self.bodies, delta, weights: [a, b] });
+        // Doubles are orthonormal to rounding only; the metric says by how much they are off.
+        let mut metric = Symmetric::default();
+        for i in 0..3 {
+            metric.add_square(&wide(&axes.row(i).transpose()));
+        }
+        let sides = [0, 1].map(|i| self.bodies[i].quadratic(delta, &axes, &metric));
+        let soft = [0, 1].map(|i| DoubleDouble::from(LESS * self.bodies[i].soft()));
+        WideModel { axes, sides, soft }
+    }
+
+    /// The solution at x₀ + δ with its bounds.
+    fn solution(
+        &mut self,
+        bodies: [&Body; 2],
+        goal: &Goal,
+        delta: &Wide,
+        lambda: DoubleDouble,
+        optimum: Option<(Optimum<DoubleDouble>, Matrix3<f64>)>,
+    ) -> Solution {
+        let problem = self.problem;
+        let values = [self.bodies[0].value(delta), self.bodies[1].value(delta)];
+        let [of_a, of_b] = &values;
+        let weights = problem.weights(lambda);
+        let (a, b) = (weights.0.rounded(), weights.1.rounded());
+        let x = self.x + rounded(delta);
+        let dual = problem.dual(of_a.value, of_b.value, lambda);
+        let error = values.map(|of| of.rounding());
+        let slope = rounded(&(of_a.gradient * weights.0 + of_b.gradient * weights.1)).norm();
+        let slope = slope + a * of_a.turn + b * of_b.turn;
+        let height = 0.5 * slope * slope / (LESS * (a * self.bodies[0].soft() + b * self.bodies[1].soft()));
+        let upper = self.upper(delta, &values);
+        let estimate = dual.rounded();
+        let gradients = values.map(|of| rounded(&of.gradient));
+        let solution = Solution {
+            gradients,
+            gradient_norms: gradients.map(|g| g.norm()),
+            values: values.map(|of| of.value.rounded()),
+            estimate,
+            lower: estimate - height,
+            // The difference is taken before it is rounded.
+            upper: estimate + larger((upper - dual).rounded(), 0.0),
+            rounding: larger(problem.weighted(error[0], error[1], lambda.rounded()), larger(error[0], error[1])),
+            linear: true,
+            ..Solution::unsettled(x, lambda.rounded(), self.steps)
+        };
+        let solution = Solution {
+            rate: optimum.as_ref().map_or(0.0, |(optimum, _)| approximate(optimum).rate(problem)),
+            ..solution
+        };
+        let by_convexity = crate::bounds::point_bound::by_convexity(&solution, bodies, problem);
+        let bound = optimum.and_then(|(optimum, _)| self.point_bound(&approximate(&optimum), delta, &values));
+        let carried = 4.0 * f64::EPSILON * x.norm();
+        let gap = solution.gap();
+        let ending = if !gap.is_finite() {
+            Ending::Unsettled
+        } else if goal.stop_when_separated && solution.separates(larger(bodies[0].most_surplus(1.0), bodies[1].most_surplus(1.0))) {
+            Ending::Separated
+        } else if gap <= goal.tolerance * solution.upper {
+            Ending::Converged
+        } else {
+            Ending::RoundingLimited
+        };
+        Solution { point_bound: Some(bound.unwrap_or(by_convexity).min(by_convexity) + carried), ending, ..solution }
+    }
+
+    /// The merit of the point, or of one on the way to the centre of the body that it should be in and is not.
+    fn upper(&mut self, delta: &Wide, values: &[WideValue; 2]) -> DoubleDouble {
+        let Some((held, free)) = self.problem.held() else { return values[0].value.larger(values[1].value) };
+        let one = DoubleDouble::from(1.0);
+        if values[held].value.is_at_most(one) {
+            return values[free].value;
+        }
+        let to_centre = self.bodies[held].to_centre(delta);
+        self.bodies.iter_mut().for_each(|body| body.cover(rounded(delta).norm() + rounded(&to_centre).norm()));
+        let s0 = self.bodies[held].value(&(*delta + to_centre)).value.sqrt();
+        let s = values[held].value.sqrt();
+        // √S is convex on that way.
+        let share = (s - one) / (s - s0);
+        let inside = *delta + to_centre * share;
+        values[free].value.larger(self.bodies[free].value(&inside).value)
+    }
+
+    /// Bound on the distance of the point to the optimum, by its sensitivity to the data, where the active set is certain.
+    fn point_bound(&self, optimum: &Optimum, delta: &Wide, values: &[WideValue; 2]) -> Option<f64> {
+        let soft = (self.bodies[0].soft(), self.bodies[1].soft());
+        let sensitivity = Sensitivity::of(optimum, self.problem, soft)?;
+        let (a, b) = self.problem.weights(optimum.lambda);
+        let (mut sum, mut sides) = (sensitivity.unsolved(), [0.0; 2]);
+        for (i, (of, weight)) in values.iter().zip([a, b]).enumerate() {
+            let body = &self.bodies[i];
+            let planes =
+                sensitivity.to_planes(i, of.count, self.problem, optimum.lambda, body.plane_weight());
+            sum += body.shift(delta) + of.blur * planes + weight * of.turn * sensitivity.per_slope(3);
+            sides[i] = of.rounding();
+        }
+        let left = self.problem.mismatch(values[0].value, values[1].value).approximate();
+        let (side_a, side_b) = self.problem.changes(sides[0], sides[1]);
+        sum += sensitivity.to_value(left + side_a + side_b);
+        // The active set is certain if no plane switches within the bound.
+        let switches = (0..2).any(|i| values[i].clear <= values[i].blur + self.bodies[i].longest_normal() * sum);
+        (sum.is_finite() && !switches).then_some(sum)
+    }
+}
+
+/// Factor below 1 by which axes that are orthonormal to rounding may lower a curvature.
+const LESS: f64 = 1.0 - 1e-12;
+
+impl WideModel {
+    fn quadratics(&self, problem: Problem) -> Model<'_, DoubleDouble> {
+        let side = |i: usize| {
+            let WideQuadratic { value, gradient, hessian } = &self.sides[i];
+            Side { value: *value, gradient, hessian, soft: self.soft[i] }
+        };
+        Model::new(side(0), side(1), problem)
+    }
+
+    /// A step in the graded axes in the solver's frame.
+    fn to_solver(&self, v: &Wide) -> Wide {
+        let row = |i: usize| v.x * self.axes[(i, 0)] + v.y * self.axes[(i, 1)] + v.z * self.axes[(i, 2)];
+        Vector3::new(row(0), row(1), row(2))
+    }
+}
+
+/// The planes of both bodies that are on.
+struct ActiveNormals<'a> {
+    bodies: &'a [ExtendedBody<'a>; 2],
+    delta: &'a Wide,
+    weights: [f64; 2],
+}
+
+impl StiffNormals for ActiveNormals<'_> {
+    fn visit(&self, mut visit: impl FnMut(Vector3<f64>, f64)) {
+        for (body, weight) in self.bodies.iter().zip(self.weights) {
+            let curvature = 2.0 * weight * body.plane_weight();
+            body.active_normals(self.delta, |n| visit(n, curvature));
+        }
+    }
+}
+
+/// An optimum in doubles, for bounds.
+fn approximate(optimum: &Optimum<DoubleDouble>) -> Optimum {
+    let scalar = DoubleDouble::rounded;
+    Optimum {
+        step: rounded(&optimum.step),
+        gradients: [rounded(&optimum.gradients[0]), rounded(&optimum.gradients[1])],
+        values: (scalar(optimum.values.0), scalar(optimum.values.1)),
+        lambda: scalar(optimum.lambda),
+        settled: optimum.settled,
+        factor: optimum.factor.map(scalar),
+        factored: scalar(optimum.factored),
+        along: rounded(&optimum.along),
+        rate_of_weight: scalar(optimum.rate_of_weight),
+    }
+}
