@@ -105,9 +105,7 @@ fn midway(input: &Input, settings: Settings) -> Result<Midway, String> {
 
 fn closest(input: &Input, settings: Settings) -> Result<Closest, String> {
     // With all weight on one of them, the contact point is that closest point, of separated particles as well.
-    let weighted = |weight_on_a| {
-        solve(input, Settings { formulation: Formulation::Closest, weight_on_a, ..settings })
-    };
+    let weighted = |weight_on_a| solve(input, Settings { formulation: Formulation::Closest, weight_on_a, ..settings });
     let on_b = weighted(0.0)?;
     if on_b.flags.contains(Flags::SLACK) {
         return slack(input, &on_b, &settings);

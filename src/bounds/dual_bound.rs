@@ -40,8 +40,7 @@ impl DualBound {
         let [check_a, check_b] = &step.checks;
         let optimum = &step.optimum;
         let rounding = a * rounding::of_slope(&model.q_a, optimum) + b * rounding::of_slope(&model.q_b, optimum);
-        let doubtful =
-            check_a.doubtful_slope(bodies[0], a, rounding) + check_b.doubtful_slope(bodies[1], b, rounding);
+        let doubtful = check_a.doubtful_slope(bodies[0], a, rounding) + check_b.doubtful_slope(bodies[1], b, rounding);
         // Forces balance to the rounding of their directions only.
         let turned = TURN * f64::EPSILON * force;
         let slope = optimum.slope(problem).norm() + doubtful + turned;

@@ -6,12 +6,12 @@ use crate::linalg::number::larger;
 use crate::model::local_model::Piece;
 use crate::pair::placed_particle;
 use crate::pair::pose::Pose;
-use crate::solver::call::ClosestPoint;
 use crate::pair::relative_pose::Pair;
 use crate::particle::particle::Particle;
 use crate::particle::potential;
 use crate::particle::ray_cast;
 use crate::settings::{BackEnd, Formulation};
+use crate::solver::call::ClosestPoint;
 use nalgebra::Vector3;
 
 /// Whether the particles overlap. A failure is an error, never a kind.
@@ -179,7 +179,8 @@ impl LocalContact {
     /// Closest: overlap distance |P1 − P2|, contact point their weighted mean, normal from the gradients
     /// of A at P1 and of B at P2.
     pub fn closest(pair: &Pair, [p1, p2]: &[ClosestPoint; 2], weight_on_a: f64, overlapping: bool) -> Self {
-        let across = Across::of(pair, &[p1.gradients[0], p2.gradients[1]], [p1.gradient_norms[0], p2.gradient_norms[1]]);
+        let across =
+            Across::of(pair, &[p1.gradients[0], p2.gradients[1]], [p1.gradient_norms[0], p2.gradient_norms[1]]);
         let way = p1.x - p2.x;
         Self {
             formulation: Formulation::Closest,

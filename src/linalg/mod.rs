@@ -1,6 +1,6 @@
 //! Numbers, lanes of them, numbers of 32 digits, and symmetric 3×3 matrices.
 
 pub(crate) mod double_double;
+pub(crate) mod graded_basis;
 pub(crate) mod number;
 pub(crate) mod symmetric;
-pub(crate) mod graded_basis;

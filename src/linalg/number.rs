@@ -11,15 +11,7 @@ pub type Twin = AutoF64x2;
 
 /// A number, or two of them in lanes. What is asked of a number is asked of both.
 pub trait Number:
-    Scalar
-    + Copy
-    + Zero
-    + One
-    + ClosedAddAssign
-    + ClosedSubAssign
-    + ClosedMulAssign
-    + ClosedDivAssign
-    + Neg<Output = Self>
+    Scalar + Copy + Zero + One + ClosedAddAssign + ClosedSubAssign + ClosedMulAssign + ClosedDivAssign + Neg<Output = Self>
 {
     /// Bound on the relative error of one operation.
     const UNIT: f64;

@@ -84,13 +84,7 @@ impl LocalModel {
 
     /// At a point with its active sets. The stiffest planes are those of the sum with these weights.
     #[inline(always)]
-    pub fn of(
-        bodies: [&Body; 2],
-        x: Vector3<f64>,
-        points: [LocalPoint; 2],
-        weights: (f64, f64),
-        axes: Axes,
-    ) -> Self {
+    pub fn of(bodies: [&Body; 2], x: Vector3<f64>, points: [LocalPoint; 2], weights: (f64, f64), axes: Axes) -> Self {
         let axes = match axes {
             Axes::OfB => None,
             Axes::Graded => Some(graded_basis::aligned(&ActiveNormals { bodies, points: &points, weights })),

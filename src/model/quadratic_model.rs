@@ -99,7 +99,10 @@ impl<'a, N: Single> Model<'a, N> {
                 low = found.lambda;
             }
             let next = match self.curve.series(&found) {
-                Some(series) if series.share.approximate() <= last_at_once || (series.share.approximate() <= NEAR && enough > 0.0) => {
+                Some(series)
+                    if series.share.approximate() <= last_at_once
+                        || (series.share.approximate() <= NEAR && enough > 0.0) =>
+                {
                     let further = self.curve.along(&found, &series);
                     let left = self.mismatch(&further);
                     let settled =
@@ -252,8 +255,8 @@ mod tests {
         let q_a = about([-0.9, 0.1, 0.2], Symmetric { xx: 2.5, yx: 0.3, yy: 4.0, zx: -0.2, zy: 0.1, zz: 1.5 });
         let q_b = about([0.95, -0.2, 0.1], Symmetric { xx: 1.8, yx: -0.1, yy: 2.0, zx: 0.4, zy: 0.5, zz: 5.0 });
         let soft = (1.0, 1.0);
-        let alone =
-            [Problem::OnA, Problem::OnB].map(|problem| Model::new(side(&q_a, soft.0), side(&q_b, soft.1), problem).solve(1.0, 0.0).unwrap());
+        let alone = [Problem::OnA, Problem::OnB]
+            .map(|problem| Model::new(side(&q_a, soft.0), side(&q_b, soft.1), problem).solve(1.0, 0.0).unwrap());
         let guesses = [alone[0].lambda * (1.0 + 3e-4), alone[1].lambda * (1.0 - 3e-4)];
         let both = both_closest([&q_a, &q_b], soft, guesses).expect("guesses from nearby");
         for ((problem, alone), both) in [Problem::OnA, Problem::OnB].into_iter().zip(&alone).zip(&both) {

@@ -5,7 +5,7 @@
 //! rounding is a shift of the plane, the same for every δ.
 
 use crate::linalg::double_double::DoubleDouble;
-use crate::linalg::number::Number;
+use crate::linalg::number::{Number, smaller};
 use crate::linalg::symmetric::Symmetric;
 use crate::pair::placed_particle::Body;
 use crate::pair::pose::Pose;
@@ -26,6 +26,21 @@ struct Plane {
     normal: Wide,
     /// e = n·x₀ − d.
     excess: DoubleDouble,
+    /// |n|.
+    length: f64,
+}
+
+impl Plane {
+    fn depth(&self, delta: &Wide) -> DoubleDouble {
+        self.excess + self.normal.dot(delta)
+    }
+
+    /// The depth at x₀ + δ in doubles, and a bound on its rounding: what is clearly on or off needs no more digits.
+    fn quick_depth(&self, delta: &Vector3<f64>, length: f64) -> (f64, f64) {
+        let excess = self.excess.rounded();
+        let depth = excess + rounded(&self.normal).dot(delta);
+        (depth, 8.0 * f64::EPSILON * (excess.abs() + self.length * length))
+    }
 }
 
 /// A particle with its pose in the solver's frame.
@@ -140,25 +155,35 @@ impl<'a> ExtendedBody<'a> {
             if excess > -early {
                 let normal = axes[0] * of(n.x) + axes[1] * of(n.y) + axes[2] * of(n.z);
                 let excess = local.x * n.x + local.y * n.y + local.z * n.z - of(particle.offset(place));
-                planes.push(Plane { normal, excess });
+                planes.push(Plane { normal, excess, length: n.norm() });
             }
         });
     }
 
-    /// Calls `visit` with the normal and the depth of each plane at x₀ + δ.
-    fn visit(&self, delta: &Wide, mut visit: impl FnMut(&Wide, DoubleDouble)) {
-        for Plane { normal, excess } in &self.planes {
-            visit(normal, *excess + normal.dot(delta));
+    /// Calls `visit` with the normal and the depth of each plane that is on at x₀ + δ. Gives a lower bound of |depth| over the
+    /// others.
+    fn visit_active(&self, delta: &Wide, mut visit: impl FnMut(&Wide, DoubleDouble)) -> f64 {
+        let (quick, mut clear) = (rounded(delta), f64::INFINITY);
+        let length = quick.norm();
+        for plane in &self.planes {
+            let (depth, rounding) = plane.quick_depth(&quick, length);
+            if depth < -rounding {
+                clear = smaller(-depth - rounding, clear);
+                continue;
+            }
+            let depth = plane.depth(delta);
+            if depth.is_positive() {
+                visit(&plane.normal, depth);
+            } else {
+                clear = smaller(depth.rounded().abs(), clear);
+            }
         }
+        clear
     }
 
     /// Calls `visit` with the normal of each plane that is on at x₀ + δ.
     pub fn active_normals(&self, delta: &Wide, mut visit: impl FnMut(Vector3<f64>)) {
-        self.visit(delta, |n, depth| {
-            if depth.is_positive() {
-                visit(rounded(n));
-            }
-        });
+        self.visit_active(delta, |n, _| visit(rounded(n)));
     }
 
     /// S at x₀ + δ with derivatives in `axes` (columns, solver frame; `metric` is the product of their transpose with them).
@@ -169,13 +194,11 @@ impl<'a> ExtendedBody<'a> {
             Vector3::new(along(0), along(1), along(2))
         };
         let (mut square, mut linear, mut squares) = (of(0.0), wide(&Vector3::zeros()), Symmetric::default());
-        self.visit(delta, |n, depth| {
-            if depth.is_positive() {
-                let n = turned(n);
-                square += depth * depth;
-                linear += n * depth;
-                squares.add_square(&n);
-            }
+        self.visit_active(delta, |n, depth| {
+            let n = turned(n);
+            square += depth * depth;
+            linear += n * depth;
+            squares.add_square(&n);
         });
         let y = self.from_centre + delta;
         WideQuadratic {
@@ -187,31 +210,37 @@ impl<'a> ExtendedBody<'a> {
 
     /// Whether each plane is on at x₀ + δ + v if it is at x₀ + δ, and off if it is off, but for rounding.
     pub fn keeps_active_set(&self, delta: &Wide, v: &Wide) -> bool {
-        let lengths = rounded(delta).norm() + rounded(v).norm();
-        self.planes.iter().all(|Plane { normal, excess }| {
-            let (before, change) = (*excess + normal.dot(delta), normal.dot(v));
-            let (after, doubt) = ((before + change).rounded(), self.depth_rounding(normal, *excess, lengths));
+        let (quick, end) = (rounded(delta), rounded(&(delta + v)));
+        let (length, length_of_end) = (quick.norm(), end.norm());
+        self.planes.iter().all(|plane| {
+            let (before, doubt) = plane.quick_depth(&quick, length);
+            let (after, doubt_after) = plane.quick_depth(&end, length_of_end);
+            if before < -doubt && after < -doubt_after {
+                return true;
+            }
+            let (before, after) = (plane.depth(delta), plane.depth(&(delta + v)).rounded());
+            // Beyond the rounding of e, which is that of the data.
+            let doubt =
+                8.0 * DoubleDouble::UNIT * (plane.excess.rounded().abs() + plane.length * (length + length_of_end));
             if before.is_positive() { after >= -doubt } else { after <= doubt }
         })
-    }
-
-    /// Bound on the rounding of e + n·δ beyond that of e, for |δ| up to a length.
-    fn depth_rounding(&self, normal: &Wide, excess: DoubleDouble, length: f64) -> f64 {
-        8.0 * DoubleDouble::UNIT * (excess.rounded().abs() + rounded(normal).norm() * length)
     }
 
     /// Slope and curvature of S at x₀ + δ + α·v along v, in doubles, from [`ExtendedBody::line`].
     pub fn line(&self, delta: &Wide, v: &Wide) -> Line {
         let y = self.from_centre + delta;
-        let (m2, v64) = (2.0 * self.sphere_weight.rounded(), rounded(v));
+        let (m2, v64, quick) = (2.0 * self.sphere_weight.rounded(), rounded(v), rounded(delta));
+        let length = quick.norm();
+        let on_line = |plane: &Plane| {
+            let (depth, rounding) = plane.quick_depth(&quick, length);
+            let depth = if depth < -rounding { depth } else { plane.depth(delta).rounded() };
+            // A long step along a face moves its planes by what is left of large terms.
+            let rate = rounded(&plane.normal).dot(&v64);
+            let clear = rate.abs() > CANCELLED * plane.length * v64.norm();
+            (depth, if clear { rate } else { plane.normal.dot(v).rounded() })
+        };
         Line {
-            planes: self
-                .planes
-                .iter()
-                .map(|Plane { normal, excess }| {
-                    ((*excess + normal.dot(delta)).rounded(), normal.dot(v).rounded())
-                })
-                .collect(),
+            planes: self.planes.iter().map(on_line).collect(),
             weight: 2.0 * self.plane_weight.rounded(),
             slope: m2 * y.dot(v).rounded(),
             curvature: m2 * v64.norm_squared(),
@@ -222,16 +251,15 @@ impl<'a> ExtendedBody<'a> {
     pub fn value(&self, delta: &Wide) -> WideValue {
         let particle = self.body.particle;
         let (mut square, mut linear) = (of(0.0), wide(&Vector3::zeros()));
-        let (mut pull, mut count, mut clear) = (0.0, 0, f64::INFINITY);
-        self.visit(delta, |n, depth| {
-            clear = clear.min(depth.rounded().abs());
-            if depth.is_positive() {
-                square += depth * depth;
-                linear += n * depth;
-                pull += depth.rounded();
-                count += 1;
-            }
+        let (mut pull, mut count, mut least) = (0.0, 0, f64::INFINITY);
+        let clear = self.visit_active(delta, |n, depth| {
+            least = smaller(depth.rounded(), least);
+            square += depth * depth;
+            linear += n * depth;
+            pull += depth.rounded();
+            count += 1;
         });
+        let clear = smaller(least, clear);
         let y = self.from_centre + delta;
         let lengths = self.lengths + rounded(delta).norm();
         let unit = ROUNDING * DoubleDouble::UNIT;
@@ -275,6 +303,9 @@ impl<'a> ExtendedBody<'a> {
         ROUNDING * DoubleDouble::UNIT * (self.lengths + rounded(delta).norm())
     }
 }
+
+/// Share of |n||v| below which n·v has lost half of its digits in doubles.
+const CANCELLED: f64 = 1e-8;
 
 /// How much farther planes are gathered than they are needed.
 const MARGIN: f64 = 2.0;

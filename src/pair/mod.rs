@@ -1,9 +1,9 @@
 //! Two particles in one frame.
 
 pub mod active_set;
+pub mod extended_body;
 pub mod placed_particle;
 pub mod pose;
 pub mod relative_pose;
 pub mod separation_tests;
 pub mod warm_start;
-pub mod extended_body;

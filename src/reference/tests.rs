@@ -95,8 +95,7 @@ fn near_polyhedral_faces_keep_their_digits() {
         let (d, k, shadow) = (0.5, r, 0.9);
         let particle = cube(d, r, k, shadow);
         let distance = 2.0 * d + 1.5 * r;
-        let pair =
-            Pair::new(&particle, at([0.0, 0.0, distance]), &particle, at([0.0; 3]));
+        let pair = Pair::new(&particle, at([0.0, 0.0, distance]), &particle, at([0.0; 3]));
         let x = 0.5 * distance;
         let exact = ((1.0 - k) * ((x - d) / r).powi(2) + k * (x / shadow).powi(2)).sqrt();
         let found = midway(&pair).unwrap();

@@ -66,7 +66,7 @@ pub(crate) struct Call<'a> {
 
 impl<'a> Call<'a> {
     pub fn new(pair: &'a Pair<'a>, settings: &'a Settings) -> Self {
-        let (body_a, body_b) = Body::both(pair, settings.flat_regularisation);
+        let (body_a, body_b) = Body::both(pair, settings.least_sphericity());
         let answered = settings.back_end;
         Self { pair, body_a, body_b, settings, iterations: 0, flags: Flags::default(), answered }
     }
@@ -124,7 +124,7 @@ impl<'a> Call<'a> {
         }
         if self.wants_more(&solution, model, &goal) {
             self.iterations += solution.iterations;
-            solution = self.extended(&goal, solution, model)?;
+            solution = self.extended(&goal, start, solution, model)?;
         }
         self.count(&solution);
         Ok(solution)
@@ -140,19 +140,24 @@ impl<'a> Call<'a> {
             Ending::Separated => false,
             Ending::Unsettled => true,
             Ending::Converged => !solution.linear,
-            Ending::RoundingLimited => {
-                !solution.linear || !goal.takes_rounding() || solution.gap() > LOOSE * explained
-            }
+            Ending::RoundingLimited => !solution.linear || !goal.takes_rounding() || solution.gap() > LOOSE * explained,
         }
     }
 
     #[cold]
-    fn extended(&mut self, goal: &Goal, first: Solution, model: &mut LocalModel) -> Result<Solution, SolveError> {
-        let near = first.x.iter().all(|c| c.is_finite()) && first.lambda > 0.0 && first.lambda.is_finite();
-        let start = if near { Start { x: first.x, lambda: first.lambda, near } } else { self.cold() };
+    fn extended(
+        &mut self,
+        goal: &Goal,
+        start: &Start,
+        first: Solution,
+        model: &mut LocalModel,
+    ) -> Result<Solution, SolveError> {
+        // Where Newton's method ended without a solution may be anywhere.
+        let known = first.ending != Ending::Unsettled;
+        let start = if known { Start { x: first.x, lambda: first.lambda, near: true } } else { *start };
         let solution = extended::solve(self.pair, self.bodies(), goal, &start);
         let settled = solution.ending != Ending::Unsettled;
-        if first.ending != Ending::Unsettled && !(settled && solution.gap() < first.gap()) {
+        if known && !(settled && solution.gap() < first.gap()) {
             return Ok(first);
         }
         if !settled {

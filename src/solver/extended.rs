@@ -29,6 +29,9 @@ const MOST_WEIGHTS: u32 = 60;
 const MOST_STEPS: u32 = 100;
 const MOST_TRIALS: u32 = 60;
 
+/// Relative to the smaller particle, how far from the start planes are looked at to begin with.
+const FIRST_REACH: f64 = 0.05;
+
 /// Share of the first slope at which a line search ends.
 const FLAT: f64 = 1e-3;
 
@@ -64,13 +67,9 @@ enum Minimum {
 
 /// Solves for the goal from a start.
 pub(crate) fn solve(pair: &Pair, bodies: [&Body; 2], goal: &Goal, start: &Start) -> Solution {
-    let mut extended = Extended {
-        bodies: ExtendedBody::both(pair, bodies, &start.x),
-        problem: goal.problem,
-        x: start.x,
-        steps: 0,
-    };
-    let first = local_model::smallest(bodies);
+    let mut extended =
+        Extended { bodies: ExtendedBody::both(pair, bodies, &start.x), problem: goal.problem, x: start.x, steps: 0 };
+    let first = FIRST_REACH * local_model::smallest(bodies);
     extended.bodies.iter_mut().for_each(|body| body.cover(first));
     let (delta, lambda, optimum) = extended.search(DoubleDouble::from(start.lambda));
     extended.solution(bodies, goal, &delta, lambda, optimum)
@@ -93,11 +92,14 @@ impl Extended<'_> {
             if let Some(found) = self.accept(&mut delta, &model, optimum) {
                 return (delta, found.0.lambda, Some(found));
             }
-            let (growing, falling) =
-                self.problem.sides(model.sides[0].value.rounded(), model.sides[1].value.rounded());
+            let (growing, falling) = self.problem.sides(model.sides[0].value.rounded(), model.sides[1].value.rounded());
             let here = lambda.rounded();
             let width = (high / low).ln();
-            if growing > falling { high = here } else { low = here }
+            if growing > falling {
+                high = here
+            } else {
+                low = here
+            }
             let next = optimum.lambda.rounded();
             lambda = if low > 0.0 && high < f64::INFINITY {
                 slow = if (high / low).ln() > 0.5 * width { slow + 1 } else { 0 };
@@ -146,10 +148,9 @@ impl Extended<'_> {
 
     fn keeps_active_sets(&mut self, delta: &Wide, v: &Wide) -> bool {
         let reach = rounded(delta).norm() + rounded(v).norm();
-        self.bodies.iter_mut().all(|body| {
-            body.cover(reach);
-            body.keeps_active_set(delta, v)
-        })
+        // Both, since a line search along v needs the planes on the way.
+        self.bodies.iter_mut().for_each(|body| body.cover(reach));
+        self.bodies.iter().all(|body| body.keeps_active_set(delta, v))
     }
 
     /// Moves δ to the minimum of a·S_A + b·S_B, by Newton's method with an exact line search.
@@ -195,7 +196,11 @@ impl Extended<'_> {
             if slope.abs() <= FLAT * first.abs() {
                 break;
             }
-            if slope < 0.0 { low = alpha } else { high = alpha }
+            if slope < 0.0 {
+                low = alpha
+            } else {
+                high = alpha
+            }
             let next = alpha - slope / curvature;
             alpha = if low < next && next < high {
                 next
@@ -265,11 +270,13 @@ impl Extended<'_> {
         };
         let by_convexity = crate::bounds::point_bound::by_convexity(&solution, bodies, problem);
         let bound = optimum.and_then(|(optimum, _)| self.point_bound(&approximate(&optimum), delta, &values));
-        let carried = 4.0 * f64::EPSILON * x.norm();
+        let carried = PLACED * f64::EPSILON * x.norm();
         let gap = solution.gap();
         let ending = if !gap.is_finite() {
             Ending::Unsettled
-        } else if goal.stop_when_separated && solution.separates(larger(bodies[0].most_surplus(1.0), bodies[1].most_surplus(1.0))) {
+        } else if goal.stop_when_separated
+            && solution.separates(larger(bodies[0].most_surplus(1.0), bodies[1].most_surplus(1.0)))
+        {
             Ending::Separated
         } else if gap <= goal.tolerance * solution.upper {
             Ending::Converged
@@ -304,8 +311,7 @@ impl Extended<'_> {
         let (mut sum, mut sides) = (sensitivity.unsolved(), [0.0; 2]);
         for (i, (of, weight)) in values.iter().zip([a, b]).enumerate() {
             let body = &self.bodies[i];
-            let planes =
-                sensitivity.to_planes(i, of.count, self.problem, optimum.lambda, body.plane_weight());
+            let planes = sensitivity.to_planes(i, of.count, self.problem, optimum.lambda, body.plane_weight());
             sum += body.shift(delta) + of.blur * planes + weight * of.turn * sensitivity.per_slope(3);
             sides[i] = of.rounding();
         }
@@ -317,6 +323,9 @@ impl Extended<'_> {
         (sum.is_finite() && !switches).then_some(sum)
     }
 }
+
+/// Bound, in units of ε, on the rounding of a point to doubles and on its way to the world (docs/theory.md, "Rounding").
+const PLACED: f64 = 16.0;
 
 /// Factor below 1 by which axes that are orthonormal to rounding may lower a curvature.
 const LESS: f64 = 1.0 - 1e-12;

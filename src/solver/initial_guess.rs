@@ -44,7 +44,8 @@ const ROUND: f64 = 0.5;
 pub(crate) fn cold(pair: &Pair, [a, b]: [&Body; 2]) -> Start {
     let angular = |body: &Body| !body.particle.is_sphere() && body.particle.sphericity() < ROUND;
     let between = if angular(a) && angular(b) { between_polyhedra([a, b], centre_line(pair)) } else { None };
-    between.unwrap_or_else(|| on_centre_line(pair, [a, b]))
+    // Rounding may leave the program without a direction.
+    between.filter(|start| start.x.iter().all(|c| c.is_finite())).unwrap_or_else(|| on_centre_line(pair, [a, b]))
 }
 
 /// The best point on the line of centres.

@@ -11,6 +11,7 @@ use crate::model::kkt_check::Change;
 use crate::model::local_model::{self, Axes, LocalModel, Start};
 use crate::model::problem::Problem;
 use crate::pair::placed_particle::Body;
+use crate::settings::LEAST_OF_DOUBLES;
 use crate::solver::line_search::{self, Merit};
 use nalgebra::Vector3;
 
@@ -51,9 +52,6 @@ pub(crate) struct Goal {
     pub stop_when_separated: bool,
 }
 
-/// Smallest tolerance at which the rounding of doubles is taken for an answer.
-const LEAST_OF_DOUBLES: f64 = 1e-13;
-
 impl Goal {
     /// Whether an answer that is as good as doubles allow will do, though its gap exceeds the tolerance.
     pub fn takes_rounding(&self) -> bool {
@@ -63,12 +61,7 @@ impl Goal {
 
 /// The solution that an optimum of unchanged active set is, if its bounds are as good as they can be.
 #[inline(always)]
-pub(crate) fn accepted(
-    bodies: [&Body; 2],
-    goal: &Goal,
-    model: &LocalModel,
-    optimum: Optimum,
-) -> Option<Solution> {
+pub(crate) fn accepted(bodies: [&Body; 2], goal: &Goal, model: &LocalModel, optimum: Optimum) -> Option<Solution> {
     let step = model.step(bodies, optimum);
     if step.change != Change::None || !step.optimum.settled {
         return None;
@@ -122,13 +115,7 @@ struct Best {
 }
 
 /// Solves for the goal, beginning with the model at hand; that of the solution is left there.
-pub(crate) fn solve(
-    bodies: [&Body; 2],
-    goal: &Goal,
-    start: &Start,
-    axes: Axes,
-    model: &mut LocalModel,
-) -> Solution {
+pub(crate) fn solve(bodies: [&Body; 2], goal: &Goal, start: &Start, axes: Axes, model: &mut LocalModel) -> Solution {
     let problem = goal.problem;
     let most = if start.near { MOST_FROM_NEAR } else { MOST_ITERATIONS };
     let (flat, shortest) = (flat(bodies), SHORT * local_model::smallest(bodies));
@@ -225,16 +212,8 @@ impl Attempt {
 
     /// The model at the best point along the step instead; whether that is another point.
     #[cold]
-    fn shorten(
-        &self,
-        bodies: [&Body; 2],
-        problem: Problem,
-        lambda: f64,
-        axes: Axes,
-        model: &mut LocalModel,
-    ) -> bool {
-        let descent =
-            line_search::descend(bodies, Merit(problem, self.lambda), &self.from.x, &self.step, (0.5, 1.0));
+    fn shorten(&self, bodies: [&Body; 2], problem: Problem, lambda: f64, axes: Axes, model: &mut LocalModel) -> bool {
+        let descent = line_search::descend(bodies, Merit(problem, self.lambda), &self.from.x, &self.step, (0.5, 1.0));
         let x = self.from.x + descent.alpha * self.step;
         *model = LocalModel::of(bodies, x, bodies.map(|body| body.locate(&x)), problem.weights(lambda), axes);
         (x - self.from.x).norm() > larger(self.from.points[0].shift, self.from.points[1].shift)
