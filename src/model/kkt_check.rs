@@ -125,7 +125,7 @@ impl Body<'_> {
         let (mut pulling, mut doubtful, mut depths, mut near) = (false, 0.0, 0.0, 0.0);
         let (mut nearest, mut least, mut push) = (f64::NEG_INFINITY, f64::INFINITY, f64::INFINITY);
         // Planes of the quadratic are near y, planes that are met near y + e: no other is near either.
-        let far = if p.leaves.single() { 0.0 } else { local.early.max(p.bounds.longest_normal * e.norm()) };
+        let far = if p.clusters.is_single() { 0.0 } else { local.early.max(p.bounds.longest_normal * e.norm()) };
         // The step was turned: what is left of a long one across a plane is but rounding.
         let turned = DOUBT * (e.x.abs() + e.y.abs() + e.z.abs());
         let doubt = turned * p.bounds.longest_normal;

@@ -5,7 +5,7 @@
 
 use crate::linalg::number::{larger, smaller};
 use crate::linalg::symmetric::Symmetric;
-use crate::particle::particle::Particle;
+use crate::particle::shape::Shape;
 use nalgebra::Vector3;
 
 /// S near a point: S(x + h) = expansion + gradient·h + ½ hᵀ·hessian·h while the planes that are counted as
@@ -70,26 +70,26 @@ pub struct OnLine {
 }
 
 /// S(y).
-pub fn value(particle: &Particle, y: &Vector3<f64>) -> f64 {
+pub fn value(shape: &Shape, y: &Vector3<f64>) -> f64 {
     let mut sum = 0.0;
-    particle.visit_near(y, 0.0, |_, _, excess| sum += excess.max(0.0) * excess.max(0.0));
-    particle.plane_weight * sum + particle.sphere_weight * y.norm_squared()
+    shape.visit_near(y, 0.0, |_, _, excess| sum += excess.max(0.0) * excess.max(0.0));
+    shape.plane_weight * sum + shape.sphere_weight * y.norm_squared()
 }
 
 /// S, ∇S, ∇²S at y, local frame.
-pub fn local(particle: &Particle, y: &Vector3<f64>) -> Quadratic {
-    turned(particle, (particle.plane_weight, particle.sphere_weight), |n| n, y, 0.0, |_, excess| excess > 0.0)
+pub fn local(shape: &Shape, y: &Vector3<f64>) -> Quadratic {
+    turned(shape, (shape.plane_weight, shape.sphere_weight), |n| n, y, 0.0, |_, excess| excess > 0.0)
 }
 
 /// S, ∇S, ∇²S at the local point y, with derivatives in the frame that `turn` takes local directions to, and
-/// with weights of the planes and of the shadow sphere that may differ from the particle's own. `counts` says of a
+/// with weights of the planes and of the shadow sphere that may differ from the shape's own. `counts` says of a
 /// plane and its n·y − d whether it belongs to the quadratic; none below −`early` does.
 ///
 /// Each active normal is turned before it is squared, not the finished Hessian: in a frame aligned
 /// with a face the stiff and the soft direction then stay apart to full relative precision.
 #[inline(always)]
 pub(crate) fn turned(
-    particle: &Particle,
+    shape: &Shape,
     (plane_weight, sphere_weight): (f64, f64),
     turn: impl Fn(Vector3<f64>) -> Vector3<f64>,
     y: &Vector3<f64>,
@@ -100,7 +100,7 @@ pub(crate) fn turned(
     let mut g = Vector3::zeros();
     let mut squares = Symmetric::default();
     let mut clear = f64::INFINITY;
-    let most_left_out = particle.visit_near(y, early, |i, n, excess| {
+    let most_left_out = shape.visit_near(y, early, |i, n, excess| {
         if !counts(i, excess) {
             clear = smaller(-excess, clear);
         } else {
@@ -130,10 +130,10 @@ pub(crate) fn turned(
 
 /// S, ∇S at y, local frame.
 #[inline(always)]
-pub(crate) fn tangent(particle: &Particle, y: &Vector3<f64>) -> Tangent {
+pub(crate) fn tangent(shape: &Shape, y: &Vector3<f64>) -> Tangent {
     let (mut square, mut linear, mut count) = (0.0, 0.0, 0.0);
     let mut g = Vector3::zeros();
-    particle.visit_near(y, 0.0, |_, n, excess| {
+    shape.visit_near(y, 0.0, |_, n, excess| {
         if excess > 0.0 {
             square += excess * excess;
             linear += excess;
@@ -141,19 +141,19 @@ pub(crate) fn tangent(particle: &Particle, y: &Vector3<f64>) -> Tangent {
             g += excess * n;
         }
     });
-    let (w, m) = (particle.plane_weight, particle.sphere_weight);
+    let (w, m) = (shape.plane_weight, shape.sphere_weight);
     Tangent {
         value: w * square + m * y.norm_squared(),
         gradient: 2.0 * (w * g + m * y),
         pull: 2.0 * w * linear,
-        stiffness: 2.0 * w * count * particle.bounds.longest_normal,
+        stiffness: 2.0 * w * count * shape.bounds.longest_normal,
     }
 }
 
 /// S, slope and curvature at y along the local direction `e` (any length; it sets the unit of α).
-pub fn on_line(particle: &Particle, sphere_weight: f64, y: &Vector3<f64>, e: &Vector3<f64>) -> OnLine {
+pub fn on_line(shape: &Shape, sphere_weight: f64, y: &Vector3<f64>, e: &Vector3<f64>) -> OnLine {
     let (mut square, mut mixed, mut steep) = (0.0, 0.0, 0.0);
-    particle.visit_near(y, 0.0, |_, n, excess| {
+    shape.visit_near(y, 0.0, |_, n, excess| {
         if excess > 0.0 {
             let rate = n.dot(e);
             square += excess * excess;
@@ -161,7 +161,7 @@ pub fn on_line(particle: &Particle, sphere_weight: f64, y: &Vector3<f64>, e: &Ve
             steep += rate * rate;
         }
     });
-    let (w, m) = (particle.plane_weight, sphere_weight);
+    let (w, m) = (shape.plane_weight, sphere_weight);
     OnLine {
         value: w * square + m * y.norm_squared(),
         slope: 2.0 * (w * mixed + m * y.dot(e)),

@@ -1,43 +1,27 @@
 //! Where a ray from inside meets the surface: exact, since S is piecewise quadratic on a line.
 
-use crate::particle::particle::Particle;
 use crate::particle::potential;
+use crate::particle::shape::Shape;
 use nalgebra::Vector3;
 
 /// Most pieces that a root search walks over; each Newton step from outside ends one piece or more,
 /// so that this is reached only by rounding.
 const MOST_STEPS: usize = 100;
 
-impl Particle {
-    /// Distance τ ≥ 0 along a local unit direction from a local point inside to the surface, length: the τ with
-    /// S(from + τ·direction) = 1.
-    ///
-    /// From a point outside by rounding the answer is a small negative number if the ray leads away, and where it comes out
-    /// again if it leads in. `None` when the ray misses the particle or something is not finite.
-    pub fn surface_distance(&self, from: &Vector3<f64>, direction: &Vector3<f64>) -> Option<f64> {
-        distance(self, from, direction)
-    }
-}
-
 /// Distance τ ≥ 0 with S(from + τ·direction) = 1, for a local point and a local unit direction.
 ///
 /// `from` should be inside (S ≤ 1). From a point outside by rounding the answer is a small negative number if the ray leads
 /// away, and where it comes out again if it leads in. `None` when the ray never leaves (not a particle) or misses it, or
 /// something is not finite.
-pub fn distance(particle: &Particle, from: &Vector3<f64>, direction: &Vector3<f64>) -> Option<f64> {
-    distance_near(particle, from, direction, 0.0)
+pub fn distance(shape: &Shape, from: &Vector3<f64>, direction: &Vector3<f64>) -> Option<f64> {
+    distance_near(shape, from, direction, 0.0)
 }
 
 /// The same, with a guess of the distance to begin at; a right one saves half of the work.
 #[inline]
-pub(crate) fn distance_near(
-    particle: &Particle,
-    from: &Vector3<f64>,
-    direction: &Vector3<f64>,
-    guess: f64,
-) -> Option<f64> {
+pub(crate) fn distance_near(shape: &Shape, from: &Vector3<f64>, direction: &Vector3<f64>, guess: f64) -> Option<f64> {
     let at = |tau: f64| {
-        let mut line = potential::on_line(particle, particle.sphere_weight, &(from + tau * direction), direction);
+        let mut line = potential::on_line(shape, shape.sphere_weight, &(from + tau * direction), direction);
         line.value -= 1.0;
         line
     };
@@ -49,7 +33,7 @@ pub(crate) fn distance_near(
     let (mut nearest, mut least) = (0.0, f64::INFINITY);
     // No surface point is further off than this.
     let start = from.norm();
-    let farthest = start + particle.bounding_radius();
+    let farthest = start + shape.bounds.radius;
     let mut tau = if guess.abs() <= farthest { guess } else { 0.0 };
     let mut first = true;
     for _ in 0..MOST_STEPS {
@@ -59,7 +43,7 @@ pub(crate) fn distance_near(
         }
         let newton = tau - line.value / line.slope;
         let lengths = start + newton.abs().min(tau.abs());
-        let rounding = 2.0 * f64::EPSILON * (lengths + particle.bounds.offset_within(lengths).min(lengths));
+        let rounding = 2.0 * f64::EPSILON * (lengths + shape.bounds.offset_within(lengths).min(lengths));
         // From outside a Newton step misses by at most ½·curvature·step²/slope, since planes only go off on the way; from
         // inside others may come on, and only a step below the rounding of a point on the ray is the last.
         let step = newton - tau;
@@ -79,7 +63,7 @@ pub(crate) fn distance_near(
             newton_from_outside = newton;
         }
         // The guess was none: on from where a plane alone brings S to 1, if rounding on the long way to it left it ahead.
-        let beyond = if first { beyond_a_plane(particle, from, direction, farthest) } else { inside };
+        let beyond = if first { beyond_a_plane(shape, from, direction, farthest) } else { inside };
         let mut next = if beyond > inside {
             beyond
         } else if line.slope > 0.0 {
@@ -101,7 +85,7 @@ pub(crate) fn distance_near(
             }
             // From outside Newton's steps end at the way out, if there is one: else the ray touches the body to the rounding of S
             // near 1, or misses it.
-            let touching = 4.0 * rounding * (particle.plane_weight.sqrt() + particle.sphere_weight.sqrt());
+            let touching = 4.0 * rounding * (shape.plane_weight.sqrt() + shape.sphere_weight.sqrt());
             return (least <= touching).then_some(nearest);
         }
         tau = next;
@@ -116,15 +100,10 @@ pub(crate) fn distance_near(
 /// point of the body. One of them, the start as it was meant, is within the rounding of it; so the point that is found is
 /// within twice that, or there is none.
 #[cold]
-pub(crate) fn distance_beside(
-    particle: &Particle,
-    from: &Vector3<f64>,
-    direction: &Vector3<f64>,
-    shift: f64,
-) -> Option<f64> {
+pub(crate) fn distance_beside(shape: &Shape, from: &Vector3<f64>, direction: &Vector3<f64>, shift: f64) -> Option<f64> {
     let mut point = *from;
     for _ in 0..MOST_STEPS {
-        let here = potential::tangent(particle, &point);
+        let here = potential::tangent(shape, &point);
         let s = here.value.sqrt();
         if s <= 1.0 {
             break;
@@ -134,22 +113,22 @@ pub(crate) fn distance_beside(
             return None;
         }
     }
-    distance(particle, &point, direction)
+    distance(shape, &point, direction)
 }
 
 /// A distance at which one plane alone has brought S to 1, near the least; at most `farthest`.
 ///
 /// Newton's method from outside on the largest n·x − d, which is convex along the ray.
 #[cold]
-fn beyond_a_plane(particle: &Particle, from: &Vector3<f64>, direction: &Vector3<f64>, farthest: f64) -> f64 {
-    if particle.is_sphere() {
+fn beyond_a_plane(shape: &Shape, from: &Vector3<f64>, direction: &Vector3<f64>, farthest: f64) -> f64 {
+    if shape.is_sphere() {
         return farthest;
     }
-    let depth = 1.0 / particle.plane_weight.sqrt();
+    let depth = 1.0 / shape.plane_weight.sqrt();
     let mut tau = farthest;
     for _ in 0..MOST_STEPS {
-        let (excess, place) = particle.farthest_excess(&(from + tau * direction));
-        let rate = particle.normal(place).dot(direction);
+        let (excess, place) = shape.farthest_excess(&(from + tau * direction));
+        let rate = shape.normal(place).dot(direction);
         let next = tau - (excess - depth) / rate;
         if !(excess > depth && rate > 0.0 && next < tau) {
             break;
@@ -170,6 +149,7 @@ pub(crate) fn root_of_piece(v: f64, s: f64, c: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::particle::particle::Particle;
 
     fn cube() -> Particle {
         Particle::cube(0.45, 0.05, 0.3, 0.8)

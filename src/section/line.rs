@@ -103,7 +103,7 @@ impl<'s> Lines<'s> {
         let mut lines = Self { side, room, used: 0, reaching: None, horizon: -1.0, centre, square, reach };
         if !particle.is_sphere() {
             // To judge few planes costs more than to keep them.
-            lines.widen(if particle.leaves.single() { reach } else { FIRST * reach })?;
+            lines.widen(if particle.clusters.is_single() { reach } else { FIRST * reach })?;
         }
         Ok(lines)
     }
