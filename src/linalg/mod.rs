@@ -1,4 +1,6 @@
-//! Numbers, lanes of them, and symmetric 3×3 matrices.
+//! Numbers, lanes of them, numbers of 32 digits, roots on a bracket, and symmetric 3×3 matrices.
 
+pub(crate) mod double_double;
 pub(crate) mod number;
+pub(crate) mod root;
 pub(crate) mod symmetric;
