@@ -1,4 +1,4 @@
-//! The reference back end: the paper's second-order cone programs, handed to clarabel.
+//! The reference back end: the paper's second-order cone programs, solved by clarabel.
 //!
 //! # The programs (paper eqs 34–44, written in the frame of B; eqs 19–31 are the same without z)
 //!
@@ -12,49 +12,49 @@
 //! planes     n_i·x − d_i ≤ p_i,  p_i ≥ 0                              (40–43)
 //! ```
 //!
-//! Minimising t with two inequalities is (44): where the two s can be equal, they are; where one
-//! of them stays below the other at the minimum of the other, (44) as printed would leave that
-//! minimum, and the inequality does not. The concise programs follow from dead weights: for k = 0
-//! the cone loses x_c (dimension 1 + N), for k = 1 it loses p_c and the particle its rows (1 + 3).
+//! (44) has an equality, s_A = s_B. Where the two can be equal at the optimum, the inequalities give the same point; where
+//! one s is below the other even at the minimum of the other, they give that minimum, which the equality would exclude. The
+//! concise programs follow from zero weights: for k = 0 the cone loses x_c (dimension 1 + N), for k = 1 it loses p_c and
+//! the particle its rows (1 + 3).
 //! Local points x are kept as unknowns instead of x_c, so that k = 0 needs no case of its own.
 //!
-//! # The scalings, and why
+//! # Scaling by successive corrections
 //!
-//! An interior-point method is right to some 1e-9 of the largest number in sight. With lengths of
-//! order 1 and r = 1e-8 that is an error of s of order 0.1. So the program is solved several times,
-//! each time as a correction to the point found before:
+//! An interior-point method is accurate to some 1e-9 of the largest number in the program. With lengths of order 1 and
+//! r = 1e-8 that is an error of s of order 0.1. Therefore the program is solved several times, each time as a correction to
+//! the point found before:
 //!
 //! 1. once for the whole particles, about their centres, lengths in units of the smaller bounding
-//!    radius; this only has to find the place;
+//!    radius; this gives the initial point;
 //! 2. then with x = x₀ + h·δ, δ unknown, inside the box |δ_B| ≤ 1. Right-hand sides become the slacks
-//!    d_i − n_i·x₀ at the last point, which double precision holds to full relative accuracy where
-//!    it matters. A plane that no point of the box can reach has p_i = 0 all over it and is left out.
-//!    If the correction ends far out in its box, the box is moved and widened; otherwise h shrinks, down
-//!    to the distance over which s changes by a tenth (some tenth of r or R/√k, times s), or until
-//!    s repeats itself.
+//!    d_i − n_i·x₀ at the last point, which are small and accurate for the planes that can be active. A plane that
+//!    no point of the box can reach has p_i = 0 in all of it and is left out. If the correction ends near the boundary of its
+//!    box, the box is moved and enlarged; otherwise h shrinks, down to the distance over which s changes by a tenth (some
+//!    tenth of r or R/√k, times s), or until s no longer changes.
 //!
 //! In every pass p_c and s are counted in units of s at the last point (1 for the constrained
 //! particle), which makes the entries of the cones of order 1; rows are divided by |n_i|. clarabel's
 //! own equilibration undoes part of this and costs two digits, so that it is off at first. Its
-//! static regularisation is lowered to 1e-9 for the same reason. No one setting gets through every
-//! pair, hence a ladder of settings and box sizes.
+//! static regularisation is lowered to 1e-9 for the same reason. No single setting solves every pair, hence a list of
+//! settings and box sizes that are tried in turn.
 //!
-//! # What is believed
+//! # Acceptance
 //!
-//! The program is convex, so that an optimum well inside its box is the optimum of the whole program,
-//! however its start was found. An answer leaves only if
-//! - clarabel calls the pass solved or almost solved;
+//! The program is convex, so that an optimum in the interior of its box is the optimum of the whole program,
+//! whatever the initial point. An answer is returned only if
+//! - clarabel reports the pass as solved or almost solved;
 //! - s = √S at the returned point, clarabel's objective and its dual objective agree to 1e-8 or better,
 //!   and the constraint holds to the same; s as returned is always that of the definition;
 //! - one of the passes bounds s from below to 1e-5, also for points outside its box: the dual objective
-//!   less what the duals of the box and the dual residual could lose on the way to the far end of the
-//!   pair. This is a worst case, there to catch an optimum in the wrong place; measured errors of s are
-//!   1e-9 and below, and what rounding of x does to s (ε·size·√(1−k)/r) where that is more.
+//!   less the most by which the duals of the box and the dual residual can lower it between the box and the far end of
+//!   the pair. This is a worst case that detects an optimum in the wrong place; measured errors of s are 1e-9 and below, or
+//!   what the rounding of x does to s (ε·size·√(1−k)/r) where that is more.
 //!
 //! Otherwise the answer is a [`ConicError`].
 
 mod program;
 
+use crate::linalg::root::Bracket;
 use crate::pair::relative_pose::Pair;
 use crate::particle::potential;
 use clarabel::solver::SolverStatus;
@@ -84,21 +84,21 @@ pub enum Role {
     B,
 }
 
-/// Why a cone program gave no answer. There is never a number beside it.
+/// Why a cone program gave no answer.
 #[derive(Clone, Debug, Error, PartialEq, Eq)]
 pub enum ConicError {
-    /// clarabel would not take the program.
-    #[error("clarabel refused the cone program: {0}; look for numbers near the limits of f64 in the particles")]
+    /// clarabel rejected the program.
+    #[error("clarabel rejected the cone program: {0}; check the particles for numbers near the limits of f64")]
     Refused(String),
-    /// No rung of the ladder solved a pass.
+    /// A pass was solved with none of the settings.
     #[error(
-        "clarabel stopped with status {0} at every scaling of the cone program: look for r, R or a distance \
+        "clarabel stopped with status {0} at every scaling of the cone program: check for an r, R or distance that is \
          many orders of magnitude away from the size of the particles"
     )]
     Status(String),
-    /// The passes did not settle.
+    /// The passes did not converge.
     #[error(
-        "the cone program did not settle in {0} passes: look for r, R or a distance many orders of magnitude \
+        "the cone program did not converge in {0} passes: check for an r, R or distance that is many orders of magnitude \
          away from the size of the particles"
     )]
     Unsettled(u32),
@@ -139,27 +139,29 @@ const LAST_BOX: f64 = 0.1;
 const SHRINK: f64 = 1e-3;
 /// Growth of the box when it binds.
 const GROW: f64 = 30.0;
-/// Growth of the box when every rung failed: it may not hold a feasible point at all.
+/// Growth of the box when every setting failed: it may hold no feasible point.
 const RESCUE: f64 = 1e3;
 /// A correction longer than this part of the box asks for a wider one.
 const BINDING: f64 = 0.5;
 /// Least s used as a unit; below it s is as good as zero.
 const LEAST_SCALE: f64 = 1e-6;
-/// An s this small is the bottom of S; no smaller value can be told from rounding.
+/// An s below this is rounding at the minimum of S.
 const BOTTOM: f64 = 1e-12;
-/// Largest disagreement of clarabel's objectives with s by definition, relative, in a pass that is trusted.
+/// Largest relative difference between clarabel's objectives and s by definition in a pass that is trusted.
 const AGREEMENT: f64 = 1e-8;
-/// Largest distance of s, relative, from a bound that holds outside the box as well. The bound assumes
-/// the worst, an optimum at the far end of the pair; s itself is found some four digits closer.
+/// Largest relative distance of s from a lower bound that holds outside the box as well. The bound assumes the worst
+/// case, an optimum at the far end of the pair; s itself is some four digits more accurate.
 const CERTIFIED: f64 = 1e-5;
-/// Change of s, relative, below which two passes say the same.
+/// Relative change of s below which two passes agree.
 const REPEAT: f64 = 1e-10;
 /// Most corrections. Ordinary pairs need one or two, near-polyhedral ones up to 4; sizes, radii and
-/// distances drawn from eight decades at random needed up to 18.
+/// distances drawn at random from eight decades up to 18 (measured).
 const MAX_PASSES: u32 = 40;
+/// Bisections that move an infeasible point to the boundary, to rounding.
+const BISECTIONS: u32 = 60;
 
-/// The first pass: loose, since every later pass is judged on its own.
-const PLACE: Tuning = Tuning {
+/// The first pass: loose, since every later pass is checked by itself.
+const FIRST: Tuning = Tuning {
     tolerance: 1e-6,
     feasibility: 1e-6,
     almost: 1e-5,
@@ -169,20 +171,20 @@ const PLACE: Tuning = Tuning {
     refine_absolute: 1e-10,
 };
 
-/// The ladder: factor on the box, and settings. Ordered by accuracy; each rung fails on other pairs.
-const LADDER: [(f64, Tuning); 9] = [
-    (1.0, rung(1e-10, 1e-9, false, 1e-9)),
-    (1.0, rung(1e-10, 1e-8, false, 1e-8)),
-    (1.0, rung(1e-9, 1e-8, false, 1e-8)),
-    (3.0, rung(1e-9, 1e-8, true, 1e-8)),
-    (0.3, rung(1e-9, 1e-8, false, 1e-9)),
-    (0.1, rung(1e-9, 1e-8, true, 1e-8)),
-    (10.0, rung(1e-8, 1e-8, false, 1e-8)),
-    (0.03, rung(1e-8, 1e-8, true, 1e-8)),
-    (30.0, rung(1e-8, 1e-8, true, 1e-8)),
+/// Factor on the box, and settings, most accurate first. Each fails on different pairs.
+const ATTEMPTS: [(f64, Tuning); 9] = [
+    (1.0, setting(1e-10, 1e-9, false, 1e-9)),
+    (1.0, setting(1e-10, 1e-8, false, 1e-8)),
+    (1.0, setting(1e-9, 1e-8, false, 1e-8)),
+    (3.0, setting(1e-9, 1e-8, true, 1e-8)),
+    (0.3, setting(1e-9, 1e-8, false, 1e-9)),
+    (0.1, setting(1e-9, 1e-8, true, 1e-8)),
+    (10.0, setting(1e-8, 1e-8, false, 1e-8)),
+    (0.03, setting(1e-8, 1e-8, true, 1e-8)),
+    (30.0, setting(1e-8, 1e-8, true, 1e-8)),
 ];
 
-const fn rung(tolerance: f64, feasibility: f64, equilibrate: bool, regularisation: f64) -> Tuning {
+const fn setting(tolerance: f64, feasibility: f64, equilibrate: bool, regularisation: f64) -> Tuning {
     Tuning {
         tolerance,
         feasibility,
@@ -249,7 +251,7 @@ impl Goal {
     }
 }
 
-/// What of a pair sets the scales.
+/// The lengths of a pair from which scales follow.
 struct Sizes {
     /// Smaller bounding radius: the unit of length of the first pass.
     length: f64,
@@ -284,11 +286,11 @@ impl Sizes {
 fn solve(pair: &Pair, goal: Goal) -> Result<ConicSolution, ConicError> {
     let sizes = Sizes::of(pair);
     let noise = goal.objective(sizes.noise);
-    let (mut x, mut iterations) = place(pair, goal, &sizes)?;
+    let (mut x, mut iterations) = initial_point(pair, goal, &sizes)?;
     let mut s = goal.objective(both(pair, &x));
     let mut half = FIRST_BOX * (sizes.length + pair.centre.norm());
     let mut bound = f64::NEG_INFINITY;
-    let mut settled: Option<ConicSolution> = None;
+    let mut accepted: Option<ConicSolution> = None;
     for _ in 0..MAX_PASSES {
         let unit = s.max(LEAST_SCALE);
         let scales = goal.scales(unit);
@@ -319,16 +321,16 @@ fn solve(pair: &Pair, goal: Goal) -> Result<ConicSolution, ConicError> {
             continue;
         }
         let repeats = (s - previous).abs() <= REPEAT * s + noise;
-        if settled.is_none() && (repeats || half <= smallest || s < BOTTOM) {
+        if accepted.is_none() && (repeats || half <= smallest || s < BOTTOM) {
             let weight = goal.weight(pass.answer.heads, scales, pass.at);
-            settled = Some(ConicSolution { x, s, weight, iterations });
+            accepted = Some(ConicSolution { x, s, weight, iterations });
         }
-        half = match settled {
+        half = match accepted {
             Some(found) if found.s - bound <= CERTIFIED * found.s.max(LEAST_SCALE) + noise => return Ok(found),
-            // The place is not proven yet: a wider box says more about the world outside.
+            // The lower bound is not good enough yet: a larger box improves it.
             Some(found) if s >= found.s * (1.0 - CERTIFIED) - noise => wider,
             _ => {
-                settled = None;
+                accepted = None;
                 smaller
             }
         };
@@ -343,12 +345,11 @@ struct Pass {
     at: [f64; 2],
     /// Half-width of the box.
     half: f64,
-    /// Whether clarabel's numbers are those of the definition; if not, the point is a better start at most.
+    /// Whether clarabel's objectives agree with the definition; if not, the point is at most a better initial point.
     trusted: bool,
 }
 
-/// Climbs the ladder to the first trusted correction, else to the first one solved, else to no more
-/// than clarabel's last status.
+/// The correction with the first settings that give a trusted one, else the first one solved, else clarabel's last status.
 fn correct(
     pair: &Pair,
     goal: Goal,
@@ -359,7 +360,7 @@ fn correct(
     iterations: &mut u32,
 ) -> Result<Result<Pass, SolverStatus>, ConicError> {
     let mut best = Err(SolverStatus::Unsolved);
-    for (factor, tuning) in &LADDER {
+    for (factor, tuning) in &ATTEMPTS {
         let half = half * factor;
         let answer = Program::correction(pair, goal, x, half, goal.scales(unit)).run(tuning)?;
         *iterations += answer.iterations;
@@ -383,13 +384,13 @@ fn correct(
     Ok(best)
 }
 
-/// The first pass: the program of the whole particles. Its point is a start, whatever its status.
-fn place(pair: &Pair, goal: Goal, sizes: &Sizes) -> Result<(Vector3<f64>, u32), ConicError> {
+/// The first pass: the program of the whole particles. Its point serves as initial point, whatever its status.
+fn initial_point(pair: &Pair, goal: Goal, sizes: &Sizes) -> Result<(Vector3<f64>, u32), ConicError> {
     // A unit for s: its least value on a few points between the centres is an upper bound of t.
     let between = (0..=16).map(|i| pair.centre * (f64::from(i) / 16.0));
     let least = between.map(|x| Goal::Midway.objective(both(pair, &x))).fold(f64::INFINITY, f64::min);
     let unit = least.max(LEAST_SCALE);
-    let answer = Program::whole(pair, goal, sizes.length, goal.scales(unit)).run(&PLACE)?;
+    let answer = Program::whole(pair, goal, sizes.length, goal.scales(unit)).run(&FIRST)?;
     let x = if answer.step.iter().all(|v| v.is_finite()) { answer.step } else { pair.centre };
     Ok((inside(pair, goal, &x), answer.iterations))
 }
@@ -402,12 +403,12 @@ fn inside(pair: &Pair, goal: Goal, x: &Vector3<f64>) -> Vector3<f64> {
     if held(1.0) <= 1.0 + AGREEMENT {
         return *x;
     }
-    let (mut low, mut high) = (0.0, 1.0);
-    for _ in 0..60 {
-        let middle = 0.5 * (low + high);
-        if held(middle) <= 1.0 { low = middle } else { high = middle }
+    let mut bracket = Bracket { low: 0.0, high: 1.0 };
+    for _ in 0..BISECTIONS {
+        let middle = bracket.middle();
+        bracket.narrow(middle, !(held(middle) <= 1.0));
     }
-    home + (x - home) * low
+    home + (x - home) * bracket.low
 }
 
 #[cfg(test)]
