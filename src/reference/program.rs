@@ -15,7 +15,8 @@
 //! For particles of the plane this becomes eqs 19–31: z is no unknown, so that δ has two columns, and there
 //! are two ties, four rows for the box and two entries of x in a cone. (With k = 0 nothing would hold z.)
 
-use super::{ConicError, Goal};
+use super::goal::Goal;
+use super::solution::ConicError;
 use crate::pair::relative_pose::Pair;
 use clarabel::algebra::CscMatrix;
 use clarabel::solver::{DefaultSettings, DefaultSolver, IPSolver, SolverStatus, SupportedConeT};
