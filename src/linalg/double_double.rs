@@ -3,7 +3,7 @@
 //! Algorithms and error bounds are those of Joldes, Muller & Popescu (2017), "Tight and rigorous error bounds for basic
 //! building blocks of double-word arithmetic", ACM TOMS 44(2): with u = 2⁻⁵³ the relative error is at most 3u² + 13u³ of a
 //! sum or difference (their algorithm 6), 7u² of a product (without fused multiplication) and 15u² of a quotient. One bound,
-//! [`DoubleDouble::UNIT`] = 16u², covers them all.
+//! `DoubleDouble::UNIT` = 16u², covers them all.
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 

@@ -10,11 +10,11 @@ use nalgebra::{Matrix3, Vector3};
 
 /// What holds a particle, local frame; for a two-dimensional particle, its cut at z = 0.
 #[derive(Clone, Debug)]
-pub struct Bounds {
+pub(crate) struct Bounds {
     /// Radius of a ball about the origin that holds the particle.
-    pub(crate) radius: f64,
+    pub radius: f64,
     /// Corners of a polyhedron that holds the particle, up to `merged`.
-    pub(crate) corners: Box<[Vector3<f64>]>,
+    pub corners: Box<[Vector3<f64>]>,
     /// Distance within which corners were merged into one: of a body far longer than wide, all those around an end.
     merged: f64,
     /// max |d_i|.
@@ -22,12 +22,12 @@ pub struct Bounds {
     /// min d_i; negative where a plane passes behind the origin.
     least_offset: f64,
     /// max |n_i|.
-    pub(crate) longest_normal: f64,
+    pub longest_normal: f64,
     /// min |n_i| of all planes, and of those that are active anywhere within [`NEARBY`] times the radius.
-    pub(crate) shortest_normal: f64,
+    pub shortest_normal: f64,
     shortest_nearby: f64,
     /// How far beyond d_i the particle can reach along n_i: r/√(1−k); infinite for k = 1.
-    pub(crate) face_reach: f64,
+    pub face_reach: f64,
     /// {S ≤ s²} lies in a ball of radius·(1 + growth·(s − 1)), s ≥ 1.
     growth: f64,
 }

@@ -58,7 +58,7 @@ pub(crate) fn distance_near(shape: &Shape, from: &Vector3<f64>, direction: &Vect
         if is_outside {
             newton_from_outside = newton;
         }
-        // A useless guess: go on from where one plane alone gives S = 1, if that lies ahead.
+        // After the guess, go on from where one plane alone gives S = 1, if that lies ahead.
         let beyond = if first { ray.beyond_a_plane() } else { bracket.low };
         first = false;
         let mut next = if beyond > bracket.low {
