@@ -40,7 +40,7 @@ fn areas_known_to_40_digits() {
         println!("{family:12} {count:3} sections, worst relative error {worst:.1e}");
     }
     assert_eq!(families.len(), 10);
-    assert_eq!(quadratures, 0, "sections without a walk");
+    assert_eq!(quadratures, 0, "sections that need quadrature");
 }
 
 /// A contact along z through the middle of two bodies at these heights.

@@ -1,6 +1,7 @@
-//! Numbers, lanes of them, numbers of 32 digits, and symmetric 3×3 matrices.
+//! Numbers, lanes of them, numbers of 32 digits, roots on a bracket, and symmetric 3×3 matrices.
 
 pub(crate) mod double_double;
 pub(crate) mod graded_basis;
 pub(crate) mod number;
+pub(crate) mod root;
 pub(crate) mod symmetric;

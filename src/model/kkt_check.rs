@@ -82,7 +82,7 @@ impl KktCheck {
         let (mut pulling, mut doubtful, mut depths, mut near) = (false, 0.0, 0.0, 0.0);
         let (mut entering, mut near_inactive, mut least_push) = (false, false, f64::INFINITY);
         // Active planes are near y, entering ones near y + e: no other plane is within reach of either.
-        let far = if particle.leaves.single() {
+        let far = if particle.clusters.is_single() {
             0.0
         } else {
             blur + particle.bounds.longest_normal * e.norm() * (1.0 + DEPTH_ROUNDING)

@@ -1,65 +1,362 @@
-//! Whether planes enclose a volume (lines an area), and how large it is: small linear programs for clarabel.
+//! Whether half-spaces enclose a volume (half-planes an area), and how large it is: linear programs in 3 or 2 unknowns.
 //!
-//! Only particles with k = 0 need them, once, when they are made.
+//! Only particles with k = 0 need them, once, when they are made. A program max e·x subject to n_i·x ≤ h_i is solved by
+//! Seidel's randomised incremental algorithm (1991): half-spaces are added in random order, and only when one cuts off the
+//! optimum so far is the program solved again on its plane, with one unknown less. The expected time is proportional to
+//! the number of half-spaces.
+//!
+//! The optimum itself is not trusted. Its active planes give multipliers y ≥ 0 with Σ y_i n_i ≈ e, and by weak duality
+//!
+//! ```text
+//! e·x = Σ y_i n_i·x + ρ·x ≤ Σ y_i h_i + |ρ|₁ |x|_∞,   ρ = e − Σ y_i n_i
+//! ```
+//!
+//! for every x that the half-spaces hold, whatever rounding did on the way. Taken for all axes this bounds |x|_∞.
 
-use clarabel::algebra::CscMatrix;
-use clarabel::solver::{DefaultSettingsBuilder, DefaultSolver, IPSolver, NonnegativeConeT, SolverStatus};
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3};
 
-/// What clarabel's extents may be off, in units of the farthest face.
-const TOLERANCE: f64 = 1e-7;
+/// Half the edge of the cube in which optima are sought, in distances of the farthest face. An optimum on the cube means
+/// unbounded: with unit normals a larger polyhedron has multipliers above 1e9, which [`LARGEST_RESIDUAL`] refuses.
+const CUBE: f64 = 1e10;
 
-/// Half the edge of a cube about the origin that holds {x : n·x ≤ h for every face}, |n| = 1; `None` if unbounded.
+/// Part of the terms of n·x − h below which its sign is not trusted. Far above rounding, so that planes through one corner
+/// are not taken to cut each other off; what is overlooked is covered by the dual bound.
+const UNDECIDED: f64 = 1e-12;
+
+/// Rounding in the dual bound, in units of the multipliers' sum: γ₄ = 2ε for each of the three components of ρ, of which
+/// |n|₁ ≤ √3 makes 3.5ε; as much for the rounding of n when it was brought to unit length; one more for h and the sum.
+const ROUNDING: f64 = 8.0 * f64::EPSILON;
+
+/// Largest |ρ|₁ at which the half-spaces count as bounded. The half edge is then right to 1e-6, and two planes that face
+/// each other at an angle below 2e-9 count as parallel.
+const LARGEST_RESIDUAL: f64 = 1e-6;
+
+/// Part of the scale below which an extent is so small that the units may have cost digits.
+const TINY: f64 = 1e-100;
+
+/// Orders of the half-spaces that are tried: where many planes meet in a corner, rounding may lead to planes that are not
+/// those of the optimum.
+const ATTEMPTS: u64 = 4;
+
+/// Place of the cube's own faces.
+const OF_CUBE: usize = usize::MAX;
+
+/// n·x ≤ h in the unknowns that are left, and the index among those given.
+#[derive(Clone, Copy, Debug)]
+struct HalfSpace {
+    n: [f64; 3],
+    h: f64,
+    place: usize,
+}
+
+/// Half the edge of a cube about the origin that holds {x : n·x ≤ h for every face}, |n| = 1, h > 0; `None` if unbounded.
 /// With two dimensions, of a square in the plane z = 0, to which x is then confined.
-///
-/// First the recession cone {v : n·v ≤ 0}: cut by the unit cube it reaches either 0 or 1 along some
-/// axis, so that the answer does not depend on scale. Then the extent along each axis; once more without the faces that
-/// the cube cannot reach, if they set the scale.
 pub(crate) fn half_cube(faces: &[(Vector3<f64>, f64)], dimensions: usize) -> Option<f64> {
-    let axes = || (0..dimensions).flat_map(|axis| [1.0, -1.0].map(|sign| Vector3::ith(axis, sign)));
-    let mut unit = faces.to_vec();
-    if unit.is_empty() {
-        return None;
-    }
-    let cone: Vec<_> = unit.iter().map(|(n, _)| (*n, 0.0)).chain(axes().map(|e| (e, 1.0))).collect();
-    for e in axes() {
-        // 0 when bounded, 1 when not; a failed program is taken for unbounded.
-        if maximum(&cone, &e, dimensions)? > 0.5 {
-            return None;
-        }
-    }
+    let mut faces = faces.to_vec();
     loop {
-        let scale = unit.iter().map(|(_, h)| h.abs()).fold(0.0, f64::max);
+        let scale = faces.iter().map(|(_, h)| *h).fold(0.0, f64::max);
         if !(scale > 0.0) {
             return None;
         }
-        let scaled: Vec<_> = unit.iter().map(|(n, h)| (*n, h / scale)).collect();
-        let mut extents = axes().map(|e| maximum(&scaled, &e, dimensions));
-        let most = extents.try_fold(0.0, |most: f64, extent| Some(most.max(extent?)))?;
-        let half = (most + TOLERANCE) * scale;
-        let before = unit.len();
-        unit.retain(|(_, h)| *h < 2.0 * half);
-        if unit.len() == before {
+        let scaled: Vec<_> = faces.iter().map(|(n, h)| (*n, (h / scale).max(0.0))).collect();
+        let half = extent(&scaled, dimensions)? * scale;
+        let before = faces.len();
+        // A face further off than the cube's corners plays no part: not in the scale either.
+        if half < TINY * scale {
+            faces.retain(|(_, h)| *h < 2.0 * half);
+        }
+        if faces.len() == before {
             return Some(half);
         }
     }
 }
 
-/// max e·x subject to n·x ≤ h, over the first coordinates of x.
-fn maximum(faces: &[(Vector3<f64>, f64)], e: &Vector3<f64>, dimensions: usize) -> Option<f64> {
-    let count = faces.len();
-    let rows: Vec<usize> = (0..dimensions).flat_map(|_| 0..count).collect();
-    let values: Vec<f64> = (0..dimensions).flat_map(|axis| faces.iter().map(move |(n, _)| n[axis])).collect();
-    let starts = (0..=dimensions).map(|axis| axis * count).collect();
-    let a = CscMatrix::new(count, dimensions, starts, rows, values);
-    let h: Vec<f64> = faces.iter().map(|(_, h)| *h).collect();
-    let settings = DefaultSettingsBuilder::default().verbose(false).build().ok()?;
-    let p = CscMatrix::zeros((dimensions, dimensions));
-    let objective = -e;
-    let mut solver =
-        DefaultSolver::new(&p, &objective.as_slice()[..dimensions], &a, &h, &[NonnegativeConeT(count)], settings)
-            .ok()?;
-    solver.solve();
-    matches!(solver.solution.status, SolverStatus::Solved | SolverStatus::AlmostSolved)
-        .then(|| e.iter().zip(&solver.solution.x).map(|(e, x)| e * x).sum())
+/// The same in units of the farthest face.
+fn extent(faces: &[(Vector3<f64>, f64)], dimensions: usize) -> Option<f64> {
+    (0..ATTEMPTS).find_map(|seed| {
+        let order = shuffled(faces.len(), seed);
+        let half_spaces: Vec<_> =
+            order.into_iter().map(|place| HalfSpace { n: faces[place].0.into(), h: faces[place].1, place }).collect();
+        let (mut most, mut residual): (f64, f64) = (0.0, 0.0);
+        for axis in 0..dimensions {
+            for sign in [1.0, -1.0] {
+                let e = Vector3::ith(axis, sign);
+                let mut active = [OF_CUBE; 3];
+                maximise(&half_spaces, e.into(), dimensions, &mut active);
+                let (bound, of_bound) = dual_bound(faces, &e, &active[..dimensions])?;
+                (most, residual) = (most.max(bound), residual.max(of_bound));
+            }
+        }
+        (residual <= LARGEST_RESIDUAL).then(|| most / (1.0 - residual))
+    })
+}
+
+/// Σ y_i h_i and |ρ|₁, with bounds on rounding, for the multipliers of these planes.
+fn dual_bound(faces: &[(Vector3<f64>, f64)], e: &Vector3<f64>, active: &[usize]) -> Option<(f64, f64)> {
+    // In two dimensions the z axis completes the basis, without a weight.
+    let (mut normals, mut distances) = (Matrix3::identity(), Vector3::zeros());
+    for (column, &place) in active.iter().enumerate() {
+        // A face of the cube: the half-spaces reach it.
+        let (n, h) = faces.get(place)?;
+        normals.set_column(column, n);
+        distances[column] = *h;
+    }
+    let y = normals.lu().solve(e)?.map(|weight| weight.max(0.0));
+    let residual = (e - normals * y).abs().sum() + ROUNDING * (1.0 + y.sum());
+    Some((y.dot(&distances) * (1.0 + ROUNDING), residual))
+}
+
+/// Maximiser of c·x over the half-spaces and the cube |x_i| ≤ [`CUBE`], in the first coordinates; `active` gets the planes
+/// that meet there.
+fn maximise(half_spaces: &[HalfSpace], c: [f64; 3], dimensions: usize, active: &mut [usize; 3]) -> [f64; 3] {
+    if dimensions == 1 {
+        let (x, place) = farther_end(half_spaces, c[0]);
+        active[0] = place;
+        return [x, 0.0, 0.0];
+    }
+    let mut x = [0.0; 3];
+    for axis in 0..dimensions {
+        (x[axis], active[axis]) = (CUBE.copysign(c[axis]), OF_CUBE);
+    }
+    for (i, half_space) in half_spaces.iter().enumerate() {
+        let terms = (0..dimensions).map(|axis| half_space.n[axis] * x[axis]);
+        let (excess, size) = terms.fold((-half_space.h, half_space.h.abs()), |(t, s), v| (t + v, s + v.abs()));
+        if excess > UNDECIDED * size {
+            x = maximise_on(half_space, &half_spaces[..i], c, dimensions, active);
+        }
+    }
+    x
+}
+
+/// The same on the plane of one half-space, from which one coordinate follows from the others.
+fn maximise_on(
+    plane: &HalfSpace,
+    earlier: &[HalfSpace],
+    c: [f64; 3],
+    dimensions: usize,
+    active: &mut [usize; 3],
+) -> [f64; 3] {
+    let larger = |i: &usize, j: &usize| plane.n[*i].abs().total_cmp(&plane.n[*j].abs());
+    let gone = (0..dimensions).max_by(larger).unwrap_or(0);
+    let pivot = plane.n[gone];
+    // Without the coordinate: the others move up. A difference that is nothing but rounding is none.
+    let reduced = |n: &[f64; 3]| {
+        let (ratio, mut left, mut is_parallel) = (n[gone] / pivot, [0.0; 3], true);
+        for axis in (0..dimensions).filter(|axis| *axis != gone) {
+            let subtracted = ratio * plane.n[axis];
+            left[axis - usize::from(axis > gone)] = n[axis] - subtracted;
+            is_parallel &= (n[axis] - subtracted).abs() <= UNDECIDED * (ratio.abs() + n[axis].abs());
+        }
+        (left, ratio, is_parallel)
+    };
+    let mut rest = Vec::with_capacity(earlier.len() + 2);
+    for sign in [1.0, -1.0] {
+        let mut face = [0.0; 3];
+        face[gone] = sign;
+        let (n, ratio, _) = reduced(&face);
+        rest.push(HalfSpace { n, h: CUBE - ratio * plane.h, place: OF_CUBE });
+    }
+    for other in earlier {
+        let (n, ratio, is_parallel) = reduced(&other.n);
+        if !is_parallel {
+            rest.push(HalfSpace { n, h: other.h - ratio * plane.h, place: other.place });
+        }
+    }
+    let found = maximise(&rest, reduced(&c).0, dimensions - 1, active);
+    active[dimensions - 1] = plane.place;
+    let mut x = [0.0; 3];
+    for axis in (0..dimensions).filter(|axis| *axis != gone) {
+        x[axis] = found[axis - usize::from(axis > gone)];
+    }
+    let others: f64 = (0..dimensions).filter(|axis| *axis != gone).map(|axis| plane.n[axis] * x[axis]).sum();
+    x[gone] = (plane.h - others) / pivot;
+    x
+}
+
+/// The end of an interval of the line to which c points, and the half-space that sets it.
+fn farther_end(half_spaces: &[HalfSpace], c: f64) -> (f64, usize) {
+    let sign = 1f64.copysign(c);
+    let (mut end, mut place) = (CUBE, OF_CUBE);
+    for half_space in half_spaces {
+        let rate = sign * half_space.n[0];
+        if rate > 0.0 && half_space.h < end * rate {
+            (end, place) = (half_space.h / rate, half_space.place);
+        }
+    }
+    (sign * end, place)
+}
+
+/// 0..count in an order that depends on the seed alone (Fisher and Yates, with Marsaglia's 64-bit xorshift).
+fn shuffled(count: usize, seed: u64) -> Vec<usize> {
+    let mut state = 0x9E37_79B9_7F4A_7C15 ^ (seed << 32);
+    let mut order: Vec<usize> = (0..count).collect();
+    for i in (1..count).rev() {
+        state ^= state << 13;
+        state ^= state >> 7;
+        state ^= state << 17;
+        order.swap(i, (state % (i as u64 + 1)) as usize);
+    }
+    order
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    type Face = (Vector3<f64>, f64);
+
+    fn face(n: [f64; 3], h: f64) -> Face {
+        (Vector3::from(n).normalize(), h)
+    }
+
+    fn cuboid(x: f64, y: f64, z: f64) -> Vec<Face> {
+        let of = |axis, h| [1.0, -1.0].map(|sign| (Vector3::ith(axis, sign), h));
+        [of(0, x), of(1, y), of(2, z)].concat()
+    }
+
+    /// Holds the true half edge, and exceeds it by little.
+    fn assert_half(faces: &[Face], dimensions: usize, expected: f64) {
+        let half = half_cube(faces, dimensions).expect("bounded");
+        assert!(half >= expected && half <= expected * (1.0 + 3e-6), "{half:e} for {expected:e}");
+    }
+
+    #[test]
+    fn boxes_of_any_size_and_order() {
+        for scale in [1e-150, 1e-12, 1.0, 3e8, 1e150] {
+            let mut faces = cuboid(scale, 0.5 * scale, 0.25 * scale);
+            assert_half(&faces, 3, scale);
+            faces.reverse();
+            // Twice, and with a face beyond all others.
+            faces.extend(faces.clone());
+            faces.push(face([1.0, 2.0, 3.0], 1e155));
+            assert_half(&faces, 3, scale);
+        }
+        assert_half(&cuboid(1e140, 0.4, 0.4), 3, 1e140);
+        assert_half(&cuboid(1.0, 1e-9, 1e-150), 3, 1.0);
+    }
+
+    #[test]
+    fn a_far_face_does_not_cost_the_digits_of_a_small_body() {
+        let mut faces = cuboid(3e-5, 2e-5, 1e-5);
+        faces.push(face([1.0, 1.0, 1.0], f64::MAX));
+        assert_half(&faces, 3, 3e-5);
+    }
+
+    #[test]
+    fn simplices_in_space_and_in_the_plane() {
+        let corners = [[1.0, 1.0, 1.0], [1.0, -1.0, -1.0], [-1.0, 1.0, -1.0], [-1.0, -1.0, 1.0]];
+        // The corners of a regular tetrahedron lie opposite to its faces, three times as far off.
+        assert_half(&corners.map(|n| face(n, 1.0)), 3, 3.0 / 3f64.sqrt());
+        let half = 0.75f64.sqrt();
+        let triangle = [face([1.0, 0.0, 0.0], 1.0), face([-0.5, half, 0.0], 1.0), face([-0.5, -half, 0.0], 1.0)];
+        assert_half(&triangle, 2, 2.0);
+        assert_eq!(half_cube(&triangle, 3), None);
+    }
+
+    #[test]
+    fn slabs_wedges_and_needles_without_an_end_are_unbounded() {
+        let all = cuboid(1.0, 0.5, 0.25);
+        assert_eq!(half_cube(&[], 3), None);
+        assert_eq!(half_cube(&all[..2], 3), None);
+        for left_out in 0..6 {
+            let mut faces = all.clone();
+            faces.remove(left_out);
+            assert_eq!(half_cube(&faces, 3), None, "without {left_out}");
+            faces.extend(faces.clone());
+            assert_eq!(half_cube(&faces, 3), None, "twice, without {left_out}");
+        }
+        let square = &all[..4];
+        assert_eq!(half_cube(square, 3), None);
+        assert_half(square, 2, 1.0);
+        assert_eq!(half_cube(&all[..3], 2), None);
+        // Open where the ridge of a roof runs.
+        let roof = [face([0.0, 1.0, 1.0], 1.0), face([0.0, -1.0, 1.0], 1.0), face([0.0, 0.0, -1.0], 1.0)];
+        assert_eq!(half_cube(&roof, 3), None);
+    }
+
+    /// A wedge of the half angle a about the x axis, with y and z bounded at its foot x = −1.
+    fn wedge(a: f64) -> Vec<Face> {
+        let mut faces = cuboid(f64::MAX, 1.0, 1.0);
+        faces.remove(0);
+        faces[0].1 = 1.0;
+        faces.extend([1.0, -1.0].map(|sign| face([a.sin(), sign * a.cos(), 0.0], 0.5 * a.cos())));
+        faces
+    }
+
+    #[test]
+    fn a_wedge_is_bounded_by_its_ridge_until_its_faces_count_as_parallel() {
+        for a in [0.1, 1e-3, 1e-6, 1e-8] {
+            assert_half(&wedge(a), 3, 0.5 / a.tan());
+        }
+        for a in [1e-10, 1e-15, 0.0, -1e-10, -0.1] {
+            assert_eq!(half_cube(&wedge(a), 3), None, "{a:e}");
+        }
+    }
+
+    #[test]
+    fn a_cone_of_many_planes_ends_at_its_apex() {
+        for (count, slope) in [(7, 0.5), (1_000, 1e-4), (65_535, 0.3)] {
+            let around = (0..count).map(|i| f64::from(i) * std::f64::consts::TAU / f64::from(count));
+            let mut faces: Vec<Face> = around.map(|phi| face([phi.cos(), phi.sin(), slope], 1.0)).collect();
+            faces.push(face([0.0, 0.0, -1.0], 1.0));
+            let length = slope.hypot(1.0);
+            assert_half(&faces, 3, length / slope);
+        }
+    }
+
+    /// By all corners: `None` if a ray that no face cuts off runs along two faces.
+    fn by_enumeration(faces: &[Face]) -> Option<f64> {
+        let mut half: f64 = 0.0;
+        for i in 0..faces.len() {
+            for j in 0..i {
+                let along = faces[i].0.cross(&faces[j].0);
+                for ray in [along, -along] {
+                    if along.norm() > 1e-9 && faces.iter().all(|(n, _)| n.dot(&ray) <= 1e-12) {
+                        return None;
+                    }
+                }
+                for k in 0..j {
+                    let rows = [i, j, k].map(|place| faces[place].0.transpose());
+                    let Some(inverse) = Matrix3::from_rows(&rows).try_inverse() else { continue };
+                    let corner = inverse * Vector3::new(faces[i].1, faces[j].1, faces[k].1);
+                    if faces.iter().all(|(n, h)| n.dot(&corner) <= h + 1e-9 * (1.0 + corner.norm())) {
+                        half = half.max(corner.amax());
+                    }
+                }
+            }
+        }
+        (half > 0.0).then_some(half)
+    }
+
+    proptest! {
+        #[test]
+        fn random_polyhedra_agree_with_the_enumeration_of_corners(
+            given in prop::collection::vec(([-1.0..1.0f64, -1.0..1.0f64, -1.0..1.0f64], 0.01..2.0f64), 3..14),
+            scale in -100..100i32,
+        ) {
+            let given = given.into_iter().filter(|(n, _)| Vector3::from(*n).norm() > 0.1);
+            let faces: Vec<Face> = given.map(|(n, h)| face(n, h)).collect();
+            let unit = 10f64.powi(scale);
+            let scaled: Vec<Face> = faces.iter().map(|(n, h)| (*n, h * unit)).collect();
+            let found = half_cube(&scaled, 3).map(|half| half / unit);
+            match (found, by_enumeration(&faces)) {
+                (Some(found), Some(half)) => prop_assert!((found / half - 1.0).abs() < 1e-5, "{} for {}", found, half),
+                (found, half) => prop_assert_eq!(found.is_some(), half.is_some(), "{:?} for {:?}", found, half),
+            }
+        }
+
+        /// On a grid of directions many planes are parallel, and many meet in one corner.
+        #[test]
+        fn degenerate_polyhedra_agree_with_the_enumeration_of_corners(
+            given in prop::collection::vec(([-1..=1i32, -1..=1i32, -1..=1i32], 1..=3i32), 4..20),
+        ) {
+            let given = given.into_iter().filter(|(n, _)| *n != [0; 3]);
+            let faces: Vec<Face> = given.map(|(n, h)| face(n.map(f64::from), f64::from(h))).collect();
+            match (half_cube(&faces, 3), by_enumeration(&faces)) {
+                (Some(found), Some(half)) => prop_assert!((found / half - 1.0).abs() < 1e-5, "{} for {}", found, half),
+                (found, half) => prop_assert!(found.is_none() && half.is_none(), "{:?} for {:?}", found, half),
+            }
+        }
+    }
 }

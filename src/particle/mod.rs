@@ -1,9 +1,25 @@
-//! The shape: what a potential particle is, and what follows from its shape alone.
+//! The shape of a particle and what follows from it alone. Each file uses only those above it:
+//!
+//! | file | holds |
+//! |---|---|
+//! | `plane` | one plane as given |
+//! | `error` | why planes and parameters do not make a particle |
+//! | `plane_clusters` | planes in clusters of similar normals, which are skipped as a whole where none of them is active |
+//! | `linear_program` | whether half-spaces enclose a volume, and how large it is (Seidel's algorithm) |
+//! | `bounding_volumes` | a ball and a polyhedron that hold the particle |
+//! | `shape` | the validated definition with its clusters and bounding volumes |
+//! | `potential` | S, its gradient and its Hessian |
+//! | `ray_cast` | the distance from a point inside to the surface |
+//! | `mass_properties` | volume, centroid and inertia |
+//! | `particle` | the public interface |
 
 pub mod bounding_volumes;
+pub mod error;
 pub mod linear_program;
 pub mod mass_properties;
 pub mod particle;
+pub mod plane;
 pub mod plane_clusters;
 pub mod potential;
 pub mod ray_cast;
+pub mod shape;

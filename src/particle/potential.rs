@@ -1,44 +1,46 @@
-//! S, its gradient and its Hessian: the only loops over planes.
+//! S, its gradient and its Hessian, in the local frame of the particle.
 //!
-//! Everything here takes the point y in the particle's local frame. S is piecewise quadratic, so
-//! that value, gradient and Hessian at a point describe it exactly until a plane switches.
+//! S is piecewise quadratic: value, gradient and Hessian at a point describe it exactly as long as the active set, the
+//! planes with n·y > d, does not change.
 
 use crate::linalg::number::{larger, smaller};
 use crate::linalg::symmetric::Symmetric;
-use crate::particle::particle::Particle;
+use crate::particle::shape::Shape;
 use nalgebra::Vector3;
 
-/// S near a point: S(x + h) = expansion + gradient·h + ½ hᵀ·hessian·h while the planes that are counted as
-/// active have n·(x + h) ≥ d, and no others.
+/// S near a point: S(x + h) = expansion + gradient·h + ½ hᵀ·hessian·h as long as the active set at x + h is the set of
+/// planes that were counted.
 #[derive(Clone, Copy, Debug)]
 pub struct Quadratic {
     /// S(x), no unit.
     pub value: f64,
-    /// The quadratic at x; more than `value` only by planes counted before they switch on.
+    /// The quadratic at x; more than `value` only by planes that were counted and are not active at x.
     pub expansion: f64,
     /// ∇S(x), 1/length.
     pub gradient: Vector3<f64>,
-    /// ∇²S(x), 1/length²; where a plane is just switching on, the side without it.
+    /// ∇²S(x), 1/length²; a plane with n·x = d is not counted.
     pub hessian: Symmetric,
-    /// 2(1-k)/r² · Σ ⟨n_i·x − d_i⟩: how fast S changes when every plane moves in by one unit of
-    /// length. Times the rounding of a plane's distance it bounds the rounding of S.
+    /// 2(1-k)/r² · Σ ⟨n_i·x − d_i⟩, the derivative of S for a change of all offsets: times the rounding of an excess it
+    /// bounds, to first order, what that does to S.
     pub pull: f64,
-    /// Planes that are counted.
+    /// Number of planes that were counted.
     pub count: u32,
-    /// No n·x − d is nearer to where its plane switches on or off; below 0 where one counts before it is on, or is on and
-    /// does not count.
+    /// Least |n·x − d|: the change of an excess that changes the active set. Negative if the planes that were counted are
+    /// not the active set.
     pub clear: f64,
 }
 
 impl Quadratic {
-    /// Bound on the terms of S after a step v, in the axes of the quadratic: (√S + Σ|v_i|·√(h_ii/2))², at most fourfold.
+    /// Half of a bound on the terms of S after a step v, in the axes of the quadratic. With b = Σ|v_i|·√(h_ii/2) they are at
+    /// most (√S + b)² ≤ 2(S + b²), and b² ≤ 3/2·Σ v_i²·h_ii by Cauchy's inequality.
     #[inline]
     pub(crate) fn terms(&self, v: &Vector3<f64>) -> f64 {
         self.expansion + 1.5 * v.component_mul(v).dot(&self.hessian.diagonal())
     }
 
-    /// Bound on the rounding of the sums by which S is taken along a step v with these terms, axis by axis: along a face a long
-    /// step has but the curvature of the face. By Cauchy's inequality no sum in the Hessian has terms above √(h_ii·h_jj).
+    /// Estimated rounding of S along a step v with these terms: 4u = 2ε, u the unit roundoff, for each term of value,
+    /// gradient and Hessian (no |h_ij| exceeds √(h_ii·h_jj)). The rounding of the sums over many planes is not counted. It
+    /// is taken axis by axis, since a long step along a face meets only the curvature along it.
     #[inline]
     pub(crate) fn rounding_after(&self, v: &Vector3<f64>, terms: f64) -> f64 {
         2.0 * f64::EPSILON * (2.0 * terms + v.abs().dot(&self.gradient.abs()))
@@ -54,7 +56,8 @@ pub(crate) struct Tangent {
     pub gradient: Vector3<f64>,
     /// As in [`Quadratic`].
     pub pull: f64,
-    /// 2(1-k)/r² · Σ |n_i| over the active planes: how far ∇S moves when every plane moves in by one unit of length.
+    /// 2(1-k)/r² · Σ |n_i| over the active planes: a bound on the derivative of ∇S for a change of all
+    /// offsets.
     pub stiffness: f64,
 }
 
@@ -70,38 +73,38 @@ pub struct OnLine {
 }
 
 /// S(y).
-pub fn value(particle: &Particle, y: &Vector3<f64>) -> f64 {
+pub fn value(shape: &Shape, y: &Vector3<f64>) -> f64 {
     let mut sum = 0.0;
-    particle.visit_near(y, 0.0, |_, _, excess| sum += excess.max(0.0) * excess.max(0.0));
-    particle.plane_weight * sum + particle.sphere_weight * y.norm_squared()
+    shape.visit_near(y, 0.0, |_, _, excess| sum += excess.max(0.0) * excess.max(0.0));
+    shape.plane_weight * sum + shape.sphere_weight * y.norm_squared()
 }
 
 /// S, ∇S, ∇²S at y, local frame.
-pub fn local(particle: &Particle, y: &Vector3<f64>) -> Quadratic {
-    turned(particle, particle.sphere_weight, |n| n, y, 0.0, |_, excess| excess > 0.0)
+pub fn local(shape: &Shape, y: &Vector3<f64>) -> Quadratic {
+    turned(shape, shape.sphere_weight, |n| n, y, 0.0, |_, excess| excess > 0.0)
 }
 
-/// S, ∇S, ∇²S at the local point y, with derivatives in the frame that `turn` takes local directions to, and
-/// with a weight of the shadow sphere that may differ from the particle's own. `counts` says of a
-/// plane and its n·y − d whether it belongs to the quadratic; none below −`early` does.
+/// S, ∇S, ∇²S at the local point y. Derivatives are in the frame to which `turn` takes local directions; the weight of the
+/// shadow sphere may differ from the shape's own. `counts` says for a plane and its n·y − d whether it
+/// is counted; none below −`early` is.
 ///
-/// Each active normal is turned before it is squared, not the finished Hessian: in a frame aligned
-/// with a face the stiff and the soft direction then stay apart to full relative precision.
+/// Each normal is turned before it is squared, and not the finished Hessian: in a frame aligned with a face the small
+/// curvature along it then keeps its relative precision beside the large one across it.
 #[inline(always)]
 pub(crate) fn turned(
-    particle: &Particle,
+    shape: &Shape,
     sphere_weight: f64,
     turn: impl Fn(Vector3<f64>) -> Vector3<f64>,
     y: &Vector3<f64>,
     early: f64,
     counts: impl Fn(usize, f64) -> bool,
 ) -> Quadratic {
-    let plane_weight = particle.plane_weight;
+    let plane_weight = shape.plane_weight;
     let (mut square, mut all, mut linear, mut count) = (0.0, 0.0, 0.0, 0);
     let mut g = Vector3::zeros();
     let mut squares = Symmetric::default();
     let mut clear = f64::INFINITY;
-    let most_left_out = particle.visit_near(y, early, |i, n, excess| {
+    let most_left_out = shape.visit_near(y, early, |i, n, excess| {
         if !counts(i, excess) {
             clear = smaller(-excess, clear);
         } else {
@@ -131,10 +134,10 @@ pub(crate) fn turned(
 
 /// S, ∇S at y, local frame.
 #[inline(always)]
-pub(crate) fn tangent(particle: &Particle, y: &Vector3<f64>) -> Tangent {
+pub(crate) fn tangent(shape: &Shape, y: &Vector3<f64>) -> Tangent {
     let (mut square, mut linear, mut count) = (0.0, 0.0, 0.0);
     let mut g = Vector3::zeros();
-    particle.visit_near(y, 0.0, |_, n, excess| {
+    shape.visit_near(y, 0.0, |_, n, excess| {
         if excess > 0.0 {
             square += excess * excess;
             linear += excess;
@@ -142,19 +145,19 @@ pub(crate) fn tangent(particle: &Particle, y: &Vector3<f64>) -> Tangent {
             g += excess * n;
         }
     });
-    let (w, m) = (particle.plane_weight, particle.sphere_weight);
+    let (w, m) = (shape.plane_weight, shape.sphere_weight);
     Tangent {
         value: w * square + m * y.norm_squared(),
         gradient: 2.0 * (w * g + m * y),
         pull: 2.0 * w * linear,
-        stiffness: 2.0 * w * count * particle.bounds.longest_normal,
+        stiffness: 2.0 * w * count * shape.bounds.longest_normal,
     }
 }
 
 /// S, slope and curvature at y along the local direction `e` (any length; it sets the unit of α).
-pub fn on_line(particle: &Particle, sphere_weight: f64, y: &Vector3<f64>, e: &Vector3<f64>) -> OnLine {
+pub fn on_line(shape: &Shape, sphere_weight: f64, y: &Vector3<f64>, e: &Vector3<f64>) -> OnLine {
     let (mut square, mut mixed, mut steep) = (0.0, 0.0, 0.0);
-    particle.visit_near(y, 0.0, |_, n, excess| {
+    shape.visit_near(y, 0.0, |_, n, excess| {
         if excess > 0.0 {
             let rate = n.dot(e);
             square += excess * excess;
@@ -162,7 +165,7 @@ pub fn on_line(particle: &Particle, sphere_weight: f64, y: &Vector3<f64>, e: &Ve
             steep += rate * rate;
         }
     });
-    let (w, m) = (particle.plane_weight, sphere_weight);
+    let (w, m) = (shape.plane_weight, sphere_weight);
     OnLine {
         value: w * square + m * y.norm_squared(),
         slope: 2.0 * (w * mixed + m * y.dot(e)),

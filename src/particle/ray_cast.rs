@@ -1,67 +1,48 @@
-//! Where a ray from inside meets the surface: exact, since S is piecewise quadratic on a line.
+//! The distance along a ray from a point inside to the surface: exact, since S is piecewise quadratic on a line.
+//!
+//! Newton's method with the quadratic at the current point as the model: its root is the answer once the active planes are
+//! those of the root. Before that the root may be passed on either side, and a bracket replaces a step that leaves it by the
+//! Newton step from the outer end, which does not overshoot because S is convex.
+//!
+//! Stop criteria compare steps with an estimate of the rounding of a point on the ray; they are no error bounds.
 
-use crate::particle::particle::Particle;
-use crate::particle::potential;
+use crate::linalg::root::Bracket;
+use crate::particle::potential::{self, OnLine};
+use crate::particle::shape::Shape;
 use nalgebra::Vector3;
 
-/// Most pieces that a root search walks over; each Newton step from outside ends one piece or more,
-/// so that this is reached only by rounding.
+/// Most steps; every Newton step from outside passes a plane at least, so that only rounding leads here.
 const MOST_STEPS: usize = 100;
-
-impl Particle {
-    /// Distance τ ≥ 0 along a local unit direction from a local point inside to the surface, length: the τ with
-    /// S(from + τ·direction) = 1.
-    ///
-    /// From a point outside by rounding the answer is a small negative number if the ray leads away, and where it comes out
-    /// again if it leads in. `None` when the ray misses the particle or something is not finite.
-    pub fn surface_distance(&self, from: &Vector3<f64>, direction: &Vector3<f64>) -> Option<f64> {
-        distance(self, from, direction)
-    }
-}
 
 /// Distance τ ≥ 0 with S(from + τ·direction) = 1, for a local point and a local unit direction.
 ///
-/// `from` should be inside (S ≤ 1). From a point outside by rounding the answer is a small negative number if the ray leads
-/// away, and where it comes out again if it leads in. `None` when the ray never leaves (not a particle) or misses it, or
-/// something is not finite.
-pub fn distance(particle: &Particle, from: &Vector3<f64>, direction: &Vector3<f64>) -> Option<f64> {
-    distance_near(particle, from, direction, 0.0)
+/// `from` should be inside (S ≤ 1). From a point that rounding has put outside, the answer is a small negative number if the
+/// ray points away from the particle, and the distance to where it leaves it again if the ray enters. `None` when the ray
+/// misses the particle or something is not finite.
+pub fn distance(shape: &Shape, from: &Vector3<f64>, direction: &Vector3<f64>) -> Option<f64> {
+    distance_near(shape, from, direction, 0.0)
 }
 
-/// The same, with a guess of the distance to begin at; a right one saves half of the work.
+/// The same from an initial guess; a good one saves half of the work.
 #[inline]
-pub(crate) fn distance_near(
-    particle: &Particle,
-    from: &Vector3<f64>,
-    direction: &Vector3<f64>,
-    guess: f64,
-) -> Option<f64> {
-    let at = |tau: f64| {
-        let mut line = potential::on_line(particle, particle.sphere_weight, &(from + tau * direction), direction);
-        line.value -= 1.0;
-        line
-    };
-    // The root of the current quadratic piece is exact once the right planes are on. Before that it
-    // may jump past the root either way; the bracket turns such a jump into a Newton step from the
-    // outside, which, S being convex, never jumps.
-    let (mut inside, mut outside) = (f64::NEG_INFINITY, f64::INFINITY);
+pub(crate) fn distance_near(shape: &Shape, from: &Vector3<f64>, direction: &Vector3<f64>, guess: f64) -> Option<f64> {
+    let start = from.norm();
+    // No surface point is further off than this.
+    let ray = Ray { shape, from, direction, start, farthest: start + shape.bounds.radius };
+    let mut bracket = Bracket { low: f64::NEG_INFINITY, high: f64::INFINITY };
     let mut newton_from_outside = f64::NAN;
     let (mut nearest, mut least) = (0.0, f64::INFINITY);
-    // No surface point is further off than this.
-    let start = from.norm();
-    let farthest = start + particle.bounding_radius();
-    let mut tau = if guess.abs() <= farthest { guess } else { 0.0 };
+    let mut tau = if guess.abs() <= ray.farthest { guess } else { 0.0 };
     let mut first = true;
     for _ in 0..MOST_STEPS {
-        let line = at(tau);
+        let line = ray.at(tau);
         if !(line.value.is_finite() && line.slope.is_finite()) {
             return None;
         }
         let newton = tau - line.value / line.slope;
-        let lengths = start + newton.abs().min(tau.abs());
-        let rounding = 2.0 * f64::EPSILON * (lengths + particle.bounds.offset_within(lengths).min(lengths));
-        // From outside a Newton step misses by at most ½·curvature·step²/slope, since planes only go off on the way; from
-        // inside others may come on, and only a step below the rounding of a point on the ray is the last.
+        let rounding = ray.rounding(newton.abs().min(tau.abs()));
+        // From outside a Newton step misses the root by at most ½·curvature·step²/slope, since planes only become inactive on
+        // the way. From inside others may become active, and only a step below rounding is the last.
         let step = newton - tau;
         let outside_and_close = line.value >= 0.0 && 0.5 * line.curvature * step * step <= rounding * line.slope;
         if line.slope > 0.0 && (step.abs() <= rounding || outside_and_close) {
@@ -70,38 +51,37 @@ pub(crate) fn distance_near(
         if line.value < least {
             (nearest, least) = (tau, line.value);
         }
-        // Where a ray enters, the way out lies ahead.
-        let enters = line.slope < 0.0 && outside == f64::INFINITY;
-        if line.value < 0.0 || enters {
-            inside = tau;
-        } else {
-            outside = tau;
+        // Where the ray enters the particle, the root lies ahead.
+        let enters = line.slope < 0.0 && bracket.high == f64::INFINITY;
+        let is_outside = !(line.value < 0.0 || enters);
+        bracket.narrow(tau, is_outside);
+        if is_outside {
             newton_from_outside = newton;
         }
-        // The guess was none: on from where a plane alone brings S to 1, if rounding on the long way to it left it ahead.
-        let beyond = if first { beyond_a_plane(particle, from, direction, farthest) } else { inside };
-        let mut next = if beyond > inside {
+        // After the guess, go on from where one plane alone gives S = 1, if that lies ahead.
+        let beyond = if first { ray.beyond_a_plane() } else { bracket.low };
+        first = false;
+        let mut next = if beyond > bracket.low {
             beyond
         } else if line.slope > 0.0 {
             let root = tau + root_of_piece(line.value, line.slope, line.curvature);
             // Where rounding hides the planes, the sphere alone may put it far beyond.
-            if root > farthest { farthest } else { root }
-        } else if outside == f64::INFINITY {
-            farthest
+            if root > ray.farthest { ray.farthest } else { root }
+        } else if bracket.high == f64::INFINITY {
+            ray.farthest
         } else {
             newton_from_outside
         };
-        first = false;
-        if !(inside < next && next < outside) && outside < f64::INFINITY {
+        if !bracket.contains(next) && bracket.high < f64::INFINITY {
             next = newton_from_outside;
         }
-        if !(inside < next && next < outside && next.is_finite()) {
+        if !(bracket.contains(next) && next.is_finite()) {
             if least <= 0.0 {
                 return next.is_finite().then_some(next);
             }
-            // From outside Newton's steps end at the way out, if there is one: else the ray touches the body to the rounding of S
-            // near 1, or misses it.
-            let touching = 4.0 * rounding * (particle.plane_weight.sqrt() + particle.sphere_weight.sqrt());
+            // Newton steps from outside end at the root if there is one. If not, the ray touches the particle, to the rounding
+            // of S near 1, or misses it.
+            let touching = 4.0 * rounding * (shape.plane_weight.sqrt() + shape.sphere_weight.sqrt());
             return (least <= touching).then_some(nearest);
         }
         tau = next;
@@ -109,22 +89,17 @@ pub(crate) fn distance_near(
     Some(tau)
 }
 
-/// The same where rounding has put the start beside the body, and the ray misses it: from a point of the body nearby.
+/// The same for a start that rounding has put beside the particle so that the ray misses it: from a nearby point inside.
 ///
-/// A sharp body far from the origin may be thinner than the rounding of a point, which moves it by at most `shift`. Each step
-/// goes to the nearest point of a half-space that holds the body, {the tangent of s ≤ 1}: by that it comes no further from any
-/// point of the body. One of them, the start as it was meant, is within the rounding of it; so the point that is found is
-/// within twice that, or there is none.
+/// A sharp particle far from the origin may be thinner than the rounding of a point, which is at most `shift`. Each step
+/// projects the point onto a half-space that holds the particle, that of the tangent to s ≤ 1, and so comes no further from
+/// any point inside. The exact start is inside and within `shift` of the rounded one; so the point that is found lies within
+/// 2·`shift`, or there is none.
 #[cold]
-pub(crate) fn distance_beside(
-    particle: &Particle,
-    from: &Vector3<f64>,
-    direction: &Vector3<f64>,
-    shift: f64,
-) -> Option<f64> {
+pub(crate) fn distance_beside(shape: &Shape, from: &Vector3<f64>, direction: &Vector3<f64>, shift: f64) -> Option<f64> {
     let mut point = *from;
     for _ in 0..MOST_STEPS {
-        let here = potential::tangent(particle, &point);
+        let here = potential::tangent(shape, &point);
         let s = here.value.sqrt();
         if s <= 1.0 {
             break;
@@ -134,33 +109,65 @@ pub(crate) fn distance_beside(
             return None;
         }
     }
-    distance(particle, &point, direction)
+    distance(shape, &point, direction)
 }
 
-/// A distance at which one plane alone has brought S to 1, near the least; at most `farthest`.
-///
-/// Newton's method from outside on the largest n·x − d, which is convex along the ray.
-#[cold]
-fn beyond_a_plane(particle: &Particle, from: &Vector3<f64>, direction: &Vector3<f64>, farthest: f64) -> f64 {
-    if particle.is_sphere() {
-        return farthest;
+/// A ray with what its search needs at every step.
+struct Ray<'a> {
+    shape: &'a Shape,
+    from: &'a Vector3<f64>,
+    direction: &'a Vector3<f64>,
+    /// Distance of its start from the origin.
+    start: f64,
+    /// Distance along it beyond which there is no surface point.
+    farthest: f64,
+}
+
+impl Ray<'_> {
+    fn point(&self, tau: f64) -> Vector3<f64> {
+        self.from + tau * self.direction
     }
-    let depth = 1.0 / particle.plane_weight.sqrt();
-    let mut tau = farthest;
-    for _ in 0..MOST_STEPS {
-        let (excess, place) = particle.farthest_excess(&(from + tau * direction));
-        let rate = particle.normal(place).dot(direction);
-        let next = tau - (excess - depth) / rate;
-        if !(excess > depth && rate > 0.0 && next < tau) {
-            break;
+
+    /// S − 1 with slope and curvature.
+    #[inline(always)]
+    fn at(&self, tau: f64) -> OnLine {
+        let mut line = potential::on_line(self.shape, self.shape.sphere_weight, &self.point(tau), self.direction);
+        line.value -= 1.0;
+        line
+    }
+
+    /// Estimated rounding of the distance of a plane from a point at |τ|, in units of |n|.
+    #[inline(always)]
+    fn rounding(&self, tau: f64) -> f64 {
+        let lengths = self.start + tau;
+        2.0 * f64::EPSILON * (lengths + self.shape.bounds.offset_within(lengths).min(lengths))
+    }
+
+    /// A distance at which one plane alone gives S = 1, near the least such; at most `farthest`.
+    ///
+    /// Newton's method from outside on the largest n·x − d, which is convex along the ray.
+    #[cold]
+    fn beyond_a_plane(&self) -> f64 {
+        if self.shape.is_sphere() {
+            return self.farthest;
         }
-        tau = next;
+        let depth = 1.0 / self.shape.plane_weight.sqrt();
+        let mut tau = self.farthest;
+        for _ in 0..MOST_STEPS {
+            let (excess, place) = self.shape.farthest_excess(&self.point(tau));
+            let rate = self.shape.normal(place).dot(self.direction);
+            let next = tau - (excess - depth) / rate;
+            if !(excess > depth && rate > 0.0 && next < tau) {
+                break;
+            }
+            tau = next;
+        }
+        tau
     }
-    tau
 }
 
-/// Root right of the stationary point of v + s·δ + ½c·δ² (s > 0), without cancellation; the Newton step
-/// when the quadratic has no root (its piece ends before the surface).
+/// Root of v + s·δ + ½c·δ² on the rising branch (s > 0), without cancellation; the Newton step where the quadratic has no
+/// root because its piece ends before the surface.
 #[inline]
 pub(crate) fn root_of_piece(v: f64, s: f64, c: f64) -> f64 {
     let discriminant = s * s - 2.0 * c * v;
@@ -170,6 +177,7 @@ pub(crate) fn root_of_piece(v: f64, s: f64, c: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::particle::particle::Particle;
 
     fn cube() -> Particle {
         Particle::cube(0.45, 0.05, 0.3, 0.8)

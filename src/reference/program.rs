@@ -15,14 +15,15 @@
 //! For particles of the plane this becomes eqs 19–31: z is no unknown, so that δ has two columns, and there
 //! are two ties, four rows for the box and two entries of x in a cone. (With k = 0 nothing would hold z.)
 
-use super::{ConicError, Goal};
+use super::goal::Goal;
+use super::solution::ConicError;
 use crate::pair::relative_pose::Pair;
 use clarabel::algebra::CscMatrix;
 use clarabel::solver::{DefaultSettings, DefaultSolver, IPSolver, SolverStatus, SupportedConeT};
 use nalgebra::Vector3;
 use std::ops::Range;
 
-/// clarabel's settings that matter here; the rest are its defaults.
+/// The settings of clarabel that differ from its defaults.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Tuning {
     /// Gap at which a program is solved.
@@ -41,7 +42,7 @@ pub(super) struct Tuning {
     pub refine_absolute: f64,
 }
 
-/// What clarabel found.
+/// clarabel's answer.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Answer {
     /// Step of the point from x₀, frame of B, length.
@@ -50,17 +51,17 @@ pub(super) struct Answer {
     pub head: f64,
     /// Dual objective, in the same unit: a lower bound inside the box.
     pub dual: f64,
-    /// What the box and the dual residual may add to that bound for each box width outside the box.
+    /// By how much the box and the dual residual can lower that bound for each half-width of the box beyond it.
     pub pull: f64,
     /// Duals of the heads of the two cones.
     pub heads: [f64; 2],
     /// Interior-point iterations.
     pub iterations: u32,
-    /// clarabel's verdict.
+    /// Why clarabel stopped.
     pub status: SolverStatus,
 }
 
-/// A program ready to run.
+/// A program in the form that clarabel takes.
 pub(super) struct Program {
     rows: Vec<usize>,
     columns: Vec<usize>,
@@ -198,7 +199,7 @@ impl Program {
         }
     }
 
-    /// Hands the program to clarabel.
+    /// Solves the program with clarabel.
     pub fn run(self, tuning: &Tuning) -> Result<Answer, ConicError> {
         let n = self.variables;
         let matrix = CscMatrix::new_from_triplets(self.right.len(), n, self.rows, self.columns, self.values);

@@ -117,7 +117,7 @@ type Which = (usize, usize);
 
 impl<'a> Envelope<'a> {
     fn of(bodies: [&'a Body<'a>; 2]) -> Self {
-        let few = bodies.iter().all(|body| body.particle.leaves.single());
+        let few = bodies.iter().all(|body| body.particle.clusters.is_single());
         let roots = bodies.map(|body| body.plane_weight().sqrt());
         Self { bodies, roots, few, heights: Default::default(), falls: Default::default(), way: 0.0 }
     }

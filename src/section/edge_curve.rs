@@ -1,14 +1,14 @@
-//! The quadratic that an edge follows from a point on, until a plane switches.
+//! The conic that a boundary follows from a point on, until a plane becomes active or inactive.
 
 use super::arc::Arc;
 use nalgebra::Vector2;
 
 /// A conic through `base`: S − 1 = 2·q·h + hᵀMh at base + h, with q half the gradient at the base.
 ///
-/// M is held in the frame of the stiffest direction, so that the softness along a stiff edge does not drown in the
-/// stiffness across it: with r = 1e-8 of the size they are 16 and more decades apart.
+/// M is held in the frame of the stiffest direction: along a stiff edge and across it its entries are 16 and more decades
+/// apart where r = 1e-8 of the size, and in another frame the small one would be lost to rounding.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Conic {
+pub(super) struct EdgeCurve {
     pub base: Vector2<f64>,
     pub half_gradient: Vector2<f64>,
     /// Unit vector u of the frame; v is u turned counter-clockwise.
@@ -20,7 +20,7 @@ pub(super) struct Conic {
     pub tilt: f64,
 }
 
-impl Conic {
+impl EdgeCurve {
     /// det M, 1/length⁴; 0 for a straight edge.
     pub fn determinant(&self) -> f64 {
         (self.uu * self.vv - self.uv * self.uv).max(0.0)
@@ -35,9 +35,9 @@ impl Conic {
 
     /// The counter-clockwise arc from the base to the parameter τ > 0: its end is
     /// base + 2(τ·Jq − τ²·adj(M)·q)/(1 + τ²·det M), J a quarter turn, and τ√det M the tangent of half its angle on the
-    /// circle that the conic is an affine image of. A straight edge is nothing special.
+    /// circle that the conic is an affine image of. A straight edge needs no case of its own.
     ///
-    /// With it goes the step from its beginning to its end, which may be smaller than the rounding of both.
+    /// Also returns the step from its beginning to its end, which may be smaller than the rounding of both.
     pub fn arc(&self, tau: f64) -> (Arc, Vector2<f64>) {
         let tangent = tau * quarter_turn(&self.half_gradient);
         let secant = 1.0 + tau * tau * self.determinant();
@@ -46,8 +46,8 @@ impl Conic {
         (arc, step)
     }
 
-    /// Rounding of S at the end of such an arc that comes from that of the arc, in units of ε: both ends are rounded, the
-    /// tangent at the base tilts, and the end slides along the soft direction.
+    /// Estimated rounding of S at the end of such an arc, in units of ε, to first order: of both ends, of the direction of the
+    /// tangent at the base, and of the end along the soft direction.
     ///
     /// `length`: distances of both ends from the origin, added up.
     pub fn rounding(&self, tau: f64, arc: &Arc, end_gradient: &Vector2<f64>, length: f64) -> f64 {

@@ -1,0 +1,73 @@
+//! Why planes and parameters do not make a particle.
+
+use crate::particle::plane::MAX_PLANES;
+use thiserror::Error;
+
+/// Why planes, r, k, R do not make a particle. Each names the value and the remedy.
+#[derive(Clone, Copy, Debug, Error, PartialEq)]
+#[allow(missing_docs)]
+pub enum ParticleError {
+    #[error("plane {index} is not finite: a={a:?}, b={b:?}, c={c:?}, d={d:?}")]
+    PlaneNotFinite { index: usize, a: f64, b: f64, c: f64, d: f64 },
+    #[error("plane {index} has a normal of length zero (d={d:?}): give it a direction or remove it")]
+    ZeroNormal { index: usize, d: f64 },
+    #[error(
+        "plane {index} has a normal of length {length:?}, too short or too long for its square, by r² or not, to be a \
+         number: scale it to about unit length, and d with it"
+    )]
+    NormalLength { index: usize, length: f64 },
+    #[error("sphericity k={0:?} is outside [0, 1]")]
+    Sphericity(f64),
+    #[error("rounding radius r={0:?} must be positive and finite (it may be anything only when k=1)")]
+    RoundingRadius(f64),
+    #[error("shadow radius R={0:?} must be positive and finite (it may be anything only when k=0)")]
+    ShadowRadius(f64),
+    #[error(
+        "the centre is not inside: f(0)={f:?} must be negative; plane {worst} (d={d:?}) lies furthest behind \
+         the origin: shift the planes so that the origin is inside"
+    )]
+    CentreOutside { f: f64, worst: usize, d: f64 },
+    #[error(
+        "the planes do not enclose a volume (of a size between 1e-150 and 1e150), and with k=0 nothing else does: \
+         add planes or take k>0"
+    )]
+    Unbounded,
+    #[error("{0} planes are more than the {MAX_PLANES} that a particle may have")]
+    TooManyPlanes(usize),
+    #[error("line {index} is not finite: a={a:?}, b={b:?}, d={d:?}")]
+    LineNotFinite { index: usize, a: f64, b: f64, d: f64 },
+    #[error("line {index} has a normal of length zero (d={d:?}): give it a direction or remove it")]
+    ZeroLineNormal { index: usize, d: f64 },
+    #[error(
+        "line {index} has a normal of length {length:?}, too short or too long for its square, by r² or not, to be a \
+         number: scale it to about unit length, and d with it"
+    )]
+    LineNormalLength { index: usize, length: f64 },
+    #[error(
+        "the centre is not inside: f(0)={f:?} must be negative; line {worst} (d={d:?}) lies furthest behind \
+         the origin: shift the lines so that the origin is inside"
+    )]
+    CentreOutsideLines { f: f64, worst: usize, d: f64 },
+    #[error(
+        "the lines do not enclose an area (of a size between 1e-150 and 1e150), and with k=0 nothing else does: \
+         add lines or take k>0"
+    )]
+    OpenLines,
+    #[error("{0} lines are more than the {MAX_PLANES} that a particle may have")]
+    TooManyLines(usize),
+}
+
+impl ParticleError {
+    /// The same error for a two-dimensional particle, whose planes (a, b, 0, d) the caller gave as lines.
+    pub(crate) fn of_lines(self) -> Self {
+        match self {
+            Self::PlaneNotFinite { index, a, b, d, .. } => Self::LineNotFinite { index, a, b, d },
+            Self::ZeroNormal { index, d } => Self::ZeroLineNormal { index, d },
+            Self::NormalLength { index, length } => Self::LineNormalLength { index, length },
+            Self::CentreOutside { f, worst, d } => Self::CentreOutsideLines { f, worst, d },
+            Self::Unbounded => Self::OpenLines,
+            Self::TooManyPlanes(count) => Self::TooManyLines(count),
+            other => other,
+        }
+    }
+}

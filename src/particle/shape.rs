@@ -1,0 +1,203 @@
+//! The shape of a particle: its validated definition, and what is derived from it once.
+//!
+//! Local frame, planes i = 1..N with outward normals n_i = (a_i, b_i, c_i) and offsets d_i:
+//!
+//! ```text
+//! S(x) = (1-k)/r² · Σ ⟨n_i·x − d_i⟩²  +  k/R² · |x|²        ⟨t⟩ = max(t, 0)
+//! f(x) = S(x) − 1                                            paper eqs (2), (32)
+//! ```
+//!
+//! f = 0 is the surface, f < 0 the inside. Normals are used as given and never renormalised, so that the particle is
+//! exactly the one that the caller defined.
+
+use crate::particle::bounding_volumes::{Bounds, Extent};
+use crate::particle::error::ParticleError;
+use crate::particle::plane::{MAX_PLANES, Plane};
+use crate::particle::plane_clusters::PlaneClusters;
+use nalgebra::Vector3;
+
+/// A validated definition with its bounding volumes.
+#[derive(Clone, Debug)]
+pub struct Shape {
+    /// (a, b, c, d) of each plane in the order of `clusters`, which evaluation reads one after the other.
+    rows: Box<[[f64; 4]]>,
+    /// Number of coordinates: 3, or 2 where only the cut at z = 0 is meant ([`crate::planar`]).
+    pub(crate) dimensions: usize,
+    pub(crate) rounding_radius: f64,
+    pub(crate) sphericity: f64,
+    pub(crate) shadow_radius: f64,
+    /// (1-k)/r², the weight of the planes in S; 0 for k = 1.
+    pub(crate) plane_weight: f64,
+    /// k/R², the weight of the shadow sphere in S; 0 for k = 0.
+    pub(crate) sphere_weight: f64,
+    pub(crate) bounds: Bounds,
+    pub(crate) clusters: PlaneClusters,
+    /// For each row, the index of its plane among those given.
+    order: Box<[usize]>,
+}
+
+impl Shape {
+    /// Checks and completes a definition. With two dimensions every plane is (a, b, 0, d), and only the cut at z = 0 has to be
+    /// bounded.
+    pub(crate) fn new(
+        planes: &[Plane],
+        r: f64,
+        k: f64,
+        shadow_radius: f64,
+        dimensions: usize,
+    ) -> Result<Self, ParticleError> {
+        if planes.len() > MAX_PLANES {
+            return Err(ParticleError::TooManyPlanes(planes.len()));
+        }
+        let (plane_weight, sphere_weight) = weights(r, k, shadow_radius)?;
+        check_planes(planes, plane_weight)?;
+        let (clusters, order) =
+            if plane_weight > 0.0 { PlaneClusters::of(planes) } else { PlaneClusters::none(planes.len()) };
+        let rows: Box<[[f64; 4]]> = order.iter().map(|&i| row(&planes[i])).collect();
+        let at_origin = potential_at_origin(&rows, plane_weight);
+        if !(at_origin < 1.0) {
+            return Err(centre_outside(planes, at_origin - 1.0));
+        }
+        let extent = Extent::new(plane_weight, sphere_weight, at_origin, dimensions);
+        let bounds = Bounds::of(&rows, &extent).ok_or(ParticleError::Unbounded)?;
+        Ok(Self {
+            rows,
+            dimensions,
+            rounding_radius: r,
+            sphericity: k,
+            shadow_radius,
+            plane_weight,
+            sphere_weight,
+            bounds,
+            clusters,
+            order,
+        })
+    }
+
+    /// Number of planes.
+    pub(crate) fn len(&self) -> usize {
+        self.rows.len()
+    }
+
+    /// The planes in the order in which they were given.
+    pub(crate) fn given_planes(&self) -> Vec<Plane> {
+        let mut planes = vec![Plane { normal: Vector3::zeros(), offset: 0.0 }; self.rows.len()];
+        for (&given, &row) in self.order.iter().zip(&self.rows) {
+            planes[given] = row.into();
+        }
+        planes
+    }
+
+    /// Whether S has no plane term: planes count only for k < 1.
+    pub(crate) fn is_sphere(&self) -> bool {
+        self.plane_weight == 0.0 || self.rows.is_empty()
+    }
+
+    pub(crate) fn normal(&self, i: usize) -> Vector3<f64> {
+        let [a, b, c, _] = self.rows[i];
+        Vector3::new(a, b, c)
+    }
+
+    pub(crate) fn offset(&self, i: usize) -> f64 {
+        self.rows[i][3]
+    }
+
+    /// The normals of all planes, in the order of the clusters.
+    pub(crate) fn normals(&self) -> impl Iterator<Item = Vector3<f64>> {
+        self.rows.iter().map(|[a, b, c, _]| Vector3::new(*a, *b, *c))
+    }
+
+    /// Calls `visit` with index, normal n and excess n·y − d of each plane whose excess may be above −`early`. Returns an
+    /// upper bound on the excess of all other planes.
+    #[inline(always)]
+    pub(crate) fn visit_near(
+        &self,
+        y: &Vector3<f64>,
+        early: f64,
+        mut visit: impl FnMut(usize, Vector3<f64>, f64),
+    ) -> f64 {
+        self.clusters.visit_near(y, early, |run| {
+            let first = run.start;
+            // A single cluster holds all planes: no slice has to be checked.
+            let rows = if self.clusters.is_single() { &self.rows[..] } else { &self.rows[run] };
+            for (j, [a, b, c, d]) in rows.iter().enumerate() {
+                visit(first + j, Vector3::new(*a, *b, *c), a * y.x + b * y.y + c * y.z - d);
+            }
+        })
+    }
+
+    /// The largest n·y − d and the index of its plane; −∞ when there are no planes.
+    #[inline]
+    pub(crate) fn farthest_excess(&self, y: &Vector3<f64>) -> (f64, usize) {
+        let largest_of = |run: std::ops::Range<usize>| {
+            let mut largest = (f64::NEG_INFINITY, 0);
+            for (i, [a, b, c, d]) in run.clone().zip(&self.rows[run]) {
+                let excess = a * y.x + b * y.y + c * y.z - d;
+                if excess > largest.0 {
+                    largest = (excess, i);
+                }
+            }
+            largest
+        };
+        self.clusters.largest(y, largest_of)
+    }
+
+    /// Radius of a ball about the origin that holds {S ≤ level}.
+    pub(crate) fn reach(&self, level: f64) -> f64 {
+        self.bounds.reach(level)
+    }
+}
+
+/// (1-k)/r² and k/R².
+fn weights(r: f64, k: f64, shadow_radius: f64) -> Result<(f64, f64), ParticleError> {
+    if !(0.0..=1.0).contains(&k) {
+        return Err(ParticleError::Sphericity(k));
+    }
+    let plane_weight = if k == 1.0 { 0.0 } else { (1.0 - k) / (r * r) };
+    // The weight itself must be a normal number: r = 1e-200 would make it infinite.
+    if k < 1.0 && !(r > 0.0 && r.is_finite() && plane_weight.is_normal()) {
+        return Err(ParticleError::RoundingRadius(r));
+    }
+    let sphere_weight = if k == 0.0 { 0.0 } else { k / (shadow_radius * shadow_radius) };
+    if k > 0.0 && !(shadow_radius > 0.0 && shadow_radius.is_finite() && sphere_weight.is_normal()) {
+        return Err(ParticleError::ShadowRadius(shadow_radius));
+    }
+    Ok((plane_weight, sphere_weight))
+}
+
+fn check_planes(planes: &[Plane], plane_weight: f64) -> Result<(), ParticleError> {
+    for (index, Plane { normal, offset: d }) in planes.iter().enumerate() {
+        let (a, b, c, d) = (normal.x, normal.y, normal.z, *d);
+        if ![a, b, c, d].iter().all(|v| v.is_finite()) {
+            return Err(ParticleError::PlaneNotFinite { index, a, b, c, d });
+        }
+        if a == 0.0 && b == 0.0 && c == 0.0 {
+            return Err(ParticleError::ZeroNormal { index, d });
+        }
+        // |n|²/r² is the curvature of S across the plane; it must be a normal number, as (1-k)/r² must.
+        let square = normal.norm_squared();
+        if !(square.is_normal() && (plane_weight == 0.0 || (plane_weight * square).is_normal())) {
+            return Err(ParticleError::NormalLength { index, length: normal.amax() });
+        }
+    }
+    Ok(())
+}
+
+/// S(0), where every excess is −d.
+fn potential_at_origin(rows: &[[f64; 4]], plane_weight: f64) -> f64 {
+    if plane_weight == 0.0 {
+        return 0.0;
+    }
+    plane_weight * rows.iter().map(|row| (-row[3]).max(0.0)).fold(0.0, |sum, excess| sum + excess * excess)
+}
+
+/// The error that names the plane furthest behind the origin.
+fn centre_outside(planes: &[Plane], f: f64) -> ParticleError {
+    let behind = |&i: &usize, &j: &usize| planes[i].offset.total_cmp(&planes[j].offset);
+    let worst = (0..planes.len()).min_by(behind).unwrap_or(0);
+    ParticleError::CentreOutside { f, worst, d: planes.get(worst).map_or(f64::NAN, |p| p.offset) }
+}
+
+fn row(plane: &Plane) -> [f64; 4] {
+    [plane.normal.x, plane.normal.y, plane.normal.z, plane.offset]
+}

@@ -1,0 +1,36 @@
+//! 1 − S at the contact point, in double-double.
+//!
+//! It sets the size of a cross-section. In doubles S is known to ε·(1 + 2·size/r), while 1 − S is about 2·overlap/r: where
+//! the particles hardly overlap, no digit of it would be left.
+
+use super::plane_section::PlaneSection;
+use crate::linalg::double_double::DoubleDouble;
+
+/// 1 − S at the contact point.
+pub(super) fn of(section: &PlaneSection) -> f64 {
+    let PlaneSection { shape, branch, rotation, point, .. } = section;
+    let x = [0, 1, 2].map(|axis| dot(rotation.column(axis).iter().zip(branch.iter().map(|&b| b.into()))));
+    let mut squares = DoubleDouble::default();
+    if !shape.is_sphere() {
+        shape.visit_near(point, 0.0, |i, normal, excess| {
+            if excess > 0.0 {
+                let excess = dot(normal.iter().zip(x)) + DoubleDouble::from(-shape.offset(i));
+                squares = squares + excess * excess;
+            }
+        });
+    }
+    let (r, k, shadow_radius) = (shape.rounding_radius, shape.sphericity, shape.shadow_radius);
+    let square = |a: f64| DoubleDouble::product(a, a);
+    let mut s = DoubleDouble::default();
+    if squares.rounded() > 0.0 {
+        s = s + squares * (DoubleDouble::sum(1.0, -k) / square(r));
+    }
+    if k > 0.0 {
+        s = s + (x[0] * x[0] + x[1] * x[1] + x[2] * x[2]) * (DoubleDouble::from(k) / square(shadow_radius));
+    }
+    (DoubleDouble::from(1.0) - s).rounded()
+}
+
+fn dot<'a>(terms: impl Iterator<Item = (&'a f64, DoubleDouble)>) -> DoubleDouble {
+    terms.fold(DoubleDouble::default(), |sum, (&factor, term)| sum + term * factor)
+}
