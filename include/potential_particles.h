@@ -96,8 +96,6 @@
 #define PP_FLAG_SAFER 16
 
 // The fast solver failed and the conic back end answered in its place.
-#define PP_FLAG_FELL_BACK 32
-
 // The gap is above the tolerance asked for: rounding allows no better. It is still a bound.
 #define PP_FLAG_ROUNDING_LIMITED 64
 

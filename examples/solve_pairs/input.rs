@@ -50,7 +50,15 @@ pub fn pair(text: &[u8]) -> Result<Input, String> {
     })?;
     let (a, b) = (line.shape_a.particle("A")?, line.shape_b.particle("B")?);
     let (pose_a, pose_b) = (line.a.pose("a")?, line.b.pose("b")?);
-    Ok(Input { a, b, pose_a, pose_b })
+    // About the centre of B no digit of a surface point is lost to a position of 10⁷; but not a digit of the distance either.
+    let difference = pose_a.position() - pose_b.position();
+    if difference + pose_b.position() != *pose_a.position() {
+        return Ok(Input { a, b, pose_a, pose_b });
+    }
+    let at = |position: Vector3<f64>, pose: &Pose| {
+        Pose::new(position.into(), pose.orientation()).map_err(|error| error.to_string())
+    };
+    Ok(Input { a, b, pose_a: at(difference, &pose_a)?, pose_b: at(Vector3::zeros(), &pose_b)? })
 }
 
 impl Shape {

@@ -4,7 +4,7 @@ use crate::cases::{Case, stream};
 use crate::judge::{Failure, Shared, Trial, judge};
 use crate::line::Line;
 use nalgebra::Vector3;
-use potential_particles::{Flags, Formulation, Kind, Particle, Plane, Pose, Settings, detect};
+use potential_particles::{Formulation, Kind, Particle, Plane, Pose, Settings, detect};
 
 /// The pair of this name.
 fn line(name: &str) -> Line {
