@@ -3,7 +3,9 @@
 use crate::arguments::{self, Arguments};
 use crate::input::Input;
 use nalgebra::Vector3;
-use potential_particles::{BackEnd, Contact, Flags, Formulation, Half, Kind, Role, Settings, closest_point, detect};
+use potential_particles::{
+    BackEnd, ClosestPoint, Contact, Flags, Formulation, Kind, Role, Settings, closest_point, detect,
+};
 use serde::Serialize;
 
 /// One line of output. Vectors in world axes, points relative to the position of B.
@@ -130,7 +132,8 @@ fn slack(input: &Input, contact: &Contact, settings: &Settings) -> Result<Closes
         closest_point(&input.a, &input.pose_a, &input.b, &input.pose_b, on, settings).map_err(|error| error.to_string())
     };
     let (p1, p2) = (point(Role::A)?, point(Role::B)?);
-    let of = |half: &Option<Half>| half.map_or((f64::NAN, [f64::NAN; 3]), |half| (half.s, half.branch_b.into()));
+    let of =
+        |half: &Option<ClosestPoint>| half.map_or((f64::NAN, [f64::NAN; 3]), |half| (half.s, half.branch_b.into()));
     let ((s_b, on_a), (s_a, on_b)) = (of(&p1), of(&p2));
     Ok(Closest {
         kind: kind(contact),
@@ -144,19 +147,12 @@ fn slack(input: &Input, contact: &Contact, settings: &Settings) -> Result<Closes
     })
 }
 
-fn kind(contact: &Contact) -> &'static str {
-    match contact.kind {
-        Kind::Separated => "separated",
-        Kind::Overlapping => "overlapping",
-    }
-}
-
 /// Which rung of the ladder answered.
 fn path(contact: &Contact) -> &'static str {
     match contact.back_end {
         BackEnd::Conic => "conic",
-        BackEnd::Fast if contact.flags.contains(Flags::SAFER) => "fast safer",
-        BackEnd::Fast if contact.flags.contains(Flags::WARM) => "fast warm",
-        BackEnd::Fast => "fast cold",
+        _ if contact.flags.contains(Flags::SAFER) => "fast safer",
+        _ if contact.flags.contains(Flags::WARM) => "fast warm",
+        _ => "fast cold",
     }
 }

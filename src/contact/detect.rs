@@ -18,6 +18,7 @@ use thiserror::Error;
 
 /// Why there is no answer.
 #[derive(Clone, Debug, Error)]
+#[non_exhaustive]
 pub enum DetectError {
     /// A setting is out of range.
     #[error(transparent)]
@@ -27,6 +28,24 @@ pub enum DetectError {
     Failed {
         /// What stopped the last solver.
         conic: String,
+    },
+    /// A pair of a batch names a body that is not there.
+    #[error("body {index} does not exist: there are {bodies}, counted from 0")]
+    NoSuchBody {
+        /// As given.
+        index: u32,
+        /// How many there are.
+        bodies: usize,
+    },
+    /// The arguments of a batch do not fit together.
+    #[error("{given} {what} given where {expected} are needed")]
+    Length {
+        /// Of what.
+        what: &'static str,
+        /// How many were given.
+        given: usize,
+        /// How many are needed.
+        expected: usize,
     },
 }
 
@@ -40,6 +59,18 @@ impl From<crate::reference::ConicError> for DetectError {
 ///
 /// `memory` is what this ordered pair remembers between calls: read, and updated on success.
 ///
+/// ```
+/// use potential_particles::{Kind, Memory, Particle, Pose, Settings, detect};
+/// let ball = Particle::sphere(1.0)?;
+/// let (left, right) = (Pose::at([0.0, 0.0, 0.0])?, Pose::at([1.5, 0.0, 0.0])?);
+/// let mut memory = Memory::default();
+/// let contact = detect(&ball, &left, &ball, &right, &Settings::default(), Some(&mut memory))?;
+/// assert_eq!(contact.kind, Kind::Overlapping);
+/// assert!((contact.s - 0.75).abs() <= contact.gap && (contact.overlap - 0.5).abs() < 1e-12);
+/// assert!((contact.normal.x - 1.0).abs() < 1e-12);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
 /// # Errors
 /// A setting out of range, or no answer from any solver.
 pub fn detect(
@@ -50,19 +81,33 @@ pub fn detect(
     settings: &Settings,
     memory: Option<&mut Memory>,
 ) -> Result<Contact, DetectError> {
+    detect_as((a, pose_a), (b, pose_b), settings, memory, |contact| contact)
+}
+
+/// The whole of [`detect()`], for every entry that gives a contact another form. `answer` makes that form where the contact
+/// comes into being: a contact is large, and most pairs of a scene end with a cheap proof, where copying it would take longer
+/// than finding it.
+#[inline(always)]
+pub(crate) fn detect_as<T>(
+    a: (&Particle, &Pose),
+    b: (&Particle, &Pose),
+    settings: &Settings,
+    memory: Option<&mut Memory>,
+    answer: impl Fn(Contact) -> T,
+) -> Result<T, DetectError> {
     settings.validate()?;
     let last = memory.as_deref().and_then(|memory| memory.last);
     let rejected = |Apart { by, distance }: Apart| {
         let flags = by.with(Flags::REJECTED);
-        Ok(Contact { flags, distance, ..Contact::separated(settings.formulation, 1.0) })
+        Ok(answer(Contact { flags, distance, ..Contact::separated(settings.formulation, 1.0) }))
     };
-    begin((a, pose_a), (b, pose_b), settings, last, rejected, |pair| solved(pair, pose_b, settings, memory))
+    begin(a, b, settings, last, rejected, |pair| solved(pair, b.1, settings, memory).map(&answer))
 }
 
 /// The contact of a pair that no cheap proof holds apart. In a frame of its own: it is large, and most pairs of a scene
 /// need none.
 #[inline(never)]
-pub(crate) fn solved(
+fn solved(
     pair: &Pair,
     pose_b: &Pose,
     settings: &Settings,
@@ -80,10 +125,8 @@ pub(crate) fn solved(
         None => search.cold(),
     };
     let mut here = search.expansion(&start, Target::Midway);
-    if settings.formulation == Formulation::Closest
-        && let Some(last) = last.filter(|last| last.overlapping)
-        && let Some(points) = search.overlapping_still(&last, &here)
-    {
+    let overlapped = last.filter(|last| last.overlapping && settings.formulation == Formulation::Closest);
+    if let Some(points) = overlapped.and_then(|last| search.overlapping_still(&last, &here)) {
         remember(memory, midway_between(&points));
         let local = LocalContact::closest(pair, &points, settings.weight_on_a, true);
         return Ok(local.placed(pair, pose_b, search.call()));
@@ -99,7 +142,8 @@ pub(crate) fn solved(
     if !separated && scale.s >= 1.0 && scale.low < 1.0 && settings.flat_regularisation > least {
         // Where the bulge of a raised regularisation may hide an overlap, the particles as they are decide.
         let settings = Settings { flat_regularisation: least, ..*settings };
-        return solved(pair, pose_b, &settings, memory);
+        let contact = solved(pair, pose_b, &settings, memory)?;
+        return Ok(Contact { flags: contact.flags.with(Flags::DEFAULT_REGULARISATION), ..contact });
     }
     let overlapping = !separated && scale.s < 1.0;
     let mut remembered = Remembered { x: midway.x, lambda: midway.lambda, overlapping, closest: [1.0; 2] };
@@ -155,7 +199,7 @@ fn remember(memory: Option<&mut Memory>, remembered: Remembered) {
 /// What is made of a cheap proof of separation, if one succeeds and will do; else of the pair in one frame, which is not given
 /// back, since copying it takes a twentieth of a warm call.
 #[inline(always)]
-pub(crate) fn begin<T>(
+fn begin<T>(
     a: (&Particle, &Pose),
     b: (&Particle, &Pose),
     settings: &Settings,
@@ -186,10 +230,10 @@ fn closest(search: &mut Search, midway: (&Outcome, &Expansion)) -> Result<Option
     if let Some(both) = search.both_at_once(midway) {
         return Ok(Some(both));
     }
-    if let Some(p2) = search.constrained(Target::OnB, Some(midway))?
-        && let Some(p1) = search.constrained(Target::OnA, Some(midway))?
-    {
-        return Ok(Some([p1, p2]));
+    if let Some(p2) = search.constrained(Target::OnB, Some(midway))? {
+        if let Some(p1) = search.constrained(Target::OnA, Some(midway))? {
+            return Ok(Some([p1, p2]));
+        }
     }
     search.flags.insert(Flags::SLACK);
     Ok(None)

@@ -4,5 +4,6 @@ pub mod active_set;
 pub mod placed_particle;
 pub mod pose;
 pub mod relative_pose;
+pub mod role;
 pub mod separation_tests;
 pub mod warm_start;

@@ -56,6 +56,7 @@
 mod program;
 
 use crate::pair::relative_pose::Pair;
+pub use crate::pair::role::Role;
 use crate::particle::potential;
 use clarabel::solver::SolverStatus;
 use nalgebra::Vector3;
@@ -73,15 +74,6 @@ pub struct ConicSolution {
     pub weight: f64,
     /// Interior-point iterations, summed over all passes.
     pub iterations: u32,
-}
-
-/// One of the two particles of a pair.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Role {
-    /// The first particle.
-    A,
-    /// The second particle, whose frame is used.
-    B,
 }
 
 /// Why a cone program gave no answer. There is never a number beside it.

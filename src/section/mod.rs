@@ -23,6 +23,7 @@ mod margin;
 mod rays;
 mod walk;
 
+use crate::contact::contact::Contact;
 use crate::pair::pose::Pose;
 use crate::particle::particle::Particle;
 use cut::Cut;
@@ -54,6 +55,13 @@ struct Side<'a> {
 
 /// Room for lines on the stack, cleared at each call: usually the smaller one is enough.
 const ROOMS: [usize; 2] = [32, 256];
+
+impl From<&Contact> for Section {
+    /// Of an overlapping contact.
+    fn from(contact: &Contact) -> Self {
+        Self { branch_a: contact.branch_a, branch_b: contact.branch_b, normal: contact.normal }
+    }
+}
 
 impl Section {
     /// Area of the intersection of both particles with this plane, length².
