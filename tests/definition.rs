@@ -271,6 +271,7 @@ proptest! {
 fn raised_regularisation_loses_no_contact() {
     let cube = cuboid([0.5; 3], 0.05, 0.0, 1.0);
     let at_a = pose([0.0; 3], [1.0, 0.0, 0.0, 0.0]);
+    let (mut told, mut untold) = (0, 0);
     for flat_regularisation in [1e-13, 1e-5, 1e-4, 1e-3, 1e-2] {
         for exponent in -8..=-3 {
             for (aside, tilt) in [(0.0, 0.0), (0.3, 0.0), (0.2, 1e-4)] {
@@ -283,6 +284,14 @@ fn raised_regularisation_loses_no_contact() {
                 // Tilted, the edges overlap by 1e-4 more or less than the middles.
                 let plain = detect(&cube, &at_a, &cube, &at_b, &Settings::default(), None).expect(&case);
                 assert_eq!(contact.kind, plain.kind, "{case}: {contact:?}");
+                // Where the library put the default in place of what was asked, it says so, and the rest is as by default.
+                let overridden = contact.flags.contains(Flags::DEFAULT_REGULARISATION);
+                if overridden {
+                    assert!(flat_regularisation > 1e-13, "{case}");
+                    assert_eq!((contact.s, contact.point), (plain.s, plain.point), "{case}");
+                    assert_eq!(contact.flags, plain.flags | Flags::DEFAULT_REGULARISATION, "{case}");
+                }
+                *(if overridden { &mut told } else { &mut untold }) += 1;
                 assert!(contact.kind == Kind::Separated || contact.overlap > 0.0, "{case}: {contact:?}");
                 if tilt == 0.0 {
                     assert_eq!(contact.kind, Kind::Overlapping, "{case}: {contact:?}");
@@ -291,4 +300,5 @@ fn raised_regularisation_loses_no_contact() {
             }
         }
     }
+    assert!(told > 5 && untold > 30, "{told} overridden, {untold} not");
 }

@@ -6,6 +6,7 @@ use crate::pair::pose::Pose;
 use crate::pair::warm_start::Memory;
 use crate::particle::particle::Particle;
 use crate::settings::Settings;
+use std::panic::resume_unwind;
 use std::sync::{Mutex, PoisonError};
 use std::thread;
 
@@ -105,11 +106,13 @@ pub(crate) fn in_parallel<T: Send>(
         }
     };
     thread::scope(|scope| {
-        for _ in 1..threads {
-            // The chunks that this one would have taken go to the others.
-            let _ = thread::Builder::new().spawn_scoped(scope, take_turns);
-        }
+        let start = |_| thread::Builder::new().spawn_scoped(scope, take_turns).ok();
+        let helpers: Vec<_> = (1..threads).filter_map(start).collect();
         take_turns();
+        // Joined one by one, which the scope alone would not do: so ThreadSanitizer sees in a caller's program that they ended.
+        for helper in helpers {
+            helper.join().unwrap_or_else(|panic| resume_unwind(panic));
+        }
     });
 }
 
