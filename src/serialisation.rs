@@ -4,11 +4,7 @@
 //! file makes a pose or settings that the program could not. Numbers that do not apply (NaN) are written as nothing, since
 //! JSON has no NaN; an infinite number is lost in JSON in the same way.
 
-use crate::contact::contact::{Contact, Flags, Kind};
-use crate::pair::pose::Pose;
-use crate::pair::warm_start::Memory;
-use crate::particle::particle::Plane;
-use crate::settings::{BackEnd, Formulation, Settings};
+use crate::{BackEnd, Contact, Flags, Formulation, Kind, Memory, Plane, Pose, Settings};
 use nalgebra::Vector3;
 use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};

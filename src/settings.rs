@@ -6,7 +6,6 @@ use thiserror::Error;
 /// Which of the paper's two problems defines the contact.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "lowercase"))]
-#[non_exhaustive]
 pub enum Formulation {
     /// Minimise t with s_A ≤ t and s_B ≤ t (paper eqs 4, 44).
     #[default]

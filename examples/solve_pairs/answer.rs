@@ -89,7 +89,7 @@ fn midway(input: &Input, back_end: BackEnd) -> Result<Midway, String> {
     // Branches lose no digit to a position far from the origin.
     let relative = |point: Vector3<f64>| (point - input.pose_b.position()).into();
     Ok(Midway {
-        kind: kind(&contact),
+        kind: name(contact.kind),
         s: contact.s,
         u: contact.weight,
         point: contact.branch_b.into(),
@@ -115,7 +115,7 @@ fn closest(input: &Input, back_end: BackEnd) -> Result<Closest, String> {
     }
     let on_a = weighted(1.0)?;
     Ok(Closest {
-        kind: kind(&on_b),
+        kind: name(on_b.kind),
         s_a: on_b.s,
         s_b: on_b.s_b,
         p1: on_a.branch_b.into(),
@@ -136,7 +136,7 @@ fn slack(input: &Input, contact: &Contact, settings: &Settings) -> Result<Closes
         |half: &Option<ClosestPoint>| half.map_or((f64::NAN, [f64::NAN; 3]), |half| (half.s, half.branch_b.into()));
     let ((s_b, on_a), (s_a, on_b)) = (of(&p1), of(&p2));
     Ok(Closest {
-        kind: kind(contact),
+        kind: name(contact.kind),
         s_a,
         s_b,
         p1: on_a,
@@ -145,6 +145,13 @@ fn slack(input: &Input, contact: &Contact, settings: &Settings) -> Result<Closes
         slack: Slack { a: p1.is_none(), b: p2.is_none() },
         gap: p1.iter().chain(&p2).map(|half| half.gap).fold(f64::NAN, f64::max),
     })
+}
+
+fn name(kind: Kind) -> &'static str {
+    match kind {
+        Kind::Separated => "separated",
+        Kind::Overlapping => "overlapping",
+    }
 }
 
 /// Which rung of the ladder answered.

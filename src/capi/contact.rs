@@ -7,11 +7,7 @@ use super::status::*;
 use super::types::*;
 use crate::contact::closest_point::closest_point;
 use crate::contact::detect::detect_as;
-use crate::pair::pose::Pose;
-use crate::pair::role::Role;
-use crate::particle::particle::Particle;
-use crate::section::Section;
-use crate::settings::Settings;
+use crate::{Contact, Flags, Particle, Pose, Role, Section, Settings};
 
 /// Fills settings with the defaults.
 ///
@@ -54,6 +50,9 @@ pub unsafe extern "C" fn pp_contact_detect(
     })
 }
 
+/// Flags of a separated pair that the solver never saw.
+const CHEAP_PROOF: Flags = Flags::BY_SPHERES.with(Flags::BY_FACE).with(Flags::BY_MEMORY);
+
 /// Finds one contact and writes it.
 #[inline(always)]
 pub(super) fn contact(
@@ -64,10 +63,15 @@ pub(super) fn contact(
     out: Output<pp_contact>,
 ) -> Result<(), pp_status> {
     let mut remembered = memory.as_deref().map(memory_from);
-    let write = |contact| out.write(contact_to(&contact));
-    detect_as(a, b, settings, remembered.as_mut(), write).map_err(|error| detect_status(&error))?;
-    if let (Some(memory), Some(remembered)) = (memory, remembered) {
-        *memory = memory_to(remembered);
+    let write = |contact: Contact| {
+        out.write(contact_to(&contact));
+        contact.flags.has_any(CHEAP_PROOF)
+    };
+    let cheap = detect_as(a, b, settings, remembered.as_mut(), write).map_err(|error| detect_status(&error))?;
+    match (memory, remembered) {
+        // A cheap proof leaves the memory as it was, and is over before it could be written.
+        (Some(memory), Some(remembered)) if !cheap => *memory = memory_to(remembered),
+        _ => {}
     }
     Ok(())
 }

@@ -2,14 +2,12 @@
 
 use super::status::*;
 use super::types::*;
-use crate::contact::closest_point::ClosestPoint;
-use crate::contact::contact::{Contact, Kind};
-use crate::contact::detect::DetectError;
-use crate::pair::pose::{Pose, PoseError};
-use crate::pair::warm_start::Memory;
-use crate::settings::{BackEnd, Formulation, Settings, SettingsError};
+use crate::{
+    BackEnd, ClosestPoint, Contact, DetectError, Formulation, Kind, Memory, Pose, PoseError, Settings, SettingsError,
+};
 use nalgebra::Vector3;
 
+#[inline]
 pub(super) fn pose_from(pose: &pp_pose) -> Result<Pose, pp_status> {
     Pose::new(pose.position, pose.orientation).map_err(|error| match error {
         PoseError::Position(..) => PP_BAD_POSITION,
@@ -35,6 +33,7 @@ pub(super) fn settings_to(settings: &Settings) -> pp_settings {
 }
 
 /// The defaults for `None`; ranges are checked by whoever uses the settings.
+#[inline]
 pub(super) fn settings_from(settings: Option<&pp_settings>) -> Result<Settings, pp_status> {
     let Some(settings) = settings else { return Ok(Settings::default()) };
     if settings.solve_separated > 1 || settings.reserved != 0 {
@@ -61,12 +60,14 @@ pub(super) fn settings_from(settings: Option<&pp_settings>) -> Result<Settings, 
 /// Numbers of a memory that the library uses today; the rest is written as 0 and not read.
 const USED: usize = 8;
 
+#[inline]
 pub(super) fn memory_from(memory: &pp_memory) -> Memory {
     let mut used = [0.0; USED];
     used.copy_from_slice(&memory.state[..USED]);
     Memory::from_raw(used)
 }
 
+#[inline]
 pub(super) fn memory_to(memory: Memory) -> pp_memory {
     let mut state = [0.0; 16];
     state[..USED].copy_from_slice(&memory.into_raw());
@@ -133,6 +134,7 @@ pub(super) fn settings_status(error: &SettingsError) -> pp_status {
     }
 }
 
+#[inline]
 pub(super) fn kind_code(kind: Kind) -> i32 {
     match kind {
         Kind::Separated => PP_SEPARATED,
@@ -140,6 +142,7 @@ pub(super) fn kind_code(kind: Kind) -> i32 {
     }
 }
 
+#[inline]
 pub(super) fn formulation_code(formulation: Formulation) -> u32 {
     match formulation {
         Formulation::Midway => PP_MIDWAY,
@@ -147,6 +150,7 @@ pub(super) fn formulation_code(formulation: Formulation) -> u32 {
     }
 }
 
+#[inline]
 pub(super) fn back_end_code(back_end: BackEnd) -> u32 {
     match back_end {
         BackEnd::Fast => PP_FAST,

@@ -19,9 +19,13 @@ thread_local! {
 #[inline]
 pub(super) fn fenced(body: impl FnOnce() -> Result<(), pp_status>) -> pp_status {
     silence_panics_inside();
-    let outer = INSIDE.replace(true);
-    let outcome = catch_unwind(AssertUnwindSafe(body));
-    INSIDE.set(outer);
+    // Looked up once: in a shared library that is a call.
+    let outcome = INSIDE.with(|inside| {
+        let outer = inside.replace(true);
+        let outcome = catch_unwind(AssertUnwindSafe(body));
+        inside.set(outer);
+        outcome
+    });
     match outcome {
         Ok(Ok(())) => PP_OK,
         Ok(Err(status)) => status,

@@ -2,7 +2,7 @@
 
 use super::fence::{array, borrow, fenced, output, write_rows};
 use super::status::*;
-use crate::particle::particle::{Particle, ParticleError, Plane};
+use crate::{Particle, ParticleError, Plane};
 use std::ffi::c_char;
 
 /// A validated particle. Created by pp_particle_new, released by pp_particle_free; immutable,

@@ -96,6 +96,12 @@ impl Flags {
         self.0 & other.0 == other.0
     }
 
+    /// Whether any bit of `other` is set.
+    #[cfg(feature = "capi")]
+    pub(crate) const fn has_any(self, other: Self) -> bool {
+        self.0 & other.0 != 0
+    }
+
     /// The bits of both.
     pub(crate) const fn with(self, other: Self) -> Self {
         Self(self.0 | other.0)

@@ -23,7 +23,6 @@ mod margin;
 mod rays;
 mod walk;
 
-use crate::contact::contact::Contact;
 use crate::pair::pose::Pose;
 use crate::particle::particle::Particle;
 use cut::Cut;
@@ -32,6 +31,16 @@ use nalgebra::{Matrix3, Vector3};
 use walk::Walk;
 
 /// A plane through the contact point, at right angles to the contact normal, world axes.
+///
+/// ```
+/// use potential_particles::{Particle, Pose, Section, Settings, detect};
+/// let ball = Particle::sphere(1.0)?;
+/// let (left, right) = (Pose::at([0.0, 0.0, 0.0])?, Pose::at([1.2, 0.0, 0.0])?);
+/// let contact = detect(&ball, &left, &ball, &right, &Settings::default(), None)?;
+/// let area = Section::from(&contact).area(&ball, &left, &ball, &right, 1e-6).expect("an overlapping contact");
+/// assert!((area - std::f64::consts::PI * 0.64).abs() < 1e-12);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Section {
     /// Contact point minus position of A.
@@ -56,9 +65,9 @@ struct Side<'a> {
 /// Room for lines on the stack, cleared at each call: usually the smaller one is enough.
 const ROOMS: [usize; 2] = [32, 256];
 
-impl From<&Contact> for Section {
+impl From<&crate::Contact> for Section {
     /// Of an overlapping contact.
-    fn from(contact: &Contact) -> Self {
+    fn from(contact: &crate::Contact) -> Self {
         Self { branch_a: contact.branch_a, branch_b: contact.branch_b, normal: contact.normal }
     }
 }

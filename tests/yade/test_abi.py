@@ -7,7 +7,6 @@ import subprocess
 import sys
 import tempfile
 
-import potential_particles
 import yade
 import yade.config
 import yade.system
@@ -103,7 +102,7 @@ said = import_with(library=compiled('const char *pp_version(void) { return "9.8.
                                     + "".join(f"void {name}(void) {{}}\n" for name in called)))
 check.true("ImportError" in said and "9.8.7" in said and "build the plugin again" in said, f"another version: {said}")
 others = [name for name in called if name != "pp_abi_version"]
-said = import_with(library=compiled('const char *pp_version(void) { return "%s"; }\n' % potential_particles.library_version()
+said = import_with(library=compiled('const char *pp_version(void) { return "%s"; }\n' % module.library_version()
                                     + "unsigned pp_abi_version(void) { return 999; }\n"
                                     + "".join(f"void {name}(void) {{}}\n" for name in others)))
 check.true("ImportError" in said and "999" in said and "build the plugin again" in said, f"another binary interface: {said}")

@@ -245,9 +245,9 @@ fn tangents(scene: &Scene, contact: &Contact, start: &Vector3<f64>) -> f64 {
 pub(super) fn swapped(verdict: &mut Verdict, scene: &Scene, one: &Contact) {
     let answer = (scene.solver)(scene.b, &scene.at_b, scene.a, &scene.at_a, &FULL, None);
     match answer {
-        Ok(other) => {
+        Ok(mut other) => {
             // What was B is A now.
-            let other = Contact { branch_b: other.branch_a, ..other };
+            other.branch_b = other.branch_a;
             same(verdict, Failure::Swap, one, &other, scene);
         }
         Err(error) => verdict.fail(Failure::Error, format!("swapped: {error}")),

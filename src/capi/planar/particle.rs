@@ -1,9 +1,9 @@
 //! Creation and release of particles of the plane, and the definition that they were created from.
 
+use crate::ParticleError;
 use crate::capi::fence::{array, borrow, fenced, output, write_rows};
 use crate::capi::particle::{PP_MAX_PLANES, particle_status, write_message};
 use crate::capi::status::*;
-use crate::particle::particle::ParticleError;
 use crate::planar::{Line, Particle};
 use std::ffi::c_char;
 
