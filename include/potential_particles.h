@@ -287,8 +287,9 @@ typedef struct pp_pose_2d {
     double angle;
 } pp_pose_2d;
 
-// The answer for one pair of the plane: the fields of struct pp_contact, with vectors of two. Frames: world axes unless said otherwise; lengths in the caller's unit; s, weight and gap have no
-// unit. Fields that do not apply are NaN.
+// The answer for one pair of the plane: the fields of struct pp_contact, with vectors of two. Frames:
+// world axes unless said otherwise; lengths in the caller's unit; s, weight and gap have no unit. Fields
+// that do not apply are NaN.
 typedef struct pp_contact_2d {
     // PP_SEPARATED or PP_OVERLAPPING. A failed solve has no kind: it returns a status.
     int32_t kind;

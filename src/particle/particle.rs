@@ -120,7 +120,7 @@ impl ParticleError {
 /// assert!(mass.volume > sharp(0.9) && mass.volume < sharp(1.0) && mass.centroid.norm() < 1e-3);
 /// // Planes are refused with the reason.
 /// let error = Particle::new(&planes[..3], 0.1, 0.0, 1.0).unwrap_err();
-/// assert!(error.to_string().contains("k = 0"), "{error}");
+/// assert!(error.to_string().contains("do not enclose a volume"), "{error}");
 ///
 /// let ball = Particle::sphere(2.0)?;
 /// assert!(ball.potential(&[0.0, 2.0, 0.0].into()).abs() < 1e-12 && ball.bounding_radius() >= 2.0);
