@@ -18,14 +18,17 @@
  *             are written on failure, and always end with a zero byte).
  *   Ownership What pp_..._new gives, pp_..._free takes back, once. Everything else stays the
  *             caller's: the library keeps no pointer after a call returns.
- *   NULL      Refused with PP_NULL_POINTER unless a parameter says that it may be NULL.
+ *   NULL      Refused with PP_NULL_POINTER unless a parameter says that it may be NULL; an array of no
+ *             elements may be NULL. "Pointers" names what else a caller must hold to; any pointer that
+ *             is not NULL points to as many valid, aligned objects as the call says.
  *   Numbers   NaN and infinity are refused with a status that says where they were.
  *   Units     Any consistent length unit. Angles by quaternion w, x, y, z, local to world.
  *   Threads   Particles never change after creation: any number of threads may share them. A
- *             pp_memory or an output belongs to one call at a time. No global state, no locks.
- *   Errors    No panic, exception or signal leaves the library.
+ *             pp_memory or an output belongs to one call at a time. No state is shared between calls.
+ *             Only pp_contact_detect_batch starts threads, and ends them before it returns.
+ *   Errors    No panic, exception or signal leaves the library, and nothing is printed.
  *   Layout    Structs have the same layout on every platform with 8-byte doubles; reserved fields
- *             must be 0.
+ *             must be 0. pp_abi_version and pp_struct_size tell whether a loaded library fits.
  *
  * In short
  *     pp_particle *cube;
@@ -36,6 +39,7 @@
  *     if (pp_contact_detect(cube, &pose_a, cube, &pose_b, NULL, &memory, &contact) == PP_OK &&
  *         contact.kind == PP_OVERLAPPING) { ... contact.normal, contact.overlap ... }
  *     pp_particle_free(cube);
+ * A whole step at once, on several threads: pp_contact_detect_batch.
  */
 
 
@@ -45,7 +49,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-// Version of this header; compare with `pp_version` of the library that was loaded.
+// Version of this header; compare with pp_version of the library that was loaded.
 #define PP_VERSION_MAJOR 0
 
 // Grows with additions (or, while the major version is 0, with any change of the interface).
@@ -53,6 +57,36 @@
 
 // Grows with corrections that leave the interface as it is.
 #define PP_VERSION_PATCH 0
+
+// Number of the binary interface: it grows by 1 whenever a program compiled with an older header could
+// not use the library (a struct, a function or the meaning of a number has changed), and not with
+// additions. A program that loads the library should refuse to go on unless pp_abi_version() ==
+// PP_ABI_VERSION.
+#define PP_ABI_VERSION 1
+
+// struct pp_pose, for pp_struct_size.
+#define PP_STRUCT_POSE 1
+
+// struct pp_settings, for pp_struct_size.
+#define PP_STRUCT_SETTINGS 2
+
+// struct pp_memory, for pp_struct_size.
+#define PP_STRUCT_MEMORY 3
+
+// struct pp_contact, for pp_struct_size.
+#define PP_STRUCT_CONTACT 4
+
+// struct pp_closest, for pp_struct_size.
+#define PP_STRUCT_CLOSEST 5
+
+// struct pp_mass_properties, for pp_struct_size.
+#define PP_STRUCT_MASS_PROPERTIES 6
+
+// struct pp_pose_2d, for pp_struct_size.
+#define PP_STRUCT_POSE_2D 7
+
+// struct pp_contact_2d, for pp_struct_size.
+#define PP_STRUCT_CONTACT_2D 8
 
 // Most planes that a particle may have.
 #define PP_MAX_PLANES 65536
@@ -66,10 +100,11 @@
 // Formulation "closest" (paper eqs 3, 9, 34-43): minimise s_A with s_B <= 1, and the swap.
 #define PP_CLOSEST 1
 
-// The library's own solver; falls back on a safe way of its own, then on `PP_CONIC`.
+// The library's own solver; falls back on a safe way of its own, then on PP_CONIC where that was built in.
 #define PP_FAST 0
 
-// The paper's second-order cone programs, solved by clarabel: slow, independent, the judge.
+// The paper's second-order cone programs, solved by clarabel: slow, independent, the judge. Refused with
+// PP_NO_CONIC by a library built without it (Cargo feature conic).
 #define PP_CONIC 1
 
 // The two particles share no interior point: s >= 1.
@@ -89,7 +124,7 @@
 // the one given is the line of centres, or the x axis of B.
 #define PP_FLAG_NORMAL_BY_CENTRES 4
 
-// The remembered point of `pp_memory` was used as the start.
+// The remembered point of pp_memory was used as the start.
 #define PP_FLAG_WARM 8
 
 // The fast solver had no answer; its safe way, which always ends, found it.
@@ -108,40 +143,26 @@
 // Rejected from memory: what separated the pair at the last call still does.
 #define PP_FLAG_BY_MEMORY 512
 
-// A validated particle. Created by `pp_particle_new`, released by `pp_particle_free`; immutable,
+// flat_regularisation was raised, and its default value was used in this call instead: the raised one
+// would have left open whether the particles overlap.
+#define PP_FLAG_DEFAULT_REGULARISATION 1024
+
+// pp_closest_point: the point P1 on A, where s_B is least.
+#define PP_ON_A 0
+
+// pp_closest_point: the point P2 on B, where s_A is least.
+#define PP_ON_B 1
+
+// A validated particle. Created by pp_particle_new, released by pp_particle_free; immutable,
 // so that bodies and threads may share one.
 typedef struct pp_particle pp_particle;
 
-// A validated particle of the plane. Created by `pp_particle_new_2d`, released by
-// `pp_particle_free_2d`; immutable, so that bodies and threads may share one.
+// A validated particle of the plane. Created by pp_particle_new_2d, released by
+// pp_particle_free_2d; immutable, so that bodies and threads may share one.
 typedef struct pp_particle_2d pp_particle_2d;
 
-// What every function of the C interface returns: `PP_OK` or a positive code.
+// What every function of the C interface returns: PP_OK or a positive code.
 typedef int32_t pp_status;
-
-// How to solve. Fill with `pp_settings_default`, then change what you need; a NULL pointer in
-// place of a pp_settings means the defaults.
-typedef struct pp_settings {
-    // `PP_MIDWAY` (default) or `PP_CLOSEST`.
-    uint32_t formulation;
-    // `PP_FAST` (default) or `PP_CONIC`.
-    uint32_t back_end;
-    // 0 (default): a separated pair may be answered by a proof of separation alone
-    // (`PP_FLAG_REJECTED`). 1: always solve, so that s, point and normal are set.
-    uint32_t solve_separated;
-    // Must be 0.
-    uint32_t reserved;
-    // Relative gap of s^2 at which the solver may stop; in (0, 0.1], default 1e-12.
-    double gap_tolerance;
-    // Weight of the point on A in the contact point of `PP_CLOSEST`: point = w*P1 + (1-w)*P2,
-    // in [0, 1], default 0.5 (equal stiffness). Paper: relative stiffness of the particles.
-    double weight_on_a;
-    // Smallest sphericity that the solver treats as given; below it, the point on a flat face
-    // is chosen as if k were this value (shape, s and overlap stay those of the given k).
-    // In [0, 0.1], default 1e-13. Raise it (1e-4, say) when flat faces rattle in dynamics. Whether
-    // the particles overlap at all is never left to it: where it would be, the default decides.
-    double flat_regularisation;
-} pp_settings;
 
 // Where a body is: world = rotation(orientation) * local + position.
 typedef struct pp_pose {
@@ -152,27 +173,53 @@ typedef struct pp_pose {
     double orientation[4];
 } pp_pose;
 
+// How to solve. Fill with pp_settings_default, then change what you need; a NULL pointer in
+// place of a pp_settings means the defaults.
+typedef struct pp_settings {
+    // PP_MIDWAY (default) or PP_CLOSEST.
+    uint32_t formulation;
+    // PP_FAST (default) or PP_CONIC.
+    uint32_t back_end;
+    // 0 (default): a separated pair may be answered by a proof of separation alone
+    // (PP_FLAG_REJECTED). 1: always solve, so that s, point and normal are set.
+    uint32_t solve_separated;
+    // Must be 0.
+    uint32_t reserved;
+    // Relative gap of s^2 at which the solver may stop; in (0, 0.1], default 1e-12.
+    double gap_tolerance;
+    // Weight of the point on A in the contact point of PP_CLOSEST: point = w*P1 + (1-w)*P2,
+    // in [0, 1], default 0.5 (equal stiffness). Paper: relative stiffness of the particles.
+    double weight_on_a;
+    // Smallest sphericity that the solver treats as given; below it, the point on a flat face
+    // is chosen as if k were this value (shape, s and overlap stay those of the given k).
+    // In [0, 0.1], default 1e-13. Raise it (1e-4, say) when flat faces rattle in dynamics. Whether
+    // the particles overlap at all is never left to it: where it would be, the default decides
+    // (PP_FLAG_DEFAULT_REGULARISATION).
+    double flat_regularisation;
+} pp_settings;
+
 // What one ordered pair (A, B) remembers between calls, so that the next call starts warm.
 //
 // Owned by the caller: set all bytes to 0 to begin with or to forget; copy and save it freely.
 // It never changes an answer beyond its gap, whatever bytes it holds. One caller at a time.
 typedef struct pp_memory {
-    // Library's own; not for reading.
-    double state[8];
+    // Library's own; not for reading. Today the first 8 numbers are used, and the others are written as 0:
+    // room to grow.
+    double state[16];
 } pp_memory;
 
 // The answer for one pair. Frames: world axes unless said otherwise; lengths in the caller's
 // unit; s, weight and gap have no unit. Fields that do not apply are NaN.
 typedef struct pp_contact {
-    // `PP_SEPARATED` or `PP_OVERLAPPING`. A failed solve has no kind: it returns a status.
+    // PP_SEPARATED or PP_OVERLAPPING. A failed solve has no kind: it returns a status.
     int32_t kind;
-    // The formulation that the geometry below answers (`PP_MIDWAY` if `PP_FLAG_SLACK` is set).
+    // The formulation that the geometry below answers (PP_MIDWAY if PP_FLAG_SLACK is set).
     uint32_t formulation;
-    // The back end that answered: `PP_FAST` or `PP_CONIC`.
+    // The back end that answered: PP_FAST or PP_CONIC.
     uint32_t back_end;
     // Sum of PP_FLAG_... bits.
     uint32_t flags;
-    // Evaluations of the two potentials (fast) or interior-point iterations (conic).
+    // Pairs of quadratics solved; interior-point iterations of the conic back end.
     uint32_t iterations;
     // Always 0.
     uint32_t reserved;
@@ -203,43 +250,54 @@ typedef struct pp_contact {
     double point_on_a[3];
     // Point on the surface of B inside A, world frame; P2 of closest. NaN when separated.
     double point_on_b[3];
-    // Separated: proved lower bound on the distance between the two particles, length; 0 when the proof knows none.
-    // Until their surfaces have come closer to each other by as much, they stay separated. NaN when overlapping.
+    // Separated: proved lower bound on the distance between the two particles, length; 0 when the proof
+    // knows none. Until their surfaces have come closer to each other by as much, they stay separated. NaN
+    // when overlapping.
     double distance;
 } pp_contact;
 
-// Volume and inertia of a particle of unit density, in its local frame.
-typedef struct pp_mass_properties {
-    // Volume, length^3.
-    double volume;
-    // Centroid, local frame. YADE wants it at the local origin.
-    double centroid[3];
-    // Inertia about the local origin for density 1: xx, yy, zz, xy, yz, zx of the integral of
-    // (|x|^2 I - x x^T) dV, length^5.
-    double inertia[6];
-} pp_mass_properties;
+// One closest point alone; frames and units as in struct pp_contact.
+typedef struct pp_closest {
+    // 1 when there is no such point, because the other particle's centre (for k = 0, its core) lies inside
+    // this one: the numbers below are NaN then. Else 0.
+    uint32_t slack;
+    // Always 0.
+    uint32_t reserved;
+    // Scale of the other particle at the point: s_B at P1, s_A at P2. No unit.
+    double s;
+    // Proved bound on the error of s: |s - s*| <= gap.
+    double gap;
+    // Bound on the distance of the point to the exact optimum, length.
+    double point_bound;
+    // P1 or P2, world frame.
+    double point[3];
+    // The point minus position of A: exact lever arm even far from the world origin.
+    double branch_a[3];
+    // The point minus position of B.
+    double branch_b[3];
+} pp_closest;
 
 // Where a body of the plane is: world = rotation(angle) * local + position.
 typedef struct pp_pose_2d {
     // Centre of the particle (origin of its local frame), world frame, length units of the caller.
     double position[2];
-    // Angle from world to local axes, radians, anticlockwise; any finite number.
+    // Angle of the local axes in the world, radians, anticlockwise; any finite number.
     double angle;
 } pp_pose_2d;
 
-// The answer for one pair of the plane: the fields of struct pp_contact but distance, with vectors of two.
-// Frames: world axes unless said otherwise; lengths in the caller's unit; s, weight and gap have no
-// unit. Fields that do not apply are NaN.
+// The answer for one pair of the plane: the fields of struct pp_contact, with vectors of two. Frames:
+// world axes unless said otherwise; lengths in the caller's unit; s, weight and gap have no unit. Fields
+// that do not apply are NaN.
 typedef struct pp_contact_2d {
-    // `PP_SEPARATED` or `PP_OVERLAPPING`. A failed solve has no kind: it returns a status.
+    // PP_SEPARATED or PP_OVERLAPPING. A failed solve has no kind: it returns a status.
     int32_t kind;
-    // The formulation that the geometry below answers (`PP_MIDWAY` if `PP_FLAG_SLACK` is set).
+    // The formulation that the geometry below answers (PP_MIDWAY if PP_FLAG_SLACK is set).
     uint32_t formulation;
-    // The back end that answered: `PP_FAST` or `PP_CONIC`.
+    // The back end that answered: PP_FAST or PP_CONIC.
     uint32_t back_end;
     // Sum of PP_FLAG_... bits.
     uint32_t flags;
-    // Evaluations of the two potentials (fast) or interior-point iterations (conic).
+    // Pairs of quadratics solved; interior-point iterations of the conic back end.
     uint32_t iterations;
     // Always 0.
     uint32_t reserved;
@@ -268,7 +326,22 @@ typedef struct pp_contact_2d {
     double point_on_a[2];
     // Point on the boundary of B inside A, world frame; P2 of closest. NaN when separated.
     double point_on_b[2];
+    // Separated: proved lower bound on the distance between the two particles, length; 0 when the proof
+    // knows none. Until their boundaries have come closer to each other by as much, they stay separated. NaN
+    // when overlapping.
+    double distance;
 } pp_contact_2d;
+
+// Volume and inertia of a particle of unit density, in its local frame.
+typedef struct pp_mass_properties {
+    // Volume, length^3.
+    double volume;
+    // Centroid, local frame. YADE wants it at the local origin.
+    double centroid[3];
+    // Inertia about the local origin for density 1: xx, yy, zz, xy, yz, zx of the integral of
+    // (|x|^2 I - x x^T) dV, length^5.
+    double inertia[6];
+} pp_mass_properties;
 
 // The call did what it says; its outputs are written.
 #define PP_OK 0
@@ -303,6 +376,12 @@ typedef struct pp_contact_2d {
 // The output buffer is too small; the needed size was written.
 #define PP_BUFFER_TOO_SMALL 10
 
+// The settings ask for the conic back end, and the library was built without it.
+#define PP_NO_CONIC 11
+
+// An index or a count names something that is not there.
+#define PP_BAD_INDEX 12
+
 // A plane holds a coefficient that is not finite.
 #define PP_PLANE_NOT_FINITE 20
 
@@ -324,7 +403,7 @@ typedef struct pp_contact_2d {
 // k = 0 and the planes do not enclose a bounded volume.
 #define PP_UNBOUNDED 26
 
-// More planes than `PP_MAX_PLANES`.
+// More planes than PP_MAX_PLANES.
 #define PP_TOO_MANY_PLANES 27
 
 #ifdef __cplusplus
@@ -334,23 +413,58 @@ extern "C" {
 // Version of the loaded library as "major.minor.patch". Static text: do not free it.
 const char *pp_version(void);
 
-// Fills `settings` with the defaults.
+// PP_ABI_VERSION of the loaded library.
+uint32_t pp_abi_version(void);
+
+// Size in bytes of a struct as the loaded library knows it (one of PP_STRUCT_...), to be compared with
+// sizeof; 0 for a number it does not know. For languages that write the structs down themselves.
+size_t pp_struct_size(uint32_t which);
+
+// Finds the contacts of many pairs of bodies: the way for a DEM program to hand over a whole step.
 //
-// Errors: `PP_NULL_POINTER`.
+// Body i is particles[i] at poses[i]; pair n is that of the bodies pairs[2n] (A) and pairs[2n+1] (B),
+// counted from 0. What a pose costs is paid once for each body. Each contact and memory is, to the last
+// bit, that of pp_contact_detect for the pair alone, whatever the number of threads.
 //
-// # Safety
-// `settings` is NULL or valid for writing.
+// particles, poses: body_count of each; several bodies may share a particle. A particle may be NULL and
+// a pose may be bad: that is told by the statuses of the pairs that name such a body, if any.
+// pairs: pair_count rows of two indices. settings: may be NULL (defaults); the same for all pairs.
+// threads: how many work on it, the calling one among them: 0 and 1 mean the calling thread alone,
+// more than 256 count as 256. Threads are started and ended within the call, which is worth its time from
+// some thousand pairs on.
+// memories: one for each pair, read and updated; may be NULL. contacts: one for each pair; written where
+// its status is PP_OK. statuses: one for each pair, all of them written: as pp_contact_detect would return,
+// or PP_BAD_INDEX for a body that is not there.
+// The call itself returns PP_OK when it went through all pairs, whatever their statuses; an error means
+// that nothing was written.
+// Pointers: may be NULL where the count is 0. No array overlaps another, and memories, contacts and
+// statuses are not used by another call at the same time.
+// Errors: PP_NULL_POINTER, PP_UNKNOWN_FORMULATION, PP_UNKNOWN_BACK_END, PP_NO_CONIC, PP_BAD_SETTING,
+// PP_BAD_INDEX (a count that no memory could hold).
+pp_status pp_contact_detect_batch(const struct pp_particle *const *particles,
+                                  const struct pp_pose *poses,
+                                  size_t body_count,
+                                  const uint32_t *pairs,
+                                  size_t pair_count,
+                                  const struct pp_settings *settings,
+                                  uint32_t threads,
+                                  struct pp_memory *memories,
+                                  struct pp_contact *contacts,
+                                  pp_status *statuses);
+
+// Fills settings with the defaults.
+//
+// Pointers: settings is valid for writing.
+// Errors: PP_NULL_POINTER.
 pp_status pp_settings_default(struct pp_settings *settings);
 
-// Finds the contact of particle A at `pose_a` with particle B at `pose_b`.
+// Finds the contact of particle A at pose_a with particle B at pose_b.
 //
 // settings: may be NULL (defaults). memory: may be NULL; else what this ordered pair remembers,
 // read and updated. out: the answer; see struct pp_contact for frames, units and signs.
-// Errors: `PP_NULL_POINTER`, `PP_BAD_POSITION`, `PP_BAD_ORIENTATION`, `PP_UNKNOWN_FORMULATION`,
-// `PP_UNKNOWN_BACK_END`, `PP_BAD_SETTING`, `PP_SOLVER_FAILED`.
-//
-// # Safety
-// Pointers are NULL or valid; `memory` and `out` are not used by another call at the same time.
+// Pointers: memory and out are not used by another call at the same time.
+// Errors: PP_NULL_POINTER, PP_BAD_POSITION, PP_BAD_ORIENTATION, PP_UNKNOWN_FORMULATION,
+// PP_UNKNOWN_BACK_END, PP_NO_CONIC, PP_BAD_SETTING, PP_SOLVER_FAILED.
 pp_status pp_contact_detect(const struct pp_particle *a,
                             const struct pp_pose *pose_a,
                             const struct pp_particle *b,
@@ -359,19 +473,32 @@ pp_status pp_contact_detect(const struct pp_particle *a,
                             struct pp_memory *memory,
                             struct pp_contact *out);
 
+// The point on one of the particles where the scale of the other is least: P1 on A, P2 on B (paper eqs
+// 3, 9). pp_contact_detect with PP_CLOSEST needs both; this is for pairs that have only one, and for
+// callers that want only one.
+//
+// on: PP_ON_A or PP_ON_B. settings: may be NULL (defaults); the formulation and solve_separated do not
+// matter. out: the point, or slack = 1 where there is none.
+// Errors: PP_NULL_POINTER, PP_BAD_POSITION, PP_BAD_ORIENTATION, PP_BAD_INDEX (on), PP_UNKNOWN_FORMULATION,
+// PP_UNKNOWN_BACK_END, PP_NO_CONIC, PP_BAD_SETTING, PP_SOLVER_FAILED.
+pp_status pp_closest_point(const struct pp_particle *a,
+                           const struct pp_pose *pose_a,
+                           const struct pp_particle *b,
+                           const struct pp_pose *pose_b,
+                           uint32_t on,
+                           const struct pp_settings *settings,
+                           struct pp_closest *out);
+
 // Contact area: the area of the cut that the plane through the contact point, normal to the contact
 // normal, makes through the intersection of both particles.
 //
-// contact: an overlapping answer of `pp_contact_detect` for the same particles and poses.
+// contact: an overlapping answer of pp_contact_detect for the same particles and poses.
 // relative_tolerance: in [1e-12, 0.1]; 1e-6 is a good choice. The area is exact but for rounding
 // (1e-12 of it, or 2e-16 size/r where that is more) and this is not used, unless rounding forbids;
 // such areas are known to no better than 1e-9. With r near 1e-9 of the size or less, thin sections
 // may be wrong. area: receives length^2; 0 when separated.
-// Errors: `PP_NULL_POINTER`, `PP_BAD_POSITION`, `PP_BAD_ORIENTATION`, `PP_BAD_POINT` (the contact
-// was not filled: no kind, point or normal; or its point is outside a particle), `PP_BAD_SETTING`.
-//
-// # Safety
-// Pointers are NULL or valid.
+// Errors: PP_NULL_POINTER, PP_BAD_POSITION, PP_BAD_ORIENTATION, PP_BAD_POINT (the contact
+// was not filled: no kind, point or normal; or its point is outside a particle), PP_BAD_SETTING.
 pp_status pp_contact_area(const struct pp_particle *a,
                           const struct pp_pose *pose_a,
                           const struct pp_particle *b,
@@ -380,19 +507,17 @@ pp_status pp_contact_area(const struct pp_particle *a,
                           double relative_tolerance,
                           double *area);
 
-// Creates a particle from `count` planes.
+// Creates a particle from count planes.
 //
 // planes: count rows of a, b, c, d (outward normal and offset; local frame; the normal is used as
 // given). May be NULL when count is 0.
 // r: rounding radius, length. k: sphericity, in [0, 1]. shadow_radius: R, length.
-// out: receives the particle; release it with `pp_particle_free`.
+// out: receives the particle; release it with pp_particle_free.
 // message: receives, on failure, a sentence that names the plane or value (may be NULL).
-// Errors: `PP_NULL_POINTER`, `PP_PLANE_NOT_FINITE`, `PP_PLANE_ZERO_NORMAL`, `PP_BAD_SPHERICITY`,
-// `PP_BAD_ROUNDING_RADIUS`, `PP_BAD_SHADOW_RADIUS`, `PP_CENTRE_OUTSIDE`, `PP_UNBOUNDED`,
-// `PP_TOO_MANY_PLANES`.
-//
-// # Safety
-// `planes` points to 4*count doubles, `out` to one pointer, `message` to `message_size` bytes.
+// Errors: PP_NULL_POINTER, PP_PLANE_NOT_FINITE, PP_PLANE_ZERO_NORMAL, PP_BAD_SPHERICITY,
+// PP_BAD_ROUNDING_RADIUS, PP_BAD_SHADOW_RADIUS, PP_CENTRE_OUTSIDE, PP_UNBOUNDED,
+// PP_TOO_MANY_PLANES.
+// Pointers: planes points to 4*count doubles, out to one pointer, message to message_size bytes.
 pp_status pp_particle_new(const double *planes,
                           size_t count,
                           double r,
@@ -403,142 +528,42 @@ pp_status pp_particle_new(const double *planes,
                           size_t message_size);
 
 // Releases a particle; NULL is allowed and does nothing. No pair may still be using it.
-//
-// # Safety
-// `particle` is NULL or came from `pp_particle_new` and was not released yet.
+// Pointers: particle is NULL or came from pp_particle_new and was not released yet.
 void pp_particle_free(struct pp_particle *particle);
 
-// f = S - 1 at a world point (3 doubles), and its gradient (3 doubles, world axes, 1/length; may
-// be NULL).
+// Rounding radius r as given to pp_particle_new, length.
 //
-// f < 0 inside, 0 on the surface, > 0 outside.
-// Errors: `PP_NULL_POINTER`, `PP_BAD_POSITION`, `PP_BAD_ORIENTATION`, `PP_BAD_POINT`.
-//
-// # Safety
-// Pointers are NULL or valid: `point` for reading 3 doubles, `f` and `gradient` for writing 1 and 3.
-pp_status pp_particle_potential(const struct pp_particle *particle,
-                                const struct pp_pose *pose,
-                                const double *point,
-                                double *f,
-                                double *gradient);
+// Errors: PP_NULL_POINTER.
+pp_status pp_particle_rounding_radius(const struct pp_particle *particle, double *r);
 
-// Axis-aligned box in world axes that holds the particle at this pose: the box of its corners.
+// Sphericity k as given to pp_particle_new, no unit.
 //
-// lower, upper: receive 3 doubles each, world frame.
-// Errors: `PP_NULL_POINTER`, `PP_BAD_POSITION`, `PP_BAD_ORIENTATION`.
-//
-// # Safety
-// Pointers are NULL or valid; `lower` and `upper` for writing 3 doubles.
-pp_status pp_particle_box(const struct pp_particle *particle,
-                          const struct pp_pose *pose,
-                          double *lower,
-                          double *upper);
+// Errors: PP_NULL_POINTER.
+pp_status pp_particle_sphericity(const struct pp_particle *particle, double *k);
 
-// Radius about the centre of a ball that holds the particle, length.
+// Radius R of the shadow sphere as given to pp_particle_new, length.
 //
-// Errors: `PP_NULL_POINTER`.
-//
-// # Safety
-// Pointers are NULL or valid.
-pp_status pp_particle_bounding_radius(const struct pp_particle *particle, double *radius);
+// Errors: PP_NULL_POINTER.
+pp_status pp_particle_shadow_radius(const struct pp_particle *particle, double *shadow_radius);
 
-// Corners, local frame, of a polyhedron that holds the particle: rows of x, y, z.
+// Planes as given to pp_particle_new: rows of a, b, c, d, local frame.
 //
-// corners: room for `capacity` rows; may be NULL when capacity is 0. count: receives the number of
-// corners, also when the buffer is too small (`PP_BUFFER_TOO_SMALL`), so that one call asks the size.
-// Errors: `PP_NULL_POINTER`, `PP_BUFFER_TOO_SMALL`.
-//
-// # Safety
-// Pointers are NULL or valid; `corners` for writing 3*capacity doubles.
-pp_status pp_particle_corners(const struct pp_particle *particle,
-                              double *corners,
-                              size_t capacity,
-                              size_t *count);
+// planes: room for capacity rows; may be NULL when capacity is 0. count: receives the number of
+// planes, also when the buffer is too small (PP_BUFFER_TOO_SMALL), so that one call asks the size.
+// Pointers: planes is valid for writing 4*capacity doubles.
+// Errors: PP_NULL_POINTER, PP_BUFFER_TOO_SMALL.
+pp_status pp_particle_planes(const struct pp_particle *particle,
+                             double *planes,
+                             size_t capacity,
+                             size_t *count);
 
-// Distance from the centre to the surface along a direction (3 doubles, local frame, any length).
-//
-// With it, direction * distance walks over the true surface: for meshes and pictures.
-// Errors: `PP_NULL_POINTER`, `PP_BAD_POINT`.
-//
-// # Safety
-// Pointers are NULL or valid; `direction` for reading 3 doubles.
-pp_status pp_particle_surface_distance(const struct pp_particle *particle,
-                                       const double *direction,
-                                       double *distance);
-
-// Volume, centroid and inertia for unit density, by quadrature over the true surface (relative
-// error about 1e-4 for sharp shapes, less for round ones).
-//
-// Errors: `PP_NULL_POINTER`.
-//
-// # Safety
-// Pointers are NULL or valid.
-pp_status pp_particle_mass_properties(const struct pp_particle *particle,
-                                      struct pp_mass_properties *properties);
-
-// Creates a particle of the plane from `count` lines a x + b y = d.
-//
-// With S(x) = (1-k)/r^2 * sum <a x + b y - d>^2 + k/R^2 * |x|^2 all else is as in
-// `pp_particle_new`, and the codes of planes stand for lines.
-// lines: count rows of a, b, d (outward normal and offset; local frame; the normal is used as
-// given). May be NULL when count is 0.
-// r: rounding radius, length. k: sphericity, in [0, 1]. shadow_radius: R, length.
-// out: receives the particle; release it with `pp_particle_free_2d`.
-// message: receives, on failure, a sentence that names the line or value (may be NULL).
-// Errors: `PP_NULL_POINTER`, `PP_PLANE_NOT_FINITE`, `PP_PLANE_ZERO_NORMAL`, `PP_BAD_SPHERICITY`,
-// `PP_BAD_ROUNDING_RADIUS`, `PP_BAD_SHADOW_RADIUS`, `PP_CENTRE_OUTSIDE`, `PP_UNBOUNDED` (k = 0 and
-// the lines enclose no area), `PP_TOO_MANY_PLANES`.
-//
-// # Safety
-// `lines` points to 3*count doubles, `out` to one pointer, `message` to `message_size` bytes.
-pp_status pp_particle_new_2d(const double *lines,
-                             size_t count,
-                             double r,
-                             double k,
-                             double shadow_radius,
-                             struct pp_particle_2d **out,
-                             char *message,
-                             size_t message_size);
-
-// Releases a particle of the plane; NULL is allowed and does nothing. No pair may still be using it.
-//
-// # Safety
-// `particle` is NULL or came from `pp_particle_new_2d` and was not released yet.
-void pp_particle_free_2d(struct pp_particle_2d *particle);
-
-// f = S - 1 at a world point (2 doubles), and its gradient (2 doubles, world axes, 1/length; may
-// be NULL).
-//
-// f < 0 inside, 0 on the boundary, > 0 outside.
-// Errors: `PP_NULL_POINTER`, `PP_BAD_POSITION`, `PP_BAD_ORIENTATION`, `PP_BAD_POINT`.
-//
-// # Safety
-// Pointers are NULL or valid: `point` for reading 2 doubles, `f` and `gradient` for writing 1 and 2.
-pp_status pp_particle_potential_2d(const struct pp_particle_2d *particle,
-                                   const struct pp_pose_2d *pose,
-                                   const double *point,
-                                   double *f,
-                                   double *gradient);
-
-// Radius about the centre of a circle that holds the particle, length: two particles whose centres are
-// further apart than both radii together need no call of `pp_contact_detect_2d`.
-//
-// Errors: `PP_NULL_POINTER`.
-//
-// # Safety
-// Pointers are NULL or valid.
-pp_status pp_particle_bounding_radius_2d(const struct pp_particle_2d *particle,
-                                         double *radius);
-
-// Finds the contact of particle A at `pose_a` with particle B at `pose_b`, both of the plane.
+// Finds the contact of particle A at pose_a with particle B at pose_b, both of the plane.
 //
 // settings: may be NULL (defaults). memory: may be NULL; else what this ordered pair remembers,
 // read and updated. out: the answer; see struct pp_contact_2d for frames, units and signs.
-// Errors: `PP_NULL_POINTER`, `PP_BAD_POSITION`, `PP_BAD_ORIENTATION` (an angle that is not finite),
-// `PP_UNKNOWN_FORMULATION`, `PP_UNKNOWN_BACK_END`, `PP_BAD_SETTING`, `PP_SOLVER_FAILED`.
-//
-// # Safety
-// Pointers are NULL or valid; `memory` and `out` are not used by another call at the same time.
+// Errors: PP_NULL_POINTER, PP_BAD_POSITION, PP_BAD_ORIENTATION (an angle that is not finite),
+// PP_UNKNOWN_FORMULATION, PP_UNKNOWN_BACK_END, PP_NO_CONIC, PP_BAD_SETTING, PP_SOLVER_FAILED.
+// Pointers: Pointers are NULL or valid; memory and out are not used by another call at the same time.
 pp_status pp_contact_detect_2d(const struct pp_particle_2d *a,
                                const struct pp_pose_2d *pose_a,
                                const struct pp_particle_2d *b,
@@ -550,19 +575,170 @@ pp_status pp_contact_detect_2d(const struct pp_particle_2d *a,
 // Contact length (YADE: jointLength): how much of the line through the contact point, normal to the
 // contact normal, lies in both particles.
 //
-// contact: an overlapping answer of `pp_contact_detect_2d` for the same particles and poses.
+// contact: an overlapping answer of pp_contact_detect_2d for the same particles and poses.
 // length: receives a length; 0 when separated. Exact to rounding.
-// Errors: `PP_NULL_POINTER`, `PP_BAD_POSITION`, `PP_BAD_ORIENTATION`, `PP_BAD_POINT` (the contact
+// Errors: PP_NULL_POINTER, PP_BAD_POSITION, PP_BAD_ORIENTATION, PP_BAD_POINT (the contact
 // was not filled: no kind, point or normal).
-//
-// # Safety
-// Pointers are NULL or valid.
 pp_status pp_contact_length_2d(const struct pp_particle_2d *a,
                                const struct pp_pose_2d *pose_a,
                                const struct pp_particle_2d *b,
                                const struct pp_pose_2d *pose_b,
                                const struct pp_contact_2d *contact,
                                double *length);
+
+// Creates a particle of the plane from count lines a x + b y = d.
+//
+// With S(x) = (1-k)/r^2 * sum <a x + b y - d>^2 + k/R^2 * |x|^2 all else is as in
+// pp_particle_new, and the codes of planes stand for lines.
+// lines: count rows of a, b, d (outward normal and offset; local frame; the normal is used as
+// given). May be NULL when count is 0.
+// r: rounding radius, length. k: sphericity, in [0, 1]. shadow_radius: R, length.
+// out: receives the particle; release it with pp_particle_free_2d.
+// message: receives, on failure, a sentence that names the line or value (may be NULL).
+// Errors: PP_NULL_POINTER, PP_PLANE_NOT_FINITE, PP_PLANE_ZERO_NORMAL, PP_BAD_SPHERICITY,
+// PP_BAD_ROUNDING_RADIUS, PP_BAD_SHADOW_RADIUS, PP_CENTRE_OUTSIDE, PP_UNBOUNDED (k = 0 and
+// the lines enclose no area), PP_TOO_MANY_PLANES.
+// Pointers: lines points to 3*count doubles, out to one pointer, message to message_size bytes.
+pp_status pp_particle_new_2d(const double *lines,
+                             size_t count,
+                             double r,
+                             double k,
+                             double shadow_radius,
+                             struct pp_particle_2d **out,
+                             char *message,
+                             size_t message_size);
+
+// Releases a particle of the plane; NULL is allowed and does nothing. No pair may still be using it.
+// Pointers: particle is NULL or came from pp_particle_new_2d and was not released yet.
+void pp_particle_free_2d(struct pp_particle_2d *particle);
+
+// Rounding radius r as given to pp_particle_new_2d, length.
+//
+// Errors: PP_NULL_POINTER.
+pp_status pp_particle_rounding_radius_2d(const struct pp_particle_2d *particle, double *r);
+
+// Sphericity k as given to pp_particle_new_2d, no unit.
+//
+// Errors: PP_NULL_POINTER.
+pp_status pp_particle_sphericity_2d(const struct pp_particle_2d *particle, double *k);
+
+// Radius R of the shadow circle as given to pp_particle_new_2d, length.
+//
+// Errors: PP_NULL_POINTER.
+pp_status pp_particle_shadow_radius_2d(const struct pp_particle_2d *particle,
+                                       double *shadow_radius);
+
+// Lines as given to pp_particle_new_2d: rows of a, b, d, local frame.
+//
+// lines: room for capacity rows; may be NULL when capacity is 0. count: receives the number of
+// lines, also when the buffer is too small (PP_BUFFER_TOO_SMALL), so that one call asks the size.
+// Pointers: lines is valid for writing 3*capacity doubles.
+// Errors: PP_NULL_POINTER, PP_BUFFER_TOO_SMALL.
+pp_status pp_particle_lines_2d(const struct pp_particle_2d *particle,
+                               double *lines,
+                               size_t capacity,
+                               size_t *count);
+
+// f = S - 1 at a world point (2 doubles), and its gradient (2 doubles, world axes, 1/length; may
+// be NULL).
+//
+// f < 0 inside, 0 on the boundary, > 0 outside.
+// Errors: PP_NULL_POINTER, PP_BAD_POSITION, PP_BAD_ORIENTATION, PP_BAD_POINT.
+// Pointers: Pointers are NULL or valid: point for reading 2 doubles, f and gradient for writing 1 and 2.
+pp_status pp_particle_potential_2d(const struct pp_particle_2d *particle,
+                                   const struct pp_pose_2d *pose,
+                                   const double *point,
+                                   double *f,
+                                   double *gradient);
+
+// Radius about the centre of a circle that holds the particle, length: two particles whose centres are
+// further apart than both radii together need no call of pp_contact_detect_2d.
+//
+// Errors: PP_NULL_POINTER.
+pp_status pp_particle_bounding_radius_2d(const struct pp_particle_2d *particle,
+                                         double *radius);
+
+// Axis-aligned box in world axes that holds the particle at this pose: the box of its corners.
+//
+// Pointers: lower and upper receive 2 doubles each, world frame.
+// Errors: PP_NULL_POINTER, PP_BAD_POSITION, PP_BAD_ORIENTATION.
+pp_status pp_particle_box_2d(const struct pp_particle_2d *particle,
+                             const struct pp_pose_2d *pose,
+                             double *lower,
+                             double *upper);
+
+// Corners, local frame, of a polygon that holds the particle: rows of x, y.
+//
+// corners: room for capacity rows; may be NULL when capacity is 0. count: receives the number of
+// corners, also when the buffer is too small (PP_BUFFER_TOO_SMALL), so that one call asks the size.
+// Pointers: corners is valid for writing 2*capacity doubles.
+// Errors: PP_NULL_POINTER, PP_BUFFER_TOO_SMALL.
+pp_status pp_particle_corners_2d(const struct pp_particle_2d *particle,
+                                 double *corners,
+                                 size_t capacity,
+                                 size_t *count);
+
+// Distance from the centre to the boundary along a direction (2 doubles, local frame, any length).
+//
+// Pointers: direction is valid for reading 2 doubles.
+// Errors: PP_NULL_POINTER, PP_BAD_POINT.
+pp_status pp_particle_surface_distance_2d(const struct pp_particle_2d *particle,
+                                          const double *direction,
+                                          double *distance);
+
+// f = S - 1 at a world point (3 doubles), and its gradient (3 doubles, world axes, 1/length; may
+// be NULL).
+//
+// f < 0 inside, 0 on the surface, > 0 outside.
+// Errors: PP_NULL_POINTER, PP_BAD_POSITION, PP_BAD_ORIENTATION, PP_BAD_POINT.
+// Pointers: Pointers are NULL or valid: point for reading 3 doubles, f and gradient for writing 1 and 3.
+pp_status pp_particle_potential(const struct pp_particle *particle,
+                                const struct pp_pose *pose,
+                                const double *point,
+                                double *f,
+                                double *gradient);
+
+// Axis-aligned box in world axes that holds the particle at this pose: the box of its corners.
+//
+// lower, upper: receive 3 doubles each, world frame.
+// Errors: PP_NULL_POINTER, PP_BAD_POSITION, PP_BAD_ORIENTATION.
+// Pointers: Pointers are NULL or valid; lower and upper for writing 3 doubles.
+pp_status pp_particle_box(const struct pp_particle *particle,
+                          const struct pp_pose *pose,
+                          double *lower,
+                          double *upper);
+
+// Radius about the centre of a ball that holds the particle, length.
+//
+// Errors: PP_NULL_POINTER.
+pp_status pp_particle_bounding_radius(const struct pp_particle *particle, double *radius);
+
+// Corners, local frame, of a polyhedron that holds the particle: rows of x, y, z.
+//
+// corners: room for capacity rows; may be NULL when capacity is 0. count: receives the number of
+// corners, also when the buffer is too small (PP_BUFFER_TOO_SMALL), so that one call asks the size.
+// Pointers: corners is valid for writing 3*capacity doubles.
+// Errors: PP_NULL_POINTER, PP_BUFFER_TOO_SMALL.
+pp_status pp_particle_corners(const struct pp_particle *particle,
+                              double *corners,
+                              size_t capacity,
+                              size_t *count);
+
+// Distance from the centre to the surface along a direction (3 doubles, local frame, any length).
+//
+// With it, direction * distance walks over the true surface: for meshes and pictures.
+// Errors: PP_NULL_POINTER, PP_BAD_POINT.
+// Pointers: Pointers are NULL or valid; direction for reading 3 doubles.
+pp_status pp_particle_surface_distance(const struct pp_particle *particle,
+                                       const double *direction,
+                                       double *distance);
+
+// Volume, centroid and inertia for unit density, by quadrature over the true surface (relative
+// error about 1e-4 for sharp shapes, less for round ones).
+//
+// Errors: PP_NULL_POINTER.
+pp_status pp_particle_mass_properties(const struct pp_particle *particle,
+                                      struct pp_mass_properties *properties);
 
 // The sentence for a status code, in English, without a full stop.
 //

@@ -18,13 +18,43 @@
 //! | `model` | both potentials as quadratics at a point, their exact optimum along the dual path, the KKT check |
 //! | `bounds` | what rounding does to an optimum: the gap of s and the distance of the point |
 //! | `solver` | initial guess, line search, Newton's method, and the order in which solvers are tried |
-//! | `reference` | the paper's second-order cone programs, as an independent back end |
-//! | `contact` | point, normal and overlap from a solution; [`detect`](detect()), the whole on one screen |
+//! | `reference` | the paper's second-order cone programs, as an independent back end (feature `conic`) |
+//! | `contact` | point, normal and overlap from a solution; [`detect`](detect()), the whole on one screen; many pairs at once |
 //! | `section` | the contact area |
 //! | [`planar`] | the same for particles of the plane |
-//! | `capi` | the C interface, the only place with `unsafe` |
+//! | `serialisation` | what can be written down and read back with serde (feature `serde`) |
+//! | `capi` | the C interface, the only place with `unsafe` (feature `capi`) |
+//!
+//! # Use
+//!
+//! A [`Particle`] is made once for each shape; a body is a particle at a [`Pose`]. [`detect()`] finds the [`Contact`] of two
+//! bodies, [`detect_batch`] those of many pairs on several threads; [`Settings`] choose the formulation and the accuracy, and
+//! a [`Memory`] for each pair lets the next call start from the last solution. [`Section::area`] gives the contact area,
+//! [`closest_point`] one closest point alone, [`Particle::mass_properties`] volume and inertia.
+//!
+//! ```
+//! use potential_particles::{Kind, Memory, Particle, Plane, Pose, Section, Settings, detect};
+//!
+//! // A cube of edge 2 with edges and corners rounded by r = 0.1: six planes at 0.9, moved out by r.
+//! let faces = [[1.0, 0.0, 0.0], [-1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, -1.0, 0.0], [0.0, 0.0, 1.0], [0.0, 0.0, -1.0]];
+//! let cube = Particle::new(&faces.map(|[a, b, c]| Plane::from([a, b, c, 0.9])), 0.1, 0.0, 1.0)?;
+//!
+//! let lower = Pose::at([0.0, 0.0, 0.0])?;
+//! let upper = Pose::new([0.3, 0.0, 1.95], [1.0, 0.0, 0.0, 0.2])?;
+//! let mut memory = Memory::default();
+//! let contact = detect(&cube, &lower, &cube, &upper, &Settings::default(), Some(&mut memory))?;
+//! assert_eq!(contact.kind, Kind::Overlapping);
+//! assert!((contact.overlap - 0.05).abs() < 1e-9 && (contact.normal.z - 1.0).abs() < 1e-9);
+//!
+//! let area = Section::from(&contact).area(&cube, &lower, &cube, &upper, 1e-6).expect("an overlapping contact");
+//! assert!(area > 2.0 && area < 4.0);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+#![deny(missing_docs)]
 
 mod bounds;
+#[cfg(feature = "capi")]
 pub mod capi;
 mod contact;
 mod linalg;
@@ -32,19 +62,26 @@ mod model;
 mod pair;
 mod particle;
 pub mod planar;
+#[cfg(feature = "conic")]
+mod reference;
+#[cfg(not(feature = "conic"))]
+#[path = "reference_left_out.rs"]
 mod reference;
 mod section;
+#[cfg(feature = "serde")]
+mod serialisation;
 mod settings;
 mod solver;
 
-pub use contact::closest_point::{Half, closest_point};
+pub use contact::batch::detect_batch;
+pub use contact::closest_point::{ClosestPoint, closest_point};
 pub use contact::contact::{Contact, Flags, Kind};
 pub use contact::detect::{DetectError, detect};
 pub use pair::pose::{Pose, PoseError};
+pub use pair::role::Role;
 pub use pair::warm_start::Memory;
 pub use particle::mass_properties::MassProperties;
 pub use particle::particle::{MAX_PLANES, Particle, ParticleError, Plane};
-pub use reference::Role;
 pub use section::Section;
 pub use settings::{BackEnd, Formulation, Settings, SettingsError};
 

@@ -1,9 +1,11 @@
 //! Every tolerance and choice of the library, in one place.
 
+use std::fmt;
 use thiserror::Error;
 
 /// Which of the paper's two problems defines the contact.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "lowercase"))]
 pub enum Formulation {
     /// Minimise t with s_A ≤ t and s_B ≤ t (paper eqs 4, 44).
     #[default]
@@ -12,17 +14,46 @@ pub enum Formulation {
     Closest,
 }
 
+impl fmt::Display for Formulation {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.pad(match self {
+            Self::Midway => "midway",
+            Self::Closest => "closest",
+        })
+    }
+}
+
 /// Who solves.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "lowercase"))]
+#[non_exhaustive]
 pub enum BackEnd {
-    /// This library's solver, with the conic one as its last resort.
+    /// This library's solver, with the conic one (where it was built in) as its last resort.
     #[default]
     Fast,
-    /// The paper's second-order cone programs through clarabel.
+    /// The paper's second-order cone programs through clarabel; only with the Cargo feature `conic`.
     Conic,
 }
 
+impl fmt::Display for BackEnd {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.pad(match self {
+            Self::Fast => "fast",
+            Self::Conic => "conic",
+        })
+    }
+}
+
 /// How to solve a contact.
+///
+/// Write settings with the defaults for what is not named, so that a field added later changes nothing:
+///
+/// ```
+/// use potential_particles::{Formulation, Settings};
+/// let settings = Settings { formulation: Formulation::Closest, weight_on_a: 0.3, ..Settings::default() };
+/// assert!(settings.validate().is_ok());
+/// assert!(Settings { weight_on_a: 1.3, ..settings }.validate().is_err());
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
     /// Which problem.
@@ -47,7 +78,7 @@ pub struct Settings {
     /// grows by at most this value. 1e-13 is the smallest value whose pull on a flat face of unit
     /// size still exceeds rounding; for exactly parallel faces any positive value gives the limit
     /// k → 0⁺, the point nearest to the centres. Where the choice would leave open whether the particles overlap at all,
-    /// the default value decides, and its contact is the answer.
+    /// the default value decides, and its contact is the answer ([`crate::Flags::DEFAULT_REGULARISATION`]).
     pub flat_regularisation: f64,
 }
 
@@ -70,16 +101,22 @@ impl Default for Settings {
     }
 }
 
-/// A setting outside its range, with its value.
+/// Why settings are refused, with the value at fault.
 #[derive(Clone, Copy, Debug, Error, PartialEq)]
-#[allow(missing_docs)]
+#[non_exhaustive]
 pub enum SettingsError {
+    /// [`Settings::gap_tolerance`] is out of range.
     #[error("gap_tolerance={0} must lie in (0, 0.1]")]
     GapTolerance(f64),
+    /// [`Settings::weight_on_a`] is out of range.
     #[error("weight_on_a={0} must lie in [0, 1]")]
     WeightOnA(f64),
+    /// [`Settings::flat_regularisation`] is out of range.
     #[error("flat_regularisation={0} must lie in [0, 0.1]")]
     FlatRegularisation(f64),
+    /// [`BackEnd::Conic`] is asked for in a build without it.
+    #[error("the conic back end is not part of this build: use the fast one, or build with the Cargo feature conic")]
+    NoConic,
 }
 
 impl Settings {
@@ -95,11 +132,14 @@ impl Settings {
         }
     }
 
-    /// Checks every range.
+    /// Checks every range, and that the back end was built in.
     ///
     /// # Errors
     /// The first setting outside its range.
     pub fn validate(&self) -> Result<(), SettingsError> {
+        if self.back_end == BackEnd::Conic && cfg!(not(feature = "conic")) {
+            return Err(SettingsError::NoConic);
+        }
         if !(self.gap_tolerance > 0.0 && self.gap_tolerance <= 0.1) {
             return Err(SettingsError::GapTolerance(self.gap_tolerance));
         }

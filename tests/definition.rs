@@ -292,3 +292,40 @@ fn raised_regularisation_loses_no_contact() {
         }
     }
 }
+
+/// Faces that are tilted by less than the bulge of the raised regularisation and overlap by their edges: the library decides with
+/// the default one, says so, and gives the default's answer.
+#[test]
+fn a_regularisation_that_was_overridden_is_told() {
+    let cube = cuboid([0.5; 3], 0.05, 0.0, 1.0);
+    let at_a = pose([0.0; 3], [1.0, 0.0, 0.0, 0.0]);
+    let (mut told, mut untold) = (0, 0);
+    for flat_regularisation in [1e-13, 1e-6, 1e-4, 1e-2] {
+        for exponent in [-12, -8, -4, -2] {
+            for tilt in [0.0, 1e-8, 1e-6, 1e-4] {
+                for formulation in [Formulation::Midway, Formulation::Closest] {
+                    let default = Settings { formulation, ..Settings::default() };
+                    let at_b = pose([0.3, 0.1, 1.0 + tilt - 10f64.powi(exponent)], [1.0, tilt, tilt, 0.0]);
+                    let case = format!("{flat_regularisation}, {exponent}, {tilt}, {formulation}");
+                    let settings = Settings { flat_regularisation, ..default };
+                    let contact = detect(&cube, &at_a, &cube, &at_b, &settings, None).expect(&case);
+                    let plain = detect(&cube, &at_a, &cube, &at_b, &default, None).expect(&case);
+                    assert!(!plain.flags.contains(Flags::DEFAULT_REGULARISATION), "{case}");
+                    if contact.flags.contains(Flags::DEFAULT_REGULARISATION) {
+                        told += 1;
+                        assert!(flat_regularisation > default.flat_regularisation, "{case}");
+                        assert_eq!(contact.kind, plain.kind, "{case}");
+                        assert!((contact.s - plain.s).abs() <= contact.gap + plain.gap, "{case}");
+                        assert!(
+                            (contact.point - plain.point).norm() <= contact.point_bound + plain.point_bound,
+                            "{case}"
+                        );
+                    } else {
+                        untold += 1;
+                    }
+                }
+            }
+        }
+    }
+    assert!(told > 5 && untold > 30, "{told} overridden, {untold} not");
+}

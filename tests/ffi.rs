@@ -126,3 +126,56 @@ fn threads_share_a_particle() {
     });
     unsafe { pp_particle_free(body.0) };
 }
+
+/// The arrays of a batch are touched where they may be and nowhere else, by one thread or two.
+#[test]
+fn a_batch_reads_and_writes_its_arrays() {
+    let (a, b) = (cube(0.1), cube(0.0));
+    let particles = [a.cast_const(), b, a, ptr::null()];
+    let poses = [pose(0.0, 0.0, 0.0), pose(0.2, 0.1, 0.93), pose(3.0, 0.0, 0.0), pose(0.0, 0.0, 1.0)];
+    let pairs: Vec<[u32; 2]> = (0..150).map(|n| [[0, 1], [0, 2], [1, 3], [2, 9]][n % 4]).collect();
+    for threads in [1, 2] {
+        let mut memories = vec![pp_memory::default(); pairs.len()];
+        let mut contacts = vec![MaybeUninit::<pp_contact>::uninit(); pairs.len()];
+        let mut statuses = vec![MaybeUninit::<pp_status>::uninit(); pairs.len()];
+        let status = unsafe {
+            pp_contact_detect_batch(
+                particles.as_ptr(),
+                poses.as_ptr(),
+                particles.len(),
+                pairs.as_ptr().cast(),
+                pairs.len(),
+                ptr::null(),
+                threads,
+                memories.as_mut_ptr(),
+                contacts.as_mut_ptr().cast(),
+                statuses.as_mut_ptr().cast(),
+            )
+        };
+        assert_eq!(status, PP_OK);
+        for (n, status) in statuses.iter().enumerate() {
+            let status = unsafe { status.assume_init() };
+            assert_eq!(status, [PP_OK, PP_OK, PP_NULL_POINTER, PP_BAD_INDEX][n % 4]);
+            if status == PP_OK {
+                let contact = unsafe { contacts[n].assume_init() };
+                assert_eq!(contact.kind, [PP_OVERLAPPING, PP_SEPARATED][n % 4]);
+            }
+        }
+    }
+    unsafe {
+        pp_particle_free(a);
+        pp_particle_free(b);
+    }
+}
+
+#[test]
+fn a_closest_point_is_written() {
+    let body = cube(0.1);
+    let (at_a, at_b) = (pose(0.0, 0.0, 0.0), pose(0.2, 0.1, 0.93));
+    let mut point = MaybeUninit::<pp_closest>::uninit();
+    let status = unsafe { pp_closest_point(body, &at_a, body, &at_b, PP_ON_A, ptr::null(), point.as_mut_ptr()) };
+    assert_eq!(status, PP_OK);
+    let point = unsafe { point.assume_init() };
+    assert!(point.slack == 0 && point.s < 1.0 && point.gap < 1e-9);
+    unsafe { pp_particle_free(body) };
+}

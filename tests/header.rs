@@ -95,10 +95,24 @@ fn version_macros_are_those_of_the_package() {
         assert_eq!(
             version_macro(&header, part),
             package,
-            "PP_VERSION_{part} in src/capi/contact.rs must follow the version {} in Cargo.toml",
+            "PP_VERSION_{part} in src/capi/abi.rs must follow the version {} in Cargo.toml",
             env!("CARGO_PKG_VERSION"),
         );
     }
+}
+
+/// A C programmer reads the comments as they are.
+#[test]
+fn comments_are_plain_text() {
+    let header = generated();
+    let comments = || header.lines().filter(|line| line.trim_start().starts_with("//") || line.starts_with(" *"));
+    for mark in ["`", "# Safety", "# Errors", "](", "**", "///"] {
+        let lines: Vec<_> = comments().filter(|line| line.contains(mark)).collect();
+        assert!(lines.is_empty(), "{mark:?} in\n{}", lines.join("\n"));
+    }
+    assert!(header.is_ascii(), "not all editors show more than ASCII");
+    let wide: Vec<_> = comments().filter(|line| line.len() > 112).collect();
+    assert!(wide.is_empty(), "wider than a page:\n{}", wide.join("\n"));
 }
 
 #[test]

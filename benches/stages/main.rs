@@ -2,6 +2,9 @@
 //!
 //! Every benchmark walks over its pairs, so that a call never repeats the one before.
 
+// criterion's macro makes a public function without a word on it.
+#![allow(missing_docs)]
+
 #[path = "../scene/mod.rs"]
 mod scene;
 

@@ -3,7 +3,9 @@
 use crate::arguments::{self, Arguments};
 use crate::input::Input;
 use nalgebra::Vector3;
-use potential_particles::{BackEnd, Contact, Flags, Formulation, Half, Kind, Role, Settings, closest_point, detect};
+use potential_particles::{
+    BackEnd, ClosestPoint, Contact, Flags, Formulation, Kind, Role, Settings, closest_point, detect,
+};
 use serde::Serialize;
 
 /// One line of output. Vectors in world axes, points relative to the position of B.
@@ -88,7 +90,7 @@ fn midway(input: &Input, settings: Settings) -> Result<Midway, String> {
     // Branches lose no digit to a position far from the origin.
     let relative = |point: Vector3<f64>| (point - input.pose_b.position()).into();
     Ok(Midway {
-        kind: kind(&contact),
+        kind: name(contact.kind),
         s: contact.s,
         u: contact.weight,
         point: contact.branch_b.into(),
@@ -112,7 +114,7 @@ fn closest(input: &Input, settings: Settings) -> Result<Closest, String> {
     }
     let on_a = weighted(1.0)?;
     Ok(Closest {
-        kind: kind(&on_b),
+        kind: name(on_b.kind),
         s_a: on_b.s,
         s_b: on_b.s_b,
         p1: on_a.branch_b.into(),
@@ -129,10 +131,11 @@ fn slack(input: &Input, contact: &Contact, settings: &Settings) -> Result<Closes
         closest_point(&input.a, &input.pose_a, &input.b, &input.pose_b, on, settings).map_err(|error| error.to_string())
     };
     let (p1, p2) = (point(Role::A)?, point(Role::B)?);
-    let of = |half: &Option<Half>| half.map_or((f64::NAN, [f64::NAN; 3]), |half| (half.s, half.branch_b.into()));
+    let of =
+        |half: &Option<ClosestPoint>| half.map_or((f64::NAN, [f64::NAN; 3]), |half| (half.s, half.branch_b.into()));
     let ((s_b, on_a), (s_a, on_b)) = (of(&p1), of(&p2));
     Ok(Closest {
-        kind: kind(contact),
+        kind: name(contact.kind),
         s_a,
         s_b,
         p1: on_a,
@@ -143,8 +146,8 @@ fn slack(input: &Input, contact: &Contact, settings: &Settings) -> Result<Closes
     })
 }
 
-fn kind(contact: &Contact) -> &'static str {
-    match contact.kind {
+fn name(kind: Kind) -> &'static str {
+    match kind {
         Kind::Separated => "separated",
         Kind::Overlapping => "overlapping",
     }
@@ -154,8 +157,8 @@ fn kind(contact: &Contact) -> &'static str {
 fn path(contact: &Contact) -> &'static str {
     match contact.back_end {
         BackEnd::Conic => "conic",
-        BackEnd::Fast if contact.flags.contains(Flags::EXTENDED) => "extended",
-        BackEnd::Fast if contact.flags.contains(Flags::WARM) => "fast warm",
-        BackEnd::Fast => "fast cold",
+        _ if contact.flags.contains(Flags::EXTENDED) => "extended",
+        _ if contact.flags.contains(Flags::WARM) => "fast warm",
+        _ => "fast cold",
     }
 }

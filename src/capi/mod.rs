@@ -1,17 +1,28 @@
 //! The C interface. All `unsafe` of the crate is here; each function states what its pointers
 //! must be. The conventions are written once, in the head of `include/potential_particles.h`
 //! (see `cbindgen.toml`).
+//!
+//! The documentation of every exported item is also the comment in the C header: plain text, without the marks of
+//! rustdoc, and "Pointers:" where Rust would have a section on safety.
 #![allow(non_camel_case_types, unsafe_code)]
+#![allow(clippy::missing_safety_doc)]
 
+mod abi;
+mod batch;
 mod contact;
+mod convert;
 mod fence;
 mod particle;
 mod planar;
+mod shape;
 mod status;
 mod types;
 
+pub use abi::*;
+pub use batch::*;
 pub use contact::*;
 pub use particle::*;
 pub use planar::*;
+pub use shape::*;
 pub use status::*;
 pub use types::*;

@@ -5,7 +5,7 @@
 
 use std::ffi::{CStr, c_char};
 
-/// What every function of the C interface returns: `PP_OK` or a positive code.
+/// What every function of the C interface returns: PP_OK or a positive code.
 pub type pp_status = i32;
 
 /// The call did what it says; its outputs are written.
@@ -30,6 +30,10 @@ pub const PP_SOLVER_FAILED: pp_status = 8;
 pub const PP_INTERNAL_ERROR: pp_status = 9;
 /// The output buffer is too small; the needed size was written.
 pub const PP_BUFFER_TOO_SMALL: pp_status = 10;
+/// The settings ask for the conic back end, and the library was built without it.
+pub const PP_NO_CONIC: pp_status = 11;
+/// An index or a count names something that is not there.
+pub const PP_BAD_INDEX: pp_status = 12;
 
 /// A plane holds a coefficient that is not finite.
 pub const PP_PLANE_NOT_FINITE: pp_status = 20;
@@ -45,10 +49,10 @@ pub const PP_BAD_SHADOW_RADIUS: pp_status = 24;
 pub const PP_CENTRE_OUTSIDE: pp_status = 25;
 /// k = 0 and the planes do not enclose a bounded volume.
 pub const PP_UNBOUNDED: pp_status = 26;
-/// More planes than `PP_MAX_PLANES`.
+/// More planes than PP_MAX_PLANES.
 pub const PP_TOO_MANY_PLANES: pp_status = 27;
 
-/// Every code with its sentence; `pp_status_message` and the tests read this one table.
+/// Every code with its sentence; pp_status_message and the tests read this one table.
 const MESSAGES: &[(pp_status, &CStr)] = &[
     (PP_OK, c"success"),
     (PP_NULL_POINTER, c"a pointer that must not be NULL was NULL"),
@@ -61,6 +65,8 @@ const MESSAGES: &[(pp_status, &CStr)] = &[
     (PP_SOLVER_FAILED, c"no solver reached an answer; the contact is unknown (this does not mean separated)"),
     (PP_INTERNAL_ERROR, c"internal error caught at the library boundary: please report it"),
     (PP_BUFFER_TOO_SMALL, c"the output buffer is too small; the needed size was written"),
+    (PP_NO_CONIC, c"the library was built without the conic back end (Cargo feature conic): use PP_FAST"),
+    (PP_BAD_INDEX, c"an index or a count names something that is not there"),
     (PP_PLANE_NOT_FINITE, c"a plane coefficient is not finite"),
     (PP_PLANE_ZERO_NORMAL, c"a plane normal (a, b, c) has no length, or none that can be squared"),
     (PP_BAD_SPHERICITY, c"sphericity k must lie in [0, 1]"),

@@ -5,9 +5,10 @@ pub const PP_MIDWAY: u32 = 0;
 /// Formulation "closest" (paper eqs 3, 9, 34-43): minimise s_A with s_B <= 1, and the swap.
 pub const PP_CLOSEST: u32 = 1;
 
-/// The library's own solver; falls back on a safe way of its own, then on `PP_CONIC`.
+/// The library's own solver; falls back on a safe way of its own, then on PP_CONIC where that was built in.
 pub const PP_FAST: u32 = 0;
-/// The paper's second-order cone programs, solved by clarabel: slow, independent, the judge.
+/// The paper's second-order cone programs, solved by clarabel: slow, independent, the judge. Refused with
+/// PP_NO_CONIC by a library built without it (Cargo feature conic).
 pub const PP_CONIC: u32 = 1;
 
 /// The two particles share no interior point: s >= 1.
@@ -23,7 +24,7 @@ pub const PP_FLAG_REJECTED: u32 = 2;
 /// Both gradients vanish at the contact point, as when the centres coincide: no normal is right, and
 /// the one given is the line of centres, or the x axis of B.
 pub const PP_FLAG_NORMAL_BY_CENTRES: u32 = 4;
-/// The remembered point of `pp_memory` was used as the start.
+/// The remembered point of pp_memory was used as the start.
 pub const PP_FLAG_WARM: u32 = 8;
 /// The fast solver had no answer; its safe way, which always ends, found it.
 pub const PP_FLAG_SAFER: u32 = 16;
@@ -36,6 +37,14 @@ pub const PP_FLAG_BY_SPHERES: u32 = 128;
 pub const PP_FLAG_BY_FACE: u32 = 256;
 /// Rejected from memory: what separated the pair at the last call still does.
 pub const PP_FLAG_BY_MEMORY: u32 = 512;
+/// flat_regularisation was raised, and its default value was used in this call instead: the raised one
+/// would have left open whether the particles overlap.
+pub const PP_FLAG_DEFAULT_REGULARISATION: u32 = 1024;
+
+/// pp_closest_point: the point P1 on A, where s_B is least.
+pub const PP_ON_A: u32 = 0;
+/// pp_closest_point: the point P2 on B, where s_A is least.
+pub const PP_ON_B: u32 = 1;
 
 /// Where a body is: world = rotation(orientation) * local + position.
 #[repr(C)]
@@ -48,29 +57,30 @@ pub struct pp_pose {
     pub orientation: [f64; 4],
 }
 
-/// How to solve. Fill with `pp_settings_default`, then change what you need; a NULL pointer in
+/// How to solve. Fill with pp_settings_default, then change what you need; a NULL pointer in
 /// place of a pp_settings means the defaults.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct pp_settings {
-    /// `PP_MIDWAY` (default) or `PP_CLOSEST`.
+    /// PP_MIDWAY (default) or PP_CLOSEST.
     pub formulation: u32,
-    /// `PP_FAST` (default) or `PP_CONIC`.
+    /// PP_FAST (default) or PP_CONIC.
     pub back_end: u32,
     /// 0 (default): a separated pair may be answered by a proof of separation alone
-    /// (`PP_FLAG_REJECTED`). 1: always solve, so that s, point and normal are set.
+    /// (PP_FLAG_REJECTED). 1: always solve, so that s, point and normal are set.
     pub solve_separated: u32,
     /// Must be 0.
     pub reserved: u32,
     /// Relative gap of s^2 at which the solver may stop; in (0, 0.1], default 1e-12.
     pub gap_tolerance: f64,
-    /// Weight of the point on A in the contact point of `PP_CLOSEST`: point = w*P1 + (1-w)*P2,
+    /// Weight of the point on A in the contact point of PP_CLOSEST: point = w*P1 + (1-w)*P2,
     /// in [0, 1], default 0.5 (equal stiffness). Paper: relative stiffness of the particles.
     pub weight_on_a: f64,
     /// Smallest sphericity that the solver treats as given; below it, the point on a flat face
     /// is chosen as if k were this value (shape, s and overlap stay those of the given k).
     /// In [0, 0.1], default 1e-13. Raise it (1e-4, say) when flat faces rattle in dynamics. Whether
-    /// the particles overlap at all is never left to it: where it would be, the default decides.
+    /// the particles overlap at all is never left to it: where it would be, the default decides
+    /// (PP_FLAG_DEFAULT_REGULARISATION).
     pub flat_regularisation: f64,
 }
 
@@ -81,8 +91,9 @@ pub struct pp_settings {
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default)]
 pub struct pp_memory {
-    /// Library's own; not for reading.
-    pub state: [f64; 8],
+    /// Library's own; not for reading. Today the first 8 numbers are used, and the others are written as 0:
+    /// room to grow.
+    pub state: [f64; 16],
 }
 
 /// The answer for one pair. Frames: world axes unless said otherwise; lengths in the caller's
@@ -90,15 +101,15 @@ pub struct pp_memory {
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct pp_contact {
-    /// `PP_SEPARATED` or `PP_OVERLAPPING`. A failed solve has no kind: it returns a status.
+    /// PP_SEPARATED or PP_OVERLAPPING. A failed solve has no kind: it returns a status.
     pub kind: i32,
-    /// The formulation that the geometry below answers (`PP_MIDWAY` if `PP_FLAG_SLACK` is set).
+    /// The formulation that the geometry below answers (PP_MIDWAY if PP_FLAG_SLACK is set).
     pub formulation: u32,
-    /// The back end that answered: `PP_FAST` or `PP_CONIC`.
+    /// The back end that answered: PP_FAST or PP_CONIC.
     pub back_end: u32,
     /// Sum of PP_FLAG_... bits.
     pub flags: u32,
-    /// Evaluations of the two potentials (fast) or interior-point iterations (conic).
+    /// Pairs of quadratics solved; interior-point iterations of the conic back end.
     pub iterations: u32,
     /// Always 0.
     pub reserved: u32,
@@ -129,9 +140,33 @@ pub struct pp_contact {
     pub point_on_a: [f64; 3],
     /// Point on the surface of B inside A, world frame; P2 of closest. NaN when separated.
     pub point_on_b: [f64; 3],
-    /// Separated: proved lower bound on the distance between the two particles, length; 0 when the proof knows none.
-    /// Until their surfaces have come closer to each other by as much, they stay separated. NaN when overlapping.
+    /// Separated: proved lower bound on the distance between the two particles, length; 0 when the proof
+    /// knows none. Until their surfaces have come closer to each other by as much, they stay separated. NaN
+    /// when overlapping.
     pub distance: f64,
+}
+
+/// One closest point alone; frames and units as in struct pp_contact.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct pp_closest {
+    /// 1 when there is no such point, because the other particle's centre (for k = 0, its core) lies inside
+    /// this one: the numbers below are NaN then. Else 0.
+    pub slack: u32,
+    /// Always 0.
+    pub reserved: u32,
+    /// Scale of the other particle at the point: s_B at P1, s_A at P2. No unit.
+    pub s: f64,
+    /// Proved bound on the error of s: |s - s*| <= gap.
+    pub gap: f64,
+    /// Bound on the distance of the point to the exact optimum, length.
+    pub point_bound: f64,
+    /// P1 or P2, world frame.
+    pub point: [f64; 3],
+    /// The point minus position of A: exact lever arm even far from the world origin.
+    pub branch_a: [f64; 3],
+    /// The point minus position of B.
+    pub branch_b: [f64; 3],
 }
 
 /// Volume and inertia of a particle of unit density, in its local frame.

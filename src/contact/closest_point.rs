@@ -4,22 +4,25 @@ use crate::contact::detect::DetectError;
 use crate::model::problem::Problem;
 use crate::pair::pose::Pose;
 use crate::pair::relative_pose::Pair;
+use crate::pair::role::Role;
 use crate::particle::particle::Particle;
-use crate::reference::Role;
 use crate::settings::Settings;
 use crate::solver::call::Call;
 use nalgebra::Vector3;
 
-/// The closest point on one particle.
+/// The closest point on one particle, world axes, lengths in the caller's unit.
 #[derive(Clone, Copy, Debug)]
-pub struct Half {
+#[non_exhaustive]
+pub struct ClosestPoint {
     /// Scale of the other particle at the point: s_A at P2, s_B at P1.
     pub s: f64,
     /// |s − s*| ≤ gap.
     pub gap: f64,
     /// P1 on A or P2 on B, world frame.
     pub point: Vector3<f64>,
-    /// The same minus the position of B: free of the rounding of positions far from the origin.
+    /// The point minus the position of A: free of the rounding of positions far from the origin.
+    pub branch_a: Vector3<f64>,
+    /// The point minus the position of B.
     pub branch_b: Vector3<f64>,
     /// Bound on the distance of the point to the optimum, length.
     pub point_bound: f64,
@@ -29,10 +32,23 @@ pub struct Half {
 /// the point P2 on B, and the swap for P1 on A.
 ///
 /// `None` where the constraint is slack: the other particle's centre (for k = 0, its core) lies inside this one.
-/// [`crate::contact::detect()`] with [`crate::Formulation::Closest`] needs both points, and answers midway where one is missing.
+/// [`crate::detect()`] with [`crate::Formulation::Closest`] needs both points, and answers midway where one is missing.
+///
+/// ```
+/// use potential_particles::{Particle, Pose, Role, Settings, closest_point};
+/// let (small, large) = (Particle::sphere(0.1)?, Particle::sphere(1.0)?);
+/// let (at_rim, at_origin) = (Pose::at([0.95, 0.0, 0.0])?, Pose::at([0.0, 0.0, 0.0])?);
+/// let settings = Settings::default();
+/// // The point of the small ball that lies deepest in the large one,
+/// let deepest = closest_point(&small, &at_rim, &large, &at_origin, Role::A, &settings)?.expect("a point");
+/// assert!((deepest.point.x - 0.85).abs() < 1e-12 && (deepest.s - 0.85).abs() <= deepest.gap);
+/// // and no such point of the large one, which holds the centre of the small one.
+/// assert!(closest_point(&small, &at_rim, &large, &at_origin, Role::B, &settings)?.is_none());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 ///
 /// # Errors
-/// As of [`crate::contact::detect()`].
+/// As of [`crate::detect()`].
 pub fn closest_point(
     a: &Particle,
     pose_a: &Pose,
@@ -40,7 +56,7 @@ pub fn closest_point(
     pose_b: &Pose,
     on: Role,
     settings: &Settings,
-) -> Result<Option<Half>, DetectError> {
+) -> Result<Option<ClosestPoint>, DetectError> {
     settings.validate()?;
     let pair = Pair::new(a, pose_a, b, pose_b);
     let problem = match on {
@@ -51,6 +67,8 @@ pub fn closest_point(
     Ok(found.map(|found| {
         let branch_b = pose_b.rotate(&found.x);
         let (s, gap, point) = (found.scale.s, found.scale.gap, pose_b.position() + branch_b);
-        Half { s, gap, point, branch_b, point_bound: found.bound }
+        // From the centre of A before anything is rotated: a short branch keeps its digits.
+        let branch_a = pose_b.rotate(&(found.x - pair.centre));
+        ClosestPoint { s, gap, point, branch_a, branch_b, point_bound: found.bound }
     }))
 }

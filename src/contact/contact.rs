@@ -11,11 +11,13 @@ use crate::particle::particle::Particle;
 use crate::particle::potential;
 use crate::particle::ray_cast;
 use crate::settings::{BackEnd, Formulation};
-use crate::solver::call::ClosestPoint;
+use crate::solver::call::CertifiedPoint;
 use nalgebra::Vector3;
+use std::fmt;
 
-/// Whether the particles overlap. A failure is an error, never a kind.
+/// Whether the particles overlap. A failure is an error, never a kind, so that there will be no third.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "lowercase"))]
 pub enum Kind {
     /// s ≥ 1.
     Separated,
@@ -23,8 +25,25 @@ pub enum Kind {
     Overlapping,
 }
 
+impl fmt::Display for Kind {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.pad(match self {
+            Self::Separated => "separated",
+            Self::Overlapping => "overlapping",
+        })
+    }
+}
+
 /// What else is to be known about an answer; a set of bits.
+///
+/// ```
+/// use potential_particles::Flags;
+/// let flags = Flags::REJECTED | Flags::BY_FACE;
+/// assert!(flags.contains(Flags::BY_FACE) && !flags.contains(Flags::WARM));
+/// assert_eq!(flags.to_string(), "rejected, by face");
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(transparent))]
 pub struct Flags(u32);
 
 impl Flags {
@@ -47,6 +66,23 @@ impl Flags {
     pub const BY_FACE: Self = Self(256);
     /// Rejected: what separated the pair at the last call still does.
     pub const BY_MEMORY: Self = Self(512);
+    /// [`crate::Settings::flat_regularisation`] was raised, and its default value was used in this call instead: the raised one
+    /// would have left open whether the particles overlap.
+    pub const DEFAULT_REGULARISATION: Self = Self(1024);
+
+    /// Every flag with its name, in the order of the bits.
+    const NAMES: [(Self, &'static str); 10] = [
+        (Self::SLACK, "slack"),
+        (Self::REJECTED, "rejected"),
+        (Self::NORMAL_BY_CENTRES, "normal by centres"),
+        (Self::WARM, "warm"),
+        (Self::EXTENDED, "extended"),
+        (Self::ROUNDING_LIMITED, "rounding limited"),
+        (Self::BY_SPHERES, "by spheres"),
+        (Self::BY_FACE, "by face"),
+        (Self::BY_MEMORY, "by memory"),
+        (Self::DEFAULT_REGULARISATION, "default regularisation"),
+    ];
 
     /// The bits, as in the C interface.
     pub const fn bits(self) -> u32 {
@@ -56,6 +92,12 @@ impl Flags {
     /// Whether all bits of `other` are set.
     pub const fn contains(self, other: Self) -> bool {
         self.0 & other.0 == other.0
+    }
+
+    /// Whether any bit of `other` is set.
+    #[cfg(feature = "capi")]
+    pub(crate) const fn has_any(self, other: Self) -> bool {
+        self.0 & other.0 != 0
     }
 
     /// The bits of both.
@@ -68,8 +110,31 @@ impl Flags {
     }
 }
 
+impl std::ops::BitOr for Flags {
+    type Output = Self;
+
+    fn bitor(self, other: Self) -> Self {
+        self.with(other)
+    }
+}
+
+/// The names of the flags that are set, with commas between them; "none" where none is.
+impl fmt::Display for Flags {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        if self.0 == 0 {
+            return f.write_str("none");
+        }
+        let set = Self::NAMES.iter().filter(|(flag, _)| self.contains(*flag));
+        for (i, (_, name)) in set.enumerate() {
+            write!(f, "{}{name}", if i == 0 { "" } else { ", " })?;
+        }
+        Ok(())
+    }
+}
+
 /// The answer for one pair, world axes, lengths in the caller's unit. What does not apply is NaN.
 #[derive(Clone, Copy, Debug)]
+#[non_exhaustive]
 pub struct Contact {
     /// Separated or overlapping.
     pub kind: Kind,
@@ -79,7 +144,7 @@ pub struct Contact {
     pub back_end: BackEnd,
     /// What else is to be known.
     pub flags: Flags,
-    /// Pairs of quadratics solved (fast) or interior-point iterations (conic).
+    /// Pairs of quadratics solved; interior-point iterations of the conic back end.
     pub iterations: u32,
     /// Midway: t. Closest: s_A at P2. Rejected: a proved lower bound, ≥ 1.
     pub s: f64,
@@ -178,7 +243,7 @@ impl LocalContact {
 
     /// Closest: overlap distance |P1 − P2|, contact point their weighted mean, normal from the gradients
     /// of A at P1 and of B at P2.
-    pub fn closest(pair: &Pair, [p1, p2]: &[ClosestPoint; 2], weight_on_a: f64, overlapping: bool) -> Self {
+    pub fn closest(pair: &Pair, [p1, p2]: &[CertifiedPoint; 2], weight_on_a: f64, overlapping: bool) -> Self {
         let across =
             Across::of(pair, &[p1.gradients[0], p2.gradients[1]], [p1.gradient_norms[0], p2.gradient_norms[1]]);
         let way = p1.x - p2.x;

@@ -11,12 +11,13 @@ use crate::pair::separation_tests::{self, Apart};
 use crate::pair::warm_start::{Memory, Remembered};
 use crate::particle::particle::Particle;
 use crate::settings::{BackEnd, Formulation, Settings, SettingsError};
-use crate::solver::call::{Call, ClosestPoint, SolveError};
+use crate::solver::call::{Call, CertifiedPoint, SolveError};
 use nalgebra::Vector3;
 use thiserror::Error;
 
 /// Why there is no answer.
 #[derive(Clone, Debug, Error)]
+#[non_exhaustive]
 pub enum DetectError {
     /// A setting is out of range.
     #[error(transparent)]
@@ -26,6 +27,24 @@ pub enum DetectError {
     Failed {
         /// What stopped the last solver.
         reason: String,
+    },
+    /// A pair of a batch names a body that is not there.
+    #[error("body {index} does not exist: there are {bodies}, counted from 0")]
+    NoSuchBody {
+        /// As given.
+        index: u32,
+        /// How many there are.
+        bodies: usize,
+    },
+    /// The arguments of a batch do not fit together.
+    #[error("{given} {what} given where {expected} are needed")]
+    Length {
+        /// Of what.
+        what: &'static str,
+        /// How many were given.
+        given: usize,
+        /// How many are needed.
+        expected: usize,
     },
 }
 
@@ -39,6 +58,18 @@ impl From<SolveError> for DetectError {
 ///
 /// `memory` is what this ordered pair remembers between calls: read, and updated on success.
 ///
+/// ```
+/// use potential_particles::{Kind, Memory, Particle, Pose, Settings, detect};
+/// let ball = Particle::sphere(1.0)?;
+/// let (left, right) = (Pose::at([0.0, 0.0, 0.0])?, Pose::at([1.5, 0.0, 0.0])?);
+/// let mut memory = Memory::default();
+/// let contact = detect(&ball, &left, &ball, &right, &Settings::default(), Some(&mut memory))?;
+/// assert_eq!(contact.kind, Kind::Overlapping);
+/// assert!((contact.s - 0.75).abs() <= contact.gap && (contact.overlap - 0.5).abs() < 1e-12);
+/// assert!((contact.normal.x - 1.0).abs() < 1e-12);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
 /// # Errors
 /// A setting out of range, or no answer from any solver.
 pub fn detect(
@@ -49,19 +80,33 @@ pub fn detect(
     settings: &Settings,
     memory: Option<&mut Memory>,
 ) -> Result<Contact, DetectError> {
+    detect_as((a, pose_a), (b, pose_b), settings, memory, |contact| contact)
+}
+
+/// The whole of [`detect()`], for every entry that gives a contact another form. `answer` makes that form where the contact
+/// comes into being: a contact is large, and most pairs of a scene end with a cheap proof, where copying it would take longer
+/// than finding it.
+#[inline(always)]
+pub(crate) fn detect_as<T>(
+    a: (&Particle, &Pose),
+    b: (&Particle, &Pose),
+    settings: &Settings,
+    memory: Option<&mut Memory>,
+    answer: impl Fn(Contact) -> T,
+) -> Result<T, DetectError> {
     settings.validate()?;
     let last = memory.as_deref().and_then(|memory| memory.last);
     let rejected = |Apart { by, distance }: Apart| {
         let flags = by.with(Flags::REJECTED);
-        Ok(Contact { flags, distance, ..Contact::separated(settings.formulation, 1.0) })
+        Ok(answer(Contact { flags, distance, ..Contact::separated(settings.formulation, 1.0) }))
     };
-    begin((a, pose_a), (b, pose_b), settings, last, rejected, |pair| solved(pair, pose_b, settings, memory))
+    begin(a, b, settings, last, rejected, |pair| solved(pair, b.1, settings, memory).map(&answer))
 }
 
 /// The contact of a pair that no cheap proof holds apart. In a frame of its own: it is large, and most pairs of a scene
 /// need none.
 #[inline(never)]
-pub(crate) fn solved(
+fn solved(
     pair: &Pair,
     pose_b: &Pose,
     settings: &Settings,
@@ -79,10 +124,8 @@ pub(crate) fn solved(
         None => call.cold(),
     };
     let mut model = call.model(&start, Problem::Midway);
-    if settings.formulation == Formulation::Closest
-        && let Some(last) = last.filter(|last| last.overlapping)
-        && let Some(points) = call.both_from_memory(&last, &model)
-    {
+    let overlapped = last.filter(|last| last.overlapping && settings.formulation == Formulation::Closest);
+    if let Some(points) = overlapped.and_then(|last| call.both_from_memory(&last, &model)) {
         remember(memory, midway_between(&points));
         let local = LocalContact::closest(pair, &points, settings.weight_on_a, true);
         return Ok(local.placed(pair, pose_b, call.summary()));
@@ -98,7 +141,8 @@ pub(crate) fn solved(
     if !separated && scale.s >= 1.0 && scale.low < 1.0 && settings.flat_regularisation > least {
         // Where the bulge of a raised regularisation may hide an overlap, the particles as they are decide.
         let settings = Settings { flat_regularisation: least, ..*settings };
-        return solved(pair, pose_b, &settings, memory);
+        let contact = solved(pair, pose_b, &settings, memory)?;
+        return Ok(Contact { flags: contact.flags.with(Flags::DEFAULT_REGULARISATION), ..contact });
     }
     let overlapping = !separated && scale.s < 1.0;
     let mut remembered = Remembered { x: midway.x, lambda: midway.lambda, overlapping, closest: [1.0; 2] };
@@ -129,13 +173,13 @@ pub(crate) fn solved(
 }
 
 /// What to remember of P1 and P2 with the place and λ of midway, where S_A and S_B have these values.
-fn seen_from(midway: Remembered, values: [f64; 2], [p1, p2]: &[ClosestPoint; 2]) -> Remembered {
+fn seen_from(midway: Remembered, values: [f64; 2], [p1, p2]: &[CertifiedPoint; 2]) -> Remembered {
     let [of_p1, of_p2] = dual_path::closest_from_between(values, midway.lambda);
     Remembered { closest: [p1.lambda / of_p1, p2.lambda / of_p2], ..midway }
 }
 
 /// What to remember of P1 and P2 alone of a pair that overlaps: a place between them and a λ that come near those of midway.
-fn midway_between(points: &[ClosestPoint; 2]) -> Remembered {
+fn midway_between(points: &[CertifiedPoint; 2]) -> Remembered {
     let [p1, p2] = points;
     let square = (p1.lambda * p1.scale.s) * (p2.lambda / p2.scale.s);
     // On the way from one to the other S is the same quadratic.
@@ -154,7 +198,7 @@ fn remember(memory: Option<&mut Memory>, remembered: Remembered) {
 /// What is made of a cheap proof of separation, if one succeeds and will do; else of the pair in one frame, which is not given
 /// back, since copying it takes a twentieth of a warm call.
 #[inline(always)]
-pub(crate) fn begin<T>(
+fn begin<T>(
     a: (&Particle, &Pose),
     b: (&Particle, &Pose),
     settings: &Settings,
@@ -181,14 +225,14 @@ pub(crate) fn begin<T>(
 }
 
 /// Both closest points; midway lies between them. `None` where a constraint is slack, which is flagged.
-fn closest(call: &mut Call, midway: &Solution, model: &LocalModel) -> Result<Option<[ClosestPoint; 2]>, DetectError> {
+fn closest(call: &mut Call, midway: &Solution, model: &LocalModel) -> Result<Option<[CertifiedPoint; 2]>, DetectError> {
     if let Some(both) = call.both_from_midway(midway, model) {
         return Ok(Some(both));
     }
-    if let Some(p2) = call.closest_point(Problem::OnB, Some((midway, model)))?
-        && let Some(p1) = call.closest_point(Problem::OnA, Some((midway, model)))?
-    {
-        return Ok(Some([p1, p2]));
+    if let Some(p2) = call.closest_point(Problem::OnB, Some((midway, model)))? {
+        if let Some(p1) = call.closest_point(Problem::OnA, Some((midway, model)))? {
+            return Ok(Some([p1, p2]));
+        }
     }
     call.flags.insert(Flags::SLACK);
     Ok(None)

@@ -5,5 +5,6 @@ pub mod extended_body;
 pub mod placed_particle;
 pub mod pose;
 pub mod relative_pose;
+pub mod role;
 pub mod separation_tests;
 pub mod warm_start;

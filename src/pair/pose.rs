@@ -20,7 +20,19 @@ pub enum PoseError {
 /// Largest error of an entry of RᵀR − 1 at which R still counts as a rotation that was rounded or stored in few digits.
 const ORTHONORMAL: f64 = 1e-6;
 
-/// Where a body is: world = rotation · local + position.
+/// Where a body is: world = rotation · local + position. There is no invalid pose: every constructor checks.
+///
+/// ```
+/// use nalgebra::{Isometry3, Vector3};
+/// use potential_particles::Pose;
+/// // A quarter turn about z, from a quaternion (w, x, y, z) of any length, or from nalgebra's isometry.
+/// let pose = Pose::new([1.0, 2.0, 3.0], [2.0, 0.0, 0.0, 2.0])?;
+/// assert_eq!(pose.rotate(&Vector3::x()), Vector3::y());
+/// let same = Isometry3::new(Vector3::new(1.0, 2.0, 3.0), Vector3::z() * std::f64::consts::FRAC_PI_2);
+/// assert!((Pose::try_from(&same)?.rotation() - pose.rotation()).norm() < 1e-15);
+/// assert!(Pose::new([f64::NAN, 0.0, 0.0], [1.0, 0.0, 0.0, 0.0]).is_err());
+/// # Ok::<(), potential_particles::PoseError>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pose {
     position: Vector3<f64>,

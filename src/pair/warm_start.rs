@@ -5,6 +5,21 @@ use nalgebra::Vector3;
 /// The last solution of a pair, from which the next call starts.
 ///
 /// It is a hint only: any content, even of another pair, leaves the answer within its gap.
+///
+/// ```
+/// use potential_particles::{Flags, Memory, Particle, Pose, Settings, detect};
+/// let ball = Particle::sphere(1.0)?;
+/// let here = Pose::at([0.0, 0.0, 0.0])?;
+/// let mut memory = Memory::default();
+/// for step in 0..3 {
+///     let there = Pose::at([1.5, 0.0, 1e-3 * f64::from(step)])?;
+///     let contact = detect(&ball, &here, &ball, &there, &Settings::default(), Some(&mut memory))?;
+///     assert_eq!(contact.flags.contains(Flags::WARM), step > 0);
+/// }
+/// // As numbers, to save with a simulation.
+/// assert_eq!(Memory::from_raw(memory.into_raw()), memory);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Memory {
     pub(crate) last: Option<Remembered>,

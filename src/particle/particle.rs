@@ -10,6 +10,27 @@ use nalgebra::{Matrix3, Vector3};
 use std::ops::Deref;
 
 /// A validated potential particle, immutable; share it freely between threads and bodies.
+///
+/// ```
+/// use potential_particles::{Particle, Plane};
+/// // A tetrahedron of four planes at a distance of 0.9, its edges and corners rounded by r = 0.1.
+/// let normals = [[1.0, 1.0, 1.0], [1.0, -1.0, -1.0], [-1.0, 1.0, -1.0], [-1.0, -1.0, 1.0]];
+/// let length = f64::sqrt(3.0);
+/// let planes = normals.map(|[a, b, c]| Plane::from([a / length, b / length, c / length, 0.9]));
+/// let tetrahedron = Particle::new(&planes, 0.1, 0.0, 1.0)?;
+/// assert!(tetrahedron.potential(&[0.0, 0.0, 0.0].into()) < 0.0);
+/// // Volume and inertia of unit density: between those of the tetrahedra of planes at 0.9 and at 1.
+/// let sharp = |height: f64| 8.0 * f64::sqrt(3.0) * height.powi(3);
+/// let mass = tetrahedron.mass_properties();
+/// assert!(mass.volume > sharp(0.9) && mass.volume < sharp(1.0) && mass.centroid.norm() < 1e-3);
+/// // Planes are refused with the reason.
+/// let error = Particle::new(&planes[..3], 0.1, 0.0, 1.0).unwrap_err();
+/// assert!(error.to_string().contains("do not enclose a volume"), "{error}");
+///
+/// let ball = Particle::sphere(2.0)?;
+/// assert!(ball.potential(&[0.0, 2.0, 0.0].into()).abs() < 1e-12 && ball.bounding_radius() >= 2.0);
+/// # Ok::<(), potential_particles::ParticleError>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct Particle {
     shape: Shape,

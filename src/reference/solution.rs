@@ -1,5 +1,6 @@
 //! What a cone program gives, or why it gives nothing.
 
+pub use crate::pair::role::Role;
 use nalgebra::Vector3;
 use thiserror::Error;
 
@@ -14,15 +15,6 @@ pub struct ConicSolution {
     pub weight: f64,
     /// Interior-point iterations, summed over all passes.
     pub iterations: u32,
-}
-
-/// One of the two particles of a pair.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Role {
-    /// The first particle.
-    A,
-    /// The second particle, whose frame is used.
-    B,
 }
 
 /// Why a cone program gave no answer.

@@ -34,6 +34,16 @@ use nalgebra::Vector3;
 use plane_section::{Failure, PlaneSection};
 
 /// A plane through the contact point, at right angles to the contact normal, world axes.
+///
+/// ```
+/// use potential_particles::{Particle, Pose, Section, Settings, detect};
+/// let ball = Particle::sphere(1.0)?;
+/// let (left, right) = (Pose::at([0.0, 0.0, 0.0])?, Pose::at([1.2, 0.0, 0.0])?);
+/// let contact = detect(&ball, &left, &ball, &right, &Settings::default(), None)?;
+/// let area = Section::from(&contact).area(&ball, &left, &ball, &right, 1e-6).expect("an overlapping contact");
+/// assert!((area - std::f64::consts::PI * 0.64).abs() < 1e-12);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Section {
     /// Contact point minus position of A.
@@ -42,6 +52,13 @@ pub struct Section {
     pub branch_b: Vector3<f64>,
     /// Unit normal of the plane.
     pub normal: Vector3<f64>,
+}
+
+impl From<&crate::Contact> for Section {
+    /// Of an overlapping contact.
+    fn from(contact: &crate::Contact) -> Self {
+        Self { branch_a: contact.branch_a, branch_b: contact.branch_b, normal: contact.normal }
+    }
 }
 
 impl Section {

@@ -16,8 +16,9 @@ use crate::model::problem::Problem;
 use crate::model::quadratic_model;
 use crate::pair::placed_particle::Body;
 use crate::pair::relative_pose::Pair;
+use crate::pair::role::Role;
 use crate::pair::warm_start::Remembered;
-use crate::reference::{self, ConicError, Role};
+use crate::reference::{self, ConicError};
 use crate::settings::{BackEnd, Settings};
 use crate::solver::newton::{self, Goal};
 use crate::solver::{extended, initial_guess};
@@ -40,7 +41,7 @@ pub(crate) enum SolveError {
 }
 
 /// One of the closest points, with its bounds.
-pub(crate) struct ClosestPoint {
+pub(crate) struct CertifiedPoint {
     pub x: Vector3<f64>,
     /// Ratio of weights λ = u/(1−u).
     pub lambda: f64,
@@ -208,7 +209,7 @@ impl<'a> Call<'a> {
         &mut self,
         problem: Problem,
         midway: Option<(&Solution, &LocalModel)>,
-    ) -> Result<Option<ClosestPoint>, SolveError> {
+    ) -> Result<Option<CertifiedPoint>, SolveError> {
         let clearly_outside = midway.is_some_and(|(midway, _)| self.centre_is_outside(problem, midway));
         if !clearly_outside && self.centre_is_inside(problem) {
             return Ok(None);
@@ -234,7 +235,7 @@ impl<'a> Call<'a> {
     /// P1 and P2 from the model at hand and what the last call left, where one step is enough for both and either scale
     /// tells that the particles overlap: midway is then needed neither for that nor as a start.
     #[inline(never)]
-    pub fn both_from_memory(&mut self, last: &Remembered, model: &LocalModel) -> Option<[ClosestPoint; 2]> {
+    pub fn both_from_memory(&mut self, last: &Remembered, model: &LocalModel) -> Option<[CertifiedPoint; 2]> {
         let values = [model.q_a.expansion, model.q_b.expansion];
         let [of_p1, of_p2] = dual_path::closest_from_between(values, last.lambda);
         let lambdas = [last.closest[0] * of_p1, last.closest[1] * of_p2];
@@ -243,7 +244,7 @@ impl<'a> Call<'a> {
 
     /// P1 and P2 from midway and its model, where one step is enough for both.
     #[inline(never)]
-    pub fn both_from_midway(&mut self, midway: &Solution, model: &LocalModel) -> Option<[ClosestPoint; 2]> {
+    pub fn both_from_midway(&mut self, midway: &Solution, model: &LocalModel) -> Option<[CertifiedPoint; 2]> {
         self.both([midway.towards(Problem::OnA), midway.towards(Problem::OnB)], model, |_| true)
     }
 
@@ -253,8 +254,8 @@ impl<'a> Call<'a> {
         &mut self,
         lambdas: [f64; 2],
         model: &LocalModel,
-        will_do: impl Fn(&ClosestPoint) -> bool,
-    ) -> Option<[ClosestPoint; 2]> {
+        will_do: impl Fn(&CertifiedPoint) -> bool,
+    ) -> Option<[CertifiedPoint; 2]> {
         if !self.may_take_one_step() {
             return None;
         }
@@ -290,10 +291,10 @@ impl<'a> Call<'a> {
         }
     }
 
-    fn certified(&self, problem: Problem, solution: &Solution, model: &LocalModel) -> ClosestPoint {
+    fn certified(&self, problem: Problem, solution: &Solution, model: &LocalModel) -> CertifiedPoint {
         let Solution { x, lambda, gradients, gradient_norms, values, .. } = *solution;
         let bound = self.point_bound(solution, model, problem);
-        ClosestPoint { x, lambda, gradients, gradient_norms, values, scale: self.scale(solution, problem), bound }
+        CertifiedPoint { x, lambda, gradients, gradient_norms, values, scale: self.scale(solution, problem), bound }
     }
 
     /// The scale s of a solution, and the bound on its error.

@@ -2,7 +2,21 @@
 #include "check.h"
 #include "tests.h"
 
+/* The library was compiled with the same structs as this program. */
+static void sizes_are_those_of_the_library(void) {
+    CHECK(pp_struct_size(PP_STRUCT_POSE) == sizeof(pp_pose));
+    CHECK(pp_struct_size(PP_STRUCT_SETTINGS) == sizeof(pp_settings));
+    CHECK(pp_struct_size(PP_STRUCT_MEMORY) == sizeof(pp_memory));
+    CHECK(pp_struct_size(PP_STRUCT_CONTACT) == sizeof(pp_contact));
+    CHECK(pp_struct_size(PP_STRUCT_CLOSEST) == sizeof(pp_closest));
+    CHECK(pp_struct_size(PP_STRUCT_MASS_PROPERTIES) == sizeof(pp_mass_properties));
+    CHECK(pp_struct_size(PP_STRUCT_POSE_2D) == sizeof(pp_pose_2d));
+    CHECK(pp_struct_size(PP_STRUCT_CONTACT_2D) == sizeof(pp_contact_2d));
+    CHECK(pp_struct_size(0) == 0 && pp_struct_size(9) == 0 && pp_struct_size(UINT32_MAX) == 0);
+}
+
 void test_layout(void) {
+    sizes_are_those_of_the_library();
     CHECK(sizeof(pp_status) == 4);
     CHECK((pp_status)-1 < 0);
 
@@ -19,7 +33,7 @@ void test_layout(void) {
     CHECK(offsetof(pp_settings, weight_on_a) == 24);
     CHECK(offsetof(pp_settings, flat_regularisation) == 32);
 
-    CHECK(sizeof(pp_memory) == 64);
+    CHECK(sizeof(pp_memory) == 128);
     CHECK(offsetof(pp_memory, state) == 0);
 
     CHECK(sizeof(pp_contact) == 224);
@@ -42,6 +56,16 @@ void test_layout(void) {
     CHECK(offsetof(pp_contact, point_on_a) == 168);
     CHECK(offsetof(pp_contact, point_on_b) == 192);
     CHECK(offsetof(pp_contact, distance) == 216);
+
+    CHECK(sizeof(pp_closest) == 104);
+    CHECK(offsetof(pp_closest, slack) == 0);
+    CHECK(offsetof(pp_closest, reserved) == 4);
+    CHECK(offsetof(pp_closest, s) == 8);
+    CHECK(offsetof(pp_closest, gap) == 16);
+    CHECK(offsetof(pp_closest, point_bound) == 24);
+    CHECK(offsetof(pp_closest, point) == 32);
+    CHECK(offsetof(pp_closest, branch_a) == 56);
+    CHECK(offsetof(pp_closest, branch_b) == 80);
 
     CHECK(sizeof(pp_mass_properties) == 80);
     CHECK(offsetof(pp_mass_properties, volume) == 0);

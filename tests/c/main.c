@@ -1,5 +1,5 @@
 /* Every function and every status of potential_particles.h, as a C caller meets them; with the argument
- * "threads", only what many threads do at once. */
+ * "threads", only what many threads do at once, with "batch", only the threads of the library. */
 #include "check.h"
 #include "tests.h"
 
@@ -13,19 +13,26 @@ int main(int count, char **arguments) {
         test_threads();
         return check_report();
     }
+    if (count > 1 && strcmp(arguments[1], "batch") == 0) {
+        test_batch();
+        return check_report();
+    }
     test_layout();
     test_status();
     test_particle();
     test_query();
+    test_definition();
     test_pose();
     test_settings();
     test_sphere_contact();
     test_cube_contact();
     test_area();
+    test_closest();
     test_memory();
     test_hostile();
     test_symmetry();
     test_threads();
+    test_batch();
     test_planar();
     return check_report();
 }

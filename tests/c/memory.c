@@ -56,7 +56,7 @@ static void memory_of_other_pairs(const pair_set *set) {
 static void memory_of_any_bytes(const pair_set *set) {
     pp_settings settings = settings_for(&ways[0]);
     const double values[] = {NAN, INFINITY, -INFINITY, 1e300, -1e-300, 0.5, 1.0, -1.0, DBL_MAX, DBL_TRUE_MIN};
-    enum { VALUES = sizeof values / sizeof values[0] };
+    enum { VALUES = sizeof values / sizeof values[0], NUMBERS = sizeof((pp_memory *)0)->state / sizeof(double) };
     for (int i = 0; i < 8; i++) {
         pp_contact cold = detect(&set->pairs[i], &settings, NULL);
         pp_memory filled = {{0}};
@@ -64,11 +64,11 @@ static void memory_of_any_bytes(const pair_set *set) {
         for (int v = 0; v < VALUES; v++) {
             check_case("pair %d, memory full of %g", i, values[v]);
             pp_memory spoilt;
-            for (int j = 0; j < 8; j++) spoilt.state[j] = values[v];
+            for (int j = 0; j < NUMBERS; j++) spoilt.state[j] = values[v];
             pp_contact contact = detect(&set->pairs[i], &settings, &spoilt);
             check_same_answer(&contact, &cold);
             /* One number of a true memory spoilt, so that the rest is believed. */
-            for (int j = 0; j < 8; j++) {
+            for (int j = 0; j < NUMBERS; j++) {
                 check_case("pair %d, memory with number %d = %g", i, j, values[v]);
                 spoilt = filled;
                 spoilt.state[j] = values[v];
@@ -87,10 +87,21 @@ static void memory_of_any_bytes(const pair_set *set) {
     check_case(NULL);
 }
 
+/* Room to grow: what this library does not use is written as 0, whatever was there. */
+static void reserved_numbers_are_zero(const pair_set *set) {
+    pp_settings settings = settings_for(&ways[0]);
+    pp_memory memory;
+    memset(&memory, 0x5A, sizeof memory);
+    detect(&set->pairs[0], &settings, &memory);
+    CHECK(memory.state[0] == 1);
+    for (int j = 8; j < 16; j++) CHECK(memory.state[j] == 0);
+}
+
 void test_memory(void) {
     pair_set set;
     pairs_new(&set);
     memory_of_other_pairs(&set);
     memory_of_any_bytes(&set);
+    reserved_numbers_are_zero(&set);
     pairs_free(&set);
 }

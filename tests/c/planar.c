@@ -18,7 +18,7 @@ static void layout_is_as_written_down(void) {
     CHECK(offsetof(pp_pose_2d, position) == 0);
     CHECK(offsetof(pp_pose_2d, angle) == 16);
 
-    CHECK(sizeof(pp_contact_2d) == 168);
+    CHECK(sizeof(pp_contact_2d) == 176);
     CHECK(offsetof(pp_contact_2d, kind) == 0);
     CHECK(offsetof(pp_contact_2d, formulation) == 4);
     CHECK(offsetof(pp_contact_2d, back_end) == 8);
@@ -37,6 +37,7 @@ static void layout_is_as_written_down(void) {
     CHECK(offsetof(pp_contact_2d, branch_b) == 120);
     CHECK(offsetof(pp_contact_2d, point_on_a) == 136);
     CHECK(offsetof(pp_contact_2d, point_on_b) == 152);
+    CHECK(offsetof(pp_contact_2d, distance) == 168);
 }
 
 /* Four lines x, y = +-core. */
@@ -374,6 +375,9 @@ static void memory_and_rejection(void) {
     CHECK_STATUS(pp_contact_detect_2d(square, &home, square, &far, NULL, NULL, &apart), PP_OK);
     CHECK(apart.kind == PP_SEPARATED && (apart.flags & PP_FLAG_REJECTED) && apart.s >= 1);
     CHECK(isnan(apart.weight) && isnan(apart.point_bound) && isnan(apart.normal[0]) && isnan(apart.point[1]) && isnan(apart.branch_a[0]));
+    /* The distance is proved: no more than the true one, and more than nothing at thirty half sizes. */
+    CHECK(apart.distance > 20 && apart.distance < 28);
+    CHECK(isnan(cold.distance));
     pp_particle_free_2d(square);
 }
 

@@ -20,6 +20,8 @@ static const struct {
     {PP_SOLVER_FAILED, 8},
     {PP_INTERNAL_ERROR, 9},
     {PP_BUFFER_TOO_SMALL, 10},
+    {PP_NO_CONIC, 11},
+    {PP_BAD_INDEX, 12},
     {PP_PLANE_NOT_FINITE, 20},
     {PP_PLANE_ZERO_NORMAL, 21},
     {PP_BAD_SPHERICITY, 22},
@@ -52,7 +54,7 @@ static void every_code_has_its_own_sentence(void) {
 }
 
 static void other_codes_are_unknown(void) {
-    const pp_status others[] = {-1, 11, 19, 28, 1000, INT32_MAX, INT32_MIN};
+    const pp_status others[] = {-1, 13, 19, 28, 1000, INT32_MAX, INT32_MIN};
     for (size_t i = 0; i < sizeof others / sizeof others[0]; i++) {
         CHECK_TEXT(pp_status_message(others[i]), unknown);
     }
@@ -63,6 +65,7 @@ static void version_is_that_of_the_header(void) {
     snprintf(expected, sizeof expected, "%d.%d.%d", PP_VERSION_MAJOR, PP_VERSION_MINOR, PP_VERSION_PATCH);
     CHECK_TEXT(pp_version(), expected);
     CHECK(pp_version() == pp_version());
+    CHECK(pp_abi_version() == PP_ABI_VERSION);
 }
 
 void test_status(void) {

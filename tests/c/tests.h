@@ -6,15 +6,18 @@ void test_layout(void);
 void test_status(void);
 void test_particle(void);
 void test_query(void);
+void test_definition(void);
 void test_pose(void);
 void test_settings(void);
 void test_sphere_contact(void);
 void test_cube_contact(void);
 void test_area(void);
+void test_closest(void);
 void test_memory(void);
 void test_hostile(void);
 void test_symmetry(void);
 void test_threads(void);
+void test_batch(void);
 void test_planar(void);
 
 #endif

@@ -101,6 +101,11 @@ called = [word for word in undefined.stdout.split() if word.startswith("pp_") an
 said = import_with(library=compiled('const char *pp_version(void) { return "9.8.7"; }\n'
                                     + "".join(f"void {name}(void) {{}}\n" for name in called)))
 check.true("ImportError" in said and "9.8.7" in said and "build the plugin again" in said, f"another version: {said}")
+others = [name for name in called if name != "pp_abi_version"]
+said = import_with(library=compiled('const char *pp_version(void) { return "%s"; }\n' % module.library_version()
+                                    + "unsigned pp_abi_version(void) { return 999; }\n"
+                                    + "".join(f"void {name}(void) {{}}\n" for name in others)))
+check.true("ImportError" in said and "999" in said and "build the plugin again" in said, f"another binary interface: {said}")
 said = import_with(lambda binary: b"")
 check.true("ImportError" in said and "cmake --build" in said, f"empty plugin: {said}")
 

@@ -44,8 +44,10 @@ BOOST_PYTHON_MODULE(_glue)
         names.append(name);
     py::scope().attr("class_names") = names;
     py::scope().attr("header_version") = py::make_tuple(PP_VERSION_MAJOR, PP_VERSION_MINOR, PP_VERSION_PATCH);
+    py::scope().attr("header_abi") = PP_ABI_VERSION;
 
     py::def("library_version", &pp_version);
+    py::def("library_abi", &pp_abi_version);
     py::def("differences_of_layout", &differencesOfLayout);
     py::def("register_classes", &pp::registerClasses);
     py::def("stored_particles", &storedParticles);

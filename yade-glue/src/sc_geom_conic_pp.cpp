@@ -5,6 +5,7 @@
 #include "sc_geom_conic_pp.hpp"
 
 #include <boost/serialization/binary_object.hpp>
+#include <boost/serialization/version.hpp>
 
 #include <algorithm>
 
@@ -14,6 +15,9 @@ namespace {
     constexpr char doc[] = "Contact geometry of potential particles: an ScGeom that also remembers where the last solution\n"
                            "of this pair was, so that the next one starts there. Saved and loaded with the scene.";
     constexpr char digits[] = "0123456789abcdef";
+    // What a memory took up in files of class version 0; it was the first part of what it is now.
+    constexpr std::size_t oldSize = 64;
+    static_assert(oldSize < sizeof(pp_memory));
 }
 
 ScGeomConicPP::ScGeomConicPP() = default;
@@ -38,12 +42,12 @@ std::string ScGeomConicPP::pyMemory() const
 
 void ScGeomConicPP::pySetMemory(const std::string& hexadecimal)
 {
-    if (hexadecimal.size() != 2 * sizeof memory)
+    if (hexadecimal.size() != 2 * sizeof memory && hexadecimal.size() != 2 * oldSize)
         throw std::invalid_argument("memory: " + std::to_string(hexadecimal.size()) + " hexadecimal digits given, not "
                                     + std::to_string(2 * sizeof memory));
-    pp_memory next;
+    pp_memory next = { { 0 } };
     auto* bytes = reinterpret_cast<unsigned char*>(&next);
-    for (std::size_t i = 0; i < sizeof next; ++i) {
+    for (std::size_t i = 0; i < hexadecimal.size() / 2; ++i) {
         unsigned byte = 0;
         for (std::size_t j = 0; j < 2; ++j) {
             const auto* digit = std::find(digits, digits + 16, hexadecimal[2 * i + j]);
@@ -84,13 +88,16 @@ void ScGeomConicPP::pyRegisterClass(py::object scope)
                             "The library's memory of the pair, as hexadecimal digits.");
 }
 
-template <class Archive> void ScGeomConicPP::serialize(Archive& archive, unsigned)
+template <class Archive> void ScGeomConicPP::serialize(Archive& archive, unsigned version)
 {
     serializeBase<yade::ScGeom>(archive, *this, "ScGeom");
-    auto bytes = boost::serialization::make_binary_object(&memory, sizeof memory);
+    if (version == 0)
+        memory = { { 0 } };
+    auto bytes = boost::serialization::make_binary_object(&memory, version == 0 ? oldSize : sizeof memory);
     archive& boost::serialization::make_nvp("memory", bytes);
 }
 
 } // namespace potential_particles
 
+BOOST_CLASS_VERSION(potential_particles::ScGeomConicPP, 1)
 BOOST_CLASS_EXPORT(potential_particles::ScGeomConicPP)

@@ -156,10 +156,8 @@ pub(super) fn flips(verdict: &mut Verdict, scene: &Scene, contact: &Contact, sta
     let n = contact.normal;
     let rounding = 64.0 * EPS * scene.length + 4.0 * EPS * scene.far;
     let less = contact.overlap * (1.0 - 1e-3) - rounding;
-    if contact.kind == Kind::Overlapping
-        && less > 0.0
-        && let Some(after) = moved(verdict, scene, less * n, Kind::Overlapping, thorough)
-    {
+    let overlaps = contact.kind == Kind::Overlapping && less > 0.0;
+    if let Some(after) = overlaps.then(|| moved(verdict, scene, less * n, Kind::Overlapping, thorough)).flatten() {
         let doubt = after.gap + displaced(scene, &after, &(less * n));
         let right = after.kind == Kind::Overlapping || after.s - doubt <= 1.0;
         verdict.check(right, Failure::FlipsEarly, || {
@@ -168,10 +166,8 @@ pub(super) fn flips(verdict: &mut Verdict, scene: &Scene, contact: &Contact, sta
     }
     let apart = rounding + tangents(scene, contact, start);
     let apart = apart + 1e-3 * apart.abs();
-    if apart.is_finite()
-        && apart.abs() < 4.0 * scene.length
-        && let Some(after) = moved(verdict, scene, apart * n, Kind::Separated, thorough)
-    {
+    let sensible = apart.is_finite() && apart.abs() < 4.0 * scene.length;
+    if let Some(after) = sensible.then(|| moved(verdict, scene, apart * n, Kind::Separated, thorough)).flatten() {
         let doubt = after.gap + displaced(scene, &after, &(apart * n));
         let right = after.kind == Kind::Separated || after.s + doubt >= 1.0;
         verdict.check(right, Failure::FlipsLate, || {
@@ -249,9 +245,9 @@ fn tangents(scene: &Scene, contact: &Contact, start: &Vector3<f64>) -> f64 {
 pub(super) fn swapped(verdict: &mut Verdict, scene: &Scene, one: &Contact) {
     let answer = (scene.solver)(scene.b, &scene.at_b, scene.a, &scene.at_a, &FULL, None);
     match answer {
-        Ok(other) => {
+        Ok(mut other) => {
             // What was B is A now.
-            let other = Contact { branch_b: other.branch_a, ..other };
+            other.branch_b = other.branch_a;
             same(verdict, Failure::Swap, one, &other, scene);
         }
         Err(error) => verdict.fail(Failure::Error, format!("swapped: {error}")),

@@ -81,6 +81,10 @@ def _check_library(glue):
         raise ImportError(
             "potential_particles: the library is version %s, the plugin was built for %s; build the plugin again"
             % (glue.library_version(), header))
+    if glue.library_abi() != glue.header_abi:
+        raise ImportError(
+            "potential_particles: the library has binary interface %d, the plugin was built for %d; build the plugin again"
+            % (glue.library_abi(), glue.header_abi))
 
 
 def _register(yade, glue):

@@ -1,0 +1,68 @@
+//! Which library was loaded, and whether its structs are those that the caller was compiled with.
+
+use super::planar::{pp_contact_2d, pp_pose_2d};
+use super::types::{pp_closest, pp_contact, pp_mass_properties, pp_memory, pp_pose, pp_settings};
+use std::ffi::{CStr, c_char};
+
+/// Version of this header; compare with pp_version of the library that was loaded.
+pub const PP_VERSION_MAJOR: u32 = 0;
+/// Grows with additions (or, while the major version is 0, with any change of the interface).
+pub const PP_VERSION_MINOR: u32 = 1;
+/// Grows with corrections that leave the interface as it is.
+pub const PP_VERSION_PATCH: u32 = 0;
+
+/// Number of the binary interface: it grows by 1 whenever a program compiled with an older header could
+/// not use the library (a struct, a function or the meaning of a number has changed), and not with
+/// additions. A program that loads the library should refuse to go on unless pp_abi_version() ==
+/// PP_ABI_VERSION.
+pub const PP_ABI_VERSION: u32 = 1;
+
+/// struct pp_pose, for pp_struct_size.
+pub const PP_STRUCT_POSE: u32 = 1;
+/// struct pp_settings, for pp_struct_size.
+pub const PP_STRUCT_SETTINGS: u32 = 2;
+/// struct pp_memory, for pp_struct_size.
+pub const PP_STRUCT_MEMORY: u32 = 3;
+/// struct pp_contact, for pp_struct_size.
+pub const PP_STRUCT_CONTACT: u32 = 4;
+/// struct pp_closest, for pp_struct_size.
+pub const PP_STRUCT_CLOSEST: u32 = 5;
+/// struct pp_mass_properties, for pp_struct_size.
+pub const PP_STRUCT_MASS_PROPERTIES: u32 = 6;
+/// struct pp_pose_2d, for pp_struct_size.
+pub const PP_STRUCT_POSE_2D: u32 = 7;
+/// struct pp_contact_2d, for pp_struct_size.
+pub const PP_STRUCT_CONTACT_2D: u32 = 8;
+
+/// Version of the loaded library as "major.minor.patch". Static text: do not free it.
+#[unsafe(no_mangle)]
+pub extern "C" fn pp_version() -> *const c_char {
+    const VERSION: &CStr = match CStr::from_bytes_with_nul(concat!(env!("CARGO_PKG_VERSION"), "\0").as_bytes()) {
+        Ok(text) => text,
+        Err(_) => unreachable!(),
+    };
+    VERSION.as_ptr()
+}
+
+/// PP_ABI_VERSION of the loaded library.
+#[unsafe(no_mangle)]
+pub extern "C" fn pp_abi_version() -> u32 {
+    PP_ABI_VERSION
+}
+
+/// Size in bytes of a struct as the loaded library knows it (one of PP_STRUCT_...), to be compared with
+/// sizeof; 0 for a number it does not know. For languages that write the structs down themselves.
+#[unsafe(no_mangle)]
+pub extern "C" fn pp_struct_size(which: u32) -> usize {
+    match which {
+        PP_STRUCT_POSE => size_of::<pp_pose>(),
+        PP_STRUCT_SETTINGS => size_of::<pp_settings>(),
+        PP_STRUCT_MEMORY => size_of::<pp_memory>(),
+        PP_STRUCT_CONTACT => size_of::<pp_contact>(),
+        PP_STRUCT_CLOSEST => size_of::<pp_closest>(),
+        PP_STRUCT_MASS_PROPERTIES => size_of::<pp_mass_properties>(),
+        PP_STRUCT_POSE_2D => size_of::<pp_pose_2d>(),
+        PP_STRUCT_CONTACT_2D => size_of::<pp_contact_2d>(),
+        _ => 0,
+    }
+}

@@ -1,0 +1,74 @@
+//! The contacts of a whole step in one call.
+
+use super::contact::contact;
+use super::convert::{pose_from, settings_from, settings_status};
+use super::fence::{array, array_mut, borrow, fenced, outputs};
+use super::particle::pp_particle;
+use super::status::*;
+use super::types::*;
+use crate::contact::batch::{CHUNK, in_parallel, optional_chunks};
+
+/// Finds the contacts of many pairs of bodies: the way for a DEM program to hand over a whole step.
+///
+/// Body i is particles[i] at poses[i]; pair n is that of the bodies pairs[2n] (A) and pairs[2n+1] (B),
+/// counted from 0. What a pose costs is paid once for each body. Each contact and memory is, to the last
+/// bit, that of pp_contact_detect for the pair alone, whatever the number of threads.
+///
+/// particles, poses: body_count of each; several bodies may share a particle. A particle may be NULL and
+/// a pose may be bad: that is told by the statuses of the pairs that name such a body, if any.
+/// pairs: pair_count rows of two indices. settings: may be NULL (defaults); the same for all pairs.
+/// threads: how many work on it, the calling one among them: 0 and 1 mean the calling thread alone,
+/// more than 256 count as 256. Threads are started and ended within the call, which is worth its time from
+/// some thousand pairs on.
+/// memories: one for each pair, read and updated; may be NULL. contacts: one for each pair; written where
+/// its status is PP_OK. statuses: one for each pair, all of them written: as pp_contact_detect would return,
+/// or PP_BAD_INDEX for a body that is not there.
+/// The call itself returns PP_OK when it went through all pairs, whatever their statuses; an error means
+/// that nothing was written.
+/// Pointers: may be NULL where the count is 0. No array overlaps another, and memories, contacts and
+/// statuses are not used by another call at the same time.
+/// Errors: PP_NULL_POINTER, PP_UNKNOWN_FORMULATION, PP_UNKNOWN_BACK_END, PP_NO_CONIC, PP_BAD_SETTING,
+/// PP_BAD_INDEX (a count that no memory could hold).
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn pp_contact_detect_batch(
+    particles: *const *const pp_particle,
+    poses: *const pp_pose,
+    body_count: usize,
+    pairs: *const u32,
+    pair_count: usize,
+    settings: *const pp_settings,
+    threads: u32,
+    memories: *mut pp_memory,
+    contacts: *mut pp_contact,
+    statuses: *mut pp_status,
+) -> pp_status {
+    fenced(|| {
+        let (particles, poses) = unsafe { (array(particles, body_count)?, array(poses, body_count)?) };
+        let pairs = unsafe { array(pairs.cast::<[u32; 2]>(), pair_count) }?;
+        // SAFETY: exclusively ours for the call; NULL memories are none.
+        let memories = unsafe { array_mut(memories, if memories.is_null() { 0 } else { pair_count }) }?;
+        let (contacts, statuses) = unsafe { (outputs(contacts, pair_count)?, outputs(statuses, pair_count)?) };
+        let settings = settings_from(unsafe { settings.as_ref() })?;
+        settings.validate().map_err(|error| settings_status(&error))?;
+
+        // SAFETY: each is NULL or a particle.
+        let body = |(&particle, pose)| Ok((&unsafe { borrow::<pp_particle>(particle) }?.0, pose_from(pose)?));
+        let bodies: Vec<Result<_, pp_status>> = particles.iter().zip(poses).map(body).collect();
+        let find = |index: u32| match bodies.get(index as usize) {
+            Some(Ok((particle, pose))) => Ok((*particle, pose)),
+            Some(Err(status)) => Err(*status),
+            None => Err(PP_BAD_INDEX),
+        };
+
+        let outputs = contacts.chunks_mut(CHUNK).zip(statuses.chunks_mut(CHUNK));
+        let chunks = pairs.chunks(CHUNK).zip(optional_chunks(memories)).zip(outputs);
+        in_parallel(threads as usize, pair_count, chunks, |((pairs, memories), (contacts, statuses))| {
+            let mut memories = memories.iter_mut();
+            for ((&[i, j], out), status) in pairs.iter().zip(contacts).zip(statuses) {
+                let memory = memories.next();
+                status.write(fenced(|| contact(find(i)?, find(j)?, &settings, memory, out.into())));
+            }
+        });
+        Ok(())
+    })
+}

@@ -1,0 +1,162 @@
+//! The one conversion of each plain struct of the C interface to the Rust type, or back.
+
+use super::status::*;
+use super::types::*;
+use crate::{
+    BackEnd, ClosestPoint, Contact, DetectError, Formulation, Kind, Memory, Pose, PoseError, Settings, SettingsError,
+};
+use nalgebra::Vector3;
+
+#[inline]
+pub(super) fn pose_from(pose: &pp_pose) -> Result<Pose, pp_status> {
+    Pose::new(pose.position, pose.orientation).map_err(|error| match error {
+        PoseError::Position(..) => PP_BAD_POSITION,
+        PoseError::Orientation(..) | PoseError::Rotation(_) => PP_BAD_ORIENTATION,
+    })
+}
+
+/// A point or direction.
+pub(super) fn finite(v: &[f64; 3]) -> Result<Vector3<f64>, pp_status> {
+    if v.iter().all(|c| c.is_finite()) { Ok(Vector3::from(*v)) } else { Err(PP_BAD_POINT) }
+}
+
+pub(super) fn settings_to(settings: &Settings) -> pp_settings {
+    pp_settings {
+        formulation: formulation_code(settings.formulation),
+        back_end: back_end_code(settings.back_end),
+        solve_separated: settings.solve_separated.into(),
+        reserved: 0,
+        gap_tolerance: settings.gap_tolerance,
+        weight_on_a: settings.weight_on_a,
+        flat_regularisation: settings.flat_regularisation,
+    }
+}
+
+/// The defaults for `None`; ranges are checked by whoever uses the settings.
+///
+/// Always inlined: given back through memory byte by byte and read again as words, they cost a cheap rejection a tenth of its
+/// time.
+#[inline(always)]
+pub(super) fn settings_from(settings: Option<&pp_settings>) -> Result<Settings, pp_status> {
+    let Some(settings) = settings else { return Ok(Settings::default()) };
+    if settings.solve_separated > 1 || settings.reserved != 0 {
+        return Err(PP_BAD_SETTING);
+    }
+    Ok(Settings {
+        formulation: match settings.formulation {
+            PP_MIDWAY => Formulation::Midway,
+            PP_CLOSEST => Formulation::Closest,
+            _ => return Err(PP_UNKNOWN_FORMULATION),
+        },
+        back_end: match settings.back_end {
+            PP_FAST => BackEnd::Fast,
+            PP_CONIC => BackEnd::Conic,
+            _ => return Err(PP_UNKNOWN_BACK_END),
+        },
+        solve_separated: settings.solve_separated == 1,
+        gap_tolerance: settings.gap_tolerance,
+        weight_on_a: settings.weight_on_a,
+        flat_regularisation: settings.flat_regularisation,
+    })
+}
+
+/// Numbers of a memory that the library uses today; the rest is written as 0 and not read.
+const USED: usize = 8;
+
+#[inline]
+pub(super) fn memory_from(memory: &pp_memory) -> Memory {
+    let mut used = [0.0; USED];
+    used.copy_from_slice(&memory.state[..USED]);
+    Memory::from_raw(used)
+}
+
+#[inline]
+pub(super) fn memory_to(memory: Memory) -> pp_memory {
+    let mut state = [0.0; 16];
+    state[..USED].copy_from_slice(&memory.into_raw());
+    pp_memory { state }
+}
+
+#[inline(always)]
+pub(super) fn contact_to(contact: &Contact) -> pp_contact {
+    pp_contact {
+        kind: kind_code(contact.kind),
+        formulation: formulation_code(contact.formulation),
+        back_end: back_end_code(contact.back_end),
+        flags: contact.flags.bits(),
+        iterations: contact.iterations,
+        reserved: 0,
+        s: contact.s,
+        s_b: contact.s_b,
+        weight: contact.weight,
+        gap: contact.gap,
+        point_bound: contact.point_bound,
+        overlap: contact.overlap,
+        normal: contact.normal.into(),
+        point: contact.point.into(),
+        branch_a: contact.branch_a.into(),
+        branch_b: contact.branch_b.into(),
+        point_on_a: contact.point_on_a.into(),
+        point_on_b: contact.point_on_b.into(),
+        distance: contact.distance,
+    }
+}
+
+pub(super) fn closest_to(closest: Option<ClosestPoint>) -> pp_closest {
+    match closest {
+        Some(ClosestPoint { s, gap, point, branch_a, branch_b, point_bound }) => pp_closest {
+            slack: 0,
+            reserved: 0,
+            s,
+            gap,
+            point_bound,
+            point: point.into(),
+            branch_a: branch_a.into(),
+            branch_b: branch_b.into(),
+        },
+        None => {
+            let nan = [f64::NAN; 3];
+            let [s, gap, point_bound] = nan;
+            pp_closest { slack: 1, reserved: 0, s, gap, point_bound, point: nan, branch_a: nan, branch_b: nan }
+        }
+    }
+}
+
+pub(super) fn detect_status(error: &DetectError) -> pp_status {
+    match error {
+        DetectError::Settings(error) => settings_status(error),
+        DetectError::Failed { .. } => PP_SOLVER_FAILED,
+        DetectError::NoSuchBody { .. } | DetectError::Length { .. } => PP_BAD_INDEX,
+    }
+}
+
+pub(super) fn settings_status(error: &SettingsError) -> pp_status {
+    match error {
+        SettingsError::NoConic => PP_NO_CONIC,
+        _ => PP_BAD_SETTING,
+    }
+}
+
+#[inline]
+pub(super) fn kind_code(kind: Kind) -> i32 {
+    match kind {
+        Kind::Separated => PP_SEPARATED,
+        Kind::Overlapping => PP_OVERLAPPING,
+    }
+}
+
+#[inline]
+pub(super) fn formulation_code(formulation: Formulation) -> u32 {
+    match formulation {
+        Formulation::Midway => PP_MIDWAY,
+        Formulation::Closest => PP_CLOSEST,
+    }
+}
+
+#[inline]
+pub(super) fn back_end_code(back_end: BackEnd) -> u32 {
+    match back_end {
+        BackEnd::Fast => PP_FAST,
+        BackEnd::Conic => PP_CONIC,
+    }
+}

@@ -1,0 +1,129 @@
+//! Creation and release of particles of the plane, and the definition that they were created from.
+
+use crate::ParticleError;
+use crate::capi::fence::{array, borrow, fenced, output, write_rows};
+use crate::capi::particle::{PP_MAX_PLANES, particle_status, write_message};
+use crate::capi::status::*;
+use crate::planar::{Line, Particle};
+use std::ffi::c_char;
+
+/// A validated particle of the plane. Created by pp_particle_new_2d, released by
+/// pp_particle_free_2d; immutable, so that bodies and threads may share one.
+pub struct pp_particle_2d(pub(super) Particle);
+
+/// Creates a particle of the plane from count lines a x + b y = d.
+///
+/// With S(x) = (1-k)/r^2 * sum <a x + b y - d>^2 + k/R^2 * |x|^2 all else is as in
+/// pp_particle_new, and the codes of planes stand for lines.
+/// lines: count rows of a, b, d (outward normal and offset; local frame; the normal is used as
+/// given). May be NULL when count is 0.
+/// r: rounding radius, length. k: sphericity, in [0, 1]. shadow_radius: R, length.
+/// out: receives the particle; release it with pp_particle_free_2d.
+/// message: receives, on failure, a sentence that names the line or value (may be NULL).
+/// Errors: PP_NULL_POINTER, PP_PLANE_NOT_FINITE, PP_PLANE_ZERO_NORMAL, PP_BAD_SPHERICITY,
+/// PP_BAD_ROUNDING_RADIUS, PP_BAD_SHADOW_RADIUS, PP_CENTRE_OUTSIDE, PP_UNBOUNDED (k = 0 and
+/// the lines enclose no area), PP_TOO_MANY_PLANES.
+/// Pointers: lines points to 3*count doubles, out to one pointer, message to message_size bytes.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn pp_particle_new_2d(
+    lines: *const f64,
+    count: usize,
+    r: f64,
+    k: f64,
+    shadow_radius: f64,
+    out: *mut *mut pp_particle_2d,
+    message: *mut c_char,
+    message_size: usize,
+) -> pp_status {
+    let explain = |text: &str| unsafe { write_message(text, message, message_size) };
+    let status = fenced(|| {
+        let out = unsafe { output(out) }?;
+        if count > PP_MAX_PLANES {
+            explain(&ParticleError::TooManyLines(count).to_string());
+            return Err(PP_TOO_MANY_PLANES);
+        }
+        // SAFETY: the caller promised 3*count doubles.
+        let rows = unsafe { array(lines.cast::<[f64; 3]>(), count) }?;
+        let lines: Vec<Line> = rows.iter().map(|&row| Line::from(row)).collect();
+        let particle = Particle::new(&lines, r, k, shadow_radius).map_err(|error| {
+            explain(&error.to_string());
+            particle_status(&error)
+        })?;
+        out.write(Box::into_raw(Box::new(pp_particle_2d(particle))));
+        Ok(())
+    });
+    if status == PP_NULL_POINTER {
+        explain("lines and out must not be NULL");
+    }
+    status
+}
+
+/// Releases a particle of the plane; NULL is allowed and does nothing. No pair may still be using it.
+/// Pointers: particle is NULL or came from pp_particle_new_2d and was not released yet.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn pp_particle_free_2d(particle: *mut pp_particle_2d) {
+    if !particle.is_null() {
+        // SAFETY: by contract this came from Box::into_raw and is freed once.
+        drop(unsafe { Box::from_raw(particle) });
+    }
+}
+
+/// Rounding radius r as given to pp_particle_new_2d, length.
+///
+/// Errors: PP_NULL_POINTER.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn pp_particle_rounding_radius_2d(particle: *const pp_particle_2d, r: *mut f64) -> pp_status {
+    fenced(|| {
+        let particle = &unsafe { borrow(particle) }?.0;
+        unsafe { output(r) }?.write(particle.rounding_radius());
+        Ok(())
+    })
+}
+
+/// Sphericity k as given to pp_particle_new_2d, no unit.
+///
+/// Errors: PP_NULL_POINTER.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn pp_particle_sphericity_2d(particle: *const pp_particle_2d, k: *mut f64) -> pp_status {
+    fenced(|| {
+        let particle = &unsafe { borrow(particle) }?.0;
+        unsafe { output(k) }?.write(particle.sphericity());
+        Ok(())
+    })
+}
+
+/// Radius R of the shadow circle as given to pp_particle_new_2d, length.
+///
+/// Errors: PP_NULL_POINTER.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn pp_particle_shadow_radius_2d(
+    particle: *const pp_particle_2d,
+    shadow_radius: *mut f64,
+) -> pp_status {
+    fenced(|| {
+        let particle = &unsafe { borrow(particle) }?.0;
+        unsafe { output(shadow_radius) }?.write(particle.shadow_radius());
+        Ok(())
+    })
+}
+
+/// Lines as given to pp_particle_new_2d: rows of a, b, d, local frame.
+///
+/// lines: room for capacity rows; may be NULL when capacity is 0. count: receives the number of
+/// lines, also when the buffer is too small (PP_BUFFER_TOO_SMALL), so that one call asks the size.
+/// Pointers: lines is valid for writing 3*capacity doubles.
+/// Errors: PP_NULL_POINTER, PP_BUFFER_TOO_SMALL.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn pp_particle_lines_2d(
+    particle: *const pp_particle_2d,
+    lines: *mut f64,
+    capacity: usize,
+    count: *mut usize,
+) -> pp_status {
+    fenced(|| {
+        let particle = &unsafe { borrow(particle) }?.0;
+        let rows = particle.lines().map(|Line { normal: n, offset }| [n.x, n.y, offset]);
+        // SAFETY: the caller promised 3*capacity doubles.
+        unsafe { write_rows(rows, lines, capacity, count) }
+    })
+}

@@ -1,0 +1,60 @@
+//! Plain structs of the plane.
+
+/// Where a body of the plane is: world = rotation(angle) * local + position.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct pp_pose_2d {
+    /// Centre of the particle (origin of its local frame), world frame, length units of the caller.
+    pub position: [f64; 2],
+    /// Angle of the local axes in the world, radians, anticlockwise; any finite number.
+    pub angle: f64,
+}
+
+/// The answer for one pair of the plane: the fields of struct pp_contact, with vectors of two. Frames:
+/// world axes unless said otherwise; lengths in the caller's unit; s, weight and gap have no unit. Fields
+/// that do not apply are NaN.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct pp_contact_2d {
+    /// PP_SEPARATED or PP_OVERLAPPING. A failed solve has no kind: it returns a status.
+    pub kind: i32,
+    /// The formulation that the geometry below answers (PP_MIDWAY if PP_FLAG_SLACK is set).
+    pub formulation: u32,
+    /// The back end that answered: PP_FAST or PP_CONIC.
+    pub back_end: u32,
+    /// Sum of PP_FLAG_... bits.
+    pub flags: u32,
+    /// Pairs of quadratics solved; interior-point iterations of the conic back end.
+    pub iterations: u32,
+    /// Always 0.
+    pub reserved: u32,
+    /// Midway: t, the common scale at which the two particles touch at one point; t < 1 overlap.
+    /// Closest: s_A at P2. Rejected pairs: a lower bound, >= 1. No unit.
+    pub s: f64,
+    /// Closest: s_B at P1; NaN for midway.
+    pub s_b: f64,
+    /// Weight u of B, in [0, 1]: (1-u) grad S_A + u grad S_B = 0 at the solution.
+    pub weight: f64,
+    /// Proved bound on the error of s, from this answer's own numbers: |s - s*| <= gap.
+    pub gap: f64,
+    /// Bound on the distance of the point (closest: of each of P1 and P2) to the exact optimum, length.
+    pub point_bound: f64,
+    /// Overlap (YADE: penetrationDepth), length, > 0 when overlapping; NaN when separated.
+    pub overlap: f64,
+    /// Unit contact normal, from A to B (positive force on B pushes it along +normal).
+    pub normal: [f64; 2],
+    /// Contact point, world frame: P3 of midway, or the weighted mean of P1 and P2 of closest.
+    pub point: [f64; 2],
+    /// Contact point minus position of A: exact lever arm even far from the world origin.
+    pub branch_a: [f64; 2],
+    /// Contact point minus position of B.
+    pub branch_b: [f64; 2],
+    /// Point on the boundary of A inside B, world frame; P1 of closest. NaN when separated.
+    pub point_on_a: [f64; 2],
+    /// Point on the boundary of B inside A, world frame; P2 of closest. NaN when separated.
+    pub point_on_b: [f64; 2],
+    /// Separated: proved lower bound on the distance between the two particles, length; 0 when the proof
+    /// knows none. Until their boundaries have come closer to each other by as much, they stay separated. NaN
+    /// when overlapping.
+    pub distance: f64,
+}

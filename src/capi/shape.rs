@@ -1,0 +1,138 @@
+//! What can be asked of a particle: potential, bounds, surface, mass.
+
+use super::convert::{finite, pose_from};
+use super::fence::{borrow, fenced, output, write_rows};
+use super::particle::pp_particle;
+use super::status::*;
+use super::types::{pp_mass_properties, pp_pose};
+use nalgebra::Vector3;
+
+/// f = S - 1 at a world point (3 doubles), and its gradient (3 doubles, world axes, 1/length; may
+/// be NULL).
+///
+/// f < 0 inside, 0 on the surface, > 0 outside.
+/// Errors: PP_NULL_POINTER, PP_BAD_POSITION, PP_BAD_ORIENTATION, PP_BAD_POINT.
+/// Pointers: Pointers are NULL or valid: point for reading 3 doubles, f and gradient for writing 1 and 3.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn pp_particle_potential(
+    particle: *const pp_particle,
+    pose: *const pp_pose,
+    point: *const f64,
+    f: *mut f64,
+    gradient: *mut f64,
+) -> pp_status {
+    fenced(|| {
+        let particle = &unsafe { borrow(particle) }?.0;
+        let pose = pose_from(unsafe { borrow(pose) }?)?;
+        let point = finite(unsafe { borrow(point.cast::<[f64; 3]>()) }?)?;
+        let f = unsafe { output(f) }?;
+        let x = pose.to_local(&point);
+        f.write(particle.potential(&x));
+        if let Ok(gradient) = unsafe { output(gradient.cast::<[f64; 3]>()) } {
+            gradient.write(pose.rotate(&particle.gradient(&x)).into());
+        }
+        Ok(())
+    })
+}
+
+/// Axis-aligned box in world axes that holds the particle at this pose: the box of its corners.
+///
+/// lower, upper: receive 3 doubles each, world frame.
+/// Errors: PP_NULL_POINTER, PP_BAD_POSITION, PP_BAD_ORIENTATION.
+/// Pointers: Pointers are NULL or valid; lower and upper for writing 3 doubles.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn pp_particle_box(
+    particle: *const pp_particle,
+    pose: *const pp_pose,
+    lower: *mut f64,
+    upper: *mut f64,
+) -> pp_status {
+    fenced(|| {
+        let particle = &unsafe { borrow(particle) }?.0;
+        let pose = pose_from(unsafe { borrow(pose) }?)?;
+        let (lower, upper) = unsafe { (output(lower.cast::<[f64; 3]>())?, output(upper.cast::<[f64; 3]>())?) };
+        let (low, high) = particle.bounding_box(&pose);
+        lower.write(low.into());
+        upper.write(high.into());
+        Ok(())
+    })
+}
+
+/// Radius about the centre of a ball that holds the particle, length.
+///
+/// Errors: PP_NULL_POINTER.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn pp_particle_bounding_radius(particle: *const pp_particle, radius: *mut f64) -> pp_status {
+    fenced(|| {
+        let particle = &unsafe { borrow(particle) }?.0;
+        unsafe { output(radius) }?.write(particle.bounding_radius());
+        Ok(())
+    })
+}
+
+/// Corners, local frame, of a polyhedron that holds the particle: rows of x, y, z.
+///
+/// corners: room for capacity rows; may be NULL when capacity is 0. count: receives the number of
+/// corners, also when the buffer is too small (PP_BUFFER_TOO_SMALL), so that one call asks the size.
+/// Pointers: corners is valid for writing 3*capacity doubles.
+/// Errors: PP_NULL_POINTER, PP_BUFFER_TOO_SMALL.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn pp_particle_corners(
+    particle: *const pp_particle,
+    corners: *mut f64,
+    capacity: usize,
+    count: *mut usize,
+) -> pp_status {
+    fenced(|| {
+        let particle = &unsafe { borrow(particle) }?.0;
+        let rows = particle.bounding_corners().iter().map(|corner| (*corner).into());
+        // SAFETY: the caller promised 3*capacity doubles.
+        unsafe { write_rows(rows, corners, capacity, count) }
+    })
+}
+
+/// Distance from the centre to the surface along a direction (3 doubles, local frame, any length).
+///
+/// With it, direction * distance walks over the true surface: for meshes and pictures.
+/// Errors: PP_NULL_POINTER, PP_BAD_POINT.
+/// Pointers: Pointers are NULL or valid; direction for reading 3 doubles.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn pp_particle_surface_distance(
+    particle: *const pp_particle,
+    direction: *const f64,
+    distance: *mut f64,
+) -> pp_status {
+    fenced(|| {
+        let particle = &unsafe { borrow(particle) }?.0;
+        let direction = finite(unsafe { borrow(direction.cast::<[f64; 3]>()) }?)?;
+        let distance = unsafe { output(distance) }?;
+        // Scaled first, so that the squares stay in range.
+        let scaled = direction / direction.amax();
+        let unit = scaled.try_normalize(0.5).ok_or(PP_BAD_POINT)?;
+        distance.write(crate::particle::ray_cast::distance(particle, &Vector3::zeros(), &unit).ok_or(PP_BAD_POINT)?);
+        Ok(())
+    })
+}
+
+/// Volume, centroid and inertia for unit density, by quadrature over the true surface (relative
+/// error about 1e-4 for sharp shapes, less for round ones).
+///
+/// Errors: PP_NULL_POINTER.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn pp_particle_mass_properties(
+    particle: *const pp_particle,
+    properties: *mut pp_mass_properties,
+) -> pp_status {
+    fenced(|| {
+        let particle = &unsafe { borrow(particle) }?.0;
+        let out = unsafe { output(properties) }?;
+        let mass = particle.mass_properties();
+        let i = mass.inertia;
+        out.write(pp_mass_properties {
+            volume: mass.volume,
+            centroid: mass.centroid.into(),
+            inertia: [i.m11, i.m22, i.m33, i.m12, i.m23, i.m13],
+        });
+        Ok(())
+    })
+}

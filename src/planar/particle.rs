@@ -1,0 +1,115 @@
+//! Particles of the plane, each a particle of space cut at z = 0.
+
+use super::pose::Pose;
+use super::raised;
+use crate::particle::particle::{self, ParticleError};
+use crate::particle::ray_cast;
+use nalgebra::{Matrix2, Vector2};
+
+/// One line a·x + b·y = d of a particle, local frame, (a, b) pointing outwards.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Line {
+    /// Outward normal (a, b); unit length is usual, not required.
+    pub normal: Vector2<f64>,
+    /// Offset d, length. A side of the finished particle lies near d + r.
+    pub offset: f64,
+}
+
+impl From<[f64; 3]> for Line {
+    /// From (a, b, d).
+    fn from([a, b, d]: [f64; 3]) -> Self {
+        Self { normal: Vector2::new(a, b), offset: d }
+    }
+}
+
+/// A validated potential particle of the plane, immutable; share it freely between threads and bodies.
+///
+/// ```
+/// use potential_particles::planar::{Line, Particle};
+/// let square = [[1.0, 0.0, 0.9], [-1.0, 0.0, 0.9], [0.0, 1.0, 0.9], [0.0, -1.0, 0.9]].map(Line::from);
+/// let square = Particle::new(&square, 0.1, 0.0, 1.0)?;
+/// assert!((square.potential(&[1.0, 0.0].into())).abs() < 1e-12);
+/// assert_eq!(square.lines().len(), 4);
+/// # Ok::<(), potential_particles::ParticleError>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Particle(pub(super) particle::Particle);
+
+impl Particle {
+    /// Builds a particle from its lines, rounding radius r, sphericity k and radius R of the shadow circle.
+    ///
+    /// # Errors
+    /// Those of [`particle::Particle::new`], of lines: non-finite numbers, k outside [0, 1], r ≤ 0 (unless
+    /// k = 1), R ≤ 0 (unless k = 0), a zero normal, an origin that is not inside (f(0) ≥ 0), and for k = 0
+    /// lines that enclose no area.
+    pub fn new(lines: &[Line], r: f64, k: f64, shadow_radius: f64) -> Result<Self, ParticleError> {
+        let planes: Vec<_> =
+            lines.iter().map(|line| particle::Plane { normal: raised(&line.normal), offset: line.offset }).collect();
+        particle::Particle::in_plane(&planes, r, k, shadow_radius).map(Self)
+    }
+
+    /// A circle of the given radius (k = 1, no lines).
+    ///
+    /// # Errors
+    /// A radius that is not positive and finite.
+    pub fn circle(radius: f64) -> Result<Self, ParticleError> {
+        Self::new(&[], 0.0, 1.0, radius)
+    }
+
+    /// f(x) = S(x) − 1 at a local point (paper eq. 1): negative inside, zero on the boundary.
+    pub fn potential(&self, x: &Vector2<f64>) -> f64 {
+        self.0.potential(&raised(x))
+    }
+
+    /// ∇f(x), local frame, 1/length.
+    pub fn gradient(&self, x: &Vector2<f64>) -> Vector2<f64> {
+        self.0.gradient(&raised(x)).xy()
+    }
+
+    /// ∇²f(x), local frame, 1/length². Where a line is just switching on, the side without it.
+    pub fn hessian(&self, x: &Vector2<f64>) -> Matrix2<f64> {
+        self.0.hessian(&raised(x)).fixed_view::<2, 2>(0, 0).into()
+    }
+
+    /// Distance τ ≥ 0 along a local unit direction from a local point inside to the boundary, length; `None` if a number is
+    /// not finite.
+    pub fn surface_distance(&self, from: &Vector2<f64>, direction: &Vector2<f64>) -> Option<f64> {
+        ray_cast::distance(&self.0, &raised(from), &raised(direction))
+    }
+
+    /// Lines as given.
+    pub fn lines(&self) -> impl ExactSizeIterator<Item = Line> + '_ {
+        self.0.planes().map(|plane| Line { normal: plane.normal.xy(), offset: plane.offset })
+    }
+
+    /// Rounding radius r, length.
+    pub fn rounding_radius(&self) -> f64 {
+        self.0.rounding_radius()
+    }
+
+    /// Sphericity k (here: how much of a circle it is), no unit.
+    pub fn sphericity(&self) -> f64 {
+        self.0.sphericity()
+    }
+
+    /// Radius R of the shadow circle, length.
+    pub fn shadow_radius(&self) -> f64 {
+        self.0.shadow_radius()
+    }
+
+    /// Radius about the local origin of a circle that holds the whole particle.
+    pub fn bounding_radius(&self) -> f64 {
+        self.0.bounding_radius()
+    }
+
+    /// Corners of a polygon that holds the whole particle, local frame, in no order.
+    pub fn bounding_corners(&self) -> impl ExactSizeIterator<Item = Vector2<f64>> + '_ {
+        self.0.bounding_corners().iter().map(|corner| corner.xy())
+    }
+
+    /// Axis-aligned box in world axes that holds the particle at a pose: (lower, upper).
+    pub fn bounding_box(&self, pose: &Pose) -> (Vector2<f64>, Vector2<f64>) {
+        let (lower, upper) = self.0.bounding_box(&pose.in_space());
+        (lower.xy(), upper.xy())
+    }
+}

@@ -1,0 +1,80 @@
+//! `detect_batch` against `detect`: the same bits for any number of threads, and what it refuses.
+
+use potential_particles::{DetectError, Memory, Particle, Plane, Pose, Settings, detect, detect_batch};
+
+fn cube() -> Particle {
+    let mut planes = Vec::new();
+    for axis in 0..3 {
+        for sign in [1.0, -1.0] {
+            let mut row = [0.0, 0.0, 0.0, 0.4];
+            row[axis] = sign;
+            planes.push(Plane::from(row));
+        }
+    }
+    Particle::new(&planes, 0.1, 0.05, 0.9).expect("a cube")
+}
+
+/// A block of bodies on a grid, each turned its own way, and every pair of neighbours.
+fn block(particles: &[Particle; 2]) -> (Vec<&Particle>, Vec<Pose>, Vec<[u32; 2]>) {
+    let (mut all, mut poses, mut pairs) = (Vec::new(), Vec::new(), Vec::new());
+    let edge = 8;
+    for i in 0..edge {
+        for j in 0..edge {
+            let turn = f64::from(i * edge + j);
+            all.push(&particles[(i + j) as usize % 2]);
+            let position = [0.9 * f64::from(i), 0.9 * f64::from(j), 0.05 * turn.sin()];
+            poses.push(Pose::new(position, [1.0, 0.1 * turn.cos(), 0.05, 0.1 * turn.sin()]).unwrap());
+            for [k, l] in [[i + 1, j], [i, j + 1], [i + 1, j + 1]] {
+                if k < edge && l < edge {
+                    pairs.push([i * edge + j, k * edge + l].map(|body| body as u32));
+                }
+            }
+        }
+    }
+    (all, poses, pairs)
+}
+
+#[test]
+fn answers_are_those_of_single_calls_for_any_number_of_threads() {
+    let particles = [cube(), Particle::sphere(0.5).unwrap()];
+    let (all, poses, pairs) = block(&particles);
+    let settings = Settings::default();
+    for threads in [0, 1, 2, 7] {
+        let mut memories = vec![Memory::default(); pairs.len()];
+        let mut own = memories.clone();
+        for step in 0..2 {
+            let answers = detect_batch(&all, &poses, &pairs, &settings, threads, &mut memories).unwrap();
+            assert_eq!(answers.len(), pairs.len());
+            let mut overlapping = 0;
+            for (n, answer) in answers.iter().enumerate() {
+                let [i, j] = pairs[n].map(|body| body as usize);
+                let alone = detect(all[i], &poses[i], all[j], &poses[j], &settings, Some(&mut own[n])).unwrap();
+                let answer = answer.as_ref().unwrap();
+                // NaN in the same places, too.
+                assert_eq!(format!("{answer:?}"), format!("{alone:?}"), "{threads} threads, step {step}, pair {n}");
+                overlapping += usize::from(answer.overlap > 0.0);
+            }
+            assert!(overlapping > pairs.len() / 4, "{overlapping} of {}", pairs.len());
+            assert_eq!(memories, own);
+        }
+    }
+}
+
+#[test]
+fn what_does_not_fit_is_refused_and_a_missing_body_is_told_by_its_pair() {
+    let particles = [cube(), Particle::sphere(0.5).unwrap()];
+    let (all, poses, mut pairs) = block(&particles);
+    let settings = Settings::default();
+    let short = detect_batch(&all, &poses[1..], &pairs, &settings, 1, &mut []);
+    assert!(matches!(short, Err(DetectError::Length { what: "poses", given: 63, expected: 64, .. })), "{short:?}");
+    let short = detect_batch(&all, &poses, &pairs, &settings, 1, &mut [Memory::default(); 3]);
+    assert!(matches!(short, Err(DetectError::Length { what: "memories", given: 3, .. })), "{short:?}");
+    let bad = detect_batch(&all, &poses, &pairs, &Settings { weight_on_a: 2.0, ..settings }, 1, &mut []);
+    assert!(matches!(bad, Err(DetectError::Settings(_))), "{bad:?}");
+    pairs[5] = [3, 64];
+    let answers = detect_batch(&all, &poses, &pairs, &settings, 2, &mut []).unwrap();
+    for (n, answer) in answers.iter().enumerate() {
+        let missing = matches!(answer, Err(DetectError::NoSuchBody { index: 64, bodies: 64, .. }));
+        assert_eq!((missing, answer.is_ok()), (n == 5, n != 5), "pair {n}: {answer:?}");
+    }
+}

@@ -1,0 +1,85 @@
+//! The feature `serde`: what is written down is read back to the last bit, and what no constructor would take is refused.
+
+use potential_particles::{
+    BackEnd, Contact, Formulation, Kind, Memory, Particle, Plane, Pose, Role, Section, Settings, closest_point, detect,
+};
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+
+fn there_and_back<T: Serialize + DeserializeOwned>(value: &T) -> T {
+    let text = serde_json::to_string(value).expect("written");
+    serde_json::from_str(&text).unwrap_or_else(|error| panic!("{text}: {error}"))
+}
+
+fn cube() -> Particle {
+    let mut planes = Vec::new();
+    for axis in 0..3 {
+        for sign in [1.0, -1.0] {
+            let mut row = [0.0, 0.0, 0.0, 0.9];
+            row[axis] = sign;
+            planes.push(there_and_back(&Plane::from(row)));
+        }
+    }
+    Particle::new(&planes, 0.1, 0.1, 1.2).expect("a cube")
+}
+
+/// With NaN where the original has NaN.
+fn numbers(contact: &Contact) -> Vec<u64> {
+    let scalars = [contact.s, contact.s_b, contact.weight, contact.gap, contact.point_bound];
+    let lengths = [contact.overlap, contact.distance];
+    let vectors = [contact.normal, contact.point, contact.branch_a, contact.branch_b];
+    let surface = [contact.point_on_a, contact.point_on_b];
+    let vectors = vectors.iter().chain(&surface).flat_map(|v| [v.x, v.y, v.z]);
+    scalars
+        .into_iter()
+        .chain(lengths)
+        .chain(vectors)
+        .map(|number| if number.is_nan() { f64::NAN } else { number }.to_bits())
+        .collect()
+}
+
+#[test]
+fn everything_comes_back() {
+    let cube = cube();
+    let here = Pose::new([0.1, 0.2, 0.3], [2.0, 0.1, 0.2, 0.3]).unwrap();
+    for (distance, formulation) in [(1.7, Formulation::Midway), (1.7, Formulation::Closest), (2.5, Formulation::Midway)]
+    {
+        let there = Pose::new([0.0, 0.1, distance], [1.0, 0.0, 0.0, 1.0 / 3.0]).unwrap();
+        let settings = Settings { formulation, gap_tolerance: 1.0 / 3e11, ..Settings::default() };
+        assert_eq!(there_and_back(&here), here);
+        assert_eq!(there_and_back(&there), there);
+        assert_eq!(there_and_back(&settings), settings);
+        let mut memory = Memory::default();
+        assert_eq!(there_and_back(&memory), memory);
+        let contact = detect(&cube, &here, &cube, &there, &settings, Some(&mut memory)).unwrap();
+        assert_eq!(there_and_back(&memory), memory);
+        let back = there_and_back(&contact);
+        assert_eq!(numbers(&back), numbers(&contact));
+        assert_eq!((back.kind, back.formulation, back.back_end), (contact.kind, contact.formulation, contact.back_end));
+        assert_eq!((back.flags, back.iterations), (contact.flags, contact.iterations));
+        if contact.kind == Kind::Overlapping {
+            let area = |contact: &Contact| Section::from(contact).area(&cube, &here, &cube, &there, 1e-6).unwrap();
+            assert_eq!(area(&back), area(&contact));
+        }
+        assert!(closest_point(&cube, &here, &cube, &there, Role::A, &settings).unwrap().is_some());
+    }
+}
+
+#[test]
+fn names_are_those_of_the_documentation() {
+    assert_eq!(serde_json::to_string(&Kind::Overlapping).unwrap(), r#""overlapping""#);
+    assert_eq!(serde_json::to_string(&BackEnd::Conic).unwrap(), r#""conic""#);
+    let settings: Settings = serde_json::from_str(r#"{"formulation": "closest"}"#).unwrap();
+    assert_eq!(settings, Settings { formulation: Formulation::Closest, ..Settings::default() });
+}
+
+#[test]
+fn what_no_constructor_takes_is_refused() {
+    let pose = r#"{"position": [0, 0, 0], "orientation": [0, 0, 0, 0]}"#;
+    let error = serde_json::from_str::<Pose>(pose).unwrap_err().to_string();
+    assert!(error.contains("orientation"), "{error}");
+    let error = serde_json::from_str::<Settings>(r#"{"weight_on_a": 2.0}"#).unwrap_err().to_string();
+    assert!(error.contains("weight_on_a=2"), "{error}");
+    assert!(serde_json::from_str::<Settings>(r#"{"tolerance": 1e-9}"#).is_err());
+    assert!(serde_json::from_str::<Formulation>(r#""half way""#).is_err());
+}
