@@ -45,6 +45,9 @@ BOOST_PYTHON_MODULE(_glue)
     py::scope().attr("class_names") = names;
     py::scope().attr("header_version") = py::make_tuple(PP_VERSION_MAJOR, PP_VERSION_MINOR, PP_VERSION_PATCH);
 
+    py::scope().attr("built_for_yade") = PP_YADE_NAME;
+    py::scope().attr("built_for_yade_number") = PP_YADE_VERSION;
+
     py::def("library_version", &pp_version);
     py::def("differences_of_layout", &differencesOfLayout);
     py::def("register_classes", &pp::registerClasses);
