@@ -8,6 +8,7 @@
 #include "plane_lists.hpp"
 #include "registration.hpp"
 
+#include <boost/archive/basic_archive.hpp>
 #include <boost/python/def.hpp>
 #include <boost/python/list.hpp>
 #include <boost/python/module.hpp>
@@ -47,6 +48,7 @@ BOOST_PYTHON_MODULE(_glue)
 
     py::scope().attr("built_for_yade") = PP_YADE_NAME;
     py::scope().attr("built_for_yade_number") = PP_YADE_VERSION;
+    py::scope().attr("archive_version") = static_cast<unsigned>(boost::archive::BOOST_ARCHIVE_VERSION());
 
     py::def("library_version", &pp_version);
     py::def("differences_of_layout", &differencesOfLayout);

@@ -177,8 +177,9 @@ def _load():
     _register(yade, glue)
     _resize_dispatchers(yade)
     _prepare_before_steps(yade)
-    from . import outside
+    from . import outside, saves
     outside.guard(yade, glue.set_list)
+    saves.guard(yade, glue.archive_version, running)
     return glue
 
 
