@@ -31,6 +31,9 @@ if [ "${PP_INSIDE:-}" != "$$" ]; then # within, this shell is process 1
     exec env PP_INSIDE=1 unshare --mount --pid --fork --kill-child --propagation private "$PWD/scripts/debian.sh"
 fi
 
+# Interrupted, it ends with all that it has started.
+trap "exit 130" INT TERM
+
 . scripts/stages.sh
 
 # The host's own mirror and proxy; debootstrap knows a mirror itself where apt names none of Debian.

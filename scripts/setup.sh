@@ -33,7 +33,7 @@ check_system() {
     local system=unknown
     # Debian, or what is made from it.
     system=$(. /etc/os-release 2>/dev/null && echo "${ID:-unknown} ${ID_LIKE:-}") || true
-    name=$(. /etc/os-release 2>/dev/null && echo "${PRETTY_NAME:-$ID}") || name="an unknown system"
+    name=$(. /etc/os-release 2>/dev/null && echo "${PRETTY_NAME:-${ID:-an unknown system}}") || name="an unknown system"
     release=$(. /etc/os-release 2>/dev/null && echo "${ID:-unknown} ${VERSION_ID:-unstable}") || true
     [[ " $system " = *" debian "* ]] && command -v apt-get >/dev/null ||
         die "this is $name, and the YADE plugin needs Debian ($(tested 2)), whose packages it builds on (the library alone builds anywhere: cargo build --release)."

@@ -26,6 +26,17 @@ rows = [[cell.strip() for cell in line.strip().strip("|").split("|")] for line i
 check.equal(rows, [[f"{b.debian} ({b.suite})", b.yade, b.python, b.boost, b.compiler, b.tested] for b in table],
             "README's table of tested platforms")
 
+# Nothing else names an interpreter or a Boost by its version: what is installed is found.
+named = []
+NAMED = re.compile(r"python3\.\d|python3\d\d|boost1\.\d")
+for folder in ("scripts", "tests", "examples", "benches", "yade-glue"):
+    for place, folders, names in os.walk(os.path.join(TOP, folder)):
+        folders[:] = [name for name in folders if name not in ("build", "__pycache__")]
+        for name in sorted(names):
+            if name.endswith((".py", ".sh", ".txt", ".cmake", ".hpp", ".cpp", ".md")) and name != "test_builds.py":
+                named += [(name, found) for found in NAMED.findall(open(os.path.join(place, name)).read())]
+check.equal(named, [], "files that name a version of Python or Boost")
+
 # What is said of which YADE.
 version, python = yade.config.version, builds.python_version()
 check.equal(potential_particles._glue.built_for_yade, version, "built for the YADE that runs")
