@@ -3,11 +3,13 @@
 # SUITE names the release, CACHE the folder in which it and its packages stay between runs, FRESH=1 makes it anew.
 # Exit status 77: skipped, since root or debootstrap is not to be had.
 set -uo pipefail
-cd "$(dirname "$0")/.."
+cd "$(dirname "$0")/.." || exit 1
 
 SUITE=${SUITE:-trixie}
 CACHE=$(realpath -m "${CACHE:-out/debian}")
 readonly SUITE CACHE ROOT=$CACHE/$SUITE PACKAGES=$CACHE/packages LOGS=$CACHE/logs-$SUITE
+# Where Rust lies within, be it mounted.
+readonly RUST=/opt/rust
 
 die() {
     printf 'debian: %s\n' "$*" >&2
@@ -33,6 +35,8 @@ fi
 
 # Interrupted, it ends with all that it has started.
 trap "exit 130" INT TERM
+exec 9>"$CACHE/$SUITE.lock"
+flock --nonblock 9 || die "another run works in $ROOT: wait for it, or name another CACHE."
 
 . scripts/stages.sh
 
@@ -41,7 +45,6 @@ mirror() {
     apt-get indextargets --format '$(ORIGIN) $(LABEL) $(REPO_URI)' 'Created-By: Packages' 2>/dev/null |
         awk '$1 == "Debian" && $2 == "Debian" { print $3; exit }'
 }
-readonly NO_QUESTIONS="DEBIAN_FRONTEND=noninteractive"
 proxy=$(apt-config shell found Acquire::http::Proxy | sed "s/^found='\(.*\)'$/\1/")
 export http_proxy=${http_proxy:-$proxy}
 
@@ -58,7 +61,8 @@ bootstrap() {
 }
 
 inside() {
-    chroot "$ROOT" /usr/bin/env -i HOME=/root TERM=dumb LC_ALL=C.UTF-8 ${http_proxy:+http_proxy="$http_proxy"} $NO_QUESTIONS \
+    chroot "$ROOT" /usr/bin/env -i HOME=/root TERM=dumb LC_ALL=C.UTF-8 DEBIAN_FRONTEND=noninteractive \
+        ${http_proxy:+http_proxy="$http_proxy"} ${https_proxy:+https_proxy="$https_proxy"} \
         CARGO_HOME=/opt/cargo PATH="$RUST/bin:/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin" \
         WERROR="${WERROR:-0}" "$@"
 }
@@ -101,7 +105,6 @@ in_sources() {
     inside sh -c 'cd /src && exec "$@"' - "$@"
 }
 
-readonly RUST=/opt/rust
 printf 'Debian (%s) in %s\n' "$SUITE" "$ROOT"
 stage check "Debian, packages and Rust" prepare
 [ "$failed" -eq 0 ] || { printf '\n%d passed, %d failed\n' "$passed" "$failed"; exit 1; }
