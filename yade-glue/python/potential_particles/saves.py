@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A sentence for a scene that YADE cannot load since another YADE saved it.
 
-YADE's own message is that of its reader ("input stream error", "unsupported version"). Which Boost wrote a file stands
+YADE's own message is that of its reader ("input stream error", "unsupported version", even a lack of memory). Which Boost wrote a file stands
 at its beginning, and each Debian has one of its own, so that another YADE can mostly be told by it.
 """
 import bz2
@@ -39,14 +39,15 @@ def guard(yade, own_version, running):
     def loading(omega, file, *arguments, **keywords):
         try:
             return load(omega, file, *arguments, **keywords)
-        except RuntimeError as error:
+        except (RuntimeError, MemoryError) as error:
             found = archive_version(file)
             if found is None or found == own_version:
                 raise
             raise RuntimeError(
                 f"{file} was saved by another YADE (its archive is of version {found}; YADE {running} writes {own_version}), and "
-                "YADE loads no engines of another version, nor binary files of a newer one. Load it with the YADE that saved "
-                "it, set O.engines = [] and save as .xml.bz2: that loads here, and the script sets its engines anew. "
-                f"YADE's own message: {error}") from error
+                "YADE loads no engines of another version, contacts only if their physics did not change, and no binary files of a "
+                "newer one. Load it with the YADE that saved it, set O.engines = [], if that is not enough O.interactions.clear() "
+                "too, and save as .xml.bz2; the script that loads that sets its engines anew. "
+                f"YADE's own message: {error!r}") from error
 
     yade.wrapper.Omega.load = loading
