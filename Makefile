@@ -8,7 +8,9 @@ Contact detection between potential particles.
 
   make wedge    a wedge on two joints: at which friction angle does it slide? results in out/wedge
 
-  make setup    install what is missing from Debian 12 (YADE, compilers, Boost, Eigen, ...)
+  make test-debian13  set up, build and test in a Debian 13 of its own, beside this system; needs root; SUITE=sid: in unstable
+
+  make setup    install what is missing from Debian (YADE, compilers, Boost, Eigen, ...)
   make build    the library and the YADE plugin
   make library  the library alone: target/release/libpotential_particles.so
   make header   write include/potential_particles.h anew from src/capi
@@ -35,11 +37,15 @@ Variables, as in "make demo STEPS=1000 BODIES=50":
   SEED=1            stress: the pairs depend on it
   SETTLE=1          stress: settle one pose in so many in 32 digits, and those in doubt; POSES=100000000 SETTLE=200 takes 45 minutes
   FUZZ_SECONDS=60   fuzz: how long each target
-  VERBOSE=1         test: show the output of every stage, not only of those that fail
+  SUITE=trixie      test-debian13: which release of Debian
+  CACHE=out/debian  test-debian13: where that release and its packages stay for the next time; FRESH=1 makes it anew
+  WERROR=0          build, test: 1 takes compiler warnings for errors, as this project's CI does
+  VERBOSE=1         test, test-debian13: show the output of every stage, not only of those that fail
   CARGO_TARGET_DIR  where cargo builds (default: target)
 endef
 
 THREADS ?= 1
+export WERROR ?= 0
 
 MAKEFLAGS += --no-print-directory
 
@@ -54,7 +60,7 @@ export PATH := $(PATH):$(HOME)/.cargo/bin
 
 heading = @printf '== %s\n' '$(1)'
 
-.PHONY: help demo wedge test side-by-side setup build library glue header lint bench stress fuzz long clean
+.PHONY: help demo wedge test test-debian13 side-by-side setup build library glue header lint bench stress fuzz long clean
 .DEFAULT_GOAL := help
 # The steps of one goal build on each other in the order in which they are named.
 .NOTPARALLEL:
@@ -74,7 +80,7 @@ library:
 # Compares the plugin with the installed YADE, too, whenever it was built anew.
 glue: setup library
 	$(call heading,YADE plugin)
-	@cmake -S yade-glue -B $(GLUE_BUILD) -DPP_LIBRARY=$(LIBRARY) >/dev/null
+	@cmake -S yade-glue -B $(GLUE_BUILD) -DPP_LIBRARY=$(LIBRARY) -DPP_WERROR=$(WERROR) >/dev/null
 	@cmake --build $(GLUE_BUILD) --parallel $$(nproc)
 
 build: glue
@@ -95,6 +101,12 @@ wedge: glue
 
 test:
 	@scripts/test.sh
+
+test-debian13: export SUITE := $(or $(SUITE),trixie)
+test-debian13: export CACHE := $(CACHE)
+test-debian13: export FRESH := $(FRESH)
+test-debian13:
+	@scripts/debian.sh
 
 long: export STEPS := $(STEPS)
 long: export BODIES := $(BODIES)

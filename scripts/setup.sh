@@ -1,9 +1,11 @@
 #!/usr/bin/env bash
-# Installs what the build, the tests and the examples need from Debian, if anything is missing.
+# Installs what the build, the tests and the examples need with apt, if anything is missing.
 # Safe to run again: with nothing missing it changes nothing and takes a fraction of a second.
 set -euo pipefail
 
-readonly YADE_VERSION=2023.02a
+cd "$(dirname "$0")/.."
+readonly TABLE=yade-glue/tested_builds.txt
+# By these names in every release of Debian since 12.
 readonly PACKAGES=(
     # the simulator whose classes the plugin extends, and its Python
     yade libyade python3-yade
@@ -20,15 +22,21 @@ die() {
     exit 1
 }
 
-# The plugin fits the memory layout of one build of YADE only.
+# Column number $1 of the table, with commas.
+tested() {
+    awk -v column="$1" '/^[0-9]/ { printf "%s%s", comma, $column; comma = ", " }' "$TABLE"
+}
+
+# What decides is whether the plugin fits the YADE that this system has, and that is found out after the build. Here only
+# what could not work anywhere is refused.
 check_system() {
-    local id=unknown release=unknown
-    if [ -r /etc/os-release ]; then
-        id=$(. /etc/os-release && echo "${ID:-unknown}")
-        release=$(. /etc/os-release && echo "${VERSION_ID:-unknown}")
-    fi
-    [ "$id" = debian ] && [ "$release" = 12 ] ||
-        die "this is $id $release, and the YADE plugin needs Debian 12 (the library alone builds anywhere: cargo build --release)."
+    local system=unknown
+    # Debian, or what is made from it.
+    system=$(. /etc/os-release 2>/dev/null && echo "${ID:-unknown} ${ID_LIKE:-}") || true
+    name=$(. /etc/os-release 2>/dev/null && echo "${PRETTY_NAME:-${ID:-an unknown system}}") || name="an unknown system"
+    release=$(. /etc/os-release 2>/dev/null && echo "${ID:-unknown} ${VERSION_ID:-unstable}") || true
+    [[ " $system " = *" debian "* ]] && command -v apt-get >/dev/null ||
+        die "this is $name, and the YADE plugin needs Debian ($(tested 2)), whose packages it builds on (the library alone builds anywhere: cargo build --release)."
     local machine
     machine=$(uname -m)
     [ "$machine" = x86_64 ] ||
@@ -63,7 +71,11 @@ install() {
         -o DPkg::Lock::Timeout=300)
     local log
     log=$(mktemp)
-    printf 'Installing from Debian (some minutes the first time): %s\n' "${packages[*]}"
+    case ", $(tested 2)," in
+        *", ${release#debian },"*) ;;
+        *) echo "$name is not among the tested systems (Debian $(tested 2)): the build tells whether the plugin fits its YADE." ;;
+    esac
+    printf 'Installing with apt (some minutes the first time): %s\n' "${packages[*]}"
     # A failed update is no verdict: the lists at hand may do, and the installation tells.
     if ! { "${apt[@]}" update || true; "${apt[@]}" install --yes --no-install-recommends "${packages[@]}"; } >"$log" 2>&1; then
         tail -n 20 "$log" >&2
@@ -72,13 +84,12 @@ install() {
     rm -f "$log"
 }
 
+# Which version it is does not matter here; that its three packages belong together does.
 check_yade() {
     local versions
     versions=$(dpkg-query --show --showformat='${Package} ${Version}\n' yade libyade python3-yade)
-    if awk -v want="$YADE_VERSION" '{ sub(/-[^-]*$/, "", $2); if ($2 != want) exit 1 }' <<<"$versions"; then
-        return
-    fi
-    die "the plugin fits YADE $YADE_VERSION only, and this machine has $(paste -s -d, <<<"$versions"): install Debian 12's own packages."
+    [ "$(awk '{ sub(/-[^-]*$/, "", $2); print $2 }' <<<"$versions" | sort -u | wc -l)" -eq 1 ] ||
+        die "YADE's packages are of different versions, $(paste -s -d, <<<"$versions"): bring them together, as by apt-get install yade libyade python3-yade."
 }
 
 check_system

@@ -5,6 +5,7 @@ import re
 import shutil
 import subprocess
 import sys
+import sysconfig
 import tempfile
 
 import yade
@@ -26,23 +27,29 @@ def import_module():
     return potential_particles
 
 
-# Another version: refused, nothing registered, and the next try with the right one works.
+# A YADE whose classes lie otherwise in memory, as Python sees it: refused with each difference, nothing registered, and
+# the next try with the true one works.
+physics = yade.wrapper.KnKsPhys
+kn, ks = yade.wrapper.NormPhys.kn, yade.wrapper.NormShearPhys.ks
+physics.kn, physics.ks = ks, kn
 true_version = yade.config.version
 yade.config.version = "2099.01a"
 try:
     import_module()
-    check.true(False, "another version was accepted")
+    check.true(False, "another layout was accepted")
 except ImportError as error:
     check.equal(type(error).__name__, "AbiError", "kind of the refusal")
     check.true("2099.01a" in str(error) and true_version in str(error), f"the refusal names both versions: {error}")
-    check.equal(len(getattr(error, "differences", [])), 1, "differences are listed")
+    found = getattr(error, "differences", [])
+    check.equal([difference.split(":")[0] for difference in found], ["KnKsPhys.kn", "KnKsPhys.ks"], f"differences are listed: {found}")
 check.true(not hasattr(yade.wrapper, "ConicPotentialParticle"), "nothing is registered after a refusal")
 check.true("ConicPotentialParticle" not in yade.system._allSerializables, "nor listed")
 yade.config.version = true_version
+del physics.kn, physics.ks
 # Engines that exist before the module does: their dispatchers must learn of the new shape.
 fresh_scene(yade.Ig2_PP_PP_ScGeom(), dt=1e-9)
 module = import_module()
-check.true(hasattr(yade.wrapper, "ConicPotentialParticle"), "the right version is accepted")
+check.true(hasattr(yade.wrapper, "ConicPotentialParticle"), "the true layout is accepted")
 check.equal(list(module._glue.differences_of_layout()), [], "no differences of layout")
 
 add(cube(), Vector3(0, 0, 0), fixed=True)
@@ -110,8 +117,8 @@ said = import_with(lambda binary: b"")
 check.true("ImportError" in said and "cmake --build" in said, f"empty plugin: {said}")
 
 # The build-time check, with declarations that are wrong on purpose.
-def build_check(edits):
-    """Exit status and messages of check_abi.py for a copy of abi/ with edits {file: (old, new)}."""
+def build_check(edits, number=module._glue.built_for_yade_number):
+    """Exit status and messages of check_abi.py for a copy of abi/ with edits {file: (old, new)}, as for that build of YADE."""
     with tempfile.TemporaryDirectory() as folder:
         abi = os.path.join(folder, "abi")
         shutil.copytree(SOURCE, abi)
@@ -128,7 +135,7 @@ def build_check(edits):
         compiled = subprocess.run(
             ["g++", "-std=c++17", "-O0", "-fPIC", "-shared", "-w", "-DEIGEN_DONT_ALIGN", "-DEIGEN_DONT_VECTORIZE",
              "-DBOOST_BIND_GLOBAL_PLACEHOLDERS", "-DBOOST_ALLOW_DEPRECATED_HEADERS", "-I/usr/include/eigen3",
-             "-I/usr/include/python3.11", os.path.join(abi, "probe.cpp"), "-o", probe],
+             f"-DPP_YADE_VERSION={number}", "-I" + sysconfig.get_paths()["include"], os.path.join(abi, "probe.cpp"), "-o", probe],
             capture_output=True, text=True)
         if not check.equal(compiled.returncode, 0, f"probe compiled\n{compiled.stderr[-2000:]}"):
             return None, ""
@@ -147,6 +154,12 @@ status, text = build_check({
 check.equal(status, 1, "wrong declarations: exit status")
 for expected in ("NormShearPhys: declared 104 bytes, the library frees 96", "Serializable: slot 8",
                  "IGeomFunctor: slot 17", "beforeStep"):
+    check.true(expected in text, f"the report has '{expected}':\n{text[-3000:]}")
+
+# The declarations for a build on the other side of the one change that there was: refused with what builds.hpp has for it.
+status, text = build_check({}, 202601 if module._glue.built_for_yade_number < 202601 else 202502)
+check.equal(status, 1, "declarations for another build: exit status")
+for expected in ("Shape: virtual table of", "PotentialParticle: virtual table of", "FrictPhys: declared", "KnKsPhys: declared"):
     check.true(expected in text, f"the report has '{expected}':\n{text[-3000:]}")
 
 check.finish()

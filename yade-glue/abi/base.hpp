@@ -3,12 +3,14 @@
 // What every declaration of a YADE class here builds on.
 //
 // Debian ships YADE without headers. The files in this folder declare, in our own words, those
-// classes of YADE 2023.02a (Debian 12, amd64) that the glue touches: their virtual functions in
-// vtable order and their fields in memory order, no bodies. The definitions, vtables and type
-// information are those of the installed libraries. Three things keep the declarations honest:
-// the assertions on size and offsets beside each class, check_abi.py at build time, and
-// load_check.cpp when the module is imported.
+// classes of Debian's YADE (amd64) that the glue touches: their virtual functions in vtable order
+// and their fields in memory order, no bodies; builds.hpp has the differences between versions. The
+// definitions, vtables and type information are those of the installed libraries. Three things keep
+// the declarations honest: the assertions on size and offsets beside each class, check_abi.py at
+// build time, and load_check.cpp when the module is imported.
 #pragma once
+
+#include "builds.hpp"
 
 // Python's header must come before any standard header.
 #include <boost/python/detail/wrap_python.hpp>

@@ -45,8 +45,11 @@ public:
     PP_ABI_INDEX_OVERRIDES
 
     Real tangensOfFrictionAngle;
+#if PP_YADE_FRICT_PHYS_EXTRA
+    Real frictDissip;
+#endif
 };
-PP_ABI_SIZE(FrictPhys, 104);
+PP_ABI_SIZE(FrictPhys, 104 + frictPhysExtraBytes);
 
 class KnKsPhys : public FrictPhys {
 public:
@@ -90,21 +93,21 @@ public:
     Real effective_phi;
     bool isSliding;
 };
-PP_ABI_SIZE(KnKsPhys, 480);
-PP_ABI_OFFSET(KnKsPhys, frictionAngle, 104);
-PP_ABI_OFFSET(KnKsPhys, knVol, 144);
-PP_ABI_OFFSET(KnKsPhys, normalViscous, 176);
-PP_ABI_OFFSET(KnKsPhys, intactRock, 224);
-PP_ABI_OFFSET(KnKsPhys, jointType, 228);
-PP_ABI_OFFSET(KnKsPhys, shearDir, 232);
-PP_ABI_OFFSET(KnKsPhys, warmstart, 280);
-PP_ABI_OFFSET(KnKsPhys, ptOnP1, 288);
-PP_ABI_OFFSET(KnKsPhys, ptOnP2, 312);
-PP_ABI_OFFSET(KnKsPhys, contactArea, 352);
-PP_ABI_OFFSET(KnKsPhys, jointLength, 368);
-PP_ABI_OFFSET(KnKsPhys, cohesion, 392);
-PP_ABI_OFFSET(KnKsPhys, phi_b, 416);
-PP_ABI_OFFSET(KnKsPhys, initialShearDir, 440);
-PP_ABI_OFFSET(KnKsPhys, isSliding, 472);
+PP_ABI_SIZE(KnKsPhys, 480 + frictPhysExtraBytes);
+PP_ABI_OFFSET(KnKsPhys, frictionAngle, 104 + frictPhysExtraBytes);
+PP_ABI_OFFSET(KnKsPhys, knVol, 144 + frictPhysExtraBytes);
+PP_ABI_OFFSET(KnKsPhys, normalViscous, 176 + frictPhysExtraBytes);
+PP_ABI_OFFSET(KnKsPhys, intactRock, 224 + frictPhysExtraBytes);
+PP_ABI_OFFSET(KnKsPhys, jointType, 228 + frictPhysExtraBytes);
+PP_ABI_OFFSET(KnKsPhys, shearDir, 232 + frictPhysExtraBytes);
+PP_ABI_OFFSET(KnKsPhys, warmstart, 280 + frictPhysExtraBytes);
+PP_ABI_OFFSET(KnKsPhys, ptOnP1, 288 + frictPhysExtraBytes);
+PP_ABI_OFFSET(KnKsPhys, ptOnP2, 312 + frictPhysExtraBytes);
+PP_ABI_OFFSET(KnKsPhys, contactArea, 352 + frictPhysExtraBytes);
+PP_ABI_OFFSET(KnKsPhys, jointLength, 368 + frictPhysExtraBytes);
+PP_ABI_OFFSET(KnKsPhys, cohesion, 392 + frictPhysExtraBytes);
+PP_ABI_OFFSET(KnKsPhys, phi_b, 416 + frictPhysExtraBytes);
+PP_ABI_OFFSET(KnKsPhys, initialShearDir, 440 + frictPhysExtraBytes);
+PP_ABI_OFFSET(KnKsPhys, isSliding, 472 + frictPhysExtraBytes);
 
 } // namespace yade

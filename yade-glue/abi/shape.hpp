@@ -15,6 +15,9 @@ class Shape : public Serializable, public Indexable {
 public:
     ~Shape() override;
     PP_ABI_SERIALIZABLE_OVERRIDES
+#if PP_YADE_SHAPE_HAS_VOLUME
+    virtual Real getVolume();
+#endif
     PP_ABI_TOP_INDEX_OVERRIDES
 
     boost::shared_ptr<BoundFunctor> boundFunctor;

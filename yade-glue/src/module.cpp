@@ -8,6 +8,7 @@
 #include "plane_lists.hpp"
 #include "registration.hpp"
 
+#include <boost/archive/basic_archive.hpp>
 #include <boost/python/def.hpp>
 #include <boost/python/list.hpp>
 #include <boost/python/module.hpp>
@@ -45,6 +46,10 @@ BOOST_PYTHON_MODULE(_glue)
     py::scope().attr("class_names") = names;
     py::scope().attr("header_version") = py::make_tuple(PP_VERSION_MAJOR, PP_VERSION_MINOR, PP_VERSION_PATCH);
     py::scope().attr("header_abi") = PP_ABI_VERSION;
+
+    py::scope().attr("built_for_yade") = PP_YADE_NAME;
+    py::scope().attr("built_for_yade_number") = PP_YADE_VERSION;
+    py::scope().attr("archive_version") = static_cast<unsigned>(boost::archive::BOOST_ARCHIVE_VERSION());
 
     py::def("library_version", &pp_version);
     py::def("library_abi", &pp_abi_version);

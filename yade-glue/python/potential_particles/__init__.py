@@ -13,15 +13,16 @@ Then these classes stand beside YADE's own:
                                  place of Ig2_PP_PP_ScGeom
     ScGeomConicPP                the ScGeom that they fill
 
-The plugin is made for one build of YADE, Debian's 2023.02a on amd64. Anything else is refused with
-AbiError, which lists what differs; nothing is registered then.
+Before, the classes of the YADE that runs are compared with what the plugin was compiled for. One that
+differs is refused with AbiError, which lists the differences, and nothing is registered; one that fits
+and was never tested is taken, with a warning of one line.
 """
 import builtins
 import functools
-import sys
+
+from . import builds
 
 __version__ = "0.1.0"
-SUPPORTED_YADE = "2023.02a"
 
 __all__ = ["AbiError", "library_version", "prepare"]
 
@@ -29,11 +30,12 @@ __all__ = ["AbiError", "library_version", "prepare"]
 class AbiError(ImportError):
     """This YADE is not the one that the plugin was made for. `differences` lists how it differs."""
 
-    def __init__(self, differences):
+    def __init__(self, differences, running, built_for):
         self.differences = list(differences)
         super().__init__(
-            "potential_particles was made for YADE %s of Debian 12 (amd64) and does not fit this one:\n  %s"
-            % (SUPPORTED_YADE, "\n  ".join(self.differences)))
+            "potential_particles was built for YADE %s and does not fit this one, %s with Python %s (`make build` builds "
+            "it for the YADE that is installed, if it can be):\n  %s"
+            % (built_for, running, builds.python_version(), "\n  ".join(self.differences)))
 
 
 def _import_yade():
@@ -42,22 +44,14 @@ def _import_yade():
         import yade
     except ImportError as error:
         raise ImportError(
-            "potential_particles needs YADE (Debian package yade): run the script with `yade script.py`, or with "
-            "/usr/bin/python3.11 after sys.path.insert(0, '/usr/lib/x86_64-linux-gnu/yade-double/py'). "
+            "potential_particles needs YADE (Debian package yade): run the script with `yade script.py`, or with the "
+            "Python of YADE after sys.path.insert(0, ...) of the folder that its launcher /usr/bin/yade enters so. "
             + str(error)) from error
-    return yade
-
-
-def _check_version(yade):
     import yade.config
-    found = str(getattr(yade.config, "version", "unknown"))
-    if found != SUPPORTED_YADE:
-        raise AbiError(["yade.config.version is '%s', expected '%s'" % (found, SUPPORTED_YADE)])
-    if sys.version_info[:2] != (3, 11):
-        raise AbiError(["Python is %d.%d, expected 3.11" % sys.version_info[:2]])
+    return yade, str(getattr(yade.config, "version", "unknown"))
 
 
-def _import_glue():
+def _import_glue(running):
     try:
         from . import _glue
     except ImportError as error:
@@ -67,7 +61,11 @@ def _import_glue():
         elif "libpotential_particles" in reason:
             remedy = "build the library with `cargo build --release`, in the place that the plugin was linked to"
         elif "undefined symbol" in reason:
-            remedy = "the YADE that runs lacks a function that the plugin calls; it is not Debian's " + SUPPORTED_YADE
+            remedy = ("the YADE that runs, %s with Python %s, lacks a function that the plugin calls: build the plugin again "
+                      "with `make build`, which lists the differences" % (running, builds.python_version()))
+        elif "libboost_" in reason or "libpython" in reason:
+            remedy = ("the plugin was built for another Python or Boost than those of YADE %s with Python %s: build it again with "
+                      "`make build`" % (running, builds.python_version()))
         else:
             remedy = "build the plugin with `cmake -S yade-glue -B yade-glue/build && cmake --build yade-glue/build`"
         raise ImportError("potential_particles cannot load its plugin: %s (%s)" % (reason, remedy)) from error
@@ -173,18 +171,19 @@ def library_version():
 
 
 def _load():
-    yade = _import_yade()
-    _check_version(yade)
-    glue = _import_glue()
+    yade, running = _import_yade()
+    glue = _import_glue(running)
     _check_library(glue)
     differences = list(glue.differences_of_layout())
     if differences:
-        raise AbiError(differences)
+        raise AbiError(differences, running, glue.built_for_yade)
+    builds.warn(running, glue.built_for_yade)
     _register(yade, glue)
     _resize_dispatchers(yade)
     _prepare_before_steps(yade)
-    from . import outside
+    from . import outside, saves
     outside.guard(yade, glue.set_list)
+    saves.guard(yade, glue.archive_version, running)
     return glue
 
 
