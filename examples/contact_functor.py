@@ -34,11 +34,11 @@ class ContactFunctor:
             self.plugin.prepare()
 
     def counts(self):
-        """Calls, pairs solved, cheaply rejected, answered by the fallback, failed; seconds inside.
+        """Calls, pairs solved, cheaply rejected, answered in extended precision, failed; seconds inside.
 
         None where the functor keeps no count.
         """
-        names = ("calls", "overlapping", "solved", "rejected", "fellBack", "failures", "seconds")
+        names = ("calls", "overlapping", "solved", "rejected", "extended", "failures", "seconds")
         return {name: getattr(self.functor, name, None) for name in names}
 
     def mark(self):

@@ -100,7 +100,7 @@
 // Formulation "closest" (paper eqs 3, 9, 34-43): minimise s_A with s_B <= 1, and the swap.
 #define PP_CLOSEST 1
 
-// The library's own solver; falls back on a safe way of its own, then on PP_CONIC where that was built in.
+// The library's own solver, in doubles and, where those do not settle a pair, in extended precision.
 #define PP_FAST 0
 
 // The paper's second-order cone programs, solved by clarabel: slow, independent, the judge. Refused with
@@ -127,10 +127,9 @@
 // The remembered point of pp_memory was used as the start.
 #define PP_FLAG_WARM 8
 
-// The fast solver had no answer; its safe way, which always ends, found it.
-#define PP_FLAG_SAFER 16
+// Answered in extended precision (about 32 digits): doubles did not settle it, or not to the gap asked for.
+#define PP_FLAG_EXTENDED 16
 
-// The fast solver failed and the conic back end answered in its place.
 // The gap is above the tolerance asked for: rounding allows no better. It is still a bound.
 #define PP_FLAG_ROUNDING_LIMITED 64
 

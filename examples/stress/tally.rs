@@ -83,8 +83,7 @@ pub struct OfFamily {
     pub looseness: Distribution,
     /// Evaluations of the pair itself.
     pub time: Distribution,
-    pub fell_back: u64,
-    pub safer: u64,
+    pub extended: u64,
     pub unjudged: u64,
 }
 
@@ -191,8 +190,7 @@ impl Tally {
         }
         for (call, path) in &verdict.paths {
             self.paths[place_of(*call)][*path] += 1;
-            of.fell_back += u64::from(*path == 7);
-            of.safer += u64::from(*path == 6);
+            of.extended += u64::from(*path == 6);
         }
         self.unit_digits += u64::from(verdict.unit_digits);
         self.rounding_limited += u64::from(verdict.rounding_limited);
@@ -233,8 +231,7 @@ impl Tally {
             mine.normal_error.merge(&others.normal_error);
             mine.looseness.merge(&others.looseness);
             mine.time.merge(&others.time);
-            mine.fell_back += others.fell_back;
-            mine.safer += others.safer;
+            mine.extended += others.extended;
             mine.unjudged += others.unjudged;
         }
         for (failure, count) in other.failures {

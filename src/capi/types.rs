@@ -5,7 +5,7 @@ pub const PP_MIDWAY: u32 = 0;
 /// Formulation "closest" (paper eqs 3, 9, 34-43): minimise s_A with s_B <= 1, and the swap.
 pub const PP_CLOSEST: u32 = 1;
 
-/// The library's own solver; falls back on a safe way of its own, then on PP_CONIC where that was built in.
+/// The library's own solver, in doubles and, where those do not settle a pair, in extended precision.
 pub const PP_FAST: u32 = 0;
 /// The paper's second-order cone programs, solved by clarabel: slow, independent, the judge. Refused with
 /// PP_NO_CONIC by a library built without it (Cargo feature conic).
@@ -26,9 +26,8 @@ pub const PP_FLAG_REJECTED: u32 = 2;
 pub const PP_FLAG_NORMAL_BY_CENTRES: u32 = 4;
 /// The remembered point of pp_memory was used as the start.
 pub const PP_FLAG_WARM: u32 = 8;
-/// The fast solver had no answer; its safe way, which always ends, found it.
-pub const PP_FLAG_SAFER: u32 = 16;
-/// The fast solver failed and the conic back end answered in its place.
+/// Answered in extended precision (about 32 digits): doubles did not settle it, or not to the gap asked for.
+pub const PP_FLAG_EXTENDED: u32 = 16;
 /// The gap is above the tolerance asked for: rounding allows no better. It is still a bound.
 pub const PP_FLAG_ROUNDING_LIMITED: u32 = 64;
 /// Rejected by balls: two that hold the particles do not meet.

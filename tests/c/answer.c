@@ -35,7 +35,7 @@ void check_consistent(const pp_contact *contact, const pp_pose *pose_a, const pp
     CHECK(contact->reserved == 0);
     CHECK(contact->flags < 2 * PP_FLAG_ROUNDING_LIMITED);
     CHECK((contact->flags & PP_FLAG_REJECTED) == 0);
-    CHECK(contact->back_end == (contact->flags & PP_FLAG_FELL_BACK ? PP_CONIC : settings->back_end));
+    CHECK(contact->back_end == settings->back_end);
     CHECK(contact->formulation == (contact->flags & PP_FLAG_SLACK ? PP_MIDWAY : settings->formulation));
     CHECK(contact->kind == (contact->s < 1 ? PP_OVERLAPPING : PP_SEPARATED));
     CHECK(contact->gap >= 0 && contact->gap < 0.1);

@@ -25,7 +25,7 @@ enum class Count {
     calls,
     overlapping,
     areas,
-    fellBack,
+    extended,
     failures,
     nanoseconds,
     number

@@ -210,8 +210,8 @@ bool Ig2_ConicPP_ConicPP_ScGeom::contact(Pair& pair)
             return keep(pair);
         }
         pair.counts.add(pathOf(found));
-        if (found.flags & PP_FLAG_FELL_BACK)
-            pair.counts.add(Count::fellBack);
+        if (found.flags & PP_FLAG_EXTENDED)
+            pair.counts.add(Count::extended);
 
         if (found.kind == PP_OVERLAPPING) {
             pair.counts.add(Count::overlapping);
@@ -243,16 +243,7 @@ pp_status Ig2_ConicPP_ConicPP_ScGeom::detect(Pair& pair, pp_contact& found)
     const pp_pose pose1 = pair.pose1();
     const pp_pose pose2 = pair.pose2();
     pp_memory* const memory = pair.own ? &pair.own->memory : nullptr;
-    const pp_status status = pp_contact_detect(a, &pose1, b, &pose2, &library, memory, &found);
-    if (status == PP_OK || library.back_end == PP_CONIC)
-        return status;
-    // Without memory, in case that is what led astray.
-    pp_settings slow = library;
-    slow.back_end = PP_CONIC;
-    if (pp_contact_detect(a, &pose1, b, &pose2, &slow, nullptr, &found) != PP_OK)
-        return status;
-    pair.counts.add(Count::fellBack);
-    return PP_OK;
+    return pp_contact_detect(a, &pose1, b, &pose2, &library, memory, &found);
 }
 
 void Ig2_ConicPP_ConicPP_ScGeom::fill(Pair& pair, pp_contact& found)

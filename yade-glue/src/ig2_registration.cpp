@@ -132,7 +132,7 @@ void Ig2_ConicPP_ConicPP_ScGeom::pyRegisterClass(py::object scope)
     count("calls", Count::calls, "Calls so far, pairs of two boundaries excepted.");
     count("overlapping", Count::overlapping, "Pairs found in contact.");
     count("areas", Count::areas, "Contact areas computed.");
-    count("fellBack", Count::fellBack, "Pairs answered by the conic back end because the fast one gave up.");
+    count("extended", Count::extended, "Pairs answered in extended precision, because doubles did not settle them.");
     count("failures", Count::failures, "Failed calls: no answer by any back end, or no valid particle or pose.");
     registered
         .add_property("answers", &Functor::pyAnswers,
