@@ -57,11 +57,13 @@ mod bounds;
 #[cfg(feature = "capi")]
 pub mod capi;
 mod contact;
+mod flags;
 mod linalg;
 mod model;
 mod pair;
 mod particle;
 pub mod planar;
+mod pose;
 #[cfg(feature = "conic")]
 mod reference;
 #[cfg(not(feature = "conic"))]
@@ -75,13 +77,14 @@ mod solver;
 
 pub use contact::batch::detect_batch;
 pub use contact::closest_point::{ClosestPoint, closest_point};
-pub use contact::contact::{Contact, Flags, Kind};
+pub use contact::contact::{Contact, Kind};
 pub use contact::detect::{DetectError, detect};
-pub use pair::pose::{Pose, PoseError};
+pub use flags::Flags;
 pub use pair::role::Role;
 pub use pair::warm_start::Memory;
 pub use particle::mass_properties::MassProperties;
 pub use particle::particle::{MAX_PLANES, Particle, ParticleError, Plane};
+pub use pose::{Pose, PoseError};
 pub use section::Section;
 pub use settings::{BackEnd, Formulation, Settings, SettingsError};
 

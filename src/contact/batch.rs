@@ -2,9 +2,9 @@
 
 use crate::contact::contact::Contact;
 use crate::contact::detect::{DetectError, detect};
-use crate::pair::pose::Pose;
 use crate::pair::warm_start::Memory;
 use crate::particle::particle::Particle;
+use crate::pose::Pose;
 use crate::settings::Settings;
 use std::panic::resume_unwind;
 use std::sync::{Mutex, PoisonError};

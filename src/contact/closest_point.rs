@@ -2,10 +2,10 @@
 
 use crate::contact::detect::DetectError;
 use crate::model::problem::Problem;
-use crate::pair::pose::Pose;
 use crate::pair::relative_pose::Pair;
 use crate::pair::role::Role;
 use crate::particle::particle::Particle;
+use crate::pose::Pose;
 use crate::settings::Settings;
 use crate::solver::call::Call;
 use nalgebra::Vector3;

@@ -1,15 +1,17 @@
 //! The whole of contact detection: reject, solve, prove, describe.
 
 use crate::bounds::solution::{Ending, Solution};
-use crate::contact::contact::{Contact, Flags, LocalContact};
+use crate::contact::contact::Contact;
+use crate::contact::geometry::LocalContact;
+use crate::flags::Flags;
 use crate::model::dual_path;
 use crate::model::local_model::{LocalModel, Start};
 use crate::model::problem::Problem;
-use crate::pair::pose::Pose;
 use crate::pair::relative_pose::Pair;
 use crate::pair::separation_tests::{self, Apart};
 use crate::pair::warm_start::{Memory, Remembered};
 use crate::particle::particle::Particle;
+use crate::pose::Pose;
 use crate::settings::{BackEnd, Formulation, Settings, SettingsError};
 use crate::solver::call::{Call, CertifiedPoint, SolveError};
 use nalgebra::Vector3;
@@ -128,7 +130,7 @@ fn solved(
     if let Some(points) = overlapped.and_then(|last| call.both_from_memory(&last, &model)) {
         remember(memory, midway_between(&points));
         let local = LocalContact::closest(pair, &points, settings.weight_on_a, true);
-        return Ok(local.placed(pair, pose_b, call.summary()));
+        return Ok(local.placed(pair, pose_b, summary(&call)));
     }
     // Written so that the solution need not be copied.
     let midway = match call.first_step(Problem::Midway, start.lambda, &model) {
@@ -148,9 +150,9 @@ fn solved(
     let mut remembered = Remembered { x: midway.x, lambda: midway.lambda, overlapping, closest: [1.0; 2] };
     if separated {
         remember(memory, remembered);
-        let contact = Contact::separated(settings.formulation, scale.low.max(1.0));
-        let flags = contact.flags.with(call.flags);
-        return Ok(Contact { flags, iterations: call.iterations, back_end: call.answered, ..contact });
+        let s = scale.low.max(1.0);
+        let flags = call.flags.with(Flags::REJECTED);
+        return Ok(Contact { formulation: settings.formulation, flags, s, ..summary(&call) });
     }
     let found = match settings.formulation {
         Formulation::Closest => closest(&mut call, &midway, &model)?,
@@ -169,7 +171,12 @@ fn solved(
         }
     };
     remember(memory, remembered);
-    Ok(local.placed(pair, pose_b, call.summary()))
+    Ok(local.placed(pair, pose_b, summary(&call)))
+}
+
+/// What a call has cost, and who answered.
+fn summary(call: &Call) -> Contact {
+    Contact { flags: call.flags, iterations: call.iterations, back_end: call.answered, ..Contact::UNKNOWN }
 }
 
 /// What to remember of P1 and P2 with the place and λ of midway, where S_A and S_B have these values.

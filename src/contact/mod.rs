@@ -4,3 +4,4 @@ pub(crate) mod batch;
 pub(crate) mod closest_point;
 pub(crate) mod contact;
 pub(crate) mod detect;
+pub(crate) mod geometry;

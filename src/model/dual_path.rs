@@ -3,7 +3,7 @@
 //! For weights a, b ≥ 0 let v minimise a·q_A + b·q_B, that is H v = −g with H = a H_A + b H_B, g = a g_A + b g_B. As
 //! the weight θ of the problem changes, v runs along a curve from the minimum of one particle to that of the other;
 //! the wanted point is where the mismatch m(θ) = c − (α q_A + β q_B) is zero, with α, β the rates of a, b and
-//! c = 0 for midway, 1 for the two closest points. One search in one variable serves all three ([`crate::model::quadratic_model`]).
+//! c = 0 for midway, 1 for the two closest points. One search in one variable serves all three (`quadratic_model`).
 //!
 //! One factorisation of H gives the curve's whole Taylor series: with D = α H_A + β H_B and w₀ = α g_A + β g_B at v₀,
 //!

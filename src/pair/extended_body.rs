@@ -8,8 +8,8 @@ use crate::linalg::double_double::DoubleDouble;
 use crate::linalg::number::{Number, smaller};
 use crate::linalg::symmetric::Symmetric;
 use crate::pair::placed_particle::Body;
-use crate::pair::pose::Pose;
 use crate::pair::relative_pose::Pair;
+use crate::pose::Pose;
 use nalgebra::{Matrix3, Vector3};
 
 /// A vector of 32 digits.

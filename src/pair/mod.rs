@@ -3,7 +3,6 @@
 pub mod active_set;
 pub mod extended_body;
 pub mod placed_particle;
-pub mod pose;
 pub mod relative_pose;
 pub mod role;
 pub mod separation_tests;

@@ -1,7 +1,7 @@
 //! Two particles in one frame: the only place where poses are combined.
 
-use crate::pair::pose::Pose;
 use crate::particle::particle::Particle;
+use crate::pose::Pose;
 use nalgebra::{Matrix3, Vector3};
 
 /// A pair seen from B: every solver works in the local frame of B.

@@ -1,11 +1,11 @@
 //! Cheap proofs that a pair is separated. Each is one-sided: "no" means nothing.
 
-use crate::contact::contact::Flags;
+use crate::flags::Flags;
 use crate::linalg::number::{larger, smaller};
-use crate::pair::pose::Pose;
 use crate::pair::relative_pose::Pair;
 use crate::particle::particle::Particle;
 use crate::particle::potential;
+use crate::pose::Pose;
 use nalgebra::{Matrix3, Vector3};
 
 /// Rounding of the sums below, relative to the lengths in them; thirty times what they can lose.

@@ -34,7 +34,7 @@ pub(crate) struct Remembered {
     pub lambda: f64,
     /// Whether the particles overlapped: if so, cheap proofs of separation are hardly worth a try.
     pub overlapping: bool,
-    /// By what the λ of P1 and P2 differ from what [`crate::model::dual_path::closest_from_between`] makes of the above: factors.
+    /// By what the λ of P1 and P2 differ from what `dual_path::closest_from_between` makes of the above: factors.
     pub closest: [f64; 2],
 }
 

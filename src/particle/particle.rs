@@ -1,11 +1,11 @@
 //! A potential particle: the public interface to a [`Shape`].
 
-use crate::pair::pose::Pose;
 pub use crate::particle::error::ParticleError;
 use crate::particle::mass_properties::{self, MassProperties};
 pub use crate::particle::plane::{MAX_PLANES, Plane};
 use crate::particle::shape::Shape;
 use crate::particle::{potential, ray_cast};
+use crate::pose::Pose;
 use nalgebra::{Matrix3, Vector3};
 use std::ops::Deref;
 

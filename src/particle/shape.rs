@@ -21,7 +21,7 @@ use nalgebra::Vector3;
 pub struct Shape {
     /// (a, b, c, d) of each plane in the order of `clusters`, which evaluation reads one after the other.
     rows: Box<[[f64; 4]]>,
-    /// Number of coordinates: 3, or 2 where only the cut at z = 0 is meant ([`crate::planar`]).
+    /// Number of coordinates: 3, or 2 where only the cut at z = 0 is meant (`planar`).
     pub(crate) dimensions: usize,
     pub(crate) rounding_radius: f64,
     pub(crate) sphericity: f64,

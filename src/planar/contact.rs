@@ -2,8 +2,9 @@
 
 use super::particle::Particle;
 use super::pose::Pose;
-use crate::contact::contact::{self, Flags, Kind};
+use crate::contact::contact::{self, Kind};
 use crate::contact::detect::{self, DetectError};
+use crate::flags::Flags;
 use crate::pair::warm_start::Memory;
 use crate::settings::{BackEnd, Formulation, Settings};
 use nalgebra::Vector2;

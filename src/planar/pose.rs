@@ -1,6 +1,6 @@
 //! Poses of the plane: a shift and a turn about z.
 
-use crate::pair::pose;
+use crate::pose;
 use nalgebra::{Matrix2, Vector2};
 use thiserror::Error;
 

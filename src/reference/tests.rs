@@ -1,7 +1,7 @@
 use super::goal::both;
 use super::*;
-use crate::pair::pose::Pose;
 use crate::particle::particle::{Particle, Plane};
+use crate::pose::Pose;
 use nalgebra::Vector3;
 
 const TURNED: [f64; 4] = [0.8, 0.3, -0.4, 0.33];

@@ -15,7 +15,7 @@ pub(super) fn of(section: &PlaneSection) -> f64 {
         shape.visit_near(point, 0.0, |i, normal, excess| {
             if excess > 0.0 {
                 let excess = dot(normal.iter().zip(x)) + DoubleDouble::from(-shape.offset(i));
-                squares = squares + excess * excess;
+                squares += excess * excess;
             }
         });
     }
@@ -23,10 +23,10 @@ pub(super) fn of(section: &PlaneSection) -> f64 {
     let square = |a: f64| DoubleDouble::product(a, a);
     let mut s = DoubleDouble::default();
     if squares.rounded() > 0.0 {
-        s = s + squares * (DoubleDouble::sum(1.0, -k) / square(r));
+        s += squares * (DoubleDouble::sum(1.0, -k) / square(r));
     }
     if k > 0.0 {
-        s = s + (x[0] * x[0] + x[1] * x[1] + x[2] * x[2]) * (DoubleDouble::from(k) / square(shadow_radius));
+        s += (x[0] * x[0] + x[1] * x[1] + x[2] * x[2]) * (DoubleDouble::from(k) / square(shadow_radius));
     }
     (DoubleDouble::from(1.0) - s).rounded()
 }

@@ -28,8 +28,8 @@ mod lines;
 mod plane_section;
 mod quadrature;
 
-use crate::pair::pose::Pose;
 use crate::particle::particle::Particle;
+use crate::pose::Pose;
 use nalgebra::Vector3;
 use plane_section::{Failure, PlaneSection};
 

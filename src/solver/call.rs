@@ -9,7 +9,7 @@ use crate::bounds::gap::Scale;
 use crate::bounds::judged::judged;
 use crate::bounds::point_bound::point_bound;
 use crate::bounds::solution::{Ending, Solution};
-use crate::contact::contact::{Contact, Flags};
+use crate::flags::Flags;
 use crate::model::dual_path;
 use crate::model::local_model::{self, Axes, LocalModel, Piece, Start};
 use crate::model::problem::Problem;
@@ -313,11 +313,5 @@ impl<'a> Call<'a> {
     #[inline]
     pub fn pieces(&self, solution: &Solution, model: &LocalModel, n: &Vector3<f64>) -> [Piece; 2] {
         model.pieces(self.bodies(), &solution.x, n)
-    }
-
-    /// What the call has cost so far, and who answered.
-    pub fn summary(&self) -> Contact {
-        let Self { flags, iterations, answered: back_end, .. } = *self;
-        Contact { flags, iterations, back_end, ..Contact::UNKNOWN }
     }
 }

@@ -8,6 +8,7 @@
 //! The bounds need no active set: with the depths of the last point as multipliers, the dual value less half the square of the slope
 //! over the curvature of the spheres is a lower bound, and the merit of the point an upper one.
 
+use crate::bounds::point_bound;
 use crate::bounds::sensitivity::Sensitivity;
 use crate::bounds::solution::{Ending, Solution};
 use crate::linalg::double_double::DoubleDouble;
@@ -46,7 +47,7 @@ struct Extended<'a> {
     bodies: [ExtendedBody<'a>; 2],
     problem: Problem,
     x: Vector3<f64>,
-    /// Smallest length that counts.
+    /// Quadratics made so far.
     steps: u32,
 }
 
@@ -56,13 +57,6 @@ struct WideModel {
     sides: [WideQuadratic; 2],
     /// Bounds on the least curvatures from below.
     soft: [DoubleDouble; 2],
-}
-
-/// What comes of Newton's method at fixed λ.
-enum Minimum {
-    Found(WideModel),
-    /// No further after all steps, or a number left the range.
-    Lost,
 }
 
 /// Solves for the goal from a start.
@@ -86,7 +80,7 @@ impl Extended<'_> {
             return (delta, found.0.lambda, Some(found));
         }
         for _ in 0..MOST_WEIGHTS {
-            let Minimum::Found(model) = self.minimise(&mut delta, lambda) else { break };
+            let Some(model) = self.minimise(&mut delta, lambda) else { break };
             let quadratics = model.quadratics(self.problem);
             let Some(optimum) = quadratics.solve(lambda, 0.0) else { break };
             if let Some(found) = self.accept(&mut delta, &model, optimum) {
@@ -153,33 +147,34 @@ impl Extended<'_> {
         self.bodies.iter().all(|body| body.keeps_active_set(delta, v))
     }
 
-    /// Moves δ to the minimum of a·S_A + b·S_B, by Newton's method with an exact line search.
-    fn minimise(&mut self, delta: &mut Wide, lambda: DoubleDouble) -> Minimum {
+    /// Moves δ to the minimum of a·S_A + b·S_B, by Newton's method with an exact line search; the quadratics there, or `None` where
+    /// all steps do not suffice or a number leaves its range.
+    fn minimise(&mut self, delta: &mut Wide, lambda: DoubleDouble) -> Option<WideModel> {
         let (a, b) = self.problem.weights(lambda);
         for _ in 0..MOST_STEPS {
             let model = self.model(delta, lambda);
             let [q_a, q_b] = &model.sides;
             let hessian = q_a.hessian.weighted(a, &q_b.hessian, b);
             let soft = a * model.soft[0] + b * model.soft[1];
-            let Some(factor) = Factor::of(&hessian, soft) else { return Minimum::Lost };
+            let factor = Factor::of(&hessian, soft)?;
             let step = -factor.solve(&(q_a.gradient * a + q_b.gradient * b));
             let v = model.to_solver(&step);
             if !rounded(&v).iter().all(|c| c.is_finite()) {
-                return Minimum::Lost;
+                return None;
             }
             if self.keeps_active_sets(delta, &v) {
                 *delta += v;
                 // The quadratics are those of the minimum, but about another point.
-                return Minimum::Found(self.model(delta, lambda));
+                return Some(self.model(delta, lambda));
             }
             let alpha = self.best_step(delta, &v, (a.rounded(), b.rounded()));
             let moved = *delta + v * DoubleDouble::from(alpha);
             if moved == *delta {
-                return Minimum::Found(model);
+                return Some(model);
             }
             *delta = moved;
         }
-        Minimum::Lost
+        None
     }
 
     /// α > 0 at which a·S_A + b·S_B is least along v: a root of its slope, which grows with α and is piecewise linear.
@@ -268,7 +263,7 @@ impl Extended<'_> {
             rate: optimum.as_ref().map_or(0.0, |(optimum, _)| approximate(optimum).rate(problem)),
             ..solution
         };
-        let by_convexity = crate::bounds::point_bound::by_convexity(&solution, bodies, problem);
+        let by_convexity = point_bound::by_convexity(&solution, bodies, problem);
         let bound = optimum.and_then(|(optimum, _)| self.point_bound(&approximate(&optimum), delta, &values));
         let carried = PLACED * f64::EPSILON * x.norm();
         let gap = solution.gap();

@@ -1,0 +1,103 @@
+//! What else is to be known about an answer.
+
+use std::fmt;
+
+/// What else is to be known about an answer; a set of bits.
+///
+/// ```
+/// use potential_particles::Flags;
+/// let flags = Flags::REJECTED | Flags::BY_FACE;
+/// assert!(flags.contains(Flags::BY_FACE) && !flags.contains(Flags::WARM));
+/// assert_eq!(flags.to_string(), "rejected, by face");
+/// ```
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(transparent))]
+pub struct Flags(u32);
+
+impl Flags {
+    pub(crate) const NONE: Self = Self(0);
+
+    /// A centre lies inside the other particle: the constraint of closest is slack, the geometry midway's.
+    pub const SLACK: Self = Self(1);
+    /// Separation was proved without solving to the end; s is a lower bound.
+    pub const REJECTED: Self = Self(2);
+    /// Both gradients vanish: the normal is the line of centres.
+    pub const NORMAL_BY_CENTRES: Self = Self(4);
+    /// Started from memory.
+    pub const WARM: Self = Self(8);
+    /// Answered in extended precision (about 32 digits): doubles did not settle it, or not to the gap that was asked for.
+    pub const EXTENDED: Self = Self(16);
+    /// The gap exceeds the tolerance, because rounding allows no better.
+    pub const ROUNDING_LIMITED: Self = Self(64);
+
+    /// Rejected: two balls that hold the particles do not meet.
+    pub const BY_SPHERES: Self = Self(128);
+    /// Rejected: one particle lies beyond a face of the other.
+    pub const BY_FACE: Self = Self(256);
+    /// Rejected: what separated the pair at the last call still does.
+    pub const BY_MEMORY: Self = Self(512);
+    /// [`crate::Settings::flat_regularisation`] was raised, and its default value was used in this call instead: the raised one
+    /// would have left open whether the particles overlap.
+    pub const DEFAULT_REGULARISATION: Self = Self(1024);
+
+    /// Every flag with its name, in the order of the bits.
+    const NAMES: [(Self, &'static str); 10] = [
+        (Self::SLACK, "slack"),
+        (Self::REJECTED, "rejected"),
+        (Self::NORMAL_BY_CENTRES, "normal by centres"),
+        (Self::WARM, "warm"),
+        (Self::EXTENDED, "extended"),
+        (Self::ROUNDING_LIMITED, "rounding limited"),
+        (Self::BY_SPHERES, "by spheres"),
+        (Self::BY_FACE, "by face"),
+        (Self::BY_MEMORY, "by memory"),
+        (Self::DEFAULT_REGULARISATION, "default regularisation"),
+    ];
+
+    /// The bits, as in the C interface.
+    pub const fn bits(self) -> u32 {
+        self.0
+    }
+
+    /// Whether all bits of `other` are set.
+    pub const fn contains(self, other: Self) -> bool {
+        self.0 & other.0 == other.0
+    }
+
+    /// Whether any bit of `other` is set.
+    #[cfg(feature = "capi")]
+    pub(crate) const fn has_any(self, other: Self) -> bool {
+        self.0 & other.0 != 0
+    }
+
+    /// The bits of both.
+    pub(crate) const fn with(self, other: Self) -> Self {
+        Self(self.0 | other.0)
+    }
+
+    pub(crate) fn insert(&mut self, other: Self) {
+        self.0 |= other.0;
+    }
+}
+
+impl std::ops::BitOr for Flags {
+    type Output = Self;
+
+    fn bitor(self, other: Self) -> Self {
+        self.with(other)
+    }
+}
+
+/// The names of the flags that are set, with commas between them; "none" where none is.
+impl fmt::Display for Flags {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        if self.0 == 0 {
+            return f.write_str("none");
+        }
+        let set = Self::NAMES.iter().filter(|(flag, _)| self.contains(*flag));
+        for (i, (_, name)) in set.enumerate() {
+            write!(f, "{}{name}", if i == 0 { "" } else { ", " })?;
+        }
+        Ok(())
+    }
+}
