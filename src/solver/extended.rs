@@ -13,7 +13,7 @@ use crate::bounds::sensitivity::Sensitivity;
 use crate::bounds::solution::{Ending, Solution};
 use crate::linalg::double_double::DoubleDouble;
 use crate::linalg::graded_basis::{self, StiffNormals};
-use crate::linalg::number::{Number, Single, larger};
+use crate::linalg::number::{Number, Single, larger, smaller};
 use crate::linalg::symmetric::{Factor, Symmetric};
 use crate::model::dual_path::{Optimum, Side};
 use crate::model::local_model::{self, Start};
@@ -59,85 +59,104 @@ struct WideModel {
     soft: [DoubleDouble; 2],
 }
 
+/// Where a search ended.
+struct Found {
+    delta: Wide,
+    lambda: DoubleDouble,
+    /// The optimum of its quadratics, where their active set is right.
+    optimum: Option<Optimum<DoubleDouble>>,
+}
+
+/// The values of λ between which that of the optimum lies.
+struct Bracket {
+    low: f64,
+    high: f64,
+    /// Values of λ in a row that did not halve the logarithm of high/low.
+    slow: u32,
+}
+
+impl Bracket {
+    /// The next λ after one whose minimum has the side that grows with λ too large or too small, and whose dual path leads to
+    /// `wanted`; `None` where the bracket has no double inside.
+    fn next(&mut self, lambda: f64, too_large: bool, wanted: DoubleDouble) -> Option<DoubleDouble> {
+        let width = (self.high / self.low).ln();
+        if too_large {
+            self.high = lambda;
+        } else {
+            self.low = lambda;
+        }
+        let Self { low, high, .. } = *self;
+        let proposed = wanted.rounded();
+        let next = if low > 0.0 && high < f64::INFINITY {
+            self.slow = if (high / low).ln() > 0.5 * width { self.slow + 1 } else { 0 };
+            let margin = if self.slow > 1 { (high / low).powf(INSIDE) } else { 1.0 };
+            let inside = low * margin < proposed && proposed < high / margin;
+            if inside { wanted } else { DoubleDouble::from((low * high).sqrt()) }
+        } else if high < f64::INFINITY {
+            DoubleDouble::from(if proposed < high { proposed.max(high / STRIDE) } else { high / STRIDE })
+        } else {
+            DoubleDouble::from(if proposed > low { proposed.min(low * STRIDE) } else { low * STRIDE })
+        };
+        (low < next.rounded() && next.rounded() < high).then_some(next)
+    }
+}
+
 /// Solves for the goal from a start.
 pub(crate) fn solve(pair: &Pair, bodies: [&Body; 2], goal: &Goal, start: &Start) -> Solution {
     let mut extended =
         Extended { bodies: ExtendedBody::both(pair, bodies, &start.x), problem: goal.problem, x: start.x, steps: 0 };
     let first = FIRST_REACH * local_model::smallest(bodies);
     extended.bodies.iter_mut().for_each(|body| body.cover(first));
-    let (delta, lambda, optimum) = extended.search(DoubleDouble::from(start.lambda));
-    extended.solution(bodies, goal, &delta, lambda, optimum)
+    let found = extended.search(DoubleDouble::from(start.lambda));
+    let solution = extended.bounded(&found);
+    let point_bound = extended.point_bound(&found, &solution, bodies);
+    Solution { ending: ending(&solution, bodies, goal), point_bound: Some(point_bound), ..solution }
+}
+
+/// Why the search ended, by the bounds of its solution.
+fn ending(solution: &Solution, bodies: [&Body; 2], goal: &Goal) -> Ending {
+    let (gap, flat) = (solution.gap(), larger(bodies[0].most_surplus(1.0), bodies[1].most_surplus(1.0)));
+    match () {
+        () if !gap.is_finite() => Ending::Unsettled,
+        () if goal.stop_when_separated && solution.separates(flat) => Ending::Separated,
+        () if gap <= goal.tolerance * solution.upper => Ending::Converged,
+        () => Ending::RoundingLimited,
+    }
 }
 
 impl Extended<'_> {
-    /// δ and λ of the optimum, with the optimum of its quadratics where the active set is right.
-    fn search(&mut self, first: DoubleDouble) -> (Wide, DoubleDouble, Option<(Optimum<DoubleDouble>, Matrix3<f64>)>) {
-        let (mut delta, mut lambda) = (wide(&Vector3::zeros()), first);
-        let (mut low, mut high, mut slow) = (0.0, f64::INFINITY, 0);
+    fn search(&mut self, first: DoubleDouble) -> Found {
+        let mut found = Found { delta: wide(&Vector3::zeros()), lambda: first, optimum: None };
+        let mut bracket = Bracket { low: 0.0, high: f64::INFINITY, slow: 0 };
         // The active set at the start may be that of the optimum.
-        let model = self.model(&delta, lambda);
-        if let Some(found) = self.optimum(&mut delta, &model, lambda) {
-            return (delta, found.0.lambda, Some(found));
+        let model = self.model(&found.delta, first);
+        if let Some(optimum) = model.quadratics(self.problem).solve(first, 0.0) {
+            self.accept(&mut found, &model, optimum);
         }
         for _ in 0..MOST_WEIGHTS {
-            let Some(model) = self.minimise(&mut delta, lambda) else { break };
-            let quadratics = model.quadratics(self.problem);
-            let Some(optimum) = quadratics.solve(lambda, 0.0) else { break };
-            if let Some(found) = self.accept(&mut delta, &model, optimum) {
-                return (delta, found.0.lambda, Some(found));
-            }
-            let (growing, falling) = self.problem.sides(model.sides[0].value.rounded(), model.sides[1].value.rounded());
-            let here = lambda.rounded();
-            let width = (high / low).ln();
-            if growing > falling {
-                high = here
-            } else {
-                low = here
-            }
-            let next = optimum.lambda.rounded();
-            lambda = if low > 0.0 && high < f64::INFINITY {
-                slow = if (high / low).ln() > 0.5 * width { slow + 1 } else { 0 };
-                let margin = if slow > 1 { (high / low).powf(INSIDE) } else { 1.0 };
-                if low * margin < next && next < high / margin {
-                    optimum.lambda
-                } else {
-                    DoubleDouble::from((low * high).sqrt())
-                }
-            } else if high < f64::INFINITY {
-                DoubleDouble::from(if next < high { next.max(high / STRIDE) } else { high / STRIDE })
-            } else {
-                DoubleDouble::from(if next > low { next.min(low * STRIDE) } else { low * STRIDE })
-            };
-            if lambda.rounded() <= low || lambda.rounded() >= high {
+            if found.optimum.is_some() {
                 break;
             }
+            let Some(model) = self.minimise(&mut found.delta, found.lambda) else { break };
+            let Some(optimum) = model.quadratics(self.problem).solve(found.lambda, 0.0) else { break };
+            if self.accept(&mut found, &model, optimum) {
+                break;
+            }
+            let (growing, falling) = self.problem.sides(model.sides[0].value.rounded(), model.sides[1].value.rounded());
+            let Some(next) = bracket.next(found.lambda.rounded(), growing > falling, optimum.lambda) else { break };
+            found.lambda = next;
         }
-        (delta, lambda, None)
+        found
     }
 
-    /// The optimum of the quadratics at x₀ + δ, if the active set is the same there; δ moves to it.
-    fn optimum(
-        &mut self,
-        delta: &mut Wide,
-        model: &WideModel,
-        lambda: DoubleDouble,
-    ) -> Option<(Optimum<DoubleDouble>, Matrix3<f64>)> {
-        let optimum = model.quadratics(self.problem).solve(lambda, 0.0)?;
-        self.accept(delta, model, optimum)
-    }
-
-    fn accept(
-        &mut self,
-        delta: &mut Wide,
-        model: &WideModel,
-        optimum: Optimum<DoubleDouble>,
-    ) -> Option<(Optimum<DoubleDouble>, Matrix3<f64>)> {
+    /// Goes to the optimum of a model, if the active set is the same there; whether it is.
+    fn accept(&mut self, found: &mut Found, model: &WideModel, optimum: Optimum<DoubleDouble>) -> bool {
         let v = model.to_solver(&optimum.step);
-        if !optimum.settled || !self.keeps_active_sets(delta, &v) {
-            return None;
+        let accepted = optimum.settled && self.keeps_active_sets(&found.delta, &v);
+        if accepted {
+            *found = Found { delta: found.delta + v, lambda: optimum.lambda, optimum: Some(optimum) };
         }
-        *delta += v;
-        Some((optimum, model.axes))
+        accepted
     }
 
     fn keeps_active_sets(&mut self, delta: &Wide, v: &Wide) -> bool {
@@ -224,30 +243,20 @@ impl Extended<'_> {
         WideModel { axes, sides, soft }
     }
 
-    /// The solution at x₀ + δ with its bounds.
-    fn solution(
-        &mut self,
-        bodies: [&Body; 2],
-        goal: &Goal,
-        delta: &Wide,
-        lambda: DoubleDouble,
-        optimum: Option<(Optimum<DoubleDouble>, Matrix3<f64>)>,
-    ) -> Solution {
-        let problem = self.problem;
+    /// The solution where a search ended, with the bounds of its value.
+    fn bounded(&mut self, Found { delta, lambda, optimum }: &Found) -> Solution {
+        let (problem, weights) = (self.problem, self.problem.weights(*lambda));
         let values = [self.bodies[0].value(delta), self.bodies[1].value(delta)];
         let [of_a, of_b] = &values;
-        let weights = problem.weights(lambda);
         let (a, b) = (weights.0.rounded(), weights.1.rounded());
-        let x = self.x + rounded(delta);
-        let dual = problem.dual(of_a.value, of_b.value, lambda);
+        let dual = problem.dual(of_a.value, of_b.value, *lambda);
+        let upper = self.upper(delta, &values);
         let error = values.map(|of| of.rounding());
         let slope = rounded(&(of_a.gradient * weights.0 + of_b.gradient * weights.1)).norm();
         let slope = slope + a * of_a.turn + b * of_b.turn;
         let height = 0.5 * slope * slope / (LESS * (a * self.bodies[0].soft() + b * self.bodies[1].soft()));
-        let upper = self.upper(delta, &values);
-        let estimate = dual.rounded();
-        let gradients = values.map(|of| rounded(&of.gradient));
-        let solution = Solution {
+        let (estimate, gradients) = (dual.rounded(), values.map(|of| rounded(&of.gradient)));
+        Solution {
             gradients,
             gradient_norms: gradients.map(|g| g.norm()),
             values: values.map(|of| of.value.rounded()),
@@ -257,28 +266,9 @@ impl Extended<'_> {
             upper: estimate + larger((upper - dual).rounded(), 0.0),
             rounding: larger(problem.weighted(error[0], error[1], lambda.rounded()), larger(error[0], error[1])),
             linear: true,
-            ..Solution::unsettled(x, lambda.rounded(), self.steps)
-        };
-        let solution = Solution {
-            rate: optimum.as_ref().map_or(0.0, |(optimum, _)| approximate(optimum).rate(problem)),
-            ..solution
-        };
-        let by_convexity = point_bound::by_convexity(&solution, bodies, problem);
-        let bound = optimum.and_then(|(optimum, _)| self.point_bound(&approximate(&optimum), delta, &values));
-        let carried = PLACED * f64::EPSILON * x.norm();
-        let gap = solution.gap();
-        let ending = if !gap.is_finite() {
-            Ending::Unsettled
-        } else if goal.stop_when_separated
-            && solution.separates(larger(bodies[0].most_surplus(1.0), bodies[1].most_surplus(1.0)))
-        {
-            Ending::Separated
-        } else if gap <= goal.tolerance * solution.upper {
-            Ending::Converged
-        } else {
-            Ending::RoundingLimited
-        };
-        Solution { point_bound: Some(bound.unwrap_or(by_convexity).min(by_convexity) + carried), ending, ..solution }
+            rate: optimum.as_ref().map_or(0.0, |optimum| approximate(optimum).rate(problem)),
+            ..Solution::unsettled(self.x + rounded(delta), lambda.rounded(), self.steps)
+        }
     }
 
     /// The merit of the point, or of one on the way to the centre of the body that it should be in and is not.
@@ -298,8 +288,18 @@ impl Extended<'_> {
         values[free].value.larger(self.bodies[free].value(&inside).value)
     }
 
-    /// Bound on the distance of the point to the optimum, by its sensitivity to the data, where the active set is certain.
-    fn point_bound(&self, optimum: &Optimum, delta: &Wide, values: &[WideValue; 2]) -> Option<f64> {
+    /// Bound on the distance of the point to the optimum: by strong convexity, or by its sensitivity to the data where that is less.
+    fn point_bound(&self, found: &Found, solution: &Solution, bodies: [&Body; 2]) -> f64 {
+        let by_convexity = point_bound::by_convexity(solution, bodies, self.problem);
+        let by_sensitivity =
+            found.optimum.as_ref().and_then(|optimum| self.by_sensitivity(&approximate(optimum), &found.delta));
+        let placed = PLACED * f64::EPSILON * solution.x.norm();
+        by_sensitivity.map_or(by_convexity, |bound| smaller(bound, by_convexity)) + placed
+    }
+
+    /// The bound by sensitivity, where the active set is certain.
+    fn by_sensitivity(&self, optimum: &Optimum, delta: &Wide) -> Option<f64> {
+        let values = [self.bodies[0].value(delta), self.bodies[1].value(delta)];
         let soft = (self.bodies[0].soft(), self.bodies[1].soft());
         let sensitivity = Sensitivity::of(optimum, self.problem, soft)?;
         let (a, b) = self.problem.weights(optimum.lambda);
