@@ -243,7 +243,8 @@ impl Extended<'_> {
         let [of_a, of_b] = &values;
         let weights = problem.weights(lambda);
         let (a, b) = (weights.0.rounded(), weights.1.rounded());
-        let x = self.x + rounded(delta);
+        // Rounded after the sum: a step from afar is rounded by more than the point.
+        let x = rounded(&(wide(&self.x) + delta));
         let dual = problem.dual(of_a.value, of_b.value, lambda);
         let error = values.map(|of| of.rounding());
         let slope = rounded(&(of_a.gradient * weights.0 + of_b.gradient * weights.1)).norm();

@@ -495,3 +495,11 @@ fn a_constraint_has_no_price_where_its_weight_was_not_found() {
     let contact = detect(&shapes.a, &at_a, &shapes.b, &at_b, &settings, None).expect("an answer");
     assert!((contact.s - 9.3376e-6).abs() < 1e-9 + contact.gap && contact.gap < 1e-6, "{contact:?}");
 }
+
+/// The extended tier starts some hundred times as far from the point as the centre of B is: rounded before the two were summed,
+/// the step put the point 6e-16 off, where its bound is 4e-17.
+#[test]
+fn a_step_from_afar_is_rounded_with_the_point() {
+    judged("a_step_from_afar_is_rounded_with_the_point", &[BoundOfPoint, Swap, Warm]);
+    judged_by("a_step_from_afar_is_rounded_with_the_point", &[BoundOfPoint, Swap, Warm], 302_736_744, 2616);
+}
