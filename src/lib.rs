@@ -95,3 +95,8 @@ pub mod internals {
     pub use crate::pair::separation_tests as reject;
     pub use crate::particle::potential;
 }
+
+/// The Rust code of README.md is tested like any example.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

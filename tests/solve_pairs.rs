@@ -3,6 +3,7 @@
 mod support;
 
 use nalgebra::Vector3;
+use potential_particles::{Settings, detect};
 use serde_json::{Value, json};
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -208,6 +209,35 @@ fn far_from_the_origin_nothing_is_lost() {
     let shift = f64::from(1 << 24);
     let far = run(&["-"], &cubes([shift, -shift, shift]).to_string());
     assert_eq!(near.stdout, far.stdout, "not the same to the last digit");
+}
+
+/// Where the difference of the two positions is no double, the rest of it counts: s of sharp edges tells.
+#[test]
+fn no_digit_of_a_distance_is_lost() {
+    let mut pair = cubes([0.0; 3]);
+    for shape in ["A", "B"] {
+        pair[shape]["r"] = json!(1e-9);
+        pair[shape]["d"] = json!(vec![0.5; 6]);
+    }
+    // Face to face, 3 r apart.
+    pair["b"]["q"] = json!([1, 0, 0, 0]);
+    pair["a"]["pos"] = json!([0.3, 0.1, 0.2]);
+    pair["b"]["pos"] = json!([1.300_000_003, 0.15, 0.25]);
+    let rounded = {
+        let mut moved = pair.clone();
+        moved["a"]["pos"] = json!([0.3 - 1.300_000_003, 0.1 - 0.15, 0.2 - 0.25]);
+        moved["b"]["pos"] = json!([0, 0, 0]);
+        moved
+    };
+    let found = run(&["--gap-tolerance", "1e-14", "-"], &format!("{pair}\n{rounded}"));
+    let [of_pair, of_rounded] = [0, 1].map(|i| answers(&found)[i]["midway"]["s"].as_f64().expect("s"));
+
+    let read = |name: &str| serde_json::from_value::<support::Shape>(pair[name].clone()).expect("a shape").particle();
+    let place = |name: &str| serde_json::from_value::<support::Place>(pair[name].clone()).expect("a place").pose();
+    let settings = Settings { gap_tolerance: 1e-14, solve_separated: true, ..Settings::default() };
+    let direct = detect(&read("A"), &place("a"), &read("B"), &place("b"), &settings, None).expect("an answer");
+    assert!((of_pair - direct.s).abs() <= 1e-15 * direct.s, "{of_pair} and {}", direct.s);
+    assert!((of_rounded - of_pair).abs() > 1e-10 * direct.s, "the pair does not tell: {of_rounded} and {of_pair}");
 }
 
 #[test]

@@ -2,9 +2,9 @@
 
 mod support;
 
-use potential_particles::{BackEnd, Contact, Formulation, Kind, Settings, detect};
+use potential_particles::{BackEnd, Contact, Formulation, Kind, Role, Settings, closest_point, detect};
 use std::collections::BTreeMap;
-use support::{number, pairs, vector};
+use support::{distance, minus, number, pairs, vector};
 
 /// Worst figures of one family.
 #[derive(Default)]
@@ -165,4 +165,98 @@ fn conic_midway() {
 #[test]
 fn conic_closest() {
     check(BackEnd::Conic, Formulation::Closest);
+}
+
+/// Worst figures of one family for one gap_tolerance: s over max(s*, 1), points over the smaller shadow radius.
+#[derive(Default)]
+struct Accuracy {
+    pairs: usize,
+    s: [f64; 2],
+    gap: [f64; 2],
+    point: [f64; 2],
+}
+
+const MIDWAY: usize = 0;
+const CLOSEST: usize = 1;
+
+impl Accuracy {
+    fn record(&mut self, formulation: usize, (s, gap): (f64, f64), truth: &str) {
+        let (error, unit) = (minus(s, truth).abs(), number(truth).max(1.0));
+        assert!(error <= gap, "s = {s} is {error:e} off, its gap is {gap:e}");
+        self.s[formulation] = self.s[formulation].max(error / unit);
+        self.gap[formulation] = self.gap[formulation].max(gap / unit);
+    }
+}
+
+/// Both formulations, every pair, at one tolerance.
+fn accuracy(gap_tolerance: f64) -> BTreeMap<String, Accuracy> {
+    let midway = Settings { gap_tolerance, solve_separated: true, ..Settings::default() };
+    let closest = Settings { formulation: Formulation::Closest, ..midway };
+    let mut families: BTreeMap<String, Accuracy> = BTreeMap::new();
+    for pair in &pairs() {
+        let (a, b, truth) = (pair.shape_a.particle(), pair.shape_b.particle(), &pair.truth);
+        let (pose_a, pose_b) = (pair.a.pose(), pair.b.pose());
+        let unit = pair.shape_a.shadow_radius.min(pair.shape_b.shadow_radius);
+        let worst = families.entry(pair.family.clone()).or_default();
+        worst.pairs += 1;
+        let solve = |settings| detect(&a, &pose_a, &b, &pose_b, settings, None).expect("an answer");
+
+        let contact = solve(&midway);
+        worst.record(MIDWAY, (contact.s, contact.gap), &truth.s4);
+        let off = distance(&contact.branch_b, &truth.x4);
+        assert!(off <= contact.point_bound, "a point is {off:e} off, its bound is {:e}", contact.point_bound);
+        worst.point[MIDWAY] = worst.point[MIDWAY].max(off / unit);
+
+        let halves = [(truth.ok1, Role::A, &truth.s_b, &truth.p1), (truth.ok2, Role::B, &truth.s_a, &truth.p2)];
+        for (known, on, s, point) in halves {
+            let found = closest_point(&a, &pose_a, &b, &pose_b, on, &closest).expect("an answer");
+            assert_eq!(found.is_some(), known, "a slack constraint");
+            let (Some(found), Some(s), Some(point)) = (found, s, point) else { continue };
+            worst.record(CLOSEST, (found.s, found.gap), s);
+            let off = distance(&found.branch_b, point);
+            assert!(off <= found.point_bound, "a point is {off:e} off, its bound is {:e}", found.point_bound);
+            worst.point[CLOSEST] = worst.point[CLOSEST].max(off / unit);
+        }
+        if let (true, true, Some(s_a), Some(s_b)) = (truth.ok1, truth.ok2, &truth.s_a, &truth.s_b) {
+            let contact = solve(&closest);
+            worst.record(CLOSEST, (contact.s, contact.gap), s_a);
+            worst.record(CLOSEST, (contact.s_b, contact.gap), s_b);
+        }
+    }
+    println!(
+        "\ngap_tolerance = {gap_tolerance:e}: worst of each family, midway and closest; the table of docs/accuracy.md"
+    );
+    println!("| family | pairs | error of s | | gap | | point | |\n|---|---|---|---|---|---|---|---|");
+    for (family, Accuracy { pairs, s, gap, point }) in &families {
+        let columns = [s, gap, point].map(|of| format!("{:.1e} | {:.1e}", of[MIDWAY], of[CLOSEST]));
+        println!("| {family} | {pairs} | {} |", columns.join(" | "));
+    }
+    families
+}
+
+/// With default settings the bounds hold; how wide they are is printed.
+#[test]
+fn every_error_is_within_its_bound() {
+    accuracy(Settings::default().gap_tolerance);
+}
+
+#[test]
+fn fourteen_digits_for_the_asking() {
+    for (family, worst) in accuracy(1e-14) {
+        for formulation in [MIDWAY, CLOSEST] {
+            let (s, gap, point) = (worst.s[formulation], worst.gap[formulation], worst.point[formulation]);
+            assert!(s <= 1e-14 && gap <= 1e-13 && point <= 1e-13, "{family}: s {s:e}, gap {gap:e}, points {point:e}");
+        }
+    }
+}
+
+/// The subtraction that these tests judge by.
+#[test]
+fn differences_have_digits_of_their_own() {
+    // 0.1 as a double is 0.1000000000000000055511151231257827...
+    assert!((minus(0.1, "0.1") / 5.551_115_123_125_783e-18 - 1.0).abs() < 1e-15);
+    assert!((minus(-1e9, "-1000000000.0000000000000000001") / 1e-19 - 1.0).abs() < 1e-15);
+    assert_eq!(minus(0.0, "-2.5e-06"), 2.5e-6);
+    assert_eq!(minus(2.5e-6, "0.0"), 2.5e-6);
+    assert_eq!(minus(1.5, "1.5"), 0.0);
 }

@@ -32,7 +32,7 @@ pub struct Effort {
     pub rounds: usize,
     /// Every how many-th truth pair is used.
     pub stride: usize,
-    /// Calls over which falls down the ladder are counted.
+    /// Calls over which those are counted that need the extended tier.
     pub calls: usize,
 }
 

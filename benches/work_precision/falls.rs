@@ -1,4 +1,4 @@
-//! How often the ladder is climbed down, over many calls on random pairs.
+//! How often doubles are not enough, over many calls on random pairs.
 
 use crate::arguments::Effort;
 use crate::scene::random::Random;
@@ -10,7 +10,7 @@ use std::time::{Duration, Instant};
 
 /// Shapes in the pool of all shapes.
 const SHAPES: usize = 300;
-/// Enough for any count; a slow last resort must not make the benchmark endless.
+/// Enough for any count; slow calls must not make the benchmark endless.
 const LIMIT: Duration = Duration::from_secs(60);
 /// Calls between looks at the clock.
 const BLOCK: usize = 1000;
@@ -19,7 +19,7 @@ const BLOCK: usize = 1000;
 #[derive(Clone, Copy, Default, Serialize)]
 pub struct Falls {
     pub calls: usize,
-    /// Needed the safe way.
+    /// Answered by the extended tier.
     pub extended: usize,
     /// Answered with a gap above the tolerance, because rounding allows no better.
     pub rounding_limited: usize,
@@ -35,7 +35,7 @@ pub struct Counts {
 }
 
 pub fn count(effort: &Effort, progress: &ProgressBar) -> Counts {
-    progress.set_message("falls down the ladder");
+    progress.set_message("calls that need the extended tier");
     progress.inc_length(2 * (effort.calls / BLOCK) as u64);
     let rounded: Vec<Particle> = pyramids::ROUNDED.iter().map(|&(r, k)| pyramids::pyramid(r, k)).collect();
     let mut random = Random::seeded(31);

@@ -39,7 +39,7 @@ struct Failures {
     reasons: BTreeMap<String, usize>,
 }
 
-/// Falls per million calls.
+/// Calls per million that need more than doubles.
 #[derive(Serialize)]
 struct PerMillion {
     calls: usize,
@@ -120,7 +120,7 @@ impl Report {
                 println!("{:31} {area_ns:10.0} {area_units:10.0} {:15.0} ns", group.shape, rays.nanoseconds);
             }
         }
-        println!("\nfalls per million calls   extended  rounding-limited     failed");
+        println!("\ncalls in a million        extended  rounding-limited     failed");
         for (name, falls) in &self.falls_per_million {
             let PerMillion { extended, rounding_limited, failed, .. } = falls;
             println!("{name:22} {extended:11.0} {rounding_limited:17.0} {failed:10.0}");

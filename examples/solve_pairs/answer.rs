@@ -153,7 +153,7 @@ fn name(kind: Kind) -> &'static str {
     }
 }
 
-/// Which rung of the ladder answered.
+/// Which solver answered, and from which start.
 fn path(contact: &Contact) -> &'static str {
     match contact.back_end {
         BackEnd::Conic => "conic",

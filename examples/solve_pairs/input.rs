@@ -8,7 +8,7 @@ use serde::Deserialize;
 pub struct Input {
     pub a: Particle,
     pub b: Particle,
-    /// Relative to the position of B, which is the origin.
+    /// Moved together so that B is at the origin, or off it by the rounding of the difference of both positions.
     pub pose_a: Pose,
     pub pose_b: Pose,
 }
@@ -50,15 +50,20 @@ pub fn pair(text: &[u8]) -> Result<Input, String> {
     })?;
     let (a, b) = (line.shape_a.particle("A")?, line.shape_b.particle("B")?);
     let (pose_a, pose_b) = (line.a.pose("a")?, line.b.pose("b")?);
-    // About the centre of B no digit of a surface point is lost to a position of 10⁷; but not a digit of the distance either.
-    let difference = pose_a.position() - pose_b.position();
-    if difference + pose_b.position() != *pose_a.position() {
-        return Ok(Input { a, b, pose_a, pose_b });
-    }
+    // About the centre of B no digit of a surface point is lost to a position of 10⁷, and with what rounding took from the
+    // difference of the positions no digit of that either.
+    let parts = pose_a.position().zip_map(pose_b.position(), difference);
     let at = |position: Vector3<f64>, pose: &Pose| {
         Pose::new(position.into(), pose.orientation()).map_err(|error| error.to_string())
     };
-    Ok(Input { a, b, pose_a: at(difference, &pose_a)?, pose_b: at(Vector3::zeros(), &pose_b)? })
+    Ok(Input { a, b, pose_a: at(parts.map(|part| part.0), &pose_a)?, pose_b: at(parts.map(|part| -part.1), &pose_b)? })
+}
+
+/// a − b without rounding, as the sum of the nearest double and what that leaves (Knuth's two-sum).
+fn difference(a: f64, b: f64) -> (f64, f64) {
+    let high = a - b;
+    let part = high - a;
+    (high, (a - (high - part)) - (b + part))
 }
 
 impl Shape {

@@ -1,6 +1,7 @@
 //! What the command line says.
 
 use clap::Parser;
+use std::hash::{BuildHasher, Hasher, RandomState};
 use std::path::PathBuf;
 
 /// Random pairs over everything that can be written down, judged without a known answer; then walks and sweeps.
@@ -12,9 +13,9 @@ pub struct Arguments {
     /// Poses.
     #[arg(long, default_value_t = 1_000_000)]
     pub poses: u64,
-    /// The pairs depend on this number and their index only.
-    #[arg(long, default_value_t = 1)]
-    pub seed: u64,
+    /// The pairs depend on this number and their index only; without it a seed is drawn, and printed first.
+    #[arg(long)]
+    pub seed: Option<u64>,
     /// Index of the first pose; by default 0, and with --settle-every 10^13, from where on 512 poses share their shapes.
     #[arg(long)]
     pub first: Option<u64>,
@@ -34,9 +35,14 @@ pub struct Arguments {
     #[arg(long)]
     pub family: Option<String>,
     /// Judge this one pose, say all about it, and write it as a line for solve_pairs.
-    #[arg(long, value_name = "INDEX")]
+    #[arg(long, value_name = "INDEX", requires = "seed")]
     pub replay: Option<u64>,
     /// Folder of the results.
     #[arg(long, default_value = "out/stress")]
     pub output: PathBuf,
+}
+
+/// A seed that no earlier run has had, short enough to be typed again.
+pub fn fresh_seed() -> u64 {
+    RandomState::new().build_hasher().finish() % 1_000_000_000
 }

@@ -1,9 +1,9 @@
 //! Searches for what breaks contact detection: random pairs over everything that can be written down, random walks,
 //! and smooth motions, each answer judged by definition and against a second solution in 32 digits.
 //!
-//!     cargo run --release --example stress -- --poses 1000000 --seed 1
+//!     cargo run --release --example stress -- --poses 1000000
 //!
-//! Ctrl-C ends a run early and keeps its results. docs/reliability.md says what is checked and what was found.
+//! Each run draws a seed of its own and prints it first; `--seed` repeats a run. Ctrl-C ends a run early and keeps its results. docs/reliability.md says what is checked and what was found.
 
 mod arguments;
 mod cases;
@@ -44,10 +44,12 @@ use tally::Tally;
 
 fn main() -> ExitCode {
     let arguments = Arguments::parse();
+    let seed = arguments.seed.unwrap_or_else(arguments::fresh_seed);
     if let Some(index) = arguments.replay {
-        return replay::one(arguments.seed, index);
+        return replay::one(seed, index);
     }
-    match run(&arguments) {
+    println!("seed {seed}");
+    match run(&arguments, seed) {
         Ok(0) => ExitCode::SUCCESS,
         Ok(_) => ExitCode::FAILURE,
         Err(error) => {
@@ -58,7 +60,7 @@ fn main() -> ExitCode {
 }
 
 /// The number of failures.
-fn run(arguments: &Arguments) -> Result<u64, String> {
+fn run(arguments: &Arguments, seed: u64) -> Result<u64, String> {
     let family = match &arguments.family {
         Some(name) => Some(FAMILIES.iter().position(|family| family.name == name).ok_or_else(|| {
             let names: Vec<_> = FAMILIES.iter().map(|family| family.name).collect();
@@ -86,14 +88,14 @@ fn run(arguments: &Arguments) -> Result<u64, String> {
 
     let settle_every = arguments.settle_every;
     let first = arguments.first.unwrap_or(if settle_every > 1 { BULK } else { 0 });
-    let range = pairs::Range { seed: arguments.seed, first, count: arguments.poses, family, settle_every };
+    let range = pairs::Range { seed, first, count: arguments.poses, family, settle_every };
     let mut tally = Tally::default();
     let bar = progress("poses", arguments.poses);
     tally.merge(pairs::run(&range, threads, &stop, &bar));
     bar.finish_and_clear();
     let walks = arguments.walks.unwrap_or(arguments.poses / 10_000);
     let bar = progress("steps of walks", walks * walks::STEPS);
-    tally.merge(walks::run(arguments.seed, walks, threads, &stop, &bar));
+    tally.merge(walks::run(seed, walks, threads, &stop, &bar));
     bar.finish_and_clear();
     let mut sweeps = Vec::new();
     if !arguments.no_sweeps && !stop.load(Ordering::Relaxed) {
@@ -103,7 +105,7 @@ fn run(arguments: &Arguments) -> Result<u64, String> {
     }
 
     let findings = Findings {
-        seed: arguments.seed,
+        seed,
         first,
         settle_every,
         wanted: arguments.poses,

@@ -29,8 +29,29 @@ pub struct Findings {
     pub machine: Machine,
 }
 
+/// One stated target.
+#[derive(Serialize)]
+struct Target {
+    name: String,
+    sense: &'static str,
+    target: f64,
+    measured: f64,
+    met: bool,
+}
+
+impl Target {
+    fn at_most(name: impl Into<String>, target: f64, measured: f64) -> Self {
+        Self { name: name.into(), sense: "at most", target, measured, met: measured <= target }
+    }
+}
+
+/// Times that each kind of call keeps to, ms: all but one call in 10,000, and every one.
+const MOST_P99_99: f64 = 0.5;
+const MOST_SLOWEST: f64 = 5.0;
+
 #[derive(Serialize)]
 struct Summary<'a> {
+    targets: Vec<Target>,
     poses: u64,
     wanted: u64,
     seed: u64,
@@ -194,6 +215,7 @@ impl Findings {
             time_histogram: of.time.filled().collect(),
         };
         Summary {
+            targets: self.targets(),
             poses: t.pairs,
             wanted: self.wanted,
             seed: self.seed,
@@ -221,7 +243,18 @@ impl Findings {
         }
     }
 
-    /// The tables of docs/reliability.md.
+    /// No failures, and the tail of the times of each kind of call that was made.
+    fn targets(&self) -> Vec<Target> {
+        let mut targets = vec![Target::at_most("failures", 0.0, self.tally.failures() as f64)];
+        for ((_, call), seconds) in CALLS.iter().zip(&self.tally.seconds).filter(|(_, seconds)| seconds.count > 0) {
+            let of = Microseconds::of(seconds);
+            targets.push(Target::at_most(format!("{call}: p99.99, ms"), MOST_P99_99, 1e-3 * of.p99_99));
+            targets.push(Target::at_most(format!("{call}: slowest, ms"), MOST_SLOWEST, 1e-3 * of.slowest));
+        }
+        targets
+    }
+
+    /// Tables by family, call and motion, and the targets.
     pub fn print(&self) {
         let t = &self.tally;
         println!(
@@ -302,6 +335,10 @@ impl Findings {
         for found in t.found.iter().take(MOST_PRINTED) {
             let detail: String = found.detail.chars().take(180).collect();
             println!("{:?}, {}, index {}: {detail}", found.failure, found.family, found.index);
+        }
+        println!("\n| target | at most | measured | met |\n|---|---|---|---|");
+        for Target { name, target, measured, met, .. } in self.targets() {
+            println!("| {name} | {target} | {measured:.3} | {} |", if met { "yes" } else { "NO" });
         }
         println!(
             "\n{} poses in {:.0} s, seed {}: {} failures {:?}",

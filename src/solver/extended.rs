@@ -249,6 +249,8 @@ impl Extended<'_> {
         let values = [self.bodies[0].value(delta), self.bodies[1].value(delta)];
         let [of_a, of_b] = &values;
         let (a, b) = (weights.0.rounded(), weights.1.rounded());
+        // Rounded after the sum: a step from afar is rounded by more than the point.
+        let x = rounded(&(wide(&self.x) + delta));
         let dual = problem.dual(of_a.value, of_b.value, *lambda);
         let upper = self.upper(delta, &values);
         let error = values.map(|of| of.rounding());
@@ -267,7 +269,7 @@ impl Extended<'_> {
             rounding: larger(problem.weighted(error[0], error[1], lambda.rounded()), larger(error[0], error[1])),
             linear: true,
             rate: optimum.as_ref().map_or(0.0, |optimum| approximate(optimum).rate(problem)),
-            ..Solution::unsettled(self.x + rounded(delta), lambda.rounded(), self.steps)
+            ..Solution::unsettled(x, lambda.rounded(), self.steps)
         }
     }
 

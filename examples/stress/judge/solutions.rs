@@ -111,6 +111,14 @@ fn shaken(scene: &Scene, contact: &Contact, truth: &Optimum) -> f64 {
     axes.iter().flat_map(|axis| [*axis, -axis]).map(|by| change(a, &b.tilted(&by))).fold(moved_in, f64::max)
 }
 
+/// The same about the optimum near an answer; 0 if it is not found.
+pub(super) fn shaken_at(scene: &Scene, contact: &Contact) -> f64 {
+    let [a, b] = scene.bodies();
+    let lambda = contact.weight / (1.0 - contact.weight);
+    let truth = optimum(a, b, Wanted::Midway, &contact.branch_b, lambda);
+    truth.map_or(0.0, |truth| shaken(scene, contact, &truth))
+}
+
 /// Units in the last place by which the direction of a normal is off that is turned by the product of two rotations, each made from a
 /// quaternion.
 const TURNED: f64 = 4.0;
