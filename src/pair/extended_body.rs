@@ -240,7 +240,8 @@ impl<'a> ExtendedBody<'a> {
             (depth, if clear { rate } else { plane.normal.dot(v).rounded() })
         };
         Line {
-            planes: self.planes.iter().map(on_line).collect(),
+            // Planes that are off and get no nearer stay off.
+            planes: self.planes.iter().map(on_line).filter(|(depth, rate)| *depth > 0.0 || *rate > 0.0).collect(),
             weight: 2.0 * self.plane_weight.rounded(),
             slope: m2 * y.dot(v).rounded(),
             curvature: m2 * v64.norm_squared(),

@@ -15,10 +15,10 @@ use crate::settings::LEAST_OF_DOUBLES;
 use crate::solver::line_search::{self, Merit};
 use nalgebra::Vector3;
 
-/// Most iterations from nothing, and from memory or a neighbouring problem. What takes longer goes in circles, and the extended
-/// tier is faster.
-pub(crate) const MOST_ITERATIONS: u32 = 20;
-pub(crate) const MOST_FROM_NEAR: u32 = 8;
+/// Most iterations from nothing, and from memory or a neighbouring problem. Of 20,000 pairs, fewer (20 and 8) sent half as many
+/// again to the extended tier, where a step of two bodies of 1,000 planes takes 75 µs; few come to an end after more.
+pub(crate) const MOST_ITERATIONS: u32 = 30;
+pub(crate) const MOST_FROM_NEAR: u32 = 20;
 
 /// Relative to the smaller particle, a step too short for the next one to be more precise.
 const SHORT: f64 = 1e-9;
