@@ -101,9 +101,8 @@ impl Running {
         std::thread::spawn(move || {
             // YADE's own messages share the stream; answers are marked. An error is the end of the stream.
             for line in output.lines().map_while(Result::ok) {
-                if let Some(answer) = line.strip_prefix('>')
-                    && sender.send(answer.to_owned()).is_err()
-                {
+                let sent = line.strip_prefix('>').map(|answer| sender.send(answer.to_owned()));
+                if matches!(sent, Some(Err(_))) {
                     break;
                 }
             }

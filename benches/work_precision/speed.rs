@@ -255,9 +255,7 @@ fn against_built_in(pairs: &[Touching], built_in: &mut BuiltIn, progress: &Progr
     for _ in 0..ROUNDS {
         for (i, pair) in pairs.iter().enumerate() {
             let answer = built_in.ask(&placed(pair), None, built_in::DEFAULT_TOLERANCE, false);
-            if let Ok(found) = answer
-                && found.touching
-            {
+            if let Some(found) = answer.ok().filter(|found| found.touching) {
                 theirs[i].push(found.seconds);
                 cold[i].push(settled(&|| call(pair, Formulation::Midway)));
                 warm[i].push(settled(&|| warm_call(pair, Formulation::Midway)));

@@ -212,9 +212,8 @@ impl Tally {
             return;
         }
         let alike = self.found.iter_mut().filter(|each| each.failure == found.failure);
-        if let Some(largest) = alike.max_by_key(|each| each.planes())
-            && largest.planes() > found.planes()
-        {
+        let largest = alike.max_by_key(|each| each.planes());
+        if let Some(largest) = largest.filter(|largest| largest.planes() > found.planes()) {
             *largest = found;
         }
     }

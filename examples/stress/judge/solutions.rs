@@ -76,9 +76,8 @@ fn midway(verdict: &mut Verdict, scene: &Scene, contact: &Contact, truth: &Optim
         verdict.check(distance <= contact.point_bound + truth.doubt, Failure::BoundOfPoint, || {
             format!("{distance:e} off, bound {:e}, small {small:e}", contact.point_bound)
         });
-        if let Some(normal) = truth.normal()
-            && !contact.flags.contains(Flags::NORMAL_BY_CENTRES)
-        {
+        let told = !contact.flags.contains(Flags::NORMAL_BY_CENTRES);
+        if let Some(normal) = truth.normal().filter(|_| told) {
             let angle = (contact.normal - normal).norm();
             verdict.measures.normal_error = Some(angle);
             // How fast a normal turns along the surface, times how well the point is known.
