@@ -152,9 +152,11 @@ pub struct Contact {
     pub s_b: f64,
     /// Weight u of B: (1−u)∇S_A + u∇S_B = 0.
     pub weight: f64,
-    /// |s − s*| ≤ gap (and the same for s_b).
+    /// |s − s*| ≤ gap (and the same for s_b). Every constant in it is derived (docs/theory.md). In extended precision it is proved;
+    /// in doubles it counts rounding to first order: estimated.
     pub gap: f64,
-    /// Bound on the distance of the point (of closest: of each of P1 and P2) to the optimum, length.
+    /// Estimated bound on the distance of the point (of closest: of each of P1 and P2) to the optimum, length: of first order in
+    /// the rounding of the data.
     pub point_bound: f64,
     /// Overlap, > 0 when overlapping; NaN when separated.
     pub overlap: f64,
@@ -384,12 +386,13 @@ struct Ray<'a> {
 
 impl<'a> Ray<'a> {
     fn of_a(pair: &Pair<'a>, x: &Vector3<f64>, normal: &Vector3<f64>) -> Self {
-        let shift = placed_particle::shift(x.norm() + 2.0 * pair.centre.norm());
-        Self { particle: pair.a, from: pair.in_a(x), outwards: pair.rotation.tr_mul(normal), shift }
+        let from = pair.in_a(x);
+        let shift = placed_particle::shift_in_a(from.norm(), pair.centre.norm());
+        Self { particle: pair.a, from, outwards: pair.rotation.tr_mul(normal), shift }
     }
 
     fn of_b(pair: &Pair<'a>, x: &Vector3<f64>, normal: &Vector3<f64>) -> Self {
-        Self { particle: pair.b, from: *x, outwards: -normal, shift: placed_particle::shift(x.norm()) }
+        Self { particle: pair.b, from: *x, outwards: -normal, shift: placed_particle::shift_in_b(x.norm()) }
     }
 
     /// How far the surface is, near a guess.
