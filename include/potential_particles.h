@@ -229,9 +229,12 @@ typedef struct pp_contact {
     double s_b;
     // Weight u of B, in [0, 1]: (1-u) grad S_A + u grad S_B = 0 at the solution.
     double weight;
-    // Proved bound on the error of s, from this answer's own numbers: |s - s*| <= gap.
+    // Bound on the error of s, from this answer's own numbers: |s - s*| <= gap. Every constant in it is
+    // derived (docs/theory.md). In extended precision it is proved; in doubles it counts rounding to first
+    // order: estimated.
     double gap;
-    // Bound on the distance of the point (closest: of each of P1 and P2) to the exact optimum, length.
+    // Estimated bound on the distance of the point (closest: of each of P1 and P2) to the exact optimum,
+    // length: of first order in the rounding of the data.
     double point_bound;
     // Overlap (YADE: penetrationDepth), length, > 0 when overlapping; NaN when separated.
     double overlap;
@@ -249,9 +252,9 @@ typedef struct pp_contact {
     double point_on_a[3];
     // Point on the surface of B inside A, world frame; P2 of closest. NaN when separated.
     double point_on_b[3];
-    // Separated: proved lower bound on the distance between the two particles, length; 0 when the proof
-    // knows none. Until their surfaces have come closer to each other by as much, they stay separated. NaN
-    // when overlapping.
+    // Separated: lower bound on the distance between the two particles, length, as right as their bounding
+    // volumes (estimated); 0 when the proof of separation knows none. Until their surfaces have come closer
+    // to each other by as much, they stay separated. NaN when overlapping.
     double distance;
 } pp_contact;
 
@@ -264,9 +267,9 @@ typedef struct pp_closest {
     uint32_t reserved;
     // Scale of the other particle at the point: s_B at P1, s_A at P2. No unit.
     double s;
-    // Proved bound on the error of s: |s - s*| <= gap.
+    // Bound on the error of s: |s - s*| <= gap (as in struct pp_contact).
     double gap;
-    // Bound on the distance of the point to the exact optimum, length.
+    // Estimated bound on the distance of the point to the exact optimum, length.
     double point_bound;
     // P1 or P2, world frame.
     double point[3];
@@ -307,9 +310,12 @@ typedef struct pp_contact_2d {
     double s_b;
     // Weight u of B, in [0, 1]: (1-u) grad S_A + u grad S_B = 0 at the solution.
     double weight;
-    // Proved bound on the error of s, from this answer's own numbers: |s - s*| <= gap.
+    // Bound on the error of s, from this answer's own numbers: |s - s*| <= gap. Every constant in it is
+    // derived (docs/theory.md). In extended precision it is proved; in doubles it counts rounding to first
+    // order: estimated.
     double gap;
-    // Bound on the distance of the point (closest: of each of P1 and P2) to the exact optimum, length.
+    // Estimated bound on the distance of the point (closest: of each of P1 and P2) to the exact optimum,
+    // length: of first order in the rounding of the data.
     double point_bound;
     // Overlap (YADE: penetrationDepth), length, > 0 when overlapping; NaN when separated.
     double overlap;
@@ -325,9 +331,9 @@ typedef struct pp_contact_2d {
     double point_on_a[2];
     // Point on the boundary of B inside A, world frame; P2 of closest. NaN when separated.
     double point_on_b[2];
-    // Separated: proved lower bound on the distance between the two particles, length; 0 when the proof
-    // knows none. Until their boundaries have come closer to each other by as much, they stay separated. NaN
-    // when overlapping.
+    // Separated: lower bound on the distance between the two particles, length, as right as their bounding
+    // volumes (estimated); 0 when the proof of separation knows none. Until their surfaces have come closer
+    // to each other by as much, they stay separated. NaN when overlapping.
     double distance;
 } pp_contact_2d;
 

@@ -11,8 +11,9 @@ use crate::model::local_model::{self, LocalModel, Step};
 use crate::model::problem::Problem;
 use crate::pair::placed_particle::Body;
 
-/// Bound, in units of ε, on the turn of a rotated normal (docs/theory.md, "Rounding").
-pub(crate) const TURN: f64 = 4.0;
+/// Bound, in units of ε, on the turn of both forces at once: that of A alone is turned, by at most twice as much, and carries half
+/// of their sum (docs/theory.md, "Rounding").
+pub(crate) const TURN: f64 = 14.0;
 
 /// What a step leaves open.
 #[derive(Clone, Copy, Debug)]
@@ -39,11 +40,12 @@ impl DualBound {
         let ((a, b), soft) = (problem.weights(step.optimum.lambda), local_model::softest(bodies));
         let [check_a, check_b] = &step.checks;
         let optimum = &step.optimum;
-        let rounding = a * rounding::of_slope(&model.q_a, optimum) + b * rounding::of_slope(&model.q_b, optimum);
+        let rounding =
+            a * rounding::of_slope(&model.q_a, &optimum.step) + b * rounding::of_slope(&model.q_b, &optimum.step);
         let doubtful = check_a.doubtful_slope(bodies[0], a, rounding) + check_b.doubtful_slope(bodies[1], b, rounding);
-        // Forces balance to the rounding of their directions only.
+        // Forces balance to the rounding of their directions and of their sums only.
         let turned = TURN * f64::EPSILON * force;
-        let slope = optimum.slope(problem).norm() + doubtful + turned;
+        let slope = optimum.slope(problem).norm() + rounding + doubtful + turned;
         let by_curvature = 0.5 * slope * slope / (a * soft.0 + b * soft.1);
         let height = if by_curvature > negligible {
             smaller(slope * local_model::farthest(bodies, &(model.x + step.v), upper), by_curvature)

@@ -16,6 +16,10 @@ pub(crate) struct Scale {
     pub low: f64,
 }
 
+/// Rounding of the sums and roots below, relative to s: γ₆ for the sums of S and the weights, halved by the root,
+/// and that of the root itself.
+const ROUNDING: f64 = 2.0 * f64::EPSILON;
+
 /// Root of the least normal number: an s below it has a square that is lost.
 const UNDERFLOW: f64 = 1.5e-154;
 
@@ -32,8 +36,8 @@ impl Scale {
         let high = larger(larger(solution.upper, solution.lower), square) + solution.rounding;
         let low = smaller(low, square);
         let s = square.sqrt();
-        let low = low.sqrt() * (1.0 - f64::EPSILON);
-        Self { s, gap: larger(high.sqrt() - s, s - low) + f64::EPSILON * s + UNDERFLOW, low }
+        let low = low.sqrt() * (1.0 - ROUNDING);
+        Self { s, gap: larger(high.sqrt() - s, s - low) + ROUNDING * s + UNDERFLOW, low }
     }
 
     /// Whether s cannot be told from 0, as where a constraint is slack.

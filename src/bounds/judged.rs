@@ -1,7 +1,7 @@
 //! Bounds for a point and a scale s that another solver found.
 
-use crate::bounds::dual_bound::DualBound;
-use crate::bounds::rounding::of_sums;
+use crate::bounds::dual_bound::{DualBound, TURN};
+use crate::bounds::rounding::{of_slope, of_sums};
 use crate::bounds::solution::{Ending, Solution};
 use crate::model::kkt_check::Change;
 use crate::model::local_model::{self, Axes, LocalModel, Start};
@@ -22,7 +22,11 @@ pub(crate) fn judged(x: &Vector3<f64>, lambda: f64, s: f64, bodies: [&Body; 2], 
     let of = |i: usize, q| bodies[i].rounding(&plain.points[i], q);
     let rounding = problem.weighted(of(0, &plain.q_a), of(1, &plain.q_b), lambda);
     let weights = problem.weights(lambda);
-    let slope = (weights.0 * gradients[0] + weights.1 * gradients[1]).norm();
+    // Away from the optimum the force of A may be the larger one: its turn is counted alone.
+    let force = problem.weighted(gradients[0].norm(), gradients[1].norm(), lambda);
+    let sums = [&plain.q_a, &plain.q_b].map(|q| of_slope(q, &Vector3::zeros()));
+    let doubt = 2.0 * TURN * f64::EPSILON * force + problem.weighted(sums[0], sums[1], lambda);
+    let slope = (weights.0 * gradients[0] + weights.1 * gradients[1]).norm() + doubt;
     let linear = problem.dual(values[0], values[1], lambda) - slope * local_model::farthest(bodies, x, upper);
     let by_model = dual_value(bodies, &start, problem, upper).unwrap_or(f64::NEG_INFINITY);
     Solution {

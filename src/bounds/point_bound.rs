@@ -7,7 +7,7 @@ use crate::model::local_model::{self, LocalModel};
 use crate::model::problem::Problem;
 use crate::pair::placed_particle::Body;
 
-/// Units in the last place by which two sides that meet may still differ.
+/// Units in the last place by which two sides that meet may still differ (estimated).
 const SIDES: f64 = 8.0;
 
 /// Bound on the distance from the point of a solution to the optimum, length.
@@ -15,7 +15,7 @@ const SIDES: f64 = 8.0;
 /// Where the active set is certain, the optimum is that of known quadratics and only their data is in doubt: each plane's distance
 /// by its rounding, each body's force a·∇S_A by the rounding of its direction. The answer of the optimum to each is
 /// a linear problem that is solved already, and the lengths are added: an estimate of first order, with bounds on all data.
-/// Elsewhere strong convexity bounds it: ½·curvature·distance² ≤ upper − lower.
+/// Elsewhere strong convexity bounds it: ½·curvature·(½·distance)² ≤ upper − lower.
 #[inline(always)]
 pub(crate) fn point_bound(solution: &Solution, model: &LocalModel, bodies: [&Body; 2], problem: Problem) -> f64 {
     if let Some(bound) = solution.point_bound {
@@ -51,8 +51,37 @@ pub(crate) fn point_bound(solution: &Solution, model: &LocalModel, bodies: [&Bod
 }
 
 /// By strong convexity: what the bounds of the value leave.
+///
+/// The weighted sum has its minimum at some z, where it is at least `lower`; the point of the solution and the optimum both lie
+/// where it is at most `upper`, so that either is within √(2·open/curvature) of z.
 pub(crate) fn by_convexity(solution: &Solution, bodies: [&Body; 2], problem: Problem) -> f64 {
     let (weights, soft) = (problem.weights(solution.lambda), local_model::softest(bodies));
-    let open = larger(solution.upper - solution.lower, 0.0) + solution.rounding;
-    (2.0 * open / (weights.0 * soft.0 + weights.1 * soft.1)).sqrt()
+    let open = larger(solution.upper - solution.lower, 0.0) + 2.0 * solution.rounding;
+    2.0 * (2.0 * open / (weights.0 * soft.0 + weights.1 * soft.1)).sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::pair::relative_pose::Pair;
+    use crate::particle::particle::Particle;
+    use crate::pose::Pose;
+    use nalgebra::Vector3;
+
+    /// Two balls of radius 1: φ = ½|x − c|² + ½|x|² has its minimum half way. A point as far to one side of it as the optimum may lie
+    /// to the other is twice as far from that as from the minimum.
+    #[test]
+    fn points_on_either_side_of_the_minimum_are_within_the_bound_by_convexity() {
+        let ball = Particle::sphere(1.0).unwrap();
+        let (pose_a, pose_b) = (Pose::at([1.0, 0.0, 0.0]).unwrap(), Pose::at([0.0; 3]).unwrap());
+        let pair = Pair::new(&ball, &pose_a, &ball, &pose_b);
+        let (a, b) = Body::both(&pair, 0.0);
+        let side = 0.01;
+        let points = [side, -side].map(|y| Vector3::new(0.5, y, 0.0));
+        let level = a.value(&points[0]);
+        let open = Solution { lower: 0.25, upper: level, rounding: 0.0, ..Solution::unsettled(points[0], 1.0, 0) };
+        let bound = by_convexity(&open, [&a, &b], Problem::Midway);
+        assert!(a.value(&points[1]) <= level && (points[0] - points[1]).norm() <= bound * (1.0 + 1e-12), "{bound}");
+        assert!(bound <= 2.0 * side * (1.0 + 1e-9), "{bound}");
+    }
 }

@@ -10,12 +10,17 @@ use crate::model::local_model::{LocalModel, Step};
 use crate::model::problem::Problem;
 use crate::pair::placed_particle::Body;
 use crate::particle::potential::Quadratic;
+use nalgebra::Vector3;
 
 /// Largest change of ln λ by rounding at which the weights count as unmoved; the bound is raised by four times as much.
 const UNMOVED: f64 = 0.02;
 
-/// Rounding of the sums in a slope: twice the root of the terms of S, each right to a few units in the last place.
-pub(crate) const SUMS: f64 = 8.0 * f64::EPSILON;
+/// Bound on the rounding of the sums in a slope, relative to the root of the terms of S times the curvature: γ with
+/// n = 2·(17 + count) for sums over so many planes (docs/theory.md, "Rounding").
+#[inline(always)]
+pub(crate) fn sums(count: u32) -> f64 {
+    (17.0 + f64::from(count)) * f64::EPSILON
+}
 
 /// Bounds on the rounding of S_A and S_B at the end of a step.
 #[derive(Clone, Copy)]
@@ -39,9 +44,10 @@ impl Rounding {
             let (shift, blur) = body.after(point, step.length);
             // The rounding of the sums at the point of expansion is carried along.
             let of_places = check.pull * blur + gradients[i] * shift + q.pull * (blur - point.blur);
-            sums[i] = body.rounding_of_value(values[i]) + of_sums(q, &step.optimum);
+            sums[i] = body.rounding_of_value(values[i], q.count) + of_sums(q, &step.optimum);
             first[i] = of_places + sums[i];
-            second[i] = check.near * body.plane_weight() * blur * blur;
+            // A plane that is left out at a depth of one blur may be on by two.
+            second[i] = 4.0 * check.near * body.plane_weight() * blur * blur;
         }
         Self { first, second, sums }
     }
@@ -71,11 +77,11 @@ impl Rounding {
 /// Bound on the rounding of the sums by which S of one body is taken along the step.
 #[inline]
 pub(crate) fn of_sums(q: &Quadratic, optimum: &Optimum) -> f64 {
-    q.rounding_after(&optimum.step, q.terms(&optimum.step))
+    q.rounding_after(q.terms(&optimum.step))
 }
 
 /// Bound on the rounding of the sums by which the slope of one body was made to vanish, in whatever direction.
 #[inline]
-pub(crate) fn of_slope(q: &Quadratic, optimum: &Optimum) -> f64 {
-    SUMS * (q.terms(&optimum.step) * q.hessian.trace()).sqrt()
+pub(crate) fn of_slope(q: &Quadratic, step: &Vector3<f64>) -> f64 {
+    sums(q.count) * (q.terms(step) * q.hessian.trace()).sqrt()
 }

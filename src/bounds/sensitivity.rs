@@ -1,6 +1,6 @@
 //! How the optimum of two quadratics answers to small changes of their data, and so what rounding does to it.
 
-use crate::bounds::rounding::SUMS;
+use crate::bounds::rounding::sums;
 use crate::linalg::number::larger;
 use crate::linalg::symmetric::Symmetric;
 use crate::model::dual_path::Optimum;
@@ -8,7 +8,7 @@ use crate::model::problem::Problem;
 use crate::particle::potential::Quadratic;
 use nalgebra::Vector3;
 
-/// Rounding of tr(M H M), relative to tr H⁻¹.
+/// Rounding of tr(M H M), relative to tr H⁻¹ (estimated).
 const TRACE_ROUNDING: f64 = 16.0 * f64::EPSILON;
 
 /// How the optimum answers to small changes of the data: the derivative of the conditions
@@ -76,7 +76,7 @@ impl Sensitivity {
         let m = &self.to_slope;
         let square = |x: f64, y: f64, z: f64| x * x + y * y + z * z;
         let moves = Vector3::new(square(m.xx, m.yx, m.zx), square(m.yx, m.yy, m.zy), square(m.zx, m.zy, m.zz));
-        SUMS * weight * (3.0 * terms * q.hessian.diagonal().dot(&moves)).sqrt()
+        sums(q.count) * weight * (3.0 * terms * q.hessian.diagonal().dot(&moves)).sqrt()
     }
 
     /// Bound on the move when α·q_A + β·q_B is off by `value`.

@@ -119,9 +119,12 @@ pub struct pp_contact {
     pub s_b: f64,
     /// Weight u of B, in [0, 1]: (1-u) grad S_A + u grad S_B = 0 at the solution.
     pub weight: f64,
-    /// Proved bound on the error of s, from this answer's own numbers: |s - s*| <= gap.
+    /// Bound on the error of s, from this answer's own numbers: |s - s*| <= gap. Every constant in it is
+    /// derived (docs/theory.md). In extended precision it is proved; in doubles it counts rounding to first
+    /// order: estimated.
     pub gap: f64,
-    /// Bound on the distance of the point (closest: of each of P1 and P2) to the exact optimum, length.
+    /// Estimated bound on the distance of the point (closest: of each of P1 and P2) to the exact optimum,
+    /// length: of first order in the rounding of the data.
     pub point_bound: f64,
     /// Overlap (YADE: penetrationDepth), length, > 0 when overlapping; NaN when separated.
     pub overlap: f64,
@@ -139,9 +142,9 @@ pub struct pp_contact {
     pub point_on_a: [f64; 3],
     /// Point on the surface of B inside A, world frame; P2 of closest. NaN when separated.
     pub point_on_b: [f64; 3],
-    /// Separated: proved lower bound on the distance between the two particles, length; 0 when the proof
-    /// knows none. Until their surfaces have come closer to each other by as much, they stay separated. NaN
-    /// when overlapping.
+    /// Separated: lower bound on the distance between the two particles, length, as right as their bounding
+    /// volumes (estimated); 0 when the proof of separation knows none. Until their surfaces have come closer
+    /// to each other by as much, they stay separated. NaN when overlapping.
     pub distance: f64,
 }
 
@@ -156,9 +159,9 @@ pub struct pp_closest {
     pub reserved: u32,
     /// Scale of the other particle at the point: s_B at P1, s_A at P2. No unit.
     pub s: f64,
-    /// Proved bound on the error of s: |s - s*| <= gap.
+    /// Bound on the error of s: |s - s*| <= gap (as in struct pp_contact).
     pub gap: f64,
-    /// Bound on the distance of the point to the exact optimum, length.
+    /// Estimated bound on the distance of the point to the exact optimum, length.
     pub point_bound: f64,
     /// P1 or P2, world frame.
     pub point: [f64; 3],

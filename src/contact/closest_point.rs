@@ -16,7 +16,7 @@ use nalgebra::Vector3;
 pub struct ClosestPoint {
     /// Scale of the other particle at the point: s_A at P2, s_B at P1.
     pub s: f64,
-    /// |s − s*| ≤ gap.
+    /// |s − s*| ≤ gap, as in [`crate::Contact`].
     pub gap: f64,
     /// P1 on A or P2 on B, world frame.
     pub point: Vector3<f64>,
@@ -24,7 +24,7 @@ pub struct ClosestPoint {
     pub branch_a: Vector3<f64>,
     /// The point minus the position of B.
     pub branch_b: Vector3<f64>,
-    /// Bound on the distance of the point to the optimum, length.
+    /// Estimated bound on the distance of the point to the optimum, length.
     pub point_bound: f64,
 }
 

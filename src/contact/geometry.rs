@@ -193,12 +193,13 @@ struct Ray<'a> {
 
 impl<'a> Ray<'a> {
     fn of_a(pair: &Pair<'a>, x: &Vector3<f64>, normal: &Vector3<f64>) -> Self {
-        let shift = placed_particle::shift(x.norm() + 2.0 * pair.centre.norm());
-        Self { particle: pair.a, from: pair.in_a(x), outwards: pair.rotation.tr_mul(normal), shift }
+        let from = pair.in_a(x);
+        let shift = placed_particle::shift_in_a(from.norm(), pair.centre.norm());
+        Self { particle: pair.a, from, outwards: pair.rotation.tr_mul(normal), shift }
     }
 
     fn of_b(pair: &Pair<'a>, x: &Vector3<f64>, normal: &Vector3<f64>) -> Self {
-        Self { particle: pair.b, from: *x, outwards: -normal, shift: placed_particle::shift(x.norm()) }
+        Self { particle: pair.b, from: *x, outwards: -normal, shift: placed_particle::shift_in_b(x.norm()) }
     }
 
     /// How far the surface is, near a guess.

@@ -5,8 +5,8 @@ use crate::pair::placed_particle::Body;
 use crate::particle::potential::Quadratic;
 use nalgebra::Vector3;
 
-/// Rounding of a depth n·x − d + n·v after a step, relative to the terms of its sum.
-pub(crate) const DEPTH_ROUNDING: f64 = 8.0 * f64::EPSILON;
+/// Bound on the rounding of a depth n·x − d + n·v after a step, relative to the terms of its sum (docs/theory.md, "Rounding").
+pub(crate) const DEPTH_ROUNDING: f64 = 14.0 * f64::EPSILON;
 
 /// Less than 1 by more than the rounding of a distance to a plane, relative to the terms of its sum.
 const CLEAR: f64 = 1.0 - 4.0 * DEPTH_ROUNDING;

@@ -19,6 +19,11 @@ pub(crate) type Wide = Vector3<DoubleDouble>;
 /// (docs/theory.md, "Rounding").
 const ROUNDING: f64 = 64.0;
 
+/// Bound on the relative rounding of a sum over so many planes.
+fn rounding_of_sums(count: u32) -> f64 {
+    (ROUNDING + f64::from(count)) * DoubleDouble::UNIT
+}
+
 /// A plane near the point of reference.
 #[derive(Clone, Copy)]
 struct Plane {
@@ -78,7 +83,7 @@ pub(crate) struct WideValue {
     pub count: u32,
     pub blur: f64,
     pub turn: f64,
-    /// Number of planes times their weight.
+    /// Number of planes at hand times their weight: one that is off may be on by rounding.
     weight_of_planes: f64,
     /// Rounding of the centre of the sphere, in S.
     of_centre: f64,
@@ -90,7 +95,7 @@ impl WideValue {
     /// Bound on the rounding of S.
     pub fn rounding(&self) -> f64 {
         let planes = self.pull * self.blur + self.weight_of_planes * self.blur * self.blur;
-        planes + ROUNDING * DoubleDouble::UNIT * self.value.rounded() + self.of_centre
+        planes + rounding_of_sums(self.count) * self.value.rounded() + self.of_centre
     }
 }
 
@@ -272,9 +277,9 @@ impl<'a> ExtendedBody<'a> {
             pull,
             count,
             blur: unit * (normals * lengths + particle.bounds.offset_within(lengths)),
-            weight_of_planes: f64::from(count + 1) * self.plane_weight.rounded(),
+            weight_of_planes: self.planes.len() as f64 * self.plane_weight.rounded(),
             of_centre: 2.0 * self.sphere_weight.rounded() * rounded(&y).norm() * unit * lengths,
-            turn: unit * (normals * pull + 2.0 * self.sphere_weight.rounded() * lengths),
+            turn: rounding_of_sums(count) * normals * pull + unit * 2.0 * self.sphere_weight.rounded() * lengths,
             clear,
         }
     }
@@ -282,6 +287,23 @@ impl<'a> ExtendedBody<'a> {
     /// From x₀ + δ to the centre.
     pub fn to_centre(&self, delta: &Wide) -> Wide {
         -(self.from_centre + delta)
+    }
+
+    /// x₀, local frame.
+    #[cfg(test)]
+    pub fn local(&self) -> &Wide {
+        &self.local
+    }
+
+    /// S at the centre, where only planes behind it count.
+    pub fn value_at_centre(&self) -> f64 {
+        self.body.value(&self.body.centre())
+    }
+
+    /// Bound on the curvature of S in any direction, anywhere.
+    pub fn stiffest(&self) -> f64 {
+        let normals = self.longest_normal();
+        self.body.plane_curvature() * self.body.particle.len() as f64 * normals * normals + self.soft()
     }
 
     /// Longest normal of a plane.

@@ -17,18 +17,30 @@ pub(crate) struct Body<'a> {
     turned: bool,
     /// Centre in the solver frame.
     centre: Vector3<f64>,
-    /// Twice the distance of the centre from the origin: it enters the point as seen from here, rounded twice.
-    twice_centre: f64,
+    /// Share of the distance of the centre from the origin that its rounding adds to that of a point.
+    share_of_centre: f64,
+    /// Bound on the rounding of a point, relative to its distance from the centre and that share.
+    rounding: f64,
     /// Weight of the shadow sphere that the solver uses: the particle's own, or the regularised one.
     sphere_weight: f64,
 }
 
-/// Bound, in units of ε·length, on the rounding of a point as a body sees it and of n·y − d (docs/theory.md, "Rounding").
-const ROUNDING: f64 = 4.0;
+/// Bounds, in units of ε·length, on the rounding of a point as a body sees it and of n·y in n·y − d: in the axes of B, and in
+/// those of A, whose rotation is rounded (docs/theory.md, "Rounding"). That of d is less than ε·|d| in either.
+const IN_B: f64 = 4.0;
+const IN_A: f64 = 30.0;
 
-/// Bound on the rounding of a point that is made from these lengths.
-pub(crate) fn shift(lengths: f64) -> f64 {
-    ROUNDING * f64::EPSILON * lengths
+/// The rounding of the centre of A, relative to its length, is at most this share of [`IN_A`].
+const OF_CENTRE: f64 = 0.5;
+
+/// Bound on the rounding of a point as A sees it, at this distance from the centre of A, which is so far from that of B.
+pub(crate) fn shift_in_a(length: f64, centre: f64) -> f64 {
+    IN_A * f64::EPSILON * (length + OF_CENTRE * centre)
+}
+
+/// The same for B.
+pub(crate) fn shift_in_b(length: f64) -> f64 {
+    IN_B * f64::EPSILON * length
 }
 
 impl<'a> Body<'a> {
@@ -39,7 +51,8 @@ impl<'a> Body<'a> {
             rotation,
             turned,
             centre,
-            twice_centre: 2.0 * centre.norm(),
+            share_of_centre: OF_CENTRE * centre.norm(),
+            rounding: f64::EPSILON * if turned { IN_A } else { IN_B },
             sphere_weight: larger(particle.sphere_weight, least_sphericity / particle.bounding_radius().powi(2)),
         };
         (body(pair.a, pair.rotation, true, pair.centre), body(pair.b, Matrix3::identity(), false, Vector3::zeros()))
@@ -83,9 +96,10 @@ impl<'a> Body<'a> {
     /// The point x as this body sees it, with the bounds on its rounding.
     pub fn locate(&self, x: &Vector3<f64>) -> LocalPoint {
         let bounds = &self.particle.bounds;
-        let lengths = x.norm() + self.twice_centre;
-        let shift = shift(lengths);
-        let blur = bounds.longest_normal * shift + ROUNDING * f64::EPSILON * bounds.offset_within(lengths);
+        // |y|, without waiting for the rotation.
+        let lengths = (x - self.centre).norm() + self.share_of_centre;
+        let shift = self.rounding * lengths;
+        let blur = bounds.longest_normal * shift + f64::EPSILON * bounds.offset_within(lengths);
         LocalPoint::new(self.local(x), shift, blur)
     }
 
@@ -147,20 +161,21 @@ impl<'a> Body<'a> {
     /// Bound on the rounding of S, given the quadratic.
     pub fn rounding(&self, point: &LocalPoint, q: &Quadratic) -> f64 {
         let blur = point.blur;
-        let planes = q.pull * blur + q.gradient.norm() * point.shift + self.plane_weight() * blur * blur;
-        planes + self.rounding_of_value(q.value)
+        // A plane that is counted at a depth of −blur may be on by one.
+        let second = 4.0 * f64::from(q.count) * self.plane_weight() * blur * blur;
+        q.pull * blur + q.gradient.norm() * point.shift + second + self.rounding_of_value(q.value, q.count)
     }
 
-    /// Rounding of a value of S that is summed up.
+    /// Bound on the rounding of a value of S that is summed up over so many planes: γ with n = count + 8.
     #[inline]
-    pub fn rounding_of_value(&self, value: f64) -> f64 {
-        ROUNDING * f64::EPSILON * value
+    pub fn rounding_of_value(&self, value: f64, count: u32) -> f64 {
+        (4.0 + 0.5 * f64::from(count)) * f64::EPSILON * value
     }
 
     /// The shift and the blur at the end of a step of this length.
     #[inline]
     pub fn after(&self, point: &LocalPoint, step: f64) -> (f64, f64) {
-        let further = shift(step);
+        let further = self.rounding * step;
         (point.shift + further, point.blur + self.particle.bounds.longest_normal * further)
     }
 
@@ -203,5 +218,47 @@ impl<'a> Body<'a> {
         }
         let reach = self.particle.reach(level);
         added * reach * reach
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::pair::extended_body::{ExtendedBody, rounded, wide};
+    use crate::pose::Pose;
+
+    /// Numbers in (−1, 1) that look like chance.
+    fn scattered(seed: usize) -> impl FnMut() -> f64 {
+        let mut state = seed as f64;
+        move || {
+            state += 1.0;
+            2.0 * (1e4 * (12.9898 * state).sin()).rem_euclid(1.0) - 1.0
+        }
+    }
+
+    #[test]
+    fn a_point_is_rounded_by_no_more_than_its_shift() {
+        let cube = Particle::cube(0.4, 0.1, 0.02, 0.9);
+        let mut most: f64 = 0.0;
+        for seed in 0..2000 {
+            let mut chance = scattered(100 * seed);
+            let mut pose = |far: f64| {
+                let position = [far * chance(), far * chance(), far * chance()];
+                Pose::new(position, [chance(), chance(), chance(), chance()]).unwrap()
+            };
+            let far = [0.0, 1.0, 1e6][seed % 3];
+            let (pose_a, pose_b) = (pose(far), pose(1.0));
+            let pair = Pair::new(&cube, &pose_a, &cube, &pose_b);
+            let (a, b) = Body::both(&pair, 0.0);
+            let x = pair.centre + Vector3::new(0.3, -0.2, 0.5);
+            let exact = ExtendedBody::both(&pair, [&a, &b], &x);
+            for (body, exact) in [&a, &b].into_iter().zip(&exact) {
+                let point = body.locate(&x);
+                let off = rounded(&(wide(&point.y) - exact.local())).norm();
+                assert!(off <= point.shift, "{off:e} of {:e}", point.shift);
+                most = most.max(off / point.shift);
+            }
+        }
+        assert!(most > 0.01, "{most}");
     }
 }

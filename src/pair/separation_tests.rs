@@ -8,7 +8,7 @@ use crate::particle::potential;
 use crate::pose::Pose;
 use nalgebra::{Matrix3, Vector3};
 
-/// Rounding of the sums below, relative to the lengths in them; thirty times what they can lose.
+/// Bound on the rounding of the sums below, relative to the lengths in them: 45ε, of which they need 40 (docs/theory.md, "Rounding").
 const MARGIN: f64 = 1e-14;
 
 /// A proof that two particles share no point.
@@ -77,8 +77,11 @@ pub(crate) fn still_apart(
     // What rounding can do: to the distances of the planes, and with them to the values and the slope.
     let lengths = 2.0 * (to_a + to_b + particle_a.bounds.offset_within(to_a) + particle_b.bounds.offset_within(to_b));
     let blur = MARGIN * lengths;
-    let doubt = |t: &potential::Tangent| blur * (t.pull + t.stiffness * (blur + reach)) + MARGIN * t.value;
-    let least = a.value + lambda * b.value - slope * reach - doubt(&a) - lambda * doubt(&b);
+    // Of a plane whose normal is longer than 1 it does that much more.
+    let doubt = |t: &potential::Tangent, particle: &Particle| {
+        blur * (larger(particle.bounds.longest_normal, 1.0) * t.pull + t.stiffness * (blur + reach)) + MARGIN * t.value
+    };
+    let least = a.value + lambda * b.value - slope * reach - doubt(&a, particle_a) - lambda * doubt(&b, particle_b);
     if !(lambda > 0.0 && least > 1.0 + lambda) {
         return None;
     }

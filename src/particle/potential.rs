@@ -38,12 +38,12 @@ impl Quadratic {
         self.expansion + 1.5 * v.component_mul(v).dot(&self.hessian.diagonal())
     }
 
-    /// Estimated rounding of S along a step v with these terms: 4u = 2ε, u the unit roundoff, for each term of value,
-    /// gradient and Hessian (no |h_ij| exceeds √(h_ii·h_jj)). The rounding of the sums over many planes is not counted. It
-    /// is taken axis by axis, since a long step along a face meets only the curvature along it.
+    /// Bound on the rounding of S along a step with these terms: γ with n = count + 15 for each term of value, gradient and
+    /// Hessian, which together are at most 2·terms (docs/theory.md, "Rounding"). It is taken axis by axis, since a long step
+    /// along a face meets only the curvature along it.
     #[inline]
-    pub(crate) fn rounding_after(&self, v: &Vector3<f64>, terms: f64) -> f64 {
-        2.0 * f64::EPSILON * (2.0 * terms + v.abs().dot(&self.gradient.abs()))
+    pub(crate) fn rounding_after(&self, terms: f64) -> f64 {
+        (15.0 + f64::from(self.count)) * f64::EPSILON * terms
     }
 }
 

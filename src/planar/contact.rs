@@ -29,9 +29,9 @@ pub struct Contact {
     pub s_b: f64,
     /// Weight u of B: (1−u)∇S_A + u∇S_B = 0.
     pub weight: f64,
-    /// |s − s*| ≤ gap (and the same for s_b).
+    /// |s − s*| ≤ gap (and the same for s_b), as in [`crate::Contact`].
     pub gap: f64,
-    /// Bound on the distance of the point (of closest: of each of P1 and P2) to the optimum, length.
+    /// Estimated bound on the distance of the point (of closest: of each of P1 and P2) to the optimum, length.
     pub point_bound: f64,
     /// Overlap, > 0 when overlapping; NaN when separated.
     pub overlap: f64,

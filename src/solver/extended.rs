@@ -273,21 +273,27 @@ impl Extended<'_> {
         }
     }
 
-    /// The merit of the point, or of one on the way to the centre of the body that it should be in and is not.
+    /// The merit of the point, or of one on the way to the centre of the body that it should be in and is not. That body's S is
+    /// convex: a share of the way makes up for its rounding, on which the other one's S rises by at most its slope and curvature.
     fn upper(&mut self, delta: &Wide, values: &[WideValue; 2]) -> DoubleDouble {
         let Some((held, free)) = self.problem.held() else { return values[0].value.larger(values[1].value) };
         let one = DoubleDouble::from(1.0);
-        if values[held].value.is_at_most(one) {
-            return values[free].value;
-        }
         let to_centre = self.bodies[held].to_centre(delta);
+        let way =
+            2.0 * values[held].rounding() / (1.0 - self.bodies[held].value_at_centre()) * rounded(&to_centre).norm();
+        let stiffest = self.bodies[free].stiffest();
+        let rise = |from: &WideValue| way * (rounded(&from.gradient).norm() + 0.5 * way * stiffest);
+        if values[held].value.is_at_most(one) {
+            return values[free].value + DoubleDouble::from(rise(&values[free]));
+        }
         self.bodies.iter_mut().for_each(|body| body.cover(rounded(delta).norm() + rounded(&to_centre).norm()));
         let s0 = self.bodies[held].value(&(*delta + to_centre)).value.sqrt();
         let s = values[held].value.sqrt();
         // √S is convex on that way.
         let share = (s - one) / (s - s0);
         let inside = *delta + to_centre * share;
-        values[free].value.larger(self.bodies[free].value(&inside).value)
+        let inside = self.bodies[free].value(&inside);
+        values[free].value.larger(inside.value) + DoubleDouble::from(rise(&inside))
     }
 
     /// Bound on the distance of the point to the optimum: by strong convexity, or by its sensitivity to the data where that is less.

@@ -35,9 +35,12 @@ pub struct pp_contact_2d {
     pub s_b: f64,
     /// Weight u of B, in [0, 1]: (1-u) grad S_A + u grad S_B = 0 at the solution.
     pub weight: f64,
-    /// Proved bound on the error of s, from this answer's own numbers: |s - s*| <= gap.
+    /// Bound on the error of s, from this answer's own numbers: |s - s*| <= gap. Every constant in it is
+    /// derived (docs/theory.md). In extended precision it is proved; in doubles it counts rounding to first
+    /// order: estimated.
     pub gap: f64,
-    /// Bound on the distance of the point (closest: of each of P1 and P2) to the exact optimum, length.
+    /// Estimated bound on the distance of the point (closest: of each of P1 and P2) to the exact optimum,
+    /// length: of first order in the rounding of the data.
     pub point_bound: f64,
     /// Overlap (YADE: penetrationDepth), length, > 0 when overlapping; NaN when separated.
     pub overlap: f64,
@@ -53,8 +56,8 @@ pub struct pp_contact_2d {
     pub point_on_a: [f64; 2],
     /// Point on the boundary of B inside A, world frame; P2 of closest. NaN when separated.
     pub point_on_b: [f64; 2],
-    /// Separated: proved lower bound on the distance between the two particles, length; 0 when the proof
-    /// knows none. Until their boundaries have come closer to each other by as much, they stay separated. NaN
-    /// when overlapping.
+    /// Separated: lower bound on the distance between the two particles, length, as right as their bounding
+    /// volumes (estimated); 0 when the proof of separation knows none. Until their surfaces have come closer
+    /// to each other by as much, they stay separated. NaN when overlapping.
     pub distance: f64,
 }
