@@ -29,7 +29,7 @@ use thiserror::Error;
 const CLEARLY: f64 = 2.0;
 
 /// A gap this many times what rounding, regularisation and tolerance explain is looked at in extended precision.
-const LOOSE: f64 = 100.0;
+const LOOSE: f64 = 20.0;
 
 /// Why no solver had an answer.
 #[derive(Clone, Debug, Error)]
