@@ -19,10 +19,11 @@ pub(crate) struct Model<'a, N = f64> {
     expanded: f64,
 }
 
-/// Bound on the rounding of a mismatch, from what the values at the point of expansion make of it and from its larger side.
+/// Bound on the rounding of a mismatch in numbers of this unit, from what the values at the point of expansion make of it and from
+/// its larger side.
 #[inline(always)]
-fn noise<N: Number>(expanded: N, larger: N) -> N {
-    N::of(4.0 * N::UNIT) * expanded + N::of(8.0 * N::UNIT) * larger
+fn noise<N: Number>(unit: f64, expanded: N, larger: N) -> N {
+    N::of(4.0 * unit) * expanded + N::of(8.0 * unit) * larger
 }
 
 /// Most searches for λ; a handful is enough where rounding does not interfere.
@@ -83,7 +84,7 @@ impl<'a, N: Single> Model<'a, N> {
                 return None;
             }
             // To rounding; or the search, which should do far better, does not even halve it any more.
-            let noise = 4.0 * N::UNIT * self.expanded + 8.0 * N::UNIT * larger;
+            let noise = noise(N::UNIT, self.expanded, larger);
             slow = if difference.abs() > 0.5 * last { slow + 1 } else { 0 };
             let settled = difference.abs() <= noise;
             if settled || difference.abs() <= enough {
@@ -205,7 +206,7 @@ pub(crate) fn both_closest([q_a, q_b]: [&Quadratic; 2], soft: (f64, f64), lambda
         return None;
     }
     let found = curve.further_along(&probe, &series);
-    let noise = noise(held.value, probe.values.1.larger(of(1.0)));
+    let noise = noise(Twin::UNIT, held.value, probe.values.1.larger(of(1.0)));
     let settled = (found.values.1 - of(1.0)).magnitude().is_at_most(noise) && curve.is_balanced(&found);
     settled.then(|| [found.lane(1).swapped(), found.lane(0)])
 }

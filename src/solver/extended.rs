@@ -22,7 +22,7 @@ use crate::model::quadratic_model::Model;
 use crate::pair::extended_body::{ExtendedBody, Wide, WideQuadratic, WideValue, rounded, wide};
 use crate::pair::placed_particle::Body;
 use crate::pair::relative_pose::Pair;
-use crate::solver::newton::Goal;
+use crate::solver::newton::{self, Goal};
 use nalgebra::{Matrix3, Vector3};
 
 /// Most values of λ, most Newton steps for each, and most trial points of a line search.
@@ -115,10 +115,10 @@ pub(crate) fn solve(pair: &Pair, bodies: [&Body; 2], goal: &Goal, start: &Start)
 
 /// Why the search ended, by the bounds of its solution.
 fn ending(solution: &Solution, bodies: [&Body; 2], goal: &Goal) -> Ending {
-    let (gap, flat) = (solution.gap(), larger(bodies[0].most_surplus(1.0), bodies[1].most_surplus(1.0)));
+    let gap = solution.gap();
     match () {
         () if !gap.is_finite() => Ending::Unsettled,
-        () if goal.stop_when_separated && solution.separates(flat) => Ending::Separated,
+        () if goal.stop_when_separated && solution.separates(newton::flat(bodies)) => Ending::Separated,
         () if gap <= goal.tolerance * solution.upper => Ending::Converged,
         () => Ending::RoundingLimited,
     }

@@ -76,7 +76,7 @@ pub(crate) fn accepted(bodies: [&Body; 2], goal: &Goal, model: &LocalModel, opti
 }
 
 /// What the regularisation itself leaves open.
-fn flat([a, b]: [&Body; 2]) -> f64 {
+pub(crate) fn flat([a, b]: [&Body; 2]) -> f64 {
     larger(a.most_surplus(1.0), b.most_surplus(1.0))
 }
 
