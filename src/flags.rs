@@ -27,6 +27,8 @@ impl Flags {
     pub const WARM: Self = Self(8);
     /// Answered in extended precision (about 32 digits): doubles did not settle it, or not to the gap that was asked for.
     pub const EXTENDED: Self = Self(16);
+    /// Carried on from the last contact without a look at the planes (`detect_carried`).
+    pub const CARRIED: Self = Self(32);
     /// The gap exceeds the tolerance, because rounding allows no better.
     pub const ROUNDING_LIMITED: Self = Self(64);
 
@@ -41,12 +43,13 @@ impl Flags {
     pub const DEFAULT_REGULARISATION: Self = Self(1024);
 
     /// Every flag with its name, in the order of the bits.
-    const NAMES: [(Self, &'static str); 10] = [
+    const NAMES: [(Self, &'static str); 11] = [
         (Self::SLACK, "slack"),
         (Self::REJECTED, "rejected"),
         (Self::NORMAL_BY_CENTRES, "normal by centres"),
         (Self::WARM, "warm"),
         (Self::EXTENDED, "extended"),
+        (Self::CARRIED, "carried"),
         (Self::ROUNDING_LIMITED, "rounding limited"),
         (Self::BY_SPHERES, "by spheres"),
         (Self::BY_FACE, "by face"),

@@ -76,9 +76,10 @@ mod settings;
 mod solver;
 
 pub use contact::batch::detect_batch;
+pub use contact::carried::Carried;
 pub use contact::closest_point::{ClosestPoint, closest_point};
 pub use contact::contact::{Contact, Kind};
-pub use contact::detect::{DetectError, detect};
+pub use contact::detect::{DetectError, detect, detect_carried};
 pub use flags::Flags;
 pub use pair::role::Role;
 pub use pair::warm_start::Memory;

@@ -114,9 +114,19 @@ pub enum SettingsError {
     /// [`Settings::flat_regularisation`] is out of range.
     #[error("flat_regularisation={0} must lie in [0, 0.1]")]
     FlatRegularisation(f64),
+    /// The tolerance of [`crate::detect_carried()`] is out of range.
+    #[error("carry tolerance={0} must lie in [0, 0.1]")]
+    CarryTolerance(f64),
     /// [`BackEnd::Conic`] is asked for in a build without it.
     #[error("the conic back end is not part of this build: use the fast one, or build with the Cargo feature conic")]
     NoConic,
+}
+
+impl SettingsError {
+    /// Of the tolerance of [`crate::detect_carried()`].
+    pub(crate) fn check_carry_tolerance(tolerance: f64) -> Result<(), Self> {
+        if (0.0..=0.1).contains(&tolerance) { Ok(()) } else { Err(Self::CarryTolerance(tolerance)) }
+    }
 }
 
 impl Settings {

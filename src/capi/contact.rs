@@ -67,7 +67,7 @@ pub(super) fn contact(
         out.write(contact_to(&contact));
         contact.flags.has_any(CHEAP_PROOF)
     };
-    let cheap = detect_as(a, b, settings, remembered.as_mut(), write).map_err(|error| detect_status(&error))?;
+    let cheap = detect_as(a, b, settings, (remembered.as_mut(), None), write).map_err(|error| detect_status(&error))?;
     match (memory, remembered) {
         // A cheap proof leaves the memory as it was, and is over before it could be written.
         (Some(memory), Some(remembered)) if !cheap => *memory = memory_to(remembered),

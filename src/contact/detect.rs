@@ -1,6 +1,7 @@
 //! The whole of contact detection: reject, solve, prove, describe.
 
 use crate::bounds::solution::{Ending, Solution};
+use crate::contact::carried::Carried;
 use crate::contact::contact::Contact;
 use crate::contact::geometry::LocalContact;
 use crate::flags::Flags;
@@ -82,7 +83,72 @@ pub fn detect(
     settings: &Settings,
     memory: Option<&mut Memory>,
 ) -> Result<Contact, DetectError> {
-    detect_as((a, pose_a), (b, pose_b), settings, memory, |contact| contact)
+    detect_as((a, pose_a), (b, pose_b), settings, (memory, None), |contact| contact)
+}
+
+/// The same for a contact that is followed from pose to pose: where the last one can be carried on, with the contact point known to within `tolerance`
+/// times the smaller bounding radius, no plane is looked at ([`Flags::CARRIED`]); elsewhere, and always with a tolerance of 0,
+/// this is [`detect()`]. Only [`crate::Formulation::Midway`] by [`crate::BackEnd::Fast`] is carried on.
+///
+/// The gap and `point_bound` of a contact that was carried on hold for it as for any other.
+///
+/// ```
+/// use potential_particles::{Carried, Flags, Memory, Particle, Plane, Pose, Settings, detect_carried};
+/// let faces = [[1.0, 0.0, 0.0], [-1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, -1.0, 0.0], [0.0, 0.0, 1.0], [0.0, 0.0, -1.0]];
+/// let cube = Particle::new(&faces.map(|[a, b, c]| Plane::from([a, b, c, 0.9])), 0.1, 0.1, 2.0)?;
+/// let lower = Pose::at([0.0, 0.0, 0.0])?;
+/// let (mut memory, mut carried) = (Memory::default(), Carried::default());
+/// for step in 0..5 {
+///     let upper = Pose::at([0.3, 1e-6 * f64::from(step), 1.9])?;
+///     let (settings, pair) = (Settings::default(), (&cube, &lower, &cube, &upper));
+///     let contact = detect_carried(pair.0, pair.1, pair.2, pair.3, &settings, 1e-9, Some(&mut memory), &mut carried)?;
+///     assert_eq!(contact.flags.contains(Flags::CARRIED), step > 0);
+/// }
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// As of [`detect()`], or a tolerance that is not within [0, 0.1].
+#[allow(clippy::too_many_arguments)]
+pub fn detect_carried(
+    a: &Particle,
+    pose_a: &Pose,
+    b: &Particle,
+    pose_b: &Pose,
+    settings: &Settings,
+    tolerance: f64,
+    memory: Option<&mut Memory>,
+    carried: &mut Carried,
+) -> Result<Contact, DetectError> {
+    detect_carried_as((a, pose_a), (b, pose_b), settings, tolerance, (memory, carried), |contact| contact)
+}
+
+/// The whole of [`detect_carried()`], for every entry that gives a contact another form.
+#[inline(always)]
+pub(crate) fn detect_carried_as<T>(
+    a: (&Particle, &Pose),
+    b: (&Particle, &Pose),
+    settings: &Settings,
+    tolerance: f64,
+    (memory, carried): (Option<&mut Memory>, &mut Carried),
+    answer: impl Fn(Contact) -> T,
+) -> Result<T, DetectError> {
+    settings.validate()?;
+    SettingsError::check_carry_tolerance(tolerance)?;
+    if tolerance == 0.0 || settings.formulation != Formulation::Midway || settings.back_end != BackEnd::Fast {
+        return detect_as(a, b, settings, (memory, None), answer);
+    }
+    match carried.contact(a, b, tolerance) {
+        Some(contact) => Ok(answer(contact)),
+        None => {
+            let mut memory = memory;
+            if let (Some(memory), Some((x, lambda))) = (memory.as_deref_mut(), carried.last(a.0, b.0)) {
+                memory.follow(x, lambda);
+            }
+            *carried = Carried::default();
+            detect_as(a, b, settings, (memory, Some(carried)), answer)
+        }
+    }
 }
 
 /// The whole of [`detect()`], for every entry that gives a contact another form. `answer` makes that form where the contact
@@ -93,7 +159,7 @@ pub(crate) fn detect_as<T>(
     a: (&Particle, &Pose),
     b: (&Particle, &Pose),
     settings: &Settings,
-    memory: Option<&mut Memory>,
+    (memory, carried): (Option<&mut Memory>, Option<&mut Carried>),
     answer: impl Fn(Contact) -> T,
 ) -> Result<T, DetectError> {
     settings.validate()?;
@@ -102,7 +168,7 @@ pub(crate) fn detect_as<T>(
         let flags = by.with(Flags::REJECTED);
         Ok(answer(Contact { flags, distance, ..Contact::separated(settings.formulation, 1.0) }))
     };
-    begin(a, b, settings, last, rejected, |pair| solved(pair, b.1, settings, memory).map(&answer))
+    begin(a, b, settings, last, rejected, |pair| solved(pair, b.1, settings, memory, carried).map(&answer))
 }
 
 /// The contact of a pair that no cheap proof holds apart. In a frame of its own: it is large, and most pairs of a scene
@@ -113,6 +179,7 @@ fn solved(
     pose_b: &Pose,
     settings: &Settings,
     memory: Option<&mut Memory>,
+    carried: Option<&mut Carried>,
 ) -> Result<Contact, DetectError> {
     let mut call = Call::new(pair, settings);
     let last = memory.as_deref().and_then(|memory| memory.last);
@@ -143,7 +210,7 @@ fn solved(
     if !separated && scale.s >= 1.0 && scale.low < 1.0 && settings.flat_regularisation > least {
         // Where the bulge of a raised regularisation may hide an overlap, the particles as they are decide.
         let settings = Settings { flat_regularisation: least, ..*settings };
-        let contact = solved(pair, pose_b, &settings, memory)?;
+        let contact = solved(pair, pose_b, &settings, memory, None)?;
         return Ok(Contact { flags: contact.flags.with(Flags::DEFAULT_REGULARISATION), ..contact });
     }
     let overlapping = !separated && scale.s < 1.0;
@@ -166,8 +233,12 @@ fn solved(
         None => {
             let bound = || call.point_bound(&midway, &model, Problem::Midway);
             let pieces = |n: &Vector3<f64>| call.pieces(&midway, &model, n);
-            LocalContact::midway(pair, &midway, scale, bound, pieces, overlapping)
-                .ok_or_else(|| DetectError::Failed { reason: "the surface was not found along the normal".into() })?
+            let local = LocalContact::midway(pair, &midway, scale, bound, pieces, overlapping)
+                .ok_or_else(|| DetectError::Failed { reason: "the surface was not found along the normal".into() })?;
+            if let Some(carried) = carried.filter(|_| overlapping && !call.flags.contains(Flags::EXTENDED)) {
+                *carried = Carried::of(pair, call.solved_bodies(), &model, &midway, scale, local.point_bound());
+            }
+            local
         }
     };
     remember(memory, remembered);

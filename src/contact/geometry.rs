@@ -102,6 +102,10 @@ impl LocalContact {
         }
     }
 
+    pub fn point_bound(&self) -> f64 {
+        self.point_bound
+    }
+
     /// In world axes; what is not of the geometry is taken from `call`.
     #[inline(always)]
     pub fn placed(&self, pair: &Pair, pose_b: &Pose, call: Contact) -> Contact {

@@ -5,6 +5,7 @@ use nalgebra::{Matrix3, Vector3};
 
 /// A symmetric 3×3 matrix, of numbers or of lanes of them.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[repr(C)]
 #[allow(missing_docs)]
 pub struct Symmetric<N = f64> {
     pub xx: N,
@@ -70,6 +71,15 @@ impl Symmetric {
     /// All nine entries.
     pub fn matrix(&self) -> Matrix3<f64> {
         Matrix3::new(self.xx, self.yx, self.zx, self.yx, self.yy, self.zy, self.zx, self.zy, self.zz)
+    }
+
+    /// R·self·Rᵀ.
+    #[inline]
+    pub(crate) fn turned(&self, r: &Matrix3<f64>) -> Self {
+        // Rows of R·self; each entry of the product once.
+        let [x, y, z] = [0, 1, 2].map(|i| self.times(&r.row(i).transpose()));
+        let entry = |v: &Vector3<f64>, i: usize| v.x * r[(i, 0)] + v.y * r[(i, 1)] + v.z * r[(i, 2)];
+        Self { xx: entry(&x, 0), yx: entry(&y, 0), yy: entry(&y, 1), zx: entry(&z, 0), zy: entry(&z, 1), zz: entry(&z, 2) }
     }
 
     /// factor·self + diagonal·1.

@@ -94,6 +94,11 @@ impl LocalModel {
         Self { x, axes, points, q_a, q_b }
     }
 
+    /// Whether the axes of the quadratics are the solver's own.
+    pub fn in_solver_axes(&self) -> bool {
+        self.axes.is_none()
+    }
+
     /// A direction of the solver's frame in the axes of the quadratics.
     pub fn to_axes(&self, v: &Vector3<f64>) -> Vector3<f64> {
         self.axes.map_or(*v, |axes| axes.tr_mul(v))

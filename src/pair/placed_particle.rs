@@ -1,6 +1,7 @@
 //! A particle placed in the frame in which a pair is solved.
 
 use crate::linalg::number::larger;
+use crate::linalg::symmetric::Symmetric;
 use crate::pair::active_set::LocalPoint;
 use crate::pair::relative_pose::Pair;
 use crate::particle::particle::Particle;
@@ -74,6 +75,11 @@ impl<'a> Body<'a> {
     #[inline]
     pub fn to_solver(&self, n: Vector3<f64>) -> Vector3<f64> {
         if self.turned { self.rotation * n } else { n }
+    }
+
+    /// A symmetric matrix of the solver frame in the local frame.
+    pub fn turn_matrix(&self, h: &Symmetric) -> Symmetric {
+        if self.turned { h.turned(&self.rotation.transpose()) } else { *h }
     }
 
     /// Centre in the solver frame.

@@ -52,6 +52,13 @@ impl Memory {
         Self { last: usable.then(remembered) }
     }
 
+    /// To where a contact that was carried on has moved since.
+    pub(crate) fn follow(&mut self, x: Vector3<f64>, lambda: f64) {
+        if let Some(last) = &mut self.last {
+            (last.x, last.lambda) = (x, lambda);
+        }
+    }
+
     /// To the eight numbers of the C interface.
     pub fn into_raw(self) -> [f64; 8] {
         match self.last {

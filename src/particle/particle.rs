@@ -8,6 +8,7 @@ use crate::particle::{potential, ray_cast};
 use crate::pose::Pose;
 use nalgebra::{Matrix3, Vector3};
 use std::ops::Deref;
+use std::sync::atomic::{AtomicU64, Ordering};
 
 /// A validated potential particle, immutable; share it freely between threads and bodies.
 ///
@@ -34,6 +35,7 @@ use std::ops::Deref;
 #[derive(Clone, Debug)]
 pub struct Particle {
     shape: Shape,
+    serial: u64,
 }
 
 impl Particle {
@@ -43,7 +45,7 @@ impl Particle {
     /// Non-finite numbers, k outside [0, 1], r ≤ 0 (unless k = 1), R ≤ 0 (unless k = 0), a normal that is zero or whose
     /// square leaves the range of f64, an origin that is not inside (f(0) ≥ 0), and for k = 0 an unbounded shape.
     pub fn new(planes: &[Plane], r: f64, k: f64, shadow_radius: f64) -> Result<Self, ParticleError> {
-        Ok(Self { shape: Shape::new(planes, r, k, shadow_radius, 3)? })
+        Ok(Self::of(Shape::new(planes, r, k, shadow_radius, 3)?))
     }
 
     /// The same for planes (a, b, 0, d) of which only the cut at z = 0 has to be bounded.
@@ -52,7 +54,18 @@ impl Particle {
     /// Those of [`Particle::new`], in terms of lines.
     pub(crate) fn in_plane(planes: &[Plane], r: f64, k: f64, shadow_radius: f64) -> Result<Self, ParticleError> {
         let shape = Shape::new(planes, r, k, shadow_radius, 2).map_err(ParticleError::of_lines)?;
-        Ok(Self { shape })
+        Ok(Self::of(shape))
+    }
+
+    fn of(shape: Shape) -> Self {
+        static LAST: AtomicU64 = AtomicU64::new(0);
+        Self { shape, serial: 1 + LAST.fetch_add(1, Ordering::Relaxed) }
+    }
+
+    /// A number above 0 that no other particle of this process has, but those that were cloned from this one.
+    #[inline(always)]
+    pub(crate) fn serial(&self) -> u64 {
+        self.serial
     }
 
     /// A sphere of the given radius (k = 1, no planes).

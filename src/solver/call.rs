@@ -309,6 +309,11 @@ impl<'a> Call<'a> {
         point_bound(solution, model, self.bodies(), problem)
     }
 
+    /// Both bodies, as the solver sees them.
+    pub fn solved_bodies(&self) -> [&Body<'a>; 2] {
+        self.bodies()
+    }
+
     /// S_A and S_B along a direction from the point of a solution.
     #[inline]
     pub fn pieces(&self, solution: &Solution, model: &LocalModel, n: &Vector3<f64>) -> [Piece; 2] {

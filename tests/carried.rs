@@ -1,0 +1,154 @@
+//! A contact that is carried on against one that is solved, over walks of random pairs.
+
+use nalgebra::{UnitQuaternion, Vector3};
+use potential_particles::{
+    BackEnd, Carried, Contact, Flags, Formulation, Kind, Memory, Particle, Plane, Pose, Settings, detect,
+    detect_carried,
+};
+use proptest::prelude::*;
+
+/// Unit vectors that look like chance.
+fn direction(seed: &mut u64) -> Vector3<f64> {
+    loop {
+        let v = Vector3::from([(); 3].map(|()| 2.0 * chance(seed) - 1.0));
+        if v.norm() > 0.1 && v.norm() <= 1.0 {
+            return v.normalize();
+        }
+    }
+}
+
+/// A number in [0, 1) (splitmix64).
+fn chance(seed: &mut u64) -> f64 {
+    *seed = seed.wrapping_add(0x9e37_79b9_7f4a_7c15);
+    let mut z = *seed;
+    z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
+}
+
+/// Planes all around at about a distance of 1.
+fn particle(planes: usize, r: f64, k: f64, seed: &mut u64) -> Particle {
+    let golden = std::f64::consts::PI * (3.0 - f64::sqrt(5.0));
+    let normals = (0..planes).map(|i| {
+        let z = 1.0 - 2.0 * (i as f64 + 0.5) / planes as f64;
+        let (sin, cos) = (golden * i as f64).sin_cos();
+        Vector3::new((1.0 - z * z).sqrt() * cos, (1.0 - z * z).sqrt() * sin, z)
+    });
+    let planes: Vec<Plane> =
+        normals.map(|normal| Plane { normal, offset: 0.8 + 0.2 * chance(seed) - r }).collect();
+    Particle::new(&planes, r, k, 2.5).expect("planes all around")
+}
+
+/// B touching A at the given overlap.
+fn touching(a: &Particle, pose_a: &Pose, b: &Particle, turned: [f64; 4], towards: &Vector3<f64>, overlap: f64) -> Pose {
+    let at = |distance: f64| Pose::new((pose_a.position() + distance * towards).into(), turned).unwrap();
+    let (mut deep, mut apart) = (0.0, a.bounding_radius() + b.bounding_radius());
+    for _ in 0..50 {
+        let middle = 0.5 * (deep + apart);
+        let contact = detect(a, pose_a, b, &at(middle), &Settings::default(), None).unwrap();
+        if contact.kind == Kind::Overlapping && contact.overlap > overlap { deep = middle } else { apart = middle }
+    }
+    at(deep)
+}
+
+/// A little further and turned a little.
+fn moved(pose: &Pose, step: f64, seed: &mut u64) -> Pose {
+    let [w, i, j, k] = pose.orientation();
+    let turn = UnitQuaternion::from_scaled_axis(step * direction(seed));
+    let q = turn.into_inner() * nalgebra::Quaternion::new(w, i, j, k);
+    Pose::new((pose.position() + step * direction(seed)).into(), [q.w, q.i, q.j, q.k]).unwrap()
+}
+
+/// What is off beyond both bounds, if anything.
+fn fault(carried: &Contact, solved: &Contact, tolerance: f64) -> Option<String> {
+    let (off, bound) = ((carried.s - solved.s).abs(), carried.gap + solved.gap);
+    if off > bound {
+        return Some(format!("s is off by {off:e}, bound {bound:e}"));
+    }
+    let (off, bound) = ((carried.branch_b - solved.branch_b).norm(), carried.point_bound + solved.point_bound);
+    if off > bound {
+        return Some(format!("the point is off by {off:e}, bound {bound:e}"));
+    }
+    // The way to a surface follows the point and the normal.
+    let (off, bound) = ((carried.overlap - solved.overlap).abs(), 20.0 * (tolerance + solved.point_bound) + 1e-13);
+    if off > bound {
+        return Some(format!("the overlap is off by {off:e}, bound {bound:e}"));
+    }
+    None
+}
+
+/// A walk of a touching pair: how many of its contacts were carried on, of how many.
+fn walk(planes: usize, r: f64, k: f64, step: f64, far: f64, seed: u64) -> (usize, usize) {
+    let (tolerance, mut seed) = (1e-9, seed);
+    let (a, b) = (particle(planes, r, k, &mut seed), particle(planes, r, k, &mut seed));
+    let seed = &mut seed;
+    let quaternion = |seed: &mut u64| [(); 4].map(|()| chance(seed) - 0.5);
+    let pose_a = Pose::new((far * direction(seed)).into(), quaternion(seed)).unwrap();
+    let (turned, towards) = (quaternion(seed), direction(seed));
+    let mut poses = [pose_a, touching(&a, &pose_a, &b, turned, &towards, 0.1 * r)];
+    let (mut memory, mut carried, mut count) = (Memory::default(), Carried::default(), (0, 0));
+    let settings = Settings::default();
+    for _ in 0..40 {
+        let contact =
+            detect_carried(&a, &poses[0], &b, &poses[1], &settings, tolerance, Some(&mut memory), &mut carried).unwrap();
+        let solved = detect(&a, &poses[0], &b, &poses[1], &settings, None).unwrap();
+        assert_eq!(contact.kind, solved.kind);
+        if contact.kind == Kind::Separated {
+            break;
+        }
+        count.1 += 1;
+        if contact.flags.contains(Flags::CARRIED) {
+            count.0 += 1;
+            let fault = fault(&contact, &solved, tolerance);
+            assert!(fault.is_none(), "{}; r {r:e}, k {k:e}, step {step:e}\n{contact:?}\n{solved:?}", fault.unwrap());
+        }
+        poses = poses.map(|pose| moved(&pose, step, seed));
+    }
+    count
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(400))]
+
+    #[test]
+    fn a_contact_that_is_carried_on_is_within_its_bounds(
+        planes in 4_usize..12,
+        log_r in -4.0..-0.7_f64,
+        log_k in -4.0..-0.3_f64,
+        log_step in -9.0..-2.0_f64,
+        far in prop_oneof![Just(0.0), Just(10.0), Just(1e5)],
+        seed: u64,
+    ) {
+        walk(planes, 10_f64.powf(log_r), 10_f64.powf(log_k), 10_f64.powf(log_step), far, seed);
+    }
+}
+
+#[test]
+fn contacts_at_rest_are_carried_on() {
+    let counts = (0..50).map(|seed| walk(6, 0.05, 0.05, 1e-8, 0.0, seed));
+    let (carried, all) = counts.fold((0, 0), |sum, count| (sum.0 + count.0, sum.1 + count.1));
+    assert!(all > 1500 && carried * 10 > all * 9, "{carried} of {all}");
+}
+
+#[test]
+fn only_the_pair_and_the_problem_that_it_was_made_for_are_carried_on() {
+    let mut seed = 5;
+    let (a, b) = (particle(6, 0.05, 0.05, &mut seed), particle(6, 0.05, 0.05, &mut seed));
+    let pose_a = Pose::at([0.0; 3]).unwrap();
+    let pose_b = touching(&a, &pose_a, &b, [1.0, 0.3, 0.2, 0.1], &Vector3::x(), 0.005);
+    let mut carried = Carried::default();
+    let mut look = |a: &Particle, b: &Particle, settings: &Settings, tolerance: f64| {
+        let contact = detect_carried(a, &pose_a, b, &pose_b, settings, tolerance, None, &mut carried).unwrap();
+        contact.flags.contains(Flags::CARRIED)
+    };
+    let midway = Settings::default();
+    assert!(!look(&a, &b, &midway, 1e-9) && look(&a, &b, &midway, 1e-9));
+    assert!(look(&a.clone(), &b, &midway, 1e-9), "a clone is the same particle");
+    assert!(!look(&a, &b, &midway, 0.0), "a tolerance of 0 always solves");
+    let twin = particle(6, 0.05, 0.05, &mut 77);
+    assert!(!look(&twin, &b, &midway, 1e-9) && look(&twin, &b, &midway, 1e-9));
+    assert!(!look(&twin, &b, &Settings { formulation: Formulation::Closest, ..midway }, 1e-9));
+    assert!(!look(&twin, &b, &Settings { back_end: BackEnd::Conic, ..midway }, 1e-9));
+    assert!(detect_carried(&a, &pose_a, &b, &pose_b, &midway, 0.2, None, &mut carried).is_err());
+    assert!(detect_carried(&a, &pose_a, &b, &pose_b, &midway, f64::NAN, None, &mut carried).is_err());
+}
