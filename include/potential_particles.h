@@ -88,6 +88,12 @@
 // struct pp_contact_2d, for pp_struct_size.
 #define PP_STRUCT_CONTACT_2D 8
 
+// struct pp_frame, for pp_struct_size.
+#define PP_STRUCT_FRAME 10
+
+// struct pp_carry, for pp_struct_size.
+#define PP_STRUCT_CARRY 11
+
 // Most planes that a particle may have.
 #define PP_MAX_PLANES 65536
 
@@ -129,6 +135,9 @@
 
 // Answered in extended precision (about 32 digits): doubles did not settle it, or not to the gap asked for.
 #define PP_FLAG_EXTENDED 16
+
+// pp_contact_detect_carried: carried on from the last contact, without a look at the planes.
+#define PP_FLAG_CARRIED 32
 
 // The gap is above the tolerance asked for: rounding allows no better. It is still a bound.
 #define PP_FLAG_ROUNDING_LIMITED 64
@@ -257,6 +266,25 @@ typedef struct pp_contact {
     // to each other by as much, they stay separated. NaN when overlapping.
     double distance;
 } pp_contact;
+
+// A pose, prepared: its rotation as a matrix. For callers that look at each body in many pairs.
+//
+// Made by pp_frame_from_pose, and by nothing else.
+typedef struct pp_frame {
+    // Library's own; not for reading.
+    double state[16];
+} pp_frame;
+
+// What the last contact of one ordered pair (A, B) says about poses near by, for
+// pp_contact_detect_carried.
+//
+// Owned by the caller: set all bytes to 0 to begin with or to forget. Unlike pp_memory it is no hint: an
+// answer rests on it, so it is written by the library only, and not to be saved for another process. It
+// knows the particles for which it was written, and says nothing about others. One caller at a time.
+typedef struct pp_carry {
+    // Library's own; not for reading.
+    double state[40];
+} pp_carry;
 
 // One closest point alone; frames and units as in struct pp_contact.
 typedef struct pp_closest {
@@ -477,6 +505,32 @@ pp_status pp_contact_detect(const struct pp_particle *a,
                             const struct pp_settings *settings,
                             struct pp_memory *memory,
                             struct pp_contact *out);
+
+// Prepares a pose: its rotation as a matrix.
+//
+// Pointers: frame is valid for writing.
+// Errors: PP_NULL_POINTER, PP_BAD_POSITION, PP_BAD_ORIENTATION.
+pp_status pp_frame_from_pose(const struct pp_pose *pose, struct pp_frame *frame);
+
+// pp_contact_detect for contacts that are followed from pose to pose, for poses that are prepared. Where
+// the last contact can be carried on, no plane is looked at: the answer has PP_FLAG_CARRIED, and its gap
+// and point_bound hold as for any other.
+//
+// carry_tolerance: in [0, 0.1]; to what part of the smaller bounding radius the contact point of a
+// contact that is carried on has to be known (1e-9, say); 0 solves always. PP_CLOSEST and PP_CONIC are
+// never carried on.
+// settings: may be NULL (defaults). memory: may be NULL. carry: what the pair carries on, read and updated.
+// Pointers: memory, carry and out are not used by another call at the same time.
+// Errors: those of pp_contact_detect.
+pp_status pp_contact_detect_carried(const struct pp_particle *a,
+                                    const struct pp_frame *frame_a,
+                                    const struct pp_particle *b,
+                                    const struct pp_frame *frame_b,
+                                    const struct pp_settings *settings,
+                                    double carry_tolerance,
+                                    struct pp_memory *memory,
+                                    struct pp_carry *carry,
+                                    struct pp_contact *out);
 
 // The point on one of the particles where the scale of the other is least: P1 on A, P2 on B (paper eqs
 // 3, 9). pp_contact_detect with PP_CLOSEST needs both; this is for pairs that have only one, and for

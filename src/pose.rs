@@ -34,6 +34,7 @@ const ORTHONORMAL: f64 = 1e-6;
 /// # Ok::<(), potential_particles::PoseError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(C)]
 pub struct Pose {
     position: Vector3<f64>,
     /// As given, of any length: the extended tier derives the rotation from it in its own precision.

@@ -34,8 +34,7 @@ fn particle(planes: usize, r: f64, k: f64, seed: &mut u64) -> Particle {
         let (sin, cos) = (golden * i as f64).sin_cos();
         Vector3::new((1.0 - z * z).sqrt() * cos, (1.0 - z * z).sqrt() * sin, z)
     });
-    let planes: Vec<Plane> =
-        normals.map(|normal| Plane { normal, offset: 0.8 + 0.2 * chance(seed) - r }).collect();
+    let planes: Vec<Plane> = normals.map(|normal| Plane { normal, offset: 0.8 + 0.2 * chance(seed) - r }).collect();
     Particle::new(&planes, r, k, 2.5).expect("planes all around")
 }
 
@@ -90,7 +89,8 @@ fn walk(planes: usize, r: f64, k: f64, step: f64, far: f64, seed: u64) -> (usize
     let settings = Settings::default();
     for _ in 0..40 {
         let contact =
-            detect_carried(&a, &poses[0], &b, &poses[1], &settings, tolerance, Some(&mut memory), &mut carried).unwrap();
+            detect_carried(&a, &poses[0], &b, &poses[1], &settings, tolerance, Some(&mut memory), &mut carried)
+                .unwrap();
         let solved = detect(&a, &poses[0], &b, &poses[1], &settings, None).unwrap();
         assert_eq!(contact.kind, solved.kind);
         if contact.kind == Kind::Separated {

@@ -4,7 +4,7 @@ use super::evaluation::Plain;
 use super::random::Random;
 use nalgebra::Vector3;
 use potential_particles::internals::{Pair, potential, reject};
-use potential_particles::{Formulation, Kind, Memory, Particle, Pose, Settings, detect};
+use potential_particles::{Carried, Formulation, Kind, Memory, Particle, Pose, Settings, detect, detect_carried};
 use std::hint::black_box;
 
 /// Overlap, relative to the size 1 of the particles of this scene.
@@ -12,6 +12,9 @@ pub const OVERLAP: f64 = 1e-3;
 
 /// Move and turn between two calls of a warm pair, relative to the size 1.
 pub const STEP: f64 = 1e-4;
+
+/// To what part of the size the contact point of a contact that is carried on is known: YADE's default here.
+pub const CARRY_TOLERANCE: f64 = 1e-9;
 
 /// Two particles at fixed poses.
 pub struct Touching {
@@ -27,6 +30,8 @@ pub struct Touching {
     plain: [Plain; 2],
     /// What the pair remembers of a call at `pose_b`: of midway, of closest.
     memories: [Memory; 2],
+    /// What its contact of midway at `pose_b` carries on.
+    pub carried: Carried,
 }
 
 impl Touching {
@@ -96,12 +101,14 @@ impl Touching {
             detect(&a, &pose_a, &b, &pose_b, &settings, Some(&mut memory)).expect("a contact of ordinary bodies");
             memory
         });
-        let contact = detect(&a, &pose_a, &b, &pose_b, &Settings::default(), None).expect("as before");
+        let (settings, mut carried) = (Settings::default(), Carried::default());
+        let contact = detect_carried(&a, &pose_a, &b, &pose_b, &settings, CARRY_TOLERANCE, None, &mut carried);
+        let contact = contact.expect("as before");
         let touching = contact.kind == Kind::Overlapping;
         let point = if touching { contact.point } else { 0.5 * (pose_a.position() + pose_b.position()) };
         let points = [pose_a, pose_b].map(|pose| pose.to_local(&point));
         let plain = [Plain::new(&a), Plain::new(&b)];
-        Self { a, b, pose_a, pose_b, moved_b, points, plain, memories }
+        Self { a, b, pose_a, pose_b, moved_b, points, plain, memories, carried }
     }
 }
 

@@ -171,6 +171,7 @@ fn speed_targets(speed: &Speed) -> Vec<Target> {
     vec![
         at_most("midway with geometry, cold (evaluations)", 50.0, all("midway, cold", &rounded)),
         at_most("midway with geometry, warm (evaluations)", 15.0, all("midway, warm", &rounded)),
+        at_most("midway carried to a pose 1e-4 away (evaluations)", 8.0, all("midway, carried", &rounded)),
         at_most("closest / midway, cold", 1.6, quotient("closest, cold", "midway, cold", f64::max)),
         at_most("closest / midway, warm", 1.6, quotient("closest, warm", "midway, warm", f64::max)),
         at_most("midway at r/size = k = 1e-6, cold (evaluations)", 150.0, all("midway, cold", &sharp)),

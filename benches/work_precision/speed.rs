@@ -10,7 +10,7 @@ use crate::scene::random::Random;
 use crate::scene::touching::{self, Touching};
 use indicatif::ProgressBar;
 use potential_particles::Section;
-use potential_particles::{Formulation, Memory, Settings, detect};
+use potential_particles::{Formulation, Memory, Settings, detect, detect_carried};
 use serde::Serialize;
 use std::hint::black_box;
 
@@ -140,11 +140,12 @@ fn pyramid_costs(
     assert!(!by_faces.is_empty(), "{name}: no pair is rejected by a face while its spheres meet");
     assert!(!by_memory.is_empty(), "{name}: every separated pair is rejected without memory");
     let sections: Vec<Section> = pairs.iter().map(section).collect();
-    let contestants: [(&str, Contestant); 13] = [
+    let contestants: [(&str, Contestant); 14] = [
         ("evaluation", &|i| pairs[i].evaluate()),
         ("evaluation by potential::local", &|i| pairs[i].evaluate_by_library()),
         ("midway, cold", &|i| call(&pairs[i], Formulation::Midway)),
         ("midway, warm", &|i| warm_call(&pairs[i], Formulation::Midway)),
+        ("midway, carried", &|i| carried_call(&pairs[i])),
         ("closest, cold", &|i| call(&pairs[i], Formulation::Closest)),
         ("closest, warm", &|i| warm_call(&pairs[i], Formulation::Closest)),
         ("rejected by spheres", &|i| call(&by_spheres[i], Formulation::Midway)),
@@ -194,6 +195,16 @@ fn warm_call(pair: &Touching, formulation: Formulation) {
     let mut memory: Memory = pair.memory(formulation);
     let _ =
         black_box(&detect(&pair.a, &pair.pose_a, &pair.b, &pair.moved_b, &settings(formulation), Some(&mut memory)));
+}
+
+/// Carried on from the pose before.
+fn carried_call(pair: &Touching) {
+    let pair = black_box(pair);
+    let (mut memory, mut carried) = (pair.memory(Formulation::Midway), pair.carried);
+    let (settings, tolerance) = (Settings::default(), touching::CARRY_TOLERANCE);
+    let (memory, carried) = (Some(&mut memory), &mut carried);
+    let contact = detect_carried(&pair.a, &pair.pose_a, &pair.b, &pair.moved_b, &settings, tolerance, memory, carried);
+    let _ = black_box(&contact);
 }
 
 fn section(pair: &Touching) -> Section {

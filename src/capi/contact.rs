@@ -6,7 +6,7 @@ use super::particle::pp_particle;
 use super::status::*;
 use super::types::*;
 use crate::contact::closest_point::closest_point;
-use crate::contact::detect::detect_as;
+use crate::contact::detect::{detect_as, detect_carried_as};
 use crate::{Contact, Flags, Particle, Pose, Role, Section, Settings};
 
 /// Fills settings with the defaults.
@@ -49,6 +49,70 @@ pub unsafe extern "C" fn pp_contact_detect(
         contact((a, &pose_a), (b, &pose_b), &settings, memory, out)
     })
 }
+
+/// Prepares a pose: its rotation as a matrix.
+///
+/// Pointers: frame is valid for writing.
+/// Errors: PP_NULL_POINTER, PP_BAD_POSITION, PP_BAD_ORIENTATION.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn pp_frame_from_pose(pose: *const pp_pose, frame: *mut pp_frame) -> pp_status {
+    fenced(|| {
+        let pose = pose_from(unsafe { borrow(pose) }?)?;
+        let out = unsafe { output(frame) }?;
+        out.write(frame_from(&pose));
+        Ok(())
+    })
+}
+
+/// pp_contact_detect for contacts that are followed from pose to pose, for poses that are prepared. Where
+/// the last contact can be carried on, no plane is looked at: the answer has PP_FLAG_CARRIED, and its gap
+/// and point_bound hold as for any other.
+///
+/// carry_tolerance: in [0, 0.1]; to what part of the smaller bounding radius the contact point of a
+/// contact that is carried on has to be known (1e-9, say); 0 solves always. PP_CLOSEST and PP_CONIC are
+/// never carried on.
+/// settings: may be NULL (defaults). memory: may be NULL. carry: what the pair carries on, read and updated.
+/// Pointers: memory, carry and out are not used by another call at the same time.
+/// Errors: those of pp_contact_detect.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn pp_contact_detect_carried(
+    a: *const pp_particle,
+    frame_a: *const pp_frame,
+    b: *const pp_particle,
+    frame_b: *const pp_frame,
+    settings: *const pp_settings,
+    carry_tolerance: f64,
+    memory: *mut pp_memory,
+    carry: *mut pp_carry,
+    out: *mut pp_contact,
+) -> pp_status {
+    fenced(|| {
+        let (a, b) = unsafe { (&borrow(a)?.0, &borrow(b)?.0) };
+        let (pose_a, pose_b) = unsafe { (pose_of(borrow(frame_a)?), pose_of(borrow(frame_b)?)) };
+        // SAFETY: as for every output, and initialised by the caller.
+        let carried = carried_of(unsafe { carry.as_mut() }.ok_or(PP_NULL_POINTER)?);
+        let out = unsafe { output(out) }?;
+        let settings = settings_from(unsafe { settings.as_ref() })?;
+        // SAFETY: NULL or exclusively ours for the call.
+        let memory = unsafe { memory.as_mut() };
+        let mut remembered = memory.as_deref().map(memory_from);
+        let write = |contact: Contact| {
+            out.write(contact_to(&contact));
+            contact.flags.has_any(LEFT_AS_IT_WAS)
+        };
+        let kept = (remembered.as_mut(), carried);
+        let cheap = detect_carried_as((a, pose_a), (b, pose_b), &settings, carry_tolerance, kept, write)
+            .map_err(|error| detect_status(&error))?;
+        match (memory, remembered) {
+            (Some(memory), Some(remembered)) if !cheap => *memory = memory_to(remembered),
+            _ => {}
+        }
+        Ok(())
+    })
+}
+
+/// Flags of an answer that leaves the memory as it was.
+const LEFT_AS_IT_WAS: Flags = CHEAP_PROOF.with(Flags::CARRIED);
 
 /// Flags of a separated pair that the solver never saw.
 const CHEAP_PROOF: Flags = Flags::BY_SPHERES.with(Flags::BY_FACE).with(Flags::BY_MEMORY);

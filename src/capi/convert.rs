@@ -3,7 +3,8 @@
 use super::status::*;
 use super::types::*;
 use crate::{
-    BackEnd, ClosestPoint, Contact, DetectError, Formulation, Kind, Memory, Pose, PoseError, Settings, SettingsError,
+    BackEnd, Carried, ClosestPoint, Contact, DetectError, Formulation, Kind, Memory, Pose, PoseError, Settings,
+    SettingsError,
 };
 use nalgebra::Vector3;
 
@@ -13,6 +14,29 @@ pub(super) fn pose_from(pose: &pp_pose) -> Result<Pose, pp_status> {
         PoseError::Position(..) => PP_BAD_POSITION,
         PoseError::Orientation(..) | PoseError::Rotation(_) => PP_BAD_ORIENTATION,
     })
+}
+
+/// A prepared pose is one of ours, number by number.
+const _: () = assert!(size_of::<Pose>() == size_of::<pp_frame>() && align_of::<Pose>() == align_of::<pp_frame>());
+
+#[inline(always)]
+pub(super) fn frame_from(pose: &Pose) -> pp_frame {
+    // SAFETY: both are sixteen doubles.
+    unsafe { std::mem::transmute::<Pose, pp_frame>(*pose) }
+}
+
+#[inline(always)]
+pub(super) fn pose_of(frame: &pp_frame) -> &Pose {
+    // SAFETY: both are sixteen doubles, of which any value is one.
+    unsafe { &*std::ptr::from_ref(frame).cast::<Pose>() }
+}
+
+const _: () = assert!(size_of::<Carried>() <= size_of::<pp_carry>() && align_of::<Carried>() == align_of::<pp_carry>());
+
+#[inline(always)]
+pub(super) fn carried_of(carry: &mut pp_carry) -> &mut Carried {
+    // SAFETY: it holds as many bytes, all of them numbers of which any value is one.
+    unsafe { &mut *std::ptr::from_mut(carry).cast::<Carried>() }
 }
 
 /// A point or direction.

@@ -28,6 +28,8 @@ pub const PP_FLAG_NORMAL_BY_CENTRES: u32 = 4;
 pub const PP_FLAG_WARM: u32 = 8;
 /// Answered in extended precision (about 32 digits): doubles did not settle it, or not to the gap asked for.
 pub const PP_FLAG_EXTENDED: u32 = 16;
+/// pp_contact_detect_carried: carried on from the last contact, without a look at the planes.
+pub const PP_FLAG_CARRIED: u32 = 32;
 /// The gap is above the tolerance asked for: rounding allows no better. It is still a bound.
 pub const PP_FLAG_ROUNDING_LIMITED: u32 = 64;
 /// Rejected by balls: two that hold the particles do not meet.
@@ -93,6 +95,29 @@ pub struct pp_memory {
     /// Library's own; not for reading. Today the first 8 numbers are used, and the others are written as 0:
     /// room to grow.
     pub state: [f64; 16],
+}
+
+/// A pose, prepared: its rotation as a matrix. For callers that look at each body in many pairs.
+///
+/// Made by pp_frame_from_pose, and by nothing else.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct pp_frame {
+    /// Library's own; not for reading.
+    pub state: [f64; 16],
+}
+
+/// What the last contact of one ordered pair (A, B) says about poses near by, for
+/// pp_contact_detect_carried.
+///
+/// Owned by the caller: set all bytes to 0 to begin with or to forget. Unlike pp_memory it is no hint: an
+/// answer rests on it, so it is written by the library only, and not to be saved for another process. It
+/// knows the particles for which it was written, and says nothing about others. One caller at a time.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct pp_carry {
+    /// Library's own; not for reading.
+    pub state: [f64; 40],
 }
 
 /// The answer for one pair. Frames: world axes unless said otherwise; lengths in the caller's

@@ -100,7 +100,14 @@ impl KnownPiece {
 
 impl Carried {
     /// From a contact that was solved as an overlap in doubles; empty where its quadratics do not say enough.
-    pub(crate) fn of(pair: &Pair, bodies: [&Body; 2], model: &LocalModel, solution: &Solution, scale: Scale, point_bound: f64) -> Self {
+    pub(crate) fn of(
+        pair: &Pair,
+        bodies: [&Body; 2],
+        model: &LocalModel,
+        solution: &Solution,
+        scale: Scale,
+        point_bound: f64,
+    ) -> Self {
         let exact = model.in_solver_axes() && solution.linear && bodies.iter().all(|body| body.is_plain());
         let pieces = [KnownPiece::of(model, bodies[0], 0), KnownPiece::of(model, bodies[1], 1)];
         if !(exact && pieces.iter().all(|piece| piece.reach > 0.0)) {
@@ -197,9 +204,8 @@ impl Carried {
         let lambda = u / (1.0 - u);
         let gradient_norms = [gradients[0].norm(), gradients[1].norm()];
         let solution = Solution { gradients, gradient_norms, values, ..Solution::unsettled(x, lambda, steps) };
-        let pieces = |n: &Vector3<f64>| {
-            [0, 1].map(|i| Piece { curvature: hessians[i].times(n).dot(n), reach: rest[i] })
-        };
+        let pieces =
+            |n: &Vector3<f64>| [0, 1].map(|i| Piece { curvature: hessians[i].times(n).dot(n), reach: rest[i] });
         let bound = 2.0 * self.point_bound + left.1;
         let local = LocalContact::midway(pair, &solution, Scale { s, gap, low: s - gap }, || bound, pieces, true)?;
         (self.x, self.weight) = (x, u);

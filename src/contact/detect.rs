@@ -130,7 +130,7 @@ pub(crate) fn detect_carried_as<T>(
     b: (&Particle, &Pose),
     settings: &Settings,
     tolerance: f64,
-    (memory, carried): (Option<&mut Memory>, &mut Carried),
+    (mut memory, carried): (Option<&mut Memory>, &mut Carried),
     answer: impl Fn(Contact) -> T,
 ) -> Result<T, DetectError> {
     settings.validate()?;
@@ -141,7 +141,6 @@ pub(crate) fn detect_carried_as<T>(
     match carried.contact(a, b, tolerance) {
         Some(contact) => Ok(answer(contact)),
         None => {
-            let mut memory = memory;
             if let (Some(memory), Some((x, lambda))) = (memory.as_deref_mut(), carried.last(a.0, b.0)) {
                 memory.follow(x, lambda);
             }

@@ -79,7 +79,14 @@ impl Symmetric {
         // Rows of R·self; each entry of the product once.
         let [x, y, z] = [0, 1, 2].map(|i| self.times(&r.row(i).transpose()));
         let entry = |v: &Vector3<f64>, i: usize| v.x * r[(i, 0)] + v.y * r[(i, 1)] + v.z * r[(i, 2)];
-        Self { xx: entry(&x, 0), yx: entry(&y, 0), yy: entry(&y, 1), zx: entry(&z, 0), zy: entry(&z, 1), zz: entry(&z, 2) }
+        Self {
+            xx: entry(&x, 0),
+            yx: entry(&y, 0),
+            yy: entry(&y, 1),
+            zx: entry(&z, 0),
+            zy: entry(&z, 1),
+            zz: entry(&z, 2),
+        }
     }
 
     /// factor·self + diagonal·1.
