@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "archives.hpp"
 
+#include "class_versions.hpp"
 #include "conic_potential_particle.hpp"
 #include "plane_lists.hpp"
 #include "python_class.hpp"
@@ -383,8 +384,9 @@ void ConicPotentialParticle::pyRegisterClass(py::object scope)
 
 // --- archives -------------------------------------------------------------------------------
 
-template <class Archive> void ConicPotentialParticle::serialize(Archive& archive, unsigned)
+template <class Archive> void ConicPotentialParticle::serialize(Archive& archive, unsigned version)
 {
+    requireReadable<ConicPotentialParticle>(version);
     serializeBase<yade::PotentialParticle>(archive, *this, "PotentialParticle");
     archive& boost::serialization::make_nvp("automaticBox", automaticBox);
     if (Archive::is_loading::value)

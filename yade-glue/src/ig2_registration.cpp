@@ -4,6 +4,7 @@
 #include "archives.hpp"
 
 #include "answer_path.hpp"
+#include "class_versions.hpp"
 #include "ig2_conic_pp.hpp"
 #include "python_class.hpp"
 
@@ -220,8 +221,9 @@ void Ig2_ConicPP_ConicPP_ScGeom::pyResetCounters()
     failures.clear();
 }
 
-template <class Archive> void Ig2_ConicPP_ConicPP_ScGeom::serialize(Archive& archive, unsigned)
+template <class Archive> void Ig2_ConicPP_ConicPP_ScGeom::serialize(Archive& archive, unsigned version)
 {
+    requireReadable<Ig2_ConicPP_ConicPP_ScGeom>(version);
     serializeBase<yade::IGeomFunctor>(archive, *this, "IGeomFunctor");
     ContactSettings::eachAttribute(
         [&](const char* name, auto member, const char*) { archiveAttribute(archive, name, written.*member); });
@@ -229,8 +231,9 @@ template <class Archive> void Ig2_ConicPP_ConicPP_ScGeom::serialize(Archive& arc
         settle();
 }
 
-template <class Archive> void Ig2_PP_PP_ScGeom_Conic::serialize(Archive& archive, unsigned)
+template <class Archive> void Ig2_PP_PP_ScGeom_Conic::serialize(Archive& archive, unsigned version)
 {
+    requireReadable<Ig2_PP_PP_ScGeom_Conic>(version);
     // The base is ours, so Boost's own way works here.
     archive& BOOST_SERIALIZATION_BASE_OBJECT_NVP(Ig2_ConicPP_ConicPP_ScGeom);
 }
