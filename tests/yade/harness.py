@@ -125,6 +125,13 @@ def run(steps):
         raise RuntimeError(f"YADE stopped at step {O.iter} of {stop}; its message stands above")
 
 
+def halt():
+    """Ends a run from another thread, after the step it is in. (YADE's O.pause() returns in the midst of that step.)"""
+    while O.running:
+        O.stopAtIter = O.iter + 1
+        time.sleep(0.0005)
+
+
 def functor():
     """The contact functor of the present scene (after O.load the script's own object is another)."""
     loop = next(engine for engine in O.engines if isinstance(engine, yade.InteractionLoop))

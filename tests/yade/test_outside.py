@@ -45,7 +45,7 @@ def hammer(action):
         calls += 1
     check.true(O.running, "the run still goes on")
     steps = O.iter - first
-    O.pause()
+    halt()
     check.true(calls > 50 and steps > 5, f"{calls} calls during {steps} steps")
 
 
@@ -156,7 +156,9 @@ check.true(all(b.state.pos.norm() < 10 for b in O.bodies), "none was thrown out"
 check.equal((functor().failures, functor().failureReport), (0, []), "failures")
 check.true(any(c.isReal for c in O.interactions), "in contact")
 
-# From outside, they may not until the run has ended; O.pause() waits for that.
+# From outside, they may not until the run has ended, once protect_runs() was called; O.pause() waits for that.
+potential_particles.protect_runs()
+potential_particles.protect_runs()  # no more than once
 O.engines = O.engines[:-1]
 stop = O.stopAtIter
 O.run()
@@ -164,6 +166,7 @@ for action, name in [(lambda: O.bodies.erase(1), "O.bodies.erase"), (lambda: O.b
                      (lambda: O.bodies.clear(), "O.bodies.clear"), (lambda: O.interactions.clear(), "O.interactions.clear"),
                      (lambda: setattr(O.bodies[0], "shape", cube()), "Body.shape")]:
     check.raises(RuntimeError, action, f"{name} during a run", name)
+check.equal(type(utils.sphere((0, 0, 0), 1).shape).__name__, "Sphere", "a body that is in no scene may be given its shape")
 heard = []
 
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "archives.hpp"
 
+#include "class_versions.hpp"
 #include "conic_potential_particle.hpp"
 #include "plane_lists.hpp"
 #include "python_class.hpp"
-#include "retired.hpp"
 
 #include <algorithm>
 #include <array>
@@ -85,30 +85,27 @@ const int& ConicPotentialParticle::getBaseClassIndex(int depth) const
 
 const Particle* ConicPotentialParticle::particle() const
 {
-    const Particle* particle = published.load(std::memory_order_acquire);
+    const Particle* particle = made.get();
     return particle && particle->definition.roughlyDescribes(*this) ? particle : nullptr;
 }
 
 const pp_particle* ConicPotentialParticle::require() const
 {
-    if (!current)
+    if (!made.held())
         throw std::logic_error("ConicPotentialParticle was made without its constructor from Python");
-    return current->require();
+    return made.held()->require();
 }
 
 void ConicPotentialParticle::settle()
 {
-    if (!current || !current->definition.describes(*this)) {
-        const auto made = Particle::make(Definition::of(*this));
-        if (!made->handle() && !made->pending()) {
+    if (!made.held() || !made.held()->definition.describes(*this)) {
+        const auto next = Particle::make(Definition::of(*this));
+        if (!next->handle() && !next->pending()) {
             give(accepted);
-            throw std::invalid_argument("ConicPotentialParticle: " + made->refusal());
+            throw std::invalid_argument("ConicPotentialParticle: " + next->refusal());
         }
-        accepted = made->definition;
-        const auto old = std::exchange(current, made);
-        published.store(made.get(), std::memory_order_release);
-        if (old)
-            retire(old);
+        accepted = next->definition;
+        made.replace(next);
     }
     if (automaticBox)
         fillBox();
@@ -128,7 +125,7 @@ void ConicPotentialParticle::give(const Definition& definition)
 
 void ConicPotentialParticle::fillBox()
 {
-    const pp_particle* particle = current->handle();
+    const pp_particle* particle = made.held()->handle();
     if (!particle)
         return;
     std::size_t count = 0;
@@ -387,8 +384,9 @@ void ConicPotentialParticle::pyRegisterClass(py::object scope)
 
 // --- archives -------------------------------------------------------------------------------
 
-template <class Archive> void ConicPotentialParticle::serialize(Archive& archive, unsigned)
+template <class Archive> void ConicPotentialParticle::serialize(Archive& archive, unsigned version)
 {
+    requireReadable<ConicPotentialParticle>(version);
     serializeBase<yade::PotentialParticle>(archive, *this, "PotentialParticle");
     archive& boost::serialization::make_nvp("automaticBox", automaticBox);
     if (Archive::is_loading::value)

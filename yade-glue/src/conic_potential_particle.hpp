@@ -5,11 +5,11 @@
 
 #include "../abi/archive.hpp"
 #include "particle.hpp"
+#include "published.hpp"
 
 #include <boost/python/list.hpp>
 #include <boost/serialization/access.hpp>
 
-#include <atomic>
 #include <optional>
 
 namespace potential_particles {
@@ -29,8 +29,6 @@ public:
     PP_ABI_INDEX_OVERRIDES
 
     // For the contact functor; any thread. Null when the fields differ from what it was made of.
-    // No share of ownership, which threads would pass to and fro for every pair: what a script replaces
-    // is kept long enough for the pairs that are being solved (retired.hpp).
     const Particle* particle() const;
 
     // Makes the particle of the present attributes. An invalid set of attributes is replaced by
@@ -62,9 +60,7 @@ private:
     double pyPotential(const yade::Vector3r& point) const;
     boost::python::list pySurfaceDistance(const boost::python::object& directions) const;
 
-    std::shared_ptr<const Particle> current;
-    // What contact functors read while Python may replace it.
-    std::atomic<const Particle*> published { nullptr };
+    Published<Particle> made;
     Definition accepted;
     // What the group of attributes that is being set says about the box; see callPostLoad().
     bool boxGiven = false;

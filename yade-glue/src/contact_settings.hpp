@@ -60,4 +60,13 @@ struct ContactSettings {
     }
 };
 
+// One value of all settings, checked. Never changes, so threads may share it.
+struct AcceptedSettings {
+    // Throws as parsed() does.
+    explicit AcceptedSettings(const ContactSettings& settings) : given(settings), library(settings.parsed()) { }
+
+    const ContactSettings given;
+    const pp_settings library;
+};
+
 } // namespace potential_particles

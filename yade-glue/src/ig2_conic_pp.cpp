@@ -87,6 +87,7 @@ struct Ig2_ConicPP_ConicPP_ScGeom::Pair {
     const bool force;
     const boost::shared_ptr<Interaction>& interaction;
     Counters::Row& counts;
+    const AcceptedSettings& settings;
     // Both functors have run before: the pair has a history, which must not be dropped.
     const bool real;
 
@@ -149,40 +150,43 @@ struct Ig2_ConicPP_ConicPP_ScGeom::Pair {
 
 bool Ig2_ConicPP_ConicPP_ScGeom::go(const boost::shared_ptr<Shape>& cm1, const boost::shared_ptr<Shape>& cm2,
                                     const State& state1, const State& state2, const Vector3r& shift2,
-                                    const bool& force, const boost::shared_ptr<Interaction>& interaction)
+                                    const bool& force, const boost::shared_ptr<Interaction>& interaction) noexcept
 {
-    Counters::Row& counts = counters.ofThisThread();
-    const Stopwatch stopwatch(counts, settings.measureTime);
-    // The dispatcher calls with what get2DFunctorType1/2 say, or shapes derived from it.
-    Pair pair { static_cast<const PotentialParticle&>(*cm1),
-                static_cast<const PotentialParticle&>(*cm2),
-                state1,
-                state2,
-                shift2,
-                force,
-                interaction,
-                counts,
-                interaction->hasGeomAndPhys() };
-    if (pair.shape1.isBoundary && pair.shape2.isBoundary)
-        return false;
-    counts.add(Count::calls);
+    const bool real = interaction->hasGeomAndPhys();
     try {
+        const AcceptedSettings& settings = *accepted.get();
+        Counters::Row& counts = counters.ofThisThread();
+        const Stopwatch stopwatch(counts, settings.given.measureTime);
+        // The dispatcher calls with what get2DFunctorType1/2 say, or shapes derived from it.
+        Pair pair { static_cast<const PotentialParticle&>(*cm1),
+                    static_cast<const PotentialParticle&>(*cm2),
+                    state1,
+                    state2,
+                    shift2,
+                    force,
+                    interaction,
+                    counts,
+                    settings,
+                    real };
+        if (pair.shape1.isBoundary && pair.shape2.isBoundary)
+            return false;
+        counts.add(Count::calls);
         pair.particle1 = particleOf(cm1, pair.shape1, pair.keeper1);
         pair.particle2 = particleOf(cm2, pair.shape2, pair.keeper2);
         return contact(pair);
     } catch (const std::exception& error) {
-        fail(pair, error.what());
+        fail(*interaction, state1, state2, shift2, error.what());
     } catch (...) {
-        fail(pair, "unknown error");
+        fail(*interaction, state1, state2, shift2, "unknown error");
     }
-    return pair.real || (force && interaction->geom);
+    return real || (force && interaction->geom);
 }
 
 // The pair is solved as it comes, so there is nothing to reverse: both shapes are of one kind, and
 // body 1 of the interaction is body 1 of the arguments.
 bool Ig2_ConicPP_ConicPP_ScGeom::goReverse(const boost::shared_ptr<Shape>& cm1, const boost::shared_ptr<Shape>& cm2,
                                            const State& state1, const State& state2, const Vector3r& shift2,
-                                           const bool& force, const boost::shared_ptr<Interaction>& interaction)
+                                           const bool& force, const boost::shared_ptr<Interaction>& interaction) noexcept
 {
     return go(cm1, cm2, state1, state2, shift2, force, interaction);
 }
@@ -243,7 +247,7 @@ pp_status Ig2_ConicPP_ConicPP_ScGeom::detect(Pair& pair, pp_contact& found)
     const pp_pose pose1 = pair.pose1();
     const pp_pose pose2 = pair.pose2();
     pp_memory* const memory = pair.own ? &pair.own->memory : nullptr;
-    return pp_contact_detect(a, &pose1, b, &pose2, &library, memory, &found);
+    return pp_contact_detect(a, &pose1, b, &pose2, &pair.settings.library, memory, &found);
 }
 
 void Ig2_ConicPP_ConicPP_ScGeom::fill(Pair& pair, pp_contact& found)
@@ -283,6 +287,7 @@ void Ig2_ConicPP_ConicPP_ScGeom::fillPhysics(Pair& pair, const pp_contact& found
     phys->ptOnP1 = Vector3r(found.point_on_a);
     phys->ptOnP2 = Vector3r(found.point_on_b);
 
+    const ContactSettings& settings = pair.settings.given;
     if (!settings.calContactArea) {
         phys->jointLength = 1.0;
         phys->contactArea = settings.twoDimension ? settings.unitWidth2D : 1.0;
@@ -312,13 +317,19 @@ void Ig2_ConicPP_ConicPP_ScGeom::fillPhysics(Pair& pair, const pp_contact& found
     }
 }
 
-void Ig2_ConicPP_ConicPP_ScGeom::fail(const Pair& pair, const std::string& why) noexcept
+void Ig2_ConicPP_ConicPP_ScGeom::fail(const Pair& pair, const std::string& why)
 {
-    pair.counts.add(Count::failures);
+    fail(*pair.interaction, pair.state1, pair.state2, pair.shift2, why.c_str());
+}
+
+void Ig2_ConicPP_ConicPP_ScGeom::fail(const Interaction& interaction, const State& state1, const State& state2,
+                                      const Vector3r& shift2, const char* why) noexcept
+{
     try {
-        failures.add({ pair.interaction->id1, pair.interaction->id2, pair.pose1(), pair.pose2(), why });
+        counters.ofThisThread().add(Count::failures);
+        failures.add({ interaction.id1, interaction.id2, poseOf(state1, Vector3r::Zero()), poseOf(state2, shift2), why });
     } catch (...) {
-        // Copying the text may run out of memory; the failure is counted.
+        // There may be no memory for a copy of the text, nor for a first row of counters.
     }
 }
 

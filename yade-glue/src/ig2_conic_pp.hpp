@@ -8,6 +8,7 @@
 #include "contact_settings.hpp"
 #include "counters.hpp"
 #include "failure_report.hpp"
+#include "published.hpp"
 
 #include <boost/python/dict.hpp>
 #include <boost/python/list.hpp>
@@ -35,10 +36,10 @@ public:
 
     bool go(const boost::shared_ptr<yade::Shape>& shape1, const boost::shared_ptr<yade::Shape>& shape2,
             const yade::State& state1, const yade::State& state2, const yade::Vector3r& shift2, const bool& force,
-            const boost::shared_ptr<yade::Interaction>& interaction) override;
+            const boost::shared_ptr<yade::Interaction>& interaction) noexcept override;
     bool goReverse(const boost::shared_ptr<yade::Shape>& shape1, const boost::shared_ptr<yade::Shape>& shape2,
                    const yade::State& state1, const yade::State& state2, const yade::Vector3r& shift2,
-                   const bool& force, const boost::shared_ptr<yade::Interaction>& interaction) override;
+                   const bool& force, const boost::shared_ptr<yade::Interaction>& interaction) noexcept override;
 
 private:
     friend class boost::serialization::access;
@@ -50,7 +51,9 @@ private:
     pp_status detect(Pair& pair, pp_contact& found);
     void fill(Pair& pair, pp_contact& found);
     void fillPhysics(Pair& pair, const pp_contact& found);
-    void fail(const Pair& pair, const std::string& why) noexcept;
+    void fail(const Pair& pair, const std::string& why);
+    void fail(const yade::Interaction& interaction, const yade::State& state1, const yade::State& state2,
+              const yade::Vector3r& shift2, const char* why) noexcept;
 
     void settle();
     boost::python::list pyFailureReport() const;
@@ -62,11 +65,10 @@ private:
     double pyBusiestSeconds() const;
     void pyResetCounters();
 
-    // `settings` as set from Python; `library` is its parsed form. Both change only between steps,
-    // like the attributes of every functor of YADE.
-    ContactSettings settings;
-    ContactSettings accepted;
-    pp_settings library;
+    // Python and archives write `written`, with Python's lock; settle() checks and publishes it. go() reads `accepted`
+    // alone, once, so that settings may change at any time: each answer belongs to one whole value of them.
+    ContactSettings written;
+    Published<AcceptedSettings> accepted;
     Counters counters;
     FailureReport failures;
 };

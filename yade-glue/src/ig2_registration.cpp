@@ -4,6 +4,7 @@
 #include "archives.hpp"
 
 #include "answer_path.hpp"
+#include "class_versions.hpp"
 #include "ig2_conic_pp.hpp"
 #include "python_class.hpp"
 
@@ -35,10 +36,7 @@ namespace {
 
 } // namespace
 
-Ig2_ConicPP_ConicPP_ScGeom::Ig2_ConicPP_ConicPP_ScGeom()
-    : library(settings.parsed())
-{
-}
+Ig2_ConicPP_ConicPP_ScGeom::Ig2_ConicPP_ConicPP_ScGeom() { settle(); }
 
 Ig2_ConicPP_ConicPP_ScGeom::~Ig2_ConicPP_ConicPP_ScGeom() = default;
 Ig2_PP_PP_ScGeom_Conic::~Ig2_PP_PP_ScGeom_Conic() = default;
@@ -65,10 +63,9 @@ std::string Ig2_PP_PP_ScGeom_Conic::checkOrder() const { return "PotentialPartic
 void Ig2_ConicPP_ConicPP_ScGeom::settle()
 {
     try {
-        library = settings.parsed();
-        accepted = settings;
+        accepted.replace(std::make_shared<const AcceptedSettings>(written));
     } catch (const std::invalid_argument& error) {
-        settings = accepted;
+        written = accepted.held()->given;
         throw std::invalid_argument(getClassName() + ": " + error.what());
     }
 }
@@ -85,7 +82,7 @@ void Ig2_ConicPP_ConicPP_ScGeom::pySetAttr(const std::string& key, const py::obj
     ContactSettings::eachAttribute([&](const char* name, auto member, const char*) {
         if (key != name)
             return;
-        settings.*member = py::extract<typename Pointed<decltype(member)>::type>(value)();
+        written.*member = py::extract<typename Pointed<decltype(member)>::type>(value)();
         own = true;
     });
     if (!own)
@@ -96,7 +93,7 @@ py::dict Ig2_ConicPP_ConicPP_ScGeom::pyDict() const
 {
     py::dict attributes;
     ContactSettings::eachAttribute(
-        [&](const char* name, auto member, const char*) { attributes[name] = py::object(settings.*member); });
+        [&](const char* name, auto member, const char*) { attributes[name] = py::object(written.*member); });
     attributes.update(pyDictCustom());
     attributes.update(IGeomFunctor::pyDict());
     return attributes;
@@ -114,10 +111,10 @@ void Ig2_ConicPP_ConicPP_ScGeom::pyRegisterClass(py::object scope)
         using Value = typename Pointed<decltype(member)>::type;
         registered.add_property(name,
                                 pythonFunction<Value, const Functor&>(
-                                    [member](const Functor& functor) { return functor.settings.*member; }),
+                                    [member](const Functor& functor) { return functor.written.*member; }),
                                 pythonFunction<void, Functor&, const Value&>(
                                     [member](Functor& functor, const Value& value) {
-                                        functor.settings.*member = value;
+                                        functor.written.*member = value;
                                         functor.settle();
                                     }),
                                 attributeDoc);
@@ -224,17 +221,19 @@ void Ig2_ConicPP_ConicPP_ScGeom::pyResetCounters()
     failures.clear();
 }
 
-template <class Archive> void Ig2_ConicPP_ConicPP_ScGeom::serialize(Archive& archive, unsigned)
+template <class Archive> void Ig2_ConicPP_ConicPP_ScGeom::serialize(Archive& archive, unsigned version)
 {
+    requireReadable<Ig2_ConicPP_ConicPP_ScGeom>(version);
     serializeBase<yade::IGeomFunctor>(archive, *this, "IGeomFunctor");
     ContactSettings::eachAttribute(
-        [&](const char* name, auto member, const char*) { archiveAttribute(archive, name, settings.*member); });
+        [&](const char* name, auto member, const char*) { archiveAttribute(archive, name, written.*member); });
     if (Archive::is_loading::value)
         settle();
 }
 
-template <class Archive> void Ig2_PP_PP_ScGeom_Conic::serialize(Archive& archive, unsigned)
+template <class Archive> void Ig2_PP_PP_ScGeom_Conic::serialize(Archive& archive, unsigned version)
 {
+    requireReadable<Ig2_PP_PP_ScGeom_Conic>(version);
     // The base is ours, so Boost's own way works here.
     archive& BOOST_SERIALIZATION_BASE_OBJECT_NVP(Ig2_ConicPP_ConicPP_ScGeom);
 }

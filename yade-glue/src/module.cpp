@@ -7,6 +7,7 @@
 #include "particle_store.hpp"
 #include "plane_lists.hpp"
 #include "registration.hpp"
+#include "retired.hpp"
 
 #include <boost/archive/basic_archive.hpp>
 #include <boost/python/def.hpp>
@@ -56,5 +57,6 @@ BOOST_PYTHON_MODULE(_glue)
     py::def("differences_of_layout", &differencesOfLayout);
     py::def("register_classes", &pp::registerClasses);
     py::def("stored_particles", &storedParticles);
+    py::def("retired_count", &pp::retiredCount);
     py::def("set_list", &setListOf);
 }

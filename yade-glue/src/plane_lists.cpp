@@ -34,9 +34,10 @@ void setVertices(PotentialParticle& shape, std::vector<Vector3r> vertices)
     }
     if (held.capacity() > 0)
         vertices.reserve(2 * vertices.size()); // it changes: let the next change fit
+    const auto old = std::make_shared<std::vector<Vector3r>>();
+    retire(old);
     held.swap(vertices);
-    if (vertices.capacity() > 0)
-        retire(std::make_shared<const std::vector<Vector3r>>(std::move(vertices)));
+    old->swap(vertices);
 }
 
 void setList(PotentialParticle& shape, std::vector<double> PotentialParticle::*list, std::vector<double> values)

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "archives.hpp"
 
+#include "class_versions.hpp"
 #include "python_class.hpp"
 #include "sc_geom_conic_pp.hpp"
 
 #include <boost/serialization/binary_object.hpp>
-#include <boost/serialization/version.hpp>
 
 #include <algorithm>
 
@@ -90,6 +90,7 @@ void ScGeomConicPP::pyRegisterClass(py::object scope)
 
 template <class Archive> void ScGeomConicPP::serialize(Archive& archive, unsigned version)
 {
+    requireReadable<ScGeomConicPP>(version);
     serializeBase<yade::ScGeom>(archive, *this, "ScGeom");
     if (version == 0)
         memory = { { 0 } };
@@ -99,5 +100,4 @@ template <class Archive> void ScGeomConicPP::serialize(Archive& archive, unsigne
 
 } // namespace potential_particles
 
-BOOST_CLASS_VERSION(potential_particles::ScGeomConicPP, 1)
 BOOST_CLASS_EXPORT(potential_particles::ScGeomConicPP)

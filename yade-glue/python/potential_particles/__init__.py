@@ -16,15 +16,20 @@ Then these classes stand beside YADE's own:
 Before, the classes of the YADE that runs are compared with what the plugin was compiled for. One that
 differs is refused with AbiError, which lists the differences, and nothing is registered; one that fits
 and was never tested is taken, with a warning of one line.
+
+Of YADE's own classes the import replaces three functions, which do as before: O.run and O.step look our functors up
+when there are several threads (prepare), and O.load says what to do about a scene of another YADE. The lists of
+PotentialParticle are set under a lock. protect_runs() replaces more, for those who ask for it.
 """
 import builtins
 import functools
 
 from . import builds
+from .outside import protect_runs
 
 __version__ = "0.1.0"
 
-__all__ = ["AbiError", "library_version", "prepare"]
+__all__ = ["AbiError", "library_version", "prepare", "protect_runs"]
 
 
 class AbiError(ImportError):
@@ -182,7 +187,7 @@ def _load():
     _resize_dispatchers(yade)
     _prepare_before_steps(yade)
     from . import outside, saves
-    outside.guard(yade, glue.set_list)
+    outside.guard_lists(yade, glue.set_list)
     saves.guard(yade, glue.archive_version, running)
     return glue
 

@@ -4,6 +4,9 @@
 O.run() steps in a thread of its own, and YADE takes no lock: a body that is erased at the prompt in
 the meantime may be the one that a step is reading, which ends the process. Engines, PyRunner above
 all, run within a step and are free to do so.
+
+At import only the lists of PotentialParticle are made safe to set. protect_runs() refuses the rest, when
+a script asks for that.
 """
 import functools
 import threading
@@ -15,20 +18,35 @@ _INTERACTIONS = ("erase", "eraseNonReal", "clear")
 _LISTS = ("a", "b", "c", "d", "vertices")
 
 
-def guard(yade, set_list):
-    """Refuses what would end the process; makes O.pause() wait, and the lists of plain shapes safe to set."""
+def protect_runs():
+    """From now on, refuses what may end the process while O.run() steps in another thread.
+
+    That is, for scenes of any bodies, until YADE ends: O.bodies and O.interactions are not to be changed, and neither
+    is Body.shape of a body that is in the scene; each raises RuntimeError that says what to do instead. A
+    PyRunner may do all of it, and so may a script after O.pause(), which then waits for the step it is in.
+    """
+    import yade
     wrapper = yade.wrapper
+    if getattr(wrapper.Omega.pause, "protects_runs", False):
+        return
     for container, what, names in ((wrapper.BodyContainer, "O.bodies", _BODIES),
                                    (wrapper.InteractionContainer, "O.interactions", _INTERACTIONS)):
         for name in names:
             setattr(container, name, _refusing(yade, getattr(container, name), f"{what}.{name}"))
-    plain = wrapper.PotentialParticle
+    shape = wrapper.Body.shape
+    in_scene = _refusing(yade, shape.fset, "a change of Body.shape")
+    wrapper.Body.shape = property(
+        shape.fget, lambda body, value: (shape.fset if body.id < 0 else in_scene)(body, value), doc=shape.__doc__)
+    wrapper.Omega.pause = _pausing(yade, wrapper.Omega.pause)
+    wrapper.Omega.pause.protects_runs = True
+
+
+def guard_lists(yade, set_list):
+    """Lists of plain shapes are set under the lock under which our functor reads them."""
+    plain = yade.wrapper.PotentialParticle
     for name in _LISTS:
         setattr(plain, name, _list(getattr(plain, name), name, set_list))
     plain.updateAttrs = _updating(plain.updateAttrs, set_list)
-    wrapper.Omega.pause = _pausing(yade, wrapper.Omega.pause)
-    shape = wrapper.Body.shape
-    wrapper.Body.shape = property(shape.fget, _refusing(yade, shape.fset, "a change of Body.shape"), doc=shape.__doc__)
 
 
 def _stepped_by_another_thread(yade):
