@@ -2,6 +2,7 @@
 //
 // Raw material for check_abi.py: for each declared class its size, and a class derived from it
 // whose virtual table the compiler writes from our declaration. Compiled and examined, never run.
+#include "engine.hpp"
 #include "functor.hpp"
 #include "interaction.hpp"
 #include "knksphys.hpp"
@@ -37,3 +38,6 @@ PROBE(KnKsPhys)
 PROBE(Interaction)
 PROBE(Functor)
 PROBE(IGeomFunctor)
+PROBE(Engine)
+PROBE(GlobalEngine)
+PROBE(InteractionLoop)

@@ -21,6 +21,7 @@ constexpr AnswerPath answerPaths[] = {
     { Count::face, "face", true }, // apart: one lies beyond a face of the other
     { Count::memory, "memory", true }, // apart: what separated them in the last step still does
     { Count::proof, "proof", false }, // apart: the solver met a proof on its way
+    { Count::carried, "carried", true }, // touching: the contact of the last step, carried on
     { Count::warm, "warm", false }, // solved from the remembered point
     { Count::cold, "cold", false }, // solved from nothing
     { Count::conic, "conic", false }, // solved as a cone program
@@ -38,6 +39,8 @@ inline Count pathOf(const pp_contact& found)
         return Count::conic;
     if (found.flags & PP_FLAG_REJECTED)
         return Count::proof;
+    if (found.flags & PP_FLAG_CARRIED)
+        return Count::carried;
     return found.flags & PP_FLAG_WARM ? Count::warm : Count::cold;
 }
 

@@ -14,6 +14,7 @@ class ConicPotentialParticle;
 class ScGeomConicPP;
 class Ig2_ConicPP_ConicPP_ScGeom;
 class Ig2_PP_PP_ScGeom_Conic;
+class ConicInteractionLoop;
 
 } // namespace potential_particles
 
@@ -21,8 +22,9 @@ class Ig2_PP_PP_ScGeom_Conic;
 // written has a file in tests/yade/data.
 BOOST_CLASS_VERSION(potential_particles::ConicPotentialParticle, 0)
 BOOST_CLASS_VERSION(potential_particles::ScGeomConicPP, 1) // 0: a memory of 8 numbers
-BOOST_CLASS_VERSION(potential_particles::Ig2_ConicPP_ConicPP_ScGeom, 0)
+BOOST_CLASS_VERSION(potential_particles::Ig2_ConicPP_ConicPP_ScGeom, 1) // 0: without carryTolerance
 BOOST_CLASS_VERSION(potential_particles::Ig2_PP_PP_ScGeom_Conic, 0)
+BOOST_CLASS_VERSION(potential_particles::ConicInteractionLoop, 0)
 
 namespace potential_particles {
 

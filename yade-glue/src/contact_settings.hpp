@@ -18,6 +18,7 @@ struct ContactSettings {
     std::string backEnd = "fast";
     double tolerance; // these two: the library's defaults
     double flatRegularisation;
+    double carryTolerance = 1e-9;
     bool calContactArea = true;
     double areaTolerance = 1e-6;
     bool twoDimension = false;
@@ -45,6 +46,9 @@ struct ContactSettings {
         visit("flatRegularisation", &S::flatRegularisation,
               "Smallest sphericity that the solver takes as given; below it, the contact point on a flat face is chosen "
               "as if k were this. Raise it (1e-4, say) when flat faces rattle.");
+        visit("carryTolerance", &S::carryTolerance,
+              "To what part of the smaller particle's size the point of a contact has to be known that is carried on from the "
+              "last step without a look at the planes; 0: every contact is solved in every step.");
         visit("calContactArea", &S::calContactArea,
               "Whether KnKsPhys.contactArea is computed; otherwise it is 1 (with twoDimension: unitWidth2D).");
         visit("areaTolerance", &S::areaTolerance, "Relative error allowed in the contact area.");

@@ -19,6 +19,7 @@ enum class Count {
     face,
     memory,
     proof,
+    carried,
     warm,
     cold,
     conic,

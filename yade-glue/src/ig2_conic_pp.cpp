@@ -5,18 +5,20 @@
 #include "../abi/scgeom.hpp"
 
 #include "answer_path.hpp"
-#include "conic_potential_particle.hpp"
 #include "ig2_conic_pp.hpp"
-#include "particle_store.hpp"
+#include "particle_of.hpp"
 #include "pose.hpp"
 #include "ray.hpp"
 #include "sc_geom_conic_pp.hpp"
+#include "step.hpp"
 
 #include <boost/make_shared.hpp>
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
 #include <typeinfo>
+#include <utility>
 
 namespace potential_particles {
 
@@ -32,17 +34,6 @@ namespace {
     // penetrationDepth of a pair that does not touch. Laws ask for its sign only: the width of the
     // gap is not computed.
     constexpr double apart = -1.0;
-
-    // The particle behind a shape; `keeper` owns it when the shape itself does not.
-    const Particle* particleOf(const boost::shared_ptr<Shape>& shape, const PotentialParticle& pp,
-                               std::shared_ptr<const Particle>& keeper)
-    {
-        if (typeid(pp) == typeid(ConicPotentialParticle))
-            if (const Particle* particle = static_cast<const ConicPotentialParticle&>(pp).particle())
-                return particle;
-        keeper = ParticleStore::instance().find(shape, pp);
-        return keeper.get();
-    }
 
     // dynamic_cast takes its time; nearly always the object is of one known class.
     template <class Usual, class Wanted, class Object> Wanted* castTo(Object* object)
@@ -79,6 +70,8 @@ namespace {
 } // namespace
 
 struct Ig2_ConicPP_ConicPP_ScGeom::Pair {
+    const boost::shared_ptr<Shape>& cm1;
+    const boost::shared_ptr<Shape>& cm2;
     const PotentialParticle& shape1;
     const PotentialParticle& shape2;
     const State& state1;
@@ -90,6 +83,11 @@ struct Ig2_ConicPP_ConicPP_ScGeom::Pair {
     const AcceptedSettings& settings;
     // Both functors have run before: the pair has a history, which must not be dropped.
     const bool real;
+
+    // Where a ConicInteractionLoop runs: what it knows already.
+    const BodyInStep* body1 = nullptr;
+    const BodyInStep* body2 = nullptr;
+    PairInStep* known = nullptr;
 
     const Particle* particle1 = nullptr;
     const Particle* particle2 = nullptr;
@@ -123,16 +121,70 @@ struct Ig2_ConicPP_ConicPP_ScGeom::Pair {
         return true;
     }
 
-    // Whether they were apart, and have not moved by the distance between them since.
-    bool isKeptApart() const
+    // What the loop that runs knows of both bodies and of the pair, if it is one of ours; a periodic image moves by itself.
+    void findStep()
     {
-        return own && own->apart.holds(*particle1, *particle2, state1.se3.orientation, state2.se3.orientation, branch());
+        Step* const step = Step::current();
+        if (!step || !shift2.isZero(0))
+            return;
+        body1 = step->body(interaction->id1, cm1, state1);
+        body2 = step->body(interaction->id2, cm2, state2);
+        known = step->pair(*interaction);
+        if (!known || !body1 || !body2 || !body1->particle || !body2->particle)
+            body1 = body2 = nullptr, known = nullptr;
+        else
+            step->fetchAhead(*interaction);
+    }
+
+    void findParticles()
+    {
+        if (known) {
+            particle1 = body1->particle;
+            particle2 = body2->particle;
+        } else {
+            particle1 = particleOf(cm1, shape1, keeper1);
+            particle2 = particleOf(cm2, shape2, keeper2);
+        }
+    }
+
+    // Whether nothing can have changed for a pair that does not touch.
+    bool sleeps() const { return known && !real && !force && known->sleeps(*interaction, *body1, *body2); }
+
+    // Whether they were apart, and have not moved by the distance between them since.
+    bool isKeptApart()
+    {
+        const double left = own
+            ? own->apart.left(*particle1, *particle2, state1.se3.orientation, state2.se3.orientation, branch())
+            : 0;
+        if (left > 0)
+            noteRoom(left);
+        return left > 0;
     }
 
     void noteApart(double distance)
     {
         if (own)
             own->apart.note(*particle1, *particle2, state1.se3.orientation, state2.se3.orientation, branch(), distance);
+        noteRoom(own ? own->apart.left(*particle1, *particle2, state1.se3.orientation, state2.se3.orientation, branch()) : 0);
+    }
+
+    void noteRoom(double room)
+    {
+        if (!known)
+            return;
+        known->note(*interaction, *body1, *body2, room);
+        std::fill(std::begin(known->places), std::end(known->places), nullptr);
+    }
+
+    void noteTouching()
+    {
+        if (!known)
+            return;
+        known->note(*interaction, *body1, *body2, 0);
+        known->places[0] = interaction.get();
+        known->places[1] = geom;
+        known->places[2] = own ? own->carry.get() : nullptr;
+        known->places[3] = interaction->phys.get();
     }
 
     // Ends the step for this pair. The stored normal must still be that of the last step.
@@ -158,7 +210,9 @@ bool Ig2_ConicPP_ConicPP_ScGeom::go(const boost::shared_ptr<Shape>& cm1, const b
         Counters::Row& counts = counters.ofThisThread();
         const Stopwatch stopwatch(counts, settings.given.measureTime);
         // The dispatcher calls with what get2DFunctorType1/2 say, or shapes derived from it.
-        Pair pair { static_cast<const PotentialParticle&>(*cm1),
+        Pair pair { cm1,
+                    cm2,
+                    static_cast<const PotentialParticle&>(*cm1),
                     static_cast<const PotentialParticle&>(*cm2),
                     state1,
                     state2,
@@ -168,11 +222,16 @@ bool Ig2_ConicPP_ConicPP_ScGeom::go(const boost::shared_ptr<Shape>& cm1, const b
                     counts,
                     settings,
                     real };
+        pair.findStep();
+        if (pair.sleeps()) {
+            counts.add(Count::calls);
+            counts.add(Count::motion);
+            return false;
+        }
         if (pair.shape1.isBoundary && pair.shape2.isBoundary)
             return false;
         counts.add(Count::calls);
-        pair.particle1 = particleOf(cm1, pair.shape1, pair.keeper1);
-        pair.particle2 = particleOf(cm2, pair.shape2, pair.keeper2);
+        pair.findParticles();
         return contact(pair);
     } catch (const std::exception& error) {
         fail(*interaction, state1, state2, shift2, error.what());
@@ -219,6 +278,7 @@ bool Ig2_ConicPP_ConicPP_ScGeom::contact(Pair& pair)
 
         if (found.kind == PP_OVERLAPPING) {
             pair.counts.add(Count::overlapping);
+            pair.noteTouching();
             fill(pair, found);
             return true;
         }
@@ -242,12 +302,31 @@ bool Ig2_ConicPP_ConicPP_ScGeom::keep(Pair& pair)
 
 pp_status Ig2_ConicPP_ConicPP_ScGeom::detect(Pair& pair, pp_contact& found)
 {
-    const pp_particle* a = pair.particle1->handle();
-    const pp_particle* b = pair.particle2->handle();
-    const pp_pose pose1 = pair.pose1();
-    const pp_pose pose2 = pair.pose2();
+    pp_frame made1, made2;
+    if (!pair.known) {
+        const pp_pose pose1 = pair.pose1();
+        const pp_pose pose2 = pair.pose2();
+        for (const auto& [pose, made] : { std::pair { &pose1, &made1 }, std::pair { &pose2, &made2 } })
+            if (const pp_status status = pp_frame_from_pose(pose, made); status != PP_OK)
+                return status;
+    }
+    const pp_frame* const frame1 = pair.known ? &pair.body1->frame : &made1;
+    const pp_frame* const frame2 = pair.known ? &pair.body2->frame : &made2;
+    // Most pairs never touch: what is carried on gets its place when there is something to be carried.
+    pp_carry first;
+    pp_carry* carry = pair.own ? pair.own->carry.get() : nullptr;
+    if (!carry) {
+        first = { { 0 } };
+        carry = &first;
+    }
     pp_memory* const memory = pair.own ? &pair.own->memory : nullptr;
-    return pp_contact_detect(a, &pose1, b, &pose2, &pair.settings.library, memory, &found);
+    const pp_status status = pp_contact_detect_carried(pair.particle1->handle(), frame1, pair.particle2->handle(), frame2,
+                                                       &pair.settings.library, pair.settings.given.carryTolerance, memory,
+                                                       carry, &found);
+    if (status == PP_OK && found.kind == PP_OVERLAPPING && carry == &first && pair.own
+        && pair.settings.given.carryTolerance > 0)
+        pair.own->carry = std::make_unique<pp_carry>(first);
+    return status;
 }
 
 void Ig2_ConicPP_ConicPP_ScGeom::fill(Pair& pair, pp_contact& found)

@@ -135,10 +135,10 @@ void Ig2_ConicPP_ConicPP_ScGeom::pyRegisterClass(py::object scope)
         .add_property("answers", &Functor::pyAnswers,
                       "How many pairs were answered in which way: without a solve, apart because their 'motion' was less than "
                       "the distance that was between them, by bounding 'spheres', by a 'face', or by 'memory' of what "
-                      "separated them before; apart by a 'proof' that the solver met; solved "
+                      "separated them before; apart by a 'proof' that the solver met; 'carried' on from the contact of the last step; solved "
                       "from the remembered point ('warm') or from nothing ('cold'); or by the 'conic' back end.")
         .add_property("rejected", &Functor::pyRejected, "Pairs proved separated without solving to the end.")
-        .add_property("solved", &Functor::pySolved, "Pairs solved to the end.")
+        .add_property("solved", &Functor::pySolved, "Pairs solved to the end; those carried on are not.")
         .add_property("skippedShare", &Functor::pySkippedShare,
                       "Share of the pairs that do not touch which were answered without a solve; NaN if all touch.")
         .add_property("seconds", &Functor::pySeconds,
@@ -198,7 +198,7 @@ double Ig2_ConicPP_ConicPP_ScGeom::pySkippedShare() const
     for (const AnswerPath& path : answerPaths) {
         const std::uint64_t number = counters.total(path.count);
         answered += number;
-        skipped += path.withoutSolve ? number : 0;
+        skipped += path.withoutSolve && path.count != Count::carried ? number : 0;
     }
     const std::uint64_t apart = answered - counters.total(Count::overlapping);
     return apart > 0 ? static_cast<double>(skipped) / static_cast<double>(apart)
@@ -225,8 +225,10 @@ template <class Archive> void Ig2_ConicPP_ConicPP_ScGeom::serialize(Archive& arc
 {
     requireReadable<Ig2_ConicPP_ConicPP_ScGeom>(version);
     serializeBase<yade::IGeomFunctor>(archive, *this, "IGeomFunctor");
-    ContactSettings::eachAttribute(
-        [&](const char* name, auto member, const char*) { archiveAttribute(archive, name, written.*member); });
+    ContactSettings::eachAttribute([&](const char* name, auto member, const char*) {
+        if (version > 0 || std::string(name) != "carryTolerance")
+            archiveAttribute(archive, name, written.*member);
+    });
     if (Archive::is_loading::value)
         settle();
 }

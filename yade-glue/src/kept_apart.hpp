@@ -5,6 +5,7 @@
 
 #include "../abi/state.hpp"
 #include "particle.hpp"
+#include "turned.hpp"
 
 #include <cmath>
 #include <cstdint>
@@ -22,7 +23,7 @@ public:
         // The rounding of poses, over ten times of it; lengths of quaternions are taken for 1 below.
         const double lengths = particle1.boundingRadius() + particle2.boundingRadius() + branch.norm();
         const double room = distance - 1e-14 * lengths;
-        if (!(room > 0) || !isUnit(turn1) || !isUnit(turn2))
+        if (!(room > 0) || !isUnitQuaternion(turn1) || !isUnitQuaternion(turn2))
             return;
         serial1 = particle1.serial;
         serial2 = particle2.serial;
@@ -34,31 +35,20 @@ public:
 
     void forget() { limit = 0; }
 
-    // No point of a particle moves further than its centre does, and by its turn on the ball around it.
-    bool holds(const Particle& particle1, const Particle& particle2, const yade::Quaternionr& turn1,
-               const yade::Quaternionr& turn2, const yade::Vector3r& branch) const
+    // By how much the particles are still apart for sure; 0 when nothing is known. No point of a particle moves further
+    // than its centre does, and by its turn on the ball around it.
+    double left(const Particle& particle1, const Particle& particle2, const yade::Quaternionr& turn1,
+                const yade::Quaternionr& turn2, const yade::Vector3r& branch) const
     {
         if (!(limit > 0) || serial1 != particle1.serial || serial2 != particle2.serial)
-            return false;
-        const double moved = (branch - fromBranch).norm() + particle1.boundingRadius() * turned(from1, turn1)
-            + particle2.boundingRadius() * turned(from2, turn2);
-        return moved < limit;
+            return 0;
+        const double moved = (branch - fromBranch).norm() + particle1.boundingRadius() * turnedFromUnit(from1, turn1)
+            + particle2.boundingRadius() * turnedFromUnit(from2, turn2);
+        // Not a number where a pose is not.
+        return moved < limit ? limit - moved : 0;
     }
 
 private:
-    static constexpr double lengthError = 1e-6;
-
-    static bool isUnit(const yade::Quaternionr& turn) { return std::abs(turn.squaredNorm() - 1) < lengthError; }
-
-    // A bound on how far a turn takes a point at distance 1. Unit quaternions at a distance c = 2 sin(angle/4) take it
-    // by 2 sin(angle/2) <= 2c. The new one may have any length, within c of the old one's: divided by it, it is at most
-    // 2c/(2 - c) <= c(1 + c) away; beyond c = 1 the bound is more than any turn can do.
-    static double turned(const yade::Quaternionr& from, const yade::Quaternionr& to)
-    {
-        const double c = (to.coeffs() - from.coeffs()).norm();
-        return 2 * c * (1 + c) * (1 + 2 * lengthError);
-    }
-
     std::uint64_t serial1 = 0, serial2 = 0;
     yade::Quaternionr from1, from2;
     yade::Vector3r fromBranch;

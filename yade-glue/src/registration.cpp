@@ -3,6 +3,7 @@
 
 #include "../abi/registry.hpp"
 
+#include "conic_interaction_loop.hpp"
 #include "conic_potential_particle.hpp"
 #include "ig2_conic_pp.hpp"
 #include "sc_geom_conic_pp.hpp"
@@ -39,6 +40,7 @@ void registerClasses()
     registerWithFactory<ScGeomConicPP>(classNames[1]);
     registerWithFactory<Ig2_ConicPP_ConicPP_ScGeom>(classNames[2]);
     registerWithFactory<Ig2_PP_PP_ScGeom_Conic>(classNames[3]);
+    registerWithFactory<ConicInteractionLoop>(classNames[4]);
 
     // The list of plugins is read once, when YADE starts; this enters classes later than that.
     Singleton<yade::Omega>::instance().buildDynlibDatabase({ std::begin(classNames), std::end(classNames) });

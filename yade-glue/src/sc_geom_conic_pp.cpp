@@ -59,6 +59,7 @@ void ScGeomConicPP::pySetMemory(const std::string& hexadecimal)
     }
     memory = next;
     apart.forget();
+    carry.reset();
 }
 
 void ScGeomConicPP::pySetAttr(const std::string& key, const py::object& value)

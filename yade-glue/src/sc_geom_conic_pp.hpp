@@ -11,6 +11,8 @@
 
 #include <potential_particles.h>
 
+#include <memory>
+
 namespace potential_particles {
 
 // It takes no class index of its own: for the dispatchers it is an ScGeom, so every law on ScGeom
@@ -25,6 +27,8 @@ public:
     pp_memory memory = { { 0 } };
     // Not saved: made again by the first look after loading.
     KeptApart apart;
+    // Of a pair that touches; nor is this.
+    std::unique_ptr<pp_carry> carry;
 
 private:
     friend class boost::serialization::access;

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// What a contact loop knows about bodies and pairs from step to step.
+#pragma once
+
+#include "../abi/interaction.hpp"
+#include "../abi/state.hpp"
+#include "blocks.hpp"
+#include "particle.hpp"
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+
+namespace potential_particles {
+
+// A body as the pairs of one step see it: looked at once a step, by the thread that meets it first.
+class alignas(64) BodyInStep {
+public:
+    // Null when there is no valid particle or pose: the pair then finds out why by itself.
+    const Particle* particle = nullptr;
+    // A bound on the way that any point of the body has come since the loop met it; never less, whatever is rounded.
+    double travelled = 0;
+    // Another one whenever that bound does not reach back: a new particle, or a motion without a bound. Never 0.
+    std::uint64_t generation = 0;
+    bool boundary = false;
+
+private:
+    friend class Step;
+    std::atomic<std::uint64_t> step { 0 }; // the one in which it was looked at last
+    double radius = 0;
+    yade::Vector3r position;
+    yade::Quaternionr orientation;
+    std::shared_ptr<const Particle> keeper; // of particles that the shape cannot hold itself
+
+public:
+    pp_frame frame;
+};
+
+// A pair of bodies, where YADE keeps their interaction in its list. Written by the thread that has the interaction.
+struct alignas(64) PairInStep {
+    int id1 = -1, id2 = -1;
+    std::uint64_t generation1 = 0, generation2 = 0;
+    // They do not touch while the bodies have travelled less than this, taken together.
+    double wakes = 0;
+    // Where the data of a contact lies, to be fetched before its turn; never followed, since it may be gone.
+    const void* places[4] = {};
+
+    bool sleeps(const yade::Interaction& pair, const BodyInStep& body1, const BodyInStep& body2) const
+    {
+        return body1.travelled + body2.travelled < wakes && id1 == pair.id1 && id2 == pair.id2
+            && generation1 == body1.generation && generation2 == body2.generation;
+    }
+
+    // They are `room` apart now; 0: nothing is known.
+    void note(const yade::Interaction& pair, const BodyInStep& body1, const BodyInStep& body2, double room)
+    {
+        id1 = pair.id1;
+        id2 = pair.id2;
+        generation1 = body1.generation;
+        generation2 = body2.generation;
+        // Three roundings of sums, and that of the room.
+        const double travelled = body1.travelled + body2.travelled;
+        wakes = room > 0 ? (travelled + room) - 1e-15 * (travelled + room) : 0;
+    }
+};
+
+// A ConicInteractionLoop has one, and lets the functor see it while it runs.
+class Step {
+public:
+    // Of the loop that runs, if it is one of ours; else null.
+    static Step* current() noexcept { return running.load(std::memory_order_acquire); }
+
+    // From here to the end of the scope, one step of this loop runs.
+    class Running {
+    public:
+        explicit Running(Step& step) noexcept
+        {
+            ++step.count;
+            running.store(&step, std::memory_order_release);
+        }
+        ~Running() { running.store(nullptr, std::memory_order_release); }
+        Running(const Running&) = delete;
+        Running& operator=(const Running&) = delete;
+    };
+
+    // Null when memory runs out.
+    BodyInStep* body(int id, const boost::shared_ptr<yade::Shape>& shape, const yade::State& state)
+    {
+        BodyInStep* const body = id >= 0 ? bodies.at(static_cast<std::size_t>(id)) : nullptr;
+        if (body && body->step.load(std::memory_order_acquire) != count)
+            look(*body, shape, state);
+        return body;
+    }
+
+    PairInStep* pair(const yade::Interaction& pair)
+    {
+        return pair.linIx >= 0 ? pairs.at(static_cast<std::size_t>(pair.linIx)) : nullptr;
+    }
+
+    // Asks for the data of the contact that is so many places further in YADE's list.
+    void fetchAhead(const yade::Interaction& pair) const
+    {
+        const PairInStep* const next = pairs.find(static_cast<std::size_t>(pair.linIx) + ahead);
+        if (!next)
+            return;
+        fetch<yade::Interaction>(next->places[0]);
+        fetch<char[lineSize * 4]>(next->places[1]);
+        fetch<pp_carry>(next->places[2]);
+        fetch<char[lineSize * 8]>(next->places[3]);
+    }
+
+private:
+    // Contacts are some hundred nanoseconds apart, and memory as far away.
+    static constexpr std::size_t ahead = 4;
+    static constexpr std::size_t lineSize = 64;
+    static constexpr std::uint64_t busy = ~std::uint64_t(0);
+
+    template <class Object> static void fetch(const void* place)
+    {
+        if (!place)
+            return;
+        for (std::size_t i = 0; i < sizeof(Object); i += lineSize)
+            __builtin_prefetch(static_cast<const char*>(place) + i);
+    }
+
+    void look(BodyInStep& body, const boost::shared_ptr<yade::Shape>& shape, const yade::State& state);
+
+    static std::atomic<Step*> running;
+    std::uint64_t count = 0;
+    Blocks<BodyInStep> bodies;
+    Blocks<PairInStep> pairs;
+};
+
+} // namespace potential_particles
