@@ -142,8 +142,8 @@ def build_scene(contact, pyramid, grid, box):
     return ids
 
 
-def engines(contact):
-    """YADE's loop: boxes, contacts, springs, motion."""
+def engines(contact, loop=None):
+    """YADE's loop: boxes, contacts, springs, motion. `loop`: another contact loop than the best there is."""
     return [
         yade.ForceResetter(),
         yade.InsertionSortCollider(
@@ -152,7 +152,7 @@ def engines(contact):
             avoidSelfInteractionMask=SLAB_ONLY,
             label="collider",
         ),
-        yade.InteractionLoop(
+        (loop or contact.loop)(
             [contact.functor],
             [
                 # Without a contact area (the functor's switch) the stiffnesses are those of

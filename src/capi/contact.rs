@@ -6,8 +6,8 @@ use super::particle::pp_particle;
 use super::status::*;
 use super::types::*;
 use crate::contact::closest_point::closest_point;
-use crate::contact::detect::{detect_as, detect_carried_as};
-use crate::{Contact, Flags, Particle, Pose, Role, Section, Settings};
+use crate::contact::detect::{carried_on, detect_as, detect_to_carry};
+use crate::{Contact, DetectError, Flags, Memory, Particle, Pose, Role, Section, Settings};
 
 /// Fills settings with the defaults.
 ///
@@ -93,26 +93,23 @@ pub unsafe extern "C" fn pp_contact_detect_carried(
         let carried = carried_of(unsafe { carry.as_mut() }.ok_or(PP_NULL_POINTER)?);
         let out = unsafe { output(out) }?;
         let settings = settings_from(unsafe { settings.as_ref() })?;
+        let (a, b) = ((a, pose_a), (b, pose_b));
+        let carried_contact = carried_on(a, b, &settings, carry_tolerance, carried);
+        if let Some(contact) = carried_contact.map_err(|error| detect_status(&error))? {
+            out.write(contact_to(&contact));
+            return Ok(());
+        }
         // SAFETY: NULL or exclusively ours for the call.
         let memory = unsafe { memory.as_mut() };
-        let mut remembered = memory.as_deref().map(memory_from);
-        let write = |contact: Contact| {
-            out.write(contact_to(&contact));
-            contact.flags.has_any(LEFT_AS_IT_WAS)
-        };
-        let kept = (remembered.as_mut(), carried);
-        let cheap = detect_carried_as((a, pose_a), (b, pose_b), &settings, carry_tolerance, kept, write)
-            .map_err(|error| detect_status(&error))?;
-        match (memory, remembered) {
-            (Some(memory), Some(remembered)) if !cheap => *memory = memory_to(remembered),
-            _ => {}
-        }
-        Ok(())
+        remembering(memory, |remembered| {
+            let write = |contact: Contact| {
+                out.write(contact_to(&contact));
+                contact.flags.has_any(CHEAP_PROOF)
+            };
+            detect_to_carry(a, b, &settings, carry_tolerance, (remembered, carried), write)
+        })
     })
 }
-
-/// Flags of an answer that leaves the memory as it was.
-const LEFT_AS_IT_WAS: Flags = CHEAP_PROOF.with(Flags::CARRIED);
 
 /// Flags of a separated pair that the solver never saw.
 const CHEAP_PROOF: Flags = Flags::BY_SPHERES.with(Flags::BY_FACE).with(Flags::BY_MEMORY);
@@ -126,16 +123,26 @@ pub(super) fn contact(
     memory: Option<&mut pp_memory>,
     out: Output<pp_contact>,
 ) -> Result<(), pp_status> {
+    remembering(memory, |remembered| {
+        let write = |contact: Contact| {
+            out.write(contact_to(&contact));
+            contact.flags.has_any(CHEAP_PROOF)
+        };
+        detect_as(a, b, settings, (remembered, None), write)
+    })
+}
+
+/// Runs a search with what the pair remembers; `found` says whether a cheap proof was enough, which leaves the memory as it was, and
+/// is over before it could be written.
+#[inline(always)]
+pub(super) fn remembering(
+    memory: Option<&mut pp_memory>,
+    found: impl FnOnce(Option<&mut Memory>) -> Result<bool, DetectError>,
+) -> Result<(), pp_status> {
     let mut remembered = memory.as_deref().map(memory_from);
-    let write = |contact: Contact| {
-        out.write(contact_to(&contact));
-        contact.flags.has_any(CHEAP_PROOF)
-    };
-    let cheap = detect_as(a, b, settings, (remembered.as_mut(), None), write).map_err(|error| detect_status(&error))?;
-    match (memory, remembered) {
-        // A cheap proof leaves the memory as it was, and is over before it could be written.
-        (Some(memory), Some(remembered)) if !cheap => *memory = memory_to(remembered),
-        _ => {}
+    let cheap = found(remembered.as_mut()).map_err(|error| detect_status(&error))?;
+    if let (Some(memory), Some(remembered), false) = (memory, remembered, cheap) {
+        *memory = memory_to(remembered);
     }
     Ok(())
 }

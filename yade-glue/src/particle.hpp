@@ -25,6 +25,8 @@ struct Definition {
     bool describes(const yade::PotentialParticle& shape) const;
     // r, k and R alone.
     bool roughlyDescribes(const yade::PotentialParticle& shape) const;
+    bool sameAs(const Definition& other) const;
+    std::size_t hash() const;
     bool listsAgree() const;
 };
 

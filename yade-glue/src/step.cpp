@@ -55,7 +55,7 @@ void Step::look(BodyInStep& body, const boost::shared_ptr<yade::Shape>& shape, c
             body.travelled = std::nextafter(sum, std::numeric_limits<double>::infinity());
         }
         body.particle = particle;
-        body.boundary = potentialParticle.isBoundary;
+        body.state = &state;
         body.position = position;
         body.orientation = orientation;
     } catch (...) {
