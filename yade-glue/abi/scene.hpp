@@ -36,7 +36,7 @@ public:
     ~Scene() override;
     PP_ABI_SERIALIZABLE_OVERRIDES
 
-    boost::shared_ptr<Engine> engineByName(const std::string& label);
+    boost::shared_ptr<Engine> engineByName(const std::string& className);
 
     std::byte before[416];
     Real dt;

@@ -9,6 +9,7 @@
 #include <boost/make_shared.hpp>
 #include <boost/serialization/base_object.hpp>
 
+#include <algorithm>
 #include <limits>
 
 namespace potential_particles {
@@ -38,6 +39,22 @@ std::string Bo1_PP_Aabb_Conic::getClassName() const { return "Bo1_PP_Aabb_Conic"
 std::string Bo1_PP_Aabb_Conic::getBaseClassName(unsigned int index) const { return index == 0 ? "Bo1_ConicPP_Aabb" : ""; }
 std::string Bo1_PP_Aabb_Conic::get1DFunctorType1() const { return "PotentialParticle"; }
 
+namespace {
+
+    // The dispatcher widens a box by as much as the body is likely to move until targetInterv steps from now, which it
+    // takes from the way of its centre since the last box: of a body that turns in one place, nothing. This moves the
+    // centre's last place so far away as the sides of the box have moved. The dispatcher overwrites it a moment later.
+    void countTurning(yade::Bound& bound, const Box& box, const Vector3r& centre)
+    {
+        const Vector3r sweep = Vector3r::Constant(bound.sweepLength);
+        const double way = std::max((box.lower - bound.min - sweep).cwiseAbs().maxCoeff(),
+                                    (box.upper - bound.max + sweep).cwiseAbs().maxCoeff());
+        if (way > (centre - bound.refPos).cwiseAbs().maxCoeff())
+            bound.refPos = centre - Vector3r(way, 0, 0);
+    }
+
+} // namespace
+
 // In many threads at once; no exception may leave it.
 void Bo1_ConicPP_Aabb::go(const boost::shared_ptr<yade::Shape>& shape, boost::shared_ptr<yade::Bound>& bound,
                           const yade::Se3r& at, const yade::Body*)
@@ -46,6 +63,7 @@ void Bo1_ConicPP_Aabb::go(const boost::shared_ptr<yade::Shape>& shape, boost::sh
         bound = boost::make_shared<yade::Aabb>();
     try {
         const Box box = BoundWatch::guards(*scene) ? boxAsTurned(shape, at, *scene) : boxOfAnyTurn(shape, at, *scene);
+        countTurning(*bound, box, at.position);
         bound->min = box.lower;
         bound->max = box.upper;
     } catch (...) {

@@ -21,10 +21,10 @@ namespace {
         explicit Outline(const boost::shared_ptr<yade::Shape>& owner)
             : shape(static_cast<const PotentialParticle&>(*owner))
         {
-            bool computed = !shape.AabbMinMax;
+            bool computed = !shape.AabbMinMax; // YADE's cube of half size R need not hold the particle
             if (typeid(shape) == typeid(ConicPotentialParticle)) {
                 const auto& conic = static_cast<const ConicPotentialParticle&>(shape);
-                computed = conic.automaticBox;
+                computed = computed || conic.automaticBox;
                 particle = computed ? conic.particle() : nullptr;
             }
             if (computed && !particle) {
@@ -70,7 +70,7 @@ namespace {
                 std::for_each(shape.vertices.begin(), shape.vertices.end(), visit);
                 return;
             }
-            // Without any box YADE takes a cube of half size R.
+            // Of a shape that the library refuses: a cube of half size R, as YADE has it.
             const Vector3r lower = shape.AabbMinMax ? Vector3r(-shape.minAabbRotated) : Vector3r::Constant(-shape.R);
             const Vector3r upper = shape.AabbMinMax ? shape.maxAabbRotated : Vector3r::Constant(shape.R);
             for (int corner = 0; corner < 8; ++corner)

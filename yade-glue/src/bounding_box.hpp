@@ -21,7 +21,7 @@ struct Box {
     }
 };
 
-// Of a shape that is a PotentialParticle. Where the script gave a box of its own, that box is turned; else the library
+// Of a shape that is a PotentialParticle. Where the script gave a box (AabbMinMax), that box is turned; else the library
 // says how far the particle reaches. Any thread.
 Box boxAsTurned(const boost::shared_ptr<yade::Shape>& shape, const yade::Se3r& at, const yade::Scene& scene);
 

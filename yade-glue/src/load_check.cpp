@@ -355,9 +355,8 @@ namespace {
         if (Body::byId(0, &scene) != body)
             found.push_back("BodyContainer.body: not found at its declared place");
         const auto engine = boost::shared_ptr<Engine>(new BoundWatch);
-        engine->label = "watch";
         scene.engines.push_back(engine);
-        if (scene.engineByName("watch") != engine)
+        if (scene.engineByName("BoundWatch") != engine)
             found.push_back("Scene.engines: not found at its declared place");
     }
 
