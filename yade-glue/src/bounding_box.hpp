@@ -8,16 +8,19 @@
 #include "../abi/shape.hpp"
 #include "../abi/state.hpp"
 
+#include <algorithm>
+
 namespace potential_particles {
 
 struct Box {
     yade::Vector3r lower;
     yade::Vector3r upper;
 
-    // False for what is not a number.
-    bool liesIn(const yade::Bound& bound) const
+    // To the nearest side of the bound; negative for a box that is not within, or not a number.
+    double roomIn(const yade::Bound& bound) const
     {
-        return (bound.min.array() <= lower.array()).all() && (upper.array() <= bound.max.array()).all();
+        const double room = std::min((lower - bound.min).minCoeff(), (bound.max - upper).minCoeff());
+        return room >= 0 && lower.allFinite() && upper.allFinite() && !bound.min.hasNaN() && !bound.max.hasNaN() ? room : -1;
     }
 };
 

@@ -5,8 +5,8 @@
 
 #include "../abi/state.hpp"
 #include "particle.hpp"
+#include "turn_bound.hpp"
 
-#include <cmath>
 #include <cstdint>
 
 namespace potential_particles {
@@ -40,25 +40,12 @@ public:
     {
         if (!(limit > 0) || serial1 != particle1.serial || serial2 != particle2.serial)
             return false;
-        const double moved = (branch - fromBranch).norm() + particle1.boundingRadius() * turned(from1, turn1)
-            + particle2.boundingRadius() * turned(from2, turn2);
+        const double moved = (branch - fromBranch).norm() + particle1.boundingRadius() * wayOfTurn(from1, turn1)
+            + particle2.boundingRadius() * wayOfTurn(from2, turn2);
         return moved < limit;
     }
 
 private:
-    static constexpr double lengthError = 1e-6;
-
-    static bool isUnit(const yade::Quaternionr& turn) { return std::abs(turn.squaredNorm() - 1) < lengthError; }
-
-    // A bound on how far a turn takes a point at distance 1. Unit quaternions at a distance c = 2 sin(angle/4) take it
-    // by 2 sin(angle/2) <= 2c. The new one may have any length, within c of the old one's: divided by it, it is at most
-    // 2c/(2 - c) <= c(1 + c) away; beyond c = 1 the bound is more than any turn can do.
-    static double turned(const yade::Quaternionr& from, const yade::Quaternionr& to)
-    {
-        const double c = (to.coeffs() - from.coeffs()).norm();
-        return 2 * c * (1 + c) * (1 + 2 * lengthError);
-    }
-
     std::uint64_t serial1 = 0, serial2 = 0;
     yade::Quaternionr from1, from2;
     yade::Vector3r fromBranch;
