@@ -60,9 +60,15 @@ for functor_, watch in ((yade.Bo1_ConicPP_Aabb(), True), (yade.Bo1_PP_Aabb_Conic
 
 # --- random motion: each pair of boxes that meet is a pair -----------------------------------------
 
+def ends(shape):
+    """Points of the surface towards each corner, local axes: their box is almost that of the shape."""
+    directions = [corner.normalized() for corner in shape.vertices]
+    return [u * distance for u, distance in zip(directions, shape.surfaceDistance(directions))]
+
+
 def sorted_box(body):
-    """Box of the corners, in the axes in which the collider sorts."""
-    points = [body.state.pos + body.state.ori * corner for corner in body.shape.vertices]
+    """Box of the ends, in the axes in which the collider sorts."""
+    points = [body.state.pos + body.state.ori * end for end in motion.ends[body.id]]
     if O.periodic:
         points = [O.cell.unshearPt(point) for point in points]
     return [(min(p[i] for p in points), max(p[i] for p in points)) for i in range(3)]
@@ -91,6 +97,7 @@ class Motion:
     def __init__(self, seed, jumps):
         self.random, self.jumps = random.Random(seed), jumps
         self.met = self.missed = 0
+        self.ends = {}
 
     def vector(self, size):
         return Vector3(*(self.random.gauss(0, size) for _ in range(3)))
@@ -111,7 +118,7 @@ class Motion:
         self.missed += len(missed)
 
 
-def shake(functor_, watch, seed, jumps=True, size=None, shear=0.0, rate=0.0, steps=400, shape=lambda length: prism(0.05, length)):
+def shake(functor_, watch, seed, jumps=True, size=None, shear=0.0, rate=0.0, steps=400, plain_shapes=False):
     global motion, move, look
     O.reset()
     O.materials.append(yade.FrictMat())
@@ -125,14 +132,15 @@ def shake(functor_, watch, seed, jumps=True, size=None, shear=0.0, rate=0.0, ste
         O.cell.hSize = yade.Matrix3(size, shear * size, 0, 0, size, 0, 0, 0, size)
         O.cell.velGrad = yade.Matrix3(0, rate, 0, 0, 0, 0, 0, 0, 0)
     for _ in range(24):
-        length = 0.3 + 0.5 * motion.random.random()
-        add(shape(length), motion.vector(0.6), turned(motion.vector(1), 3 * motion.random.random()), volume=1, inertia=Vector3(1, 1, 1))
+        shape = prism(0.05, 0.3 + 0.5 * motion.random.random())
+        given = plain_of(shape) if plain_shapes else shape
+        body = add(given, motion.vector(0.6), turned(motion.vector(1), 3 * motion.random.random()), volume=1, inertia=Vector3(1, 1, 1))
+        motion.ends[body] = ends(shape)
     run(steps)
     return motion
 
 
-def plain_prism(length):
-    conic = prism(0.05, length)
+def plain_of(conic):
     return plain(conic.planes, r=conic.r, k=conic.k, R=conic.R, AabbMinMax=True, vertices=conic.vertices)
 
 
@@ -145,7 +153,7 @@ for seed in (1, 2):
         check.equal(kept.missed, 0, f"{type(functor_).__name__}, seed {seed}: pairs missed")
         check.true(engine("collider").numAction < O.iter, f"the collider rests: {engine('collider').numAction} runs in {O.iter} steps")
         check.true(0 < engine("watch").requests < O.iter, f"and is asked to run: {engine('watch').requests} times")
-check.equal(shake(yade.Bo1_PP_Aabb_Conic(), True, 3, shape=plain_prism).missed, 0, "plain shapes with boxes: pairs missed")
+check.equal(shake(yade.Bo1_PP_Aabb_Conic(), True, 3, plain_shapes=True).missed, 0, "plain shapes with boxes: pairs missed")
 # Without a watch, the box of all turns: right for any motion that YADE integrates.
 kept = shake(yade.Bo1_ConicPP_Aabb(), False, 4, jumps=False)
 check.true(kept.met > 1000 and kept.missed == 0, f"without BoundWatch: {kept.missed} of {kept.met} missed")
@@ -195,16 +203,20 @@ for make in (cube, pyramid, lambda: prism(0.1, 1.0)):
     lower, upper, body = bound(make())
     directions = [motion.vector(1).normalized() for _ in range(2000)]
     surface = [u * s for u, s in zip(directions, body.shape.surfaceDistance(directions))]
-    inside = [body.state.pos + body.state.ori * point for point in surface]
+    inside = [body.state.pos + body.state.ori * point for point in surface + ends(body.shape)]
     check.true(all(lower[i] <= point[i] <= upper[i] for point in inside for i in range(3)), "the box holds the surface")
-    for found, expected in zip((lower, upper), corners(body.shape.vertices, body)):
-        check.true((found - expected).norm() < 1e-5 * body.shape.boundingRadius, f"and is that of the corners: {found}, {expected}")
+    for i in range(3):
+        extent, shown = upper[i] - lower[i], max(p[i] for p in inside) - min(p[i] for p in inside)
+        sharp = corners(body.shape.vertices, body)[1][i] - corners(body.shape.vertices, body)[0][i]
+        check.true(extent < sharp - 0.5 * body.shape.r, f"and leaves out the sharp corners: {extent} of {sharp}")
+        check.true(extent < shown + body.shape.r, f"and is not much larger: {extent}, {shown}")
+    exact = lower, upper
     lower, upper, body = bound(make(), watch=False, verlet=0.125)
     for i in range(3):
         check.close(upper[i] - lower[i], 2 * (body.shape.boundingRadius + 0.125), 1e-12, "without BoundWatch: of all turns, and widened")
     lower, upper, body = bound(make(), verlet=0.125)
-    for found, expected in zip((lower + Vector3(1, 1, 1) * 0.125, upper - Vector3(1, 1, 1) * 0.125), corners(body.shape.vertices, body)):
-        check.true((found - expected).norm() < 1e-5 * body.shape.boundingRadius, "with verletDist: widened by it")
+    for found, expected, sign in zip((lower, upper), exact, (-1, 1)):
+        check.close(found, expected + sign * 0.125 * Vector3(1, 1, 1), 1e-12, "with verletDist: widened by it")
 
 given = [Vector3(1, 2, 3), Vector3(-2, 0, 1), Vector3(0, -3, -0.5)]
 for shape in (cube(AabbMinMax=True, vertices=given), cube(AabbMinMax=True, vertices=given, automaticBox=False),

@@ -59,7 +59,13 @@ namespace {
             }
             const pp_pose pose = { { 0, 0, 0 }, { turn.w(), turn.x(), turn.y(), turn.z() } };
             if (pp_particle_box(particle->handle(), &pose, box.lower.data(), box.upper.data()) != PP_OK)
-                box = { Vector3r::Constant(-radius()), Vector3r::Constant(radius()) }; // of no valid orientation: of any
+                return { Vector3r::Constant(-radius()), Vector3r::Constant(radius()) }; // of no valid orientation: of any
+            const Eigen::Matrix3d world = turn.normalized().toRotationMatrix();
+            for (int i = 0; i < 3; ++i) {
+                const Vector3r e = world.row(i);
+                box.upper[i] = std::min(box.upper[i], particle->support().along(e));
+                box.lower[i] = std::max(box.lower[i], -particle->support().along(-e));
+            }
             return box;
         }
 

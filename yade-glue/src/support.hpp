@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// How far a particle reaches along a direction, its rounding included.
+//
+// The library's box is that of the sharp polyhedron around a particle, whose corners lie up to several rounding radii
+// outside. For y >= 0 with sum y_i n_i = e, and any x of the particle,
+//     e.x = sum y_i n_i.x <= sum y_i (d_i + <n_i.x - d_i>) <= y.d + |y| r/sqrt(1-k)
+// by Cauchy's inequality, since sum <n_i.x - d_i>^2 <= r^2/(1-k) there. The sharp polyhedron has the sum of the y_i in
+// the place of |y|. Any y gives a bound; here it is that of three planes that meet at the farthest corner.
+#pragma once
+
+#include "../abi/base.hpp"
+
+#include <potential_particles.h>
+
+namespace potential_particles {
+
+struct Definition;
+
+class Support {
+public:
+    // None: every bound is infinite.
+    Support() = default;
+    Support(const Definition& definition, const pp_particle* particle, double radius);
+
+    // An upper bound of e.x over the particle, local axes; infinite where no corner gives one.
+    double along(const yade::Vector3r& e) const;
+
+private:
+    struct Planes {
+        Eigen::Matrix3d normals; // columns
+        Eigen::Matrix3d inverse;
+        yade::Vector3r offsets;
+    };
+
+    std::vector<yade::Vector3r> corners;
+    std::vector<std::vector<Planes>> meeting; // at each corner
+    double reach = 0; // r/sqrt(1-k)
+    double radius = 0;
+};
+
+} // namespace potential_particles
