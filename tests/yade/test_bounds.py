@@ -209,7 +209,7 @@ for make in (cube, pyramid, lambda: prism(0.1, 1.0)):
         extent, shown = upper[i] - lower[i], max(p[i] for p in inside) - min(p[i] for p in inside)
         sharp = corners(body.shape.vertices, body)[1][i] - corners(body.shape.vertices, body)[0][i]
         check.true(extent < sharp - 0.5 * body.shape.r, f"and leaves out the sharp corners: {extent} of {sharp}")
-        check.true(extent < shown + body.shape.r, f"and is not much larger: {extent}, {shown}")
+        check.true(extent < shown + 0.06 * body.shape.boundingRadius, f"and is not much larger: {extent}, {shown}")
     exact = lower, upper
     lower, upper, body = bound(make(), watch=False, verlet=0.125)
     for i in range(3):
