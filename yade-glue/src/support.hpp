@@ -14,6 +14,9 @@
 
 #include <potential_particles.h>
 
+#include <array>
+#include <cstdint>
+
 namespace potential_particles {
 
 struct Definition;
@@ -28,19 +31,21 @@ public:
     double along(const yade::Vector3r& e) const;
 
 private:
-    struct Planes {
-        Eigen::Matrix3d normals; // columns
-        Eigen::Matrix3d inverse;
-        yade::Vector3r offsets;
-    };
+    double by(const yade::Vector3r& e, std::size_t i, std::size_t j, std::size_t l) const;
+
+    // At most so many planes of a corner are tried, three at a time: a pyramid's apex has four.
+    static constexpr std::size_t mostPlanes = 4;
 
     struct Corner {
         yade::Vector3r point;
-        std::size_t first, last; // the planes that meet there
+        std::array<std::uint32_t, mostPlanes> planes; // the most active first
     };
 
+    // As few bytes as can be: boxes of many bodies are made in a row, and memory takes longer than arithmetic.
     std::vector<Corner> corners;
-    std::vector<Planes> meeting;
+    std::vector<yade::Vector3r> normals;
+    std::vector<double> offsets;
+    std::size_t tried = 0; // planes at each corner
     double reach = 0; // r/sqrt(1-k)
     double radius = 0;
 };
