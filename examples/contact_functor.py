@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
 """Which functor finds the contacts: that of this library, or the one built into YADE."""
 
-from yade import Ig2_PP_PP_ScGeom, InsertionSortCollider, PotentialParticle, PotentialParticle2AABB
+from yade import Ig2_PP_PP_ScGeom, PotentialParticle
 
 # The drop-in serves YADE's own shapes with this library.
 LIBRARY, DROP_IN, BUILTIN = "library", "drop-in", "builtin"
@@ -27,19 +27,6 @@ class ContactFunctor:
     @property
     def name(self):
         return type(self.functor).__name__
-
-    def collider(self, verlet_distance, **keywords):
-        """The engines that find pairs.
-
-        With this library's shape and its BoundWatch the collider rests while every body stays in its box, which is wider by
-        `verlet_distance`. Without, it must run in each step: YADE's own collider watches only how far centres move, and a
-        body that tips would meet the floor unseen.
-        """
-        if self.plugin and self.shape_class is self.plugin.ConicPotentialParticle:
-            bounds = self.plugin.Bo1_ConicPP_Aabb()
-            collider = InsertionSortCollider([bounds], verletDist=verlet_distance, label="collider", **keywords)
-            return [self.plugin.BoundWatch(label="watch"), collider]
-        return [InsertionSortCollider([PotentialParticle2AABB()], verletDist=0.0, label="collider", **keywords)]
 
     def prepare(self):
         """To be called once YADE's engines and bodies are in place."""

@@ -77,10 +77,10 @@ def loop(functor, springs, viscous=0.0, local=0.0, gravity=GRAVITY, never_erase=
         motion.rotAlgorithm = "Fincham1992"
     return [
         yade.ForceResetter(),
-        # Exact boxes at every step: YADE's own collider does not see bodies turn.
+        # Exact boxes at every step: see pyramids.VERLET_DISTANCE.
         yade.InsertionSortCollider(
             [yade.PotentialParticle2AABB()],
-            verletDist=0.0,
+            verletDist=pyramids.VERLET_DISTANCE,
             avoidSelfInteractionMask=SLAB_ONLY,
             label="collider",
         ),

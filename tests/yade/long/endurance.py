@@ -33,7 +33,7 @@ def main():
     shaken = os.environ["SHAKEN"] == "1"
     box = scene.build(bodies, LIBRARY)
     watch = Watch(range(scene.SLABS, scene.SLABS + bodies), pyramids.GRAVITY)
-    functor = next(engine for engine in O.engines if engine.label == "contacts").geomDispatcher.functors[0]
+    functor = O.engines[2].geomDispatcher.functors[0]
     progress = Progress(settle + steps)
     looks, interrupted = [], False
     try:
