@@ -133,6 +133,7 @@ Particle::Particle(Definition given)
     }
     owned.reset(made);
     requireOk(pp_particle_bounding_radius(made, &radius));
+    reaches = Support(definition, made, radius);
 }
 
 const pp_particle* Particle::require() const

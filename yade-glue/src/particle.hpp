@@ -4,6 +4,7 @@
 #pragma once
 
 #include "../abi/shape.hpp"
+#include "support.hpp"
 
 #include <potential_particles.h>
 
@@ -45,6 +46,7 @@ public:
     // Throws std::invalid_argument with the refusal when there is no handle.
     const pp_particle* require() const;
     double boundingRadius() const { return radius; }
+    const Support& support() const { return reaches; }
 
     const Definition definition;
     // No other particle of this process has it, before or after: an address may be used again.
@@ -60,6 +62,7 @@ private:
     std::unique_ptr<pp_particle, Release> owned;
     std::string whyNot;
     double radius;
+    Support reaches;
 };
 
 // Throws std::invalid_argument with the library's sentence unless the status is PP_OK.
