@@ -68,7 +68,7 @@ def main():
     steps = settings.whole_number("STEPS", 6000, 1, "number of steps")
     count = settings.whole_number("BODIES", 1000, 1, "number of pyramids")
     frames = settings.whole_number("FRAMES", 10, 0, "number of frames")
-    resume = settings.choice("RESUME", "0", ("0", "1"), "choice")
+    resume = settings.choice("RESUME", "0", ("0", "1"), "answer to whether to resume")
     out = settings.folder("OUTPUT", HERE.parent / "out" / "mpi")
     pile = Pile(count)
     if mpi.rank() == 0:

@@ -24,6 +24,7 @@ is an ordinary serial run.
     boxes.py     bounding boxes that stay right while bodies turn
     division.py  which worker gets which bodies
     splitting.py the first division of a scene
+    balance.py   bodies that change their worker
     stepping.py  steps, and what can go wrong in them
     results.py   bodies, contacts, counters and failures of all workers
     saving.py    one file with the whole scene

@@ -14,11 +14,20 @@ O = yade.O
 
 def split():
     """Divides the scene of rank 0 between all ranks. Collective."""
+    if O.engines:
+        _label_collider()
     contacts = share(_contacts_across())
     mpy.splitScene()
     for first, second, geometry, physics in contacts:
         if _here(first) and _here(second):
             _make(first, second, geometry, physics)
+
+
+def _label_collider():
+    """mpy finds the collider by this label alone; without it, it would run one that is in no engine list, and miss contacts."""
+    yade.utils.typedEngine("InsertionSortCollider").label = "collider"
+    # Labels become names where engines are set.
+    O.engines = O.engines
 
 
 def _contacts_across():

@@ -5,6 +5,7 @@ import re
 
 import yade
 
+from .balance import balance
 from .ranks import gather, mpy, rank, ranks, share
 from .splitting import split
 
@@ -47,7 +48,7 @@ def _settings(reallocate):
     mpy.DOMAIN_DECOMPOSITION = False
     # In C++ the exchange aborts for a worker whose box meets no other worker's.
     mpy.USE_CPP_INTERS = False
-    mpy.REALLOCATE_FREQUENCY = reallocate
+    balance(reallocate)
     # `save` needs contacts, and shapes keep their colours.
     mpy.MERGE_W_INTERACTIONS = True
     mpy.AUTO_COLOR = False
