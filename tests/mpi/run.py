@@ -149,7 +149,7 @@ def asked_to_stop(folder):
 
 
 def pile(folder):
-    """A pile is chaotic: its statistics are compared, and the files are those of one process."""
+    """A pile is chaotic: what does not depend on how each body fell is compared; the files are those of one process."""
     summaries = []
     for ranks in (1, 3):
         out = folder / f"pile{ranks}"
@@ -162,8 +162,11 @@ def pile(folder):
         check((out / "pile.png").stat().st_size > 10_000, "the picture")
         summaries.append(summary)
     one, three = summaries
-    for what, tolerance in (("mean_height_m", 0.1), ("support_over_weight", 0.2), ("contacts", 0.3)):
+    for what, tolerance in (("mean_height_m", 0.1), ("contacts", 0.5)):
         check(abs(one[what] - three[what]) < tolerance * one[what], f"{what} of a pile: {one[what]} and {three[what]}")
+    for summary in summaries:
+        rest = summary["kinetic_energy_J"] / summary["peak_kinetic_energy_J"]
+        check(rest < 0.02, f"{summary['ranks']} ranks: a pile with {rest:.1e} of its largest kinetic energy is not at rest")
     status, text = run(3, TOP / "examples" / "mpi_pile.py", OUTPUT=str(folder / "pile3"), BODIES="30", STEPS="3050", FRAMES="0", RESUME="1")
     resumed = json.loads((folder / "pile3" / "summary.json").read_text())
     check(status == 0 and (resumed["first_step"], resumed["steps"]) == (3000, 3050), f"a resumed pile ends with {status}:\n{text}")
