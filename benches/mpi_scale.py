@@ -133,7 +133,12 @@ def report(runs):
     predicted = step(rows[-1]["bodies"], 2, cost, sides=border / side, moving=False, network=False)
     error = abs(predicted / large[0]["seconds"] - 1)
     model = [
-        {"bodies": bodies, "workers": workers, "step_seconds": step(bodies, workers, cost), "ratio": serial_step(bodies, cost) / step(bodies, workers, cost)}
+        {
+            "bodies": bodies,
+            "workers": workers,
+            "step_seconds": step(bodies, workers, cost),
+            "ratio": serial_step(bodies, cost) / step(bodies, workers, cost),
+        }
         for bodies in MODELLED
         for workers in [2**i for i in range(1, 11)]
     ]
@@ -145,12 +150,24 @@ def report(runs):
     write_summary(OUT / "summary.json", {"targets": targets, "runs": rows, "costs_s": cost, "model": model,
                                          "machine": machine.machine_line(), "date": machine.now()})
     draw(rows, model)
-    print_table(
-        [(row["run"], f"{row['bodies']:,} bodies, {row['pairs']:,} pairs: {1e3 * row['seconds']:.1f} ms a step, {row['ratio']:.2f} times as fast") for row in rows]
-        + [(f"cost: {name}", f"{1e6 * value:.3g} us" if "_a_" not in name or name.startswith(("collide", "serial")) else f"{value:.3g}") for name, value in cost.items()]
-        + [("model", f"{row['bodies']:,} bodies, {row['workers']} workers: {1e3 * row['step_seconds']:.2f} ms, {row['ratio']:.1f} times") for row in model if row["workers"] in (2, 8, 32, 128, 512)]
-        + [(row["name"], f"{row['measured']:.3g}, {row['sense']} {row['target']}: {'met' if row['met'] else 'MISSED'}") for row in targets]
-    )
+    show(rows, cost, model, targets)
+
+
+def show(rows, cost, model, targets):
+    table = []
+    for row in rows:
+        text = f"{row['bodies']:,} bodies, {row['pairs']:,} pairs: {1e3 * row['seconds']:.1f} ms a step, {row['ratio']:.2f} times as fast"
+        table.append((row["run"], text))
+    numbers = [name for name in cost if name.startswith(("pairs", "contacts", "states"))]
+    table += [(name, f"{value:.3g}" if name in numbers else f"{1e6 * value:.3g} us") for name, value in cost.items()]
+    for row in model:
+        if row["workers"] in (2, 8, 32, 128, 512):
+            text = f"{row['bodies']:,} bodies, {row['workers']} workers: {1e3 * row['step_seconds']:.2f} ms, {row['ratio']:.1f} times"
+            table.append(("model", text))
+    for row in targets:
+        text = f"{row['measured']:.3g}, {row['sense']} {row['target']}: {'met' if row['met'] else 'MISSED'}"
+        table.append((row["name"], text))
+    print_table(table)
 
 
 def target(name, sense, limit, measured):

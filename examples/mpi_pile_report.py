@@ -99,7 +99,8 @@ def _draw(path, pile, pictures, ranks):
         for step, time, states in pictures
     ]
     workers = "one process" if ranks == 1 else f"{ranks - 1} workers"
-    save_panels(path, panels, Floor(0.0, 1.05 * pile.grid.height), view, f"{pile.count:,} pyramids on {workers}", "Colour: the worker that moves a body.")
+    title, note = f"{pile.count:,} pyramids on {workers}", "Colour: the worker that moves a body."
+    save_panels(path, panels, Floor(0.0, 1.05 * pile.grid.height), view, title, note)
 
 
 def _print(out, result):

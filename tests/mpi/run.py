@@ -106,7 +106,8 @@ def recorders(folder):
 
 
 def failures(folder):
-    for case, words in (("raising", ("rank 1: Traceback", "this worker has had enough")), ("raising_in_step", ("division by zero",))):
+    for case, words in (("raising", ("rank 1: Traceback", "this worker has had enough")),
+                        ("raising_in_step", ("division by zero",))):
         status, text = scene(2, case, folder)
         check(status == 1 and all(word in text for word in words), f"{case} ends with {status}, without {words}:\n{text}")
     sound(3, "refusals", folder)
@@ -167,7 +168,8 @@ def pile(folder):
     for summary in summaries:
         rest = summary["kinetic_energy_J"] / summary["peak_kinetic_energy_J"]
         check(rest < 0.02, f"{summary['ranks']} ranks: a pile with {rest:.1e} of its largest kinetic energy is not at rest")
-    status, text = run(3, TOP / "examples" / "mpi_pile.py", OUTPUT=str(folder / "pile3"), BODIES="30", STEPS="3050", FRAMES="0", RESUME="1")
+    status, text = run(3, TOP / "examples" / "mpi_pile.py",
+                       OUTPUT=str(folder / "pile3"), BODIES="30", STEPS="3050", FRAMES="0", RESUME="1")
     resumed = json.loads((folder / "pile3" / "summary.json").read_text())
     check(status == 0 and (resumed["first_step"], resumed["steps"]) == (3000, 3050), f"a resumed pile ends with {status}:\n{text}")
 

@@ -112,7 +112,8 @@ def recorders():
     if mpi.rank() == 0:
         mine = build()
         mpi.safe_boxes(VERLET)
-        O.engines += [yade.PotentialParticleVTKRecorder(fileName=str(FOLDER / "own-"), iterPeriod=5, sampleX=4, sampleY=4, sampleZ=4)]
+        name = str(FOLDER / "own-")
+        O.engines += [yade.PotentialParticleVTKRecorder(fileName=name, iterPeriod=5, sampleX=4, sampleY=4, sampleZ=4)]
         mpi.divide(mine)
     mpi.run(10)
     mpi.gather(None)

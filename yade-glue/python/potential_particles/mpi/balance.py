@@ -26,7 +26,9 @@ def _nearest(here, there, surplus):
     """Bodies that go from this worker to another, which has 2 * surplus bodies less: YADE's choice, and those nearest to it."""
     leaving = list(mpy.medianFilter(here, there, surplus))
     taken = set(leaving)
-    staying = [i for i in O.subD.intersections[there] if i not in taken and O.bodies[i].subdomain == here and not O.bodies[i].isSubdomain]
+    bodies = O.bodies
+    staying = [i for i in O.subD.intersections[there]
+               if i not in taken and bodies[i].subdomain == here and not bodies[i].isSubdomain]
     # Half of those at the border at most: the next ones come when the border has moved.
     wanted = min(surplus - len(leaving), len(staying) // 2)
     if wanted > 0:
@@ -40,7 +42,7 @@ def _nearest(here, there, surplus):
 def _reallocate(choose, blocking=True):
     before = set(O.subD.ids)
     _yades_reallocation(choose, blocking)
-    # A body that has changed its worker is there without those of its neighbours that the worker did not know. In mpy it stays so,
-    # and their contacts with it push on one side only, until the collider happens to run again.
+    # A body that has changed its worker is there without those of its neighbours that the worker did not know. In mpy it stays
+    # so, and their contacts with it push on one side only, until the collider happens to run again.
     if mpy.comm.allreduce(int(set(O.subD.ids) != before), op=mpy.MPI.MAX):
         mpy.parallelCollide()

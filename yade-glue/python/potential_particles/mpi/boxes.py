@@ -31,9 +31,11 @@ def _watch(collider):
     """The box of the body as it is turned, and an engine that compares the two."""
     dispatcher = collider.boundDispatcher
     theirs = (yade.PotentialParticle2AABB, yade.Bo1_ConicPP_Aabb)
-    dispatcher.functors = [functor for functor in dispatcher.functors if not isinstance(functor, theirs)] + [yade.Bo1_PP_Aabb_Conic()]
+    others = [functor for functor in dispatcher.functors if not isinstance(functor, theirs)]
+    dispatcher.functors = others + [yade.Bo1_PP_Aabb_Conic()]
     engines = [engine for engine in O.engines if not isinstance(engine, yade.BoundWatch)]
-    # mpy asks at the end of a step whether a collider has to run, and then lets those of all ranks. One process asks before it runs.
+    # mpy asks at the end of a step whether a collider has to run, and then runs those of all ranks. One process asks before
+    # the collider.
     place = engines.index(collider) if ranks() == 1 else len(engines)
     O.engines = engines[:place] + [yade.BoundWatch()] + engines[place:]
 

@@ -12,7 +12,8 @@ os.environ.setdefault("OMPI_MCA_mpi_yield_when_idle", "1")
 try:
     from yade import mpy
 except ImportError as error:
-    raise ImportError(f"potential_particles.mpi needs YADE's module mpy and mpi4py (Debian package python3-mpi4py): {error}") from error
+    raise ImportError(
+        f"potential_particles.mpi needs YADE's module mpy and mpi4py (Debian package python3-mpi4py): {error}") from error
 
 # Of mpy only what concerns the end of a run would be printed, once a rank.
 mpy.NO_OUTPUT = True

@@ -20,7 +20,8 @@ def run(steps, reallocate=10):
     reallocate: after so many runs of the collider, bodies at the borders may move to another worker, so that all have
     as many; 0: never.
 
-    The scene of rank 0 is divided at the first call. RuntimeError if a rank stops before its last step; ValueError if a worker has no body.
+    The scene of rank 0 is divided at the first call. RuntimeError if a rank stops before its last step; ValueError if a
+    worker has no body.
     """
     # YADE takes 0 for a run without end.
     if steps < 0:
@@ -63,7 +64,8 @@ def _check_division():
         raise ValueError(f"a body belongs to worker {max(owners)} of {ranks() - 1}: call mpi.divide on rank 0")
     for body in O.bodies:
         if body.subdomain == 0 and body.dynamic and set(body.state.blockedDOFs) != set("xyzXYZ"):
-            raise ValueError(f"body {body.id} is free to move and on rank 0, from which workers get no positions: let mpi.divide give it to one")
+            raise ValueError(
+                f"body {body.id} is free to move and on rank 0, from which workers get no positions: let mpi.divide give it to one")
 
 
 def _name_files_by_rank():
@@ -90,7 +92,8 @@ def _check_workers():
                 raise ValueError(f"worker {worker} has no bodies left: start fewer ranks, or run with reallocate=0")
             if not met and ranks() > 2 and worker not in _told:
                 _told.add(worker)
-                print(f"worker {worker} meets no other worker: it keeps its {count:,} bodies, however unevenly they are divided", flush=True)
+                print(f"worker {worker} meets no other worker: it keeps its {count:,} bodies, however unevenly they are divided",
+                      flush=True)
 
 
 def _neighbours():
