@@ -16,6 +16,7 @@ import sys
 from pathlib import Path
 
 import matplotlib
+import numpy as np
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
@@ -68,8 +69,7 @@ def start(ranks, threads, **environment):
 def costs(runs):
     """Seconds for a body, a pair, a contact, a state sent, ..., from the measured runs."""
     tight, ball = runs["small_1"]["parts"][0], runs["small_1_ball"]["parts"][0]
-    pair = (ball["engines"]["contacts"] - tight["engines"]["contacts"]) / (ball["pairs"] - tight["pairs"])
-    contact = (tight["engines"]["contacts"] - pair * tight["pairs"]) / tight["contacts"]
+    pair, contact = contact_costs(runs)
     workers = [part for name in ("small_3", "large_3") for part in runs[name]["parts"][1:]]
     alone = runs["small_2"]["parts"][1]
     sent = max(workers, key=lambda part: part["states_sent"])
@@ -87,6 +87,18 @@ def costs(runs):
         "contacts_a_body": tight["contacts"] / tight["bodies"],
         "states_a_metre": sent_states_a_metre(runs),
     }
+
+
+def busy(runs):
+    """The processes of one thread that had bodies."""
+    return [part for name, run in runs.items() if RUNS[name][1] == 1 for part in run["parts"] if part["contacts"]]
+
+
+def contact_costs(runs):
+    """Seconds for a pair that is looked at, and more for one in contact: least squares of relative errors over all runs."""
+    seconds = np.array([part["engines"]["contacts"] for part in busy(runs)])
+    counts = np.array([(part["pairs"], part["contacts"]) for part in busy(runs)])
+    return map(float, np.linalg.lstsq(counts / seconds[:, None], np.ones(len(seconds)), rcond=None)[0])
 
 
 def sent_states_a_metre(runs):
@@ -116,6 +128,15 @@ def step(bodies, workers, cost, sides=4, moving=True, network=True):
     return seconds
 
 
+def at_rest(runs, name, cost):
+    """Seconds of a step of a measured run by the model: bodies at rest, one border, one machine."""
+    ranks, _, _, tiles, _ = RUNS[name]
+    bodies, workers = runs[name]["parts"][1]["bodies"] * (ranks - 1), ranks - 1
+    side = TILE_SIDE * math.sqrt(bodies / workers / TILE_BODIES)
+    border = int(tiles.split(",")[1]) * TILE_SIDE if workers > 1 else 0.0
+    return step(bodies, workers, cost, sides=border / side, moving=False, network=False)
+
+
 def report(runs):
     cost = costs(runs)
     rows = []
@@ -126,12 +147,7 @@ def report(runs):
             rows.append({"run": name, "bodies": one["bodies"] - 5, "seconds": seconds, "ratio": one["seconds"] / seconds,
                          "pairs": sum(part["pairs"] for part in runs[name]["parts"])})
     ratio = {row["run"]: row["ratio"] for row in rows}
-    large = runs["large_3"]["parts"]
-    # One border, of 10 tiles; bodies at rest.
-    border = int(LARGE.split(",")[1]) * TILE_SIDE
-    side = TILE_SIDE * math.sqrt((rows[-1]["bodies"] / 2) / TILE_BODIES)
-    predicted = step(rows[-1]["bodies"], 2, cost, sides=border / side, moving=False, network=False)
-    error = abs(predicted / large[0]["seconds"] - 1)
+    error = max(abs(at_rest(runs, name, cost) / runs[name]["parts"][0]["seconds"] - 1) for name in ("small_2", "small_3", "large_3"))
     model = [
         {
             "bodies": bodies,
@@ -145,7 +161,7 @@ def report(runs):
     targets = [
         target("step of one process over that of 3 ranks, 20,160 bodies", "at least", 1.0, ratio["small_3"]),
         target("the same, 100,800 bodies", "at least", 1.0, ratio["large_3"]),
-        target("model against the measured step of 3 ranks, 100,800 bodies, relative", "at most", 0.25, error),
+        target("model against the measured steps of 2 and 3 ranks, largest relative difference", "at most", 0.25, error),
     ]
     write_summary(OUT / "summary.json", {"targets": targets, "runs": rows, "costs_s": cost, "model": model,
                                          "machine": machine.machine_line(), "date": machine.now()})

@@ -21,6 +21,20 @@ def split():
     for first, second, geometry, physics in contacts:
         if _here(first) and _here(second):
             _make(first, second, geometry, physics)
+    if hasattr(yade, "BoundWatch"):
+        _collide_after_the_first_step()
+
+
+def _collide_after_the_first_step():
+    """Boxes are those of balls until BoundWatch has run once, and would stay so until a body leaves one."""
+    check = mpy.checkAndCollide
+
+    def once():
+        mpy.checkAndCollide = check
+        mpy.parallelCollide()
+        return False
+
+    mpy.checkAndCollide = once
 
 
 def _label_collider():
