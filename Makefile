@@ -8,6 +8,7 @@ Contact detection between potential particles.
 
   make wedge    a wedge on two joints: at which friction angle does it slide? results in out/wedge
   make mpi      a pile of pyramids on several processes, through YADE's mpy; results in out/mpi
+  make scale    where the time of a step goes, 200 to 100,000 pyramids beside spheres and an earlier commit; results in out/scale
   make mpi-scale  when several processes pay: measured here, and a model; minutes; results in out/mpi/scale
 
   make test-debian13  set up, build and test in a Debian 13 of its own, beside this system; needs root; SUITE=sid: in unstable
@@ -45,6 +46,7 @@ Variables, as in "make demo STEPS=1000 BODIES=50":
   CACHE=out/debian  test-debian13: where that release and its packages stay for the next time; FRESH=1 makes it anew
   WERROR=0          build, test: 1 takes compiler warnings for errors, as this project's CI does
   VERBOSE=1         test, test-debian13: show the output of every stage, not only of those that fail
+  BEFORE=COMMIT     scale: the commit that is built and measured beside this one
   CARGO_TARGET_DIR  where cargo builds (default: target)
 endef
 
@@ -64,7 +66,7 @@ export PATH := $(PATH):$(HOME)/.cargo/bin
 
 heading = @printf '== %s\n' '$(1)'
 
-.PHONY: help demo wedge mpi mpi-scale test test-debian13 side-by-side setup build library glue header lint bench stress fuzz long clean
+.PHONY: help demo wedge mpi scale mpi-scale test test-debian13 side-by-side setup build library glue header lint bench stress fuzz long clean
 .DEFAULT_GOAL := help
 # The steps of one goal build on each other in the order in which they are named.
 .NOTPARALLEL:
@@ -111,6 +113,10 @@ mpi: RANKS := $(or $(RANKS),3)
 mpi: glue
 	$(call heading,Pile on $(RANKS) ranks)
 	@scripts/yade_mpi.sh $(RANKS) -j$(THREADS) examples/mpi_pile.py
+
+scale: glue
+	$(call heading,Scale)
+	@benches/scale/run.py $(if $(BEFORE),--before $(BEFORE)) $(if $(QUICK),--quick)
 
 mpi-scale: glue
 	$(call heading,Scale)

@@ -27,16 +27,18 @@ from surface_mesh import surface_mesh
 PYRAMIDS, SPHERES = "pyramids", "spheres"
 SEED = 7
 SETTLING_DAMPING = 0.3  # of YADE: it ends sooner than with the demo's
-SETTLING_STEPS = {PYRAMIDS: 16_000, SPHERES: 12_000}
-SPHERE_RADIUS = 0.045  # m: about the volume of a pyramid's bounding ball's core
+SETTLING_STEPS = 14_000
+SPHERE_RADIUS = 0.045  # m, so that a sphere has about the volume of a pyramid
+VERLET_DISTANCE = 0.03 * pyramids.SIZE
 STATE_FIELDS = ("pos", "ori", "vel", "angVel")
 
 
 class Pile:
     """Scene of one kind; `copies` compartments of the kept pile, or a loose one to be settled."""
 
-    def __init__(self, kind, count, loop=None):
-        self.kind, self.count, self.loop = kind, count, loop
+    def __init__(self, kind, count, loop=None, watched=False):
+        """loop: another contact loop than the demo's; watched: whether the collider runs only when BoundWatch asks."""
+        self.kind, self.count, self.loop, self.watched = kind, count, loop, watched
         self.contact = ContactFunctor(LIBRARY, measure_time=False) if kind == PYRAMIDS else None
         self.pyramid = Pyramid(pyramids.SIZE)
         mesh = surface_mesh(self.pyramid.surface)
@@ -90,6 +92,12 @@ class Pile:
         O.materials.append(self.material)
         self.ids = []
 
+    def _watch_boxes(self):
+        reset, collider, *others = O.engines
+        collider.boundDispatcher.functors = [yade.Bo1_ConicPP_Aabb()]
+        collider.verletDist = VERLET_DISTANCE
+        O.engines = [reset, yade.BoundWatch(label="watch"), collider, *others]
+
     def _compartment(self, shift):
         if self.kind == PYRAMIDS:
             for slab in self.box.slabs(self.contact.shape_class, self.material):
@@ -120,7 +128,9 @@ class Pile:
 
     def _finish(self):
         if self.kind == PYRAMIDS:
-            O.engines = pyramids.engines(self.contact, self.loop)
+            O.engines = pyramids.engines(self.contact, **({"loop": self.loop} if self.loop else {}))
+            if self.watched:
+                self._watch_boxes()
             self.contact.prepare()
         else:
             O.engines = [
