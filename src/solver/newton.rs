@@ -14,6 +14,7 @@ use crate::pair::placed_particle::Body;
 use crate::settings::LEAST_OF_DOUBLES;
 use crate::solver::line_search::{self, Merit};
 use nalgebra::Vector3;
+use std::ops::ControlFlow::{self, Break, Continue};
 
 /// Most iterations from nothing, and from memory or a neighbouring problem. Of 20,000 pairs, fewer (20 and 8) sent half as many
 /// again to the extended tier, where a step of two bodies of 1,000 planes takes 75 µs; few come to an end after more.
@@ -124,9 +125,9 @@ pub(crate) fn solve(bodies: [&Body; 2], goal: &Goal, start: &Start, axes: Axes, 
     };
     while search.iterations < most && search.stops <= MOST_STOPS {
         match search.iterate() {
-            After::Step => {}
-            After::Answer(solution) => return solution,
-            After::Nothing => break,
+            Continue(()) => {}
+            Break(Some(answer)) => return answer,
+            Break(None) => break,
         }
     }
     search.end()
@@ -142,7 +143,7 @@ struct Search<'a> {
     /// The model at hand.
     model: &'a mut LocalModel,
     lambda: f64,
-    /// Dual value of the last model, of midway a lower bound if its active set was unchanged.
+    /// Dual value of the last model.
     lower: f64,
     /// The step that led to the model at hand.
     attempt: Option<Attempt>,
@@ -160,42 +161,35 @@ struct Best {
     age: u32,
 }
 
-/// What one iteration came to.
-enum After {
-    /// Another model, from which to go on.
-    Step,
-    Answer(Solution),
-    /// No step can be made, or no further one is worth it.
-    Nothing,
-}
-
 impl Search<'_> {
-    fn iterate(&mut self) -> After {
+    /// Goes on to another model; or ends with an answer, or without one, where no step can be made or no further one is worth it.
+    fn iterate(&mut self) -> ControlFlow<Option<Solution>> {
         self.iterations += 1;
         let failed = self.shorten_if_failed();
         let upper = self.merit();
         if !upper.is_finite() {
-            return After::Nothing;
+            return Break(None);
         }
         let enough = self.accuracy_of_lambda(upper, failed);
         let Some(step) = self.model.optimum(self.bodies, self.goal.problem, self.lambda, enough) else {
-            return After::Nothing;
+            return Break(None);
         };
         self.lambda = step.optimum.lambda;
         if step.change == Change::Leaving {
             *self.model = self.model.without_leaving(self.bodies, &step, self.weights(), self.axes);
             self.attempt = None;
-            return After::Step;
+            return Continue(());
         }
         self.lower = self.goal.problem.dual(step.optimum.values.0, step.optimum.values.1, self.lambda);
-        if let Some(answer) = self.answer(&step) {
-            return After::Answer(answer);
+        let answer = self.answer(&step);
+        if answer.is_some() {
+            return Break(answer);
         }
         if self.is_sharpened() {
-            return After::Nothing;
+            return Break(None);
         }
         self.take(&step);
-        After::Step
+        Continue(())
     }
 
     /// Shortens the last step if it did not reduce the merit; whether it failed so.
