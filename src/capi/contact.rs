@@ -7,7 +7,7 @@ use super::status::*;
 use super::types::*;
 use crate::contact::closest_point::closest_point;
 use crate::contact::detect::{detect_as, detect_carried_as};
-use crate::{Contact, Flags, Particle, Pose, Role, Section, Settings};
+use crate::{Contact, DetectError, Flags, Memory, Particle, Pose, Section, Settings};
 
 /// Fills settings with the defaults.
 ///
@@ -95,27 +95,17 @@ pub unsafe extern "C" fn pp_contact_detect_carried(
         let settings = settings_from(unsafe { settings.as_ref() })?;
         // SAFETY: NULL or exclusively ours for the call.
         let memory = unsafe { memory.as_mut() };
-        let mut remembered = memory.as_deref().map(memory_from);
         let write = |contact: Contact| {
             out.write(contact_to(&contact));
-            contact.flags.has_any(LEFT_AS_IT_WAS)
+            contact.flags
         };
-        let kept = (remembered.as_mut(), carried);
-        let cheap = detect_carried_as((a, pose_a), (b, pose_b), &settings, carry_tolerance, kept, write)
-            .map_err(|error| detect_status(&error))?;
-        match (memory, remembered) {
-            (Some(memory), Some(remembered)) if !cheap => *memory = memory_to(remembered),
-            _ => {}
-        }
-        Ok(())
+        let (a, b) = ((a, pose_a), (b, pose_b));
+        remembering(memory, |memory| detect_carried_as(a, b, &settings, carry_tolerance, (memory, carried), write))
     })
 }
 
-/// Flags of an answer that leaves the memory as it was.
-const LEFT_AS_IT_WAS: Flags = CHEAP_PROOF.with(Flags::CARRIED);
-
-/// Flags of a separated pair that the solver never saw.
-const CHEAP_PROOF: Flags = Flags::BY_SPHERES.with(Flags::BY_FACE).with(Flags::BY_MEMORY);
+/// Flags of an answer without the solver, a cheap proof or a contact that is carried on: it leaves the memory as it was.
+const UNSOLVED: Flags = Flags::BY_SPHERES.with(Flags::BY_FACE).with(Flags::BY_MEMORY).with(Flags::CARRIED);
 
 /// Finds one contact and writes it.
 #[inline(always)]
@@ -126,15 +116,24 @@ pub(super) fn contact(
     memory: Option<&mut pp_memory>,
     out: Output<pp_contact>,
 ) -> Result<(), pp_status> {
-    let mut remembered = memory.as_deref().map(memory_from);
     let write = |contact: Contact| {
         out.write(contact_to(&contact));
-        contact.flags.has_any(CHEAP_PROOF)
+        contact.flags
     };
-    let cheap = detect_as(a, b, settings, (remembered.as_mut(), None), write).map_err(|error| detect_status(&error))?;
+    remembering(memory, |memory| detect_as(a, b, settings, (memory, None), write))
+}
+
+/// Finds a contact, in space or in the plane, by `detect`, which writes it and gives its flags; with the memory of the pair.
+#[inline(always)]
+pub(super) fn remembering(
+    memory: Option<&mut pp_memory>,
+    detect: impl FnOnce(Option<&mut Memory>) -> Result<Flags, DetectError>,
+) -> Result<(), pp_status> {
+    let mut remembered = memory.as_deref().map(memory_from);
+    let flags = detect(remembered.as_mut()).map_err(|error| detect_status(&error))?;
     match (memory, remembered) {
-        // A cheap proof leaves the memory as it was, and is over before it could be written.
-        (Some(memory), Some(remembered)) if !cheap => *memory = memory_to(remembered),
+        // A cheap proof is over before the memory could be written.
+        (Some(memory), Some(remembered)) if !flags.has_any(UNSOLVED) => *memory = memory_to(remembered),
         _ => {}
     }
     Ok(())
@@ -162,11 +161,7 @@ pub unsafe extern "C" fn pp_closest_point(
         let (a, b) = unsafe { (&borrow(a)?.0, &borrow(b)?.0) };
         let (pose_a, pose_b) = unsafe { (pose_from(borrow(pose_a)?)?, pose_from(borrow(pose_b)?)?) };
         let out = unsafe { output(out) }?;
-        let on = match on {
-            PP_ON_A => Role::A,
-            PP_ON_B => Role::B,
-            _ => return Err(PP_BAD_INDEX),
-        };
+        let on = role_from(on)?;
         let settings = settings_from(unsafe { settings.as_ref() })?;
         let found = closest_point(a, &pose_a, b, &pose_b, on, &settings).map_err(|error| detect_status(&error))?;
         out.write(closest_to(found));

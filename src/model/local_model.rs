@@ -3,7 +3,7 @@
 use crate::linalg::graded_basis::{self, StiffNormals};
 use crate::linalg::number::{larger, smaller};
 use crate::model::dual_path::Optimum;
-use crate::model::kkt_check::{Change, KktCheck};
+use crate::model::kkt_check::{CLEAR, Change, KktCheck};
 use crate::model::problem::Problem;
 use crate::model::quadratic_model::{Model, side};
 use crate::pair::active_set::LocalPoint;
@@ -120,7 +120,7 @@ impl LocalModel {
         let piece = |body: &Body, q: &Quadratic| {
             let exact = body.is_plain() && q.expansion <= NEAR_SURFACE;
             let reach = if exact { q.clear / body.particle.bounds.longest_normal - moved } else { 0.0 };
-            Piece { curvature: q.hessian.times(&n).dot(&n), reach: SHORT_OF_SWITCH * reach }
+            Piece { curvature: q.hessian.times(&n).dot(&n), reach: CLEAR * reach }
         };
         [piece(bodies[0], &self.q_a), piece(bodies[1], &self.q_b)]
     }
@@ -179,9 +179,6 @@ impl LocalModel {
         Self::of(bodies, self.x, points, weights, axes)
     }
 }
-
-/// Less than 1 by more than the rounding of a distance to a plane, relative to the terms of its sum.
-const SHORT_OF_SWITCH: f64 = 1.0 - 1e-14;
 
 /// The active planes of both bodies.
 struct ActiveNormals<'a> {

@@ -51,6 +51,58 @@ const STALLING: f64 = 1e7;
 /// Searches in a row that may gain less than half: a side that hardly changes with λ gains late.
 const MOST_SLOW: u32 = 4;
 
+/// Where a search goes from a point of the curve.
+enum Advance<N> {
+    Optimum(Optimum<N>),
+    Lambda(N),
+}
+
+/// The values of λ between which that of the optimum lies, as far as one search may go.
+struct Bracket<N> {
+    low: N,
+    high: N,
+    nearest: N,
+    farthest: N,
+}
+
+impl<N: Single> Bracket<N> {
+    #[inline(always)]
+    fn about(lambda: N) -> Self {
+        let (nearest, farthest) = (lambda / N::of(FARTHEST), lambda * N::of(FARTHEST));
+        Self { low: nearest, high: farthest, nearest, farthest }
+    }
+
+    /// Leaves out what is beyond a λ that was too large or too small.
+    #[inline(always)]
+    fn narrow(&mut self, lambda: N, too_large: bool) {
+        if too_large {
+            self.high = lambda;
+        } else {
+            self.low = lambda;
+        }
+    }
+
+    /// λ, or where it is beyond what is known of the curve: to its end, and no further.
+    #[inline(always)]
+    fn kept(&self, lambda: N) -> N {
+        let (beyond_high, beyond_low) = (self.high.is_at_most(lambda), lambda.is_at_most(self.low));
+        if beyond_high && self.high == self.farthest {
+            self.farthest
+        } else if beyond_low && self.low == self.nearest {
+            self.nearest
+        } else if !beyond_high && !beyond_low {
+            lambda
+        } else {
+            N::of((self.low * self.high).approximate().sqrt())
+        }
+    }
+
+    #[inline(always)]
+    fn is_end(&self, lambda: N) -> bool {
+        lambda == self.nearest || lambda == self.farthest
+    }
+}
+
 impl<'a, N: Single> Model<'a, N> {
     #[inline(always)]
     pub fn new(a: Side<'a, N>, b: Side<'a, N>, problem: Problem) -> Self {
@@ -71,11 +123,8 @@ impl<'a, N: Single> Model<'a, N> {
     #[inline(always)]
     pub fn search(&self, first: N, enough: f64) -> Option<Optimum<N>> {
         let mut found = self.curve.probe(first)?;
-        let (nearest, farthest) = (found.lambda / N::of(FARTHEST), found.lambda * N::of(FARTHEST));
-        let (mut low, mut high) = (nearest, farthest);
+        let mut bracket = Bracket::about(found.lambda);
         let (mut last, mut slow) = (f64::INFINITY, 0);
-        // In numbers of 32 digits the series gains as many digits a search, but has more to gain.
-        let last_at_once = VERY_NEAR * (2.0 * N::UNIT / f64::EPSILON).sqrt().sqrt();
         for _ in 0..MOST_SEARCHES {
             let (growing, falling) = self.sides(&found.values);
             let (difference, larger) =
@@ -94,47 +143,37 @@ impl<'a, N: Single> Model<'a, N> {
                 return Some(self.corrected(found));
             }
             last = difference.abs();
-            if difference > 0.0 {
-                high = found.lambda;
-            } else {
-                low = found.lambda;
-            }
-            let next = match self.curve.series(&found) {
-                Some(series)
-                    if series.share.approximate() <= last_at_once
-                        || (series.share.approximate() <= NEAR && enough > 0.0) =>
-                {
-                    let further = self.curve.along(&found, &series);
-                    let left = self.mismatch(&further);
-                    let settled =
-                        series.share.approximate() <= last_at_once && left <= noise && self.curve.is_balanced(&further);
-                    if settled || left <= enough {
-                        return Some(Optimum { settled, ..further });
-                    }
-                    series.lambda
-                }
-                Some(series) if series.share.approximate() <= NEAR => series.lambda,
-                _ => N::of(self.far(found, growing, falling)),
-            };
-            // Beyond what is known of the curve: to its end, and no further.
-            let (beyond_high, beyond_low) = (high.is_at_most(next), next.is_at_most(low));
-            let next = if beyond_high && high == farthest {
-                farthest
-            } else if beyond_low && low == nearest {
-                nearest
-            } else if !beyond_high && !beyond_low {
-                next
-            } else {
-                N::of((low * high).approximate().sqrt())
+            bracket.narrow(found.lambda, difference > 0.0);
+            let next = match self.advance(&found, (growing, falling), noise, enough) {
+                Advance::Optimum(optimum) => return Some(optimum),
+                Advance::Lambda(next) => bracket.kept(next),
             };
             if next == found.lambda {
                 // No λ does better. At an end of the range there may be a better one, for other quadratics.
-                let settled = next != nearest && next != farthest;
-                return Some(Optimum { settled, ..self.curve.optimum(&found) });
+                return Some(Optimum { settled: !bracket.is_end(next), ..self.curve.optimum(&found) });
             }
             found = self.curve.probe(next)?;
         }
         Some(self.curve.optimum(&found))
+    }
+
+    /// Along the series to the optimum, where that is as near as it has to be for `noise` or `enough`; else to another λ.
+    #[inline(always)]
+    fn advance(&self, found: &Probe<N>, (growing, falling): (f64, f64), noise: f64, enough: f64) -> Advance<N> {
+        // In numbers of 32 digits the series gains as many digits a search, but has more to gain.
+        let last_at_once = VERY_NEAR * (2.0 * N::UNIT / f64::EPSILON).sqrt().sqrt();
+        let series = self.curve.series(found).filter(|series| series.share.approximate() <= NEAR);
+        let Some(series) = series else { return Advance::Lambda(N::of(self.far(*found, growing, falling))) };
+        let very_near = series.share.approximate() <= last_at_once;
+        if very_near || enough > 0.0 {
+            let further = self.curve.along(found, &series);
+            let left = self.mismatch(&further);
+            let settled = very_near && left <= noise && self.curve.is_balanced(&further);
+            if settled || left <= enough {
+                return Advance::Optimum(Optimum { settled, ..further });
+            }
+        }
+        Advance::Lambda(series.lambda)
     }
 
     #[inline(always)]

@@ -8,12 +8,13 @@ use crate::bounds::solution::{Ending, Solution};
 use crate::linalg::number::larger;
 use crate::model::dual_path::Optimum;
 use crate::model::kkt_check::Change;
-use crate::model::local_model::{self, Axes, LocalModel, Start};
+use crate::model::local_model::{self, Axes, LocalModel, Start, Step};
 use crate::model::problem::Problem;
 use crate::pair::placed_particle::Body;
 use crate::settings::LEAST_OF_DOUBLES;
 use crate::solver::line_search::{self, Merit};
 use nalgebra::Vector3;
+use std::ops::ControlFlow::{self, Break, Continue};
 
 /// Most iterations from nothing, and from memory or a neighbouring problem. Of 20,000 pairs, fewer (20 and 8) sent half as many
 /// again to the extended tier, where a step of two bodies of 1,000 planes takes 75 µs; few come to an end after more.
@@ -106,6 +107,52 @@ impl Quality {
     }
 }
 
+/// Solves for the goal, beginning with the model at hand; that of the solution is left there.
+pub(crate) fn solve(bodies: [&Body; 2], goal: &Goal, start: &Start, axes: Axes, model: &mut LocalModel) -> Solution {
+    let most = if start.near { MOST_FROM_NEAR } else { MOST_ITERATIONS };
+    let mut search = Search {
+        bodies,
+        goal,
+        near: start.near,
+        axes,
+        model,
+        lambda: start.lambda,
+        lower: f64::NEG_INFINITY,
+        attempt: None,
+        best: None,
+        stops: 0,
+        iterations: 0,
+    };
+    while search.iterations < most && search.stops <= MOST_STOPS {
+        match search.iterate() {
+            Continue(()) => {}
+            Break(Some(answer)) => return answer,
+            Break(None) => break,
+        }
+    }
+    search.end()
+}
+
+/// What is known on the way.
+struct Search<'a> {
+    bodies: [&'a Body<'a>; 2],
+    goal: &'a Goal,
+    /// Whether the active set of the first model is likely that of the optimum.
+    near: bool,
+    axes: Axes,
+    /// The model at hand.
+    model: &'a mut LocalModel,
+    lambda: f64,
+    /// Dual value of the last model.
+    lower: f64,
+    /// The step that led to the model at hand.
+    attempt: Option<Attempt>,
+    best: Option<Best>,
+    /// Steps in a row that came to nothing.
+    stops: u32,
+    iterations: u32,
+}
+
 /// The best solution so far, with the model it is an optimum of.
 struct Best {
     solution: Solution,
@@ -114,81 +161,127 @@ struct Best {
     age: u32,
 }
 
-/// Solves for the goal, beginning with the model at hand; that of the solution is left there.
-pub(crate) fn solve(bodies: [&Body; 2], goal: &Goal, start: &Start, axes: Axes, model: &mut LocalModel) -> Solution {
-    let problem = goal.problem;
-    let most = if start.near { MOST_FROM_NEAR } else { MOST_ITERATIONS };
-    let (flat, shortest) = (flat(bodies), SHORT * local_model::smallest(bodies));
-    let (mut lambda, mut lower) = (start.lambda, f64::NEG_INFINITY);
-    let (mut attempt, mut best, mut stops, mut iterations) = (None::<Attempt>, None::<Best>, 0, 0);
-    while iterations < most && stops <= MOST_STOPS {
-        iterations += 1;
-        let failed = attempt.as_ref().is_some_and(|attempt| !attempt.is_descent(bodies, problem, model));
-        if let Some(attempt) = attempt.as_ref().filter(|_| failed) {
-            let moved = attempt.shorten(bodies, problem, lambda, axes, model);
-            stops = if moved { 0 } else { stops + 1 };
-        }
-        let upper = model.merit(problem, lambda);
+impl Search<'_> {
+    /// Goes on to another model; or ends with an answer, or without one, where no step can be made or no further one is worth it.
+    fn iterate(&mut self) -> ControlFlow<Option<Solution>> {
+        self.iterations += 1;
+        let failed = self.shorten_if_failed();
+        let upper = self.merit();
         if !upper.is_finite() {
-            break;
+            return Break(None);
         }
-        // Where the active set is likely right, at once the best λ; else a rough one will do, but for a better one after
-        // a step that failed.
+        let enough = self.accuracy_of_lambda(upper, failed);
+        let Some(step) = self.model.optimum(self.bodies, self.goal.problem, self.lambda, enough) else {
+            return Break(None);
+        };
+        self.lambda = step.optimum.lambda;
+        if step.change == Change::Leaving {
+            *self.model = self.model.without_leaving(self.bodies, &step, self.weights(), self.axes);
+            self.attempt = None;
+            return Continue(());
+        }
+        self.lower = self.goal.problem.dual(step.optimum.values.0, step.optimum.values.1, self.lambda);
+        let answer = self.answer(&step);
+        if answer.is_some() {
+            return Break(answer);
+        }
+        if self.is_sharpened() {
+            return Break(None);
+        }
+        self.take(&step);
+        Continue(())
+    }
+
+    /// Shortens the last step if it did not reduce the merit; whether it failed so.
+    fn shorten_if_failed(&mut self) -> bool {
+        let problem = self.goal.problem;
+        let Some(attempt) = self.attempt.as_ref().filter(|last| !last.is_descent(self.bodies, problem, self.model))
+        else {
+            return false;
+        };
+        let moved = attempt.shorten(self.bodies, problem, self.lambda, self.axes, self.model);
+        self.stops = if moved { 0 } else { self.stops + 1 };
+        true
+    }
+
+    /// The mismatch to which λ is searched. Where the active set is likely right, at once the best λ; else a rough one will do,
+    /// but for a better one after a step that failed.
+    fn accuracy_of_lambda(&self, upper: f64, failed: bool) -> f64 {
+        let problem = self.goal.problem;
         let share = match () {
-            () if start.near && iterations == 1 => 0.0,
+            () if self.near && self.iterations == 1 => 0.0,
             () if failed => FINE,
             () => ROUGH,
         };
-        let behind = if problem == Problem::Midway { upper - lower } else { 0.0 };
-        let mismatch = problem.mismatch(model.q_a.expansion, model.q_b.expansion);
-        let enough = share * mismatch.max(behind).min(upper);
-        let Some(step) = model.optimum(bodies, problem, lambda, enough) else { break };
-        lambda = step.optimum.lambda;
-        if step.change == Change::Leaving {
-            *model = model.without_leaving(bodies, &step, problem.weights(lambda), axes);
-            attempt = None;
-            continue;
-        }
-        let upper = model.merit(problem, lambda);
-        lower = problem.dual(step.optimum.values.0, step.optimum.values.1, lambda);
-        let separating = goal.stop_when_separated && lower > 1.0 && step.change != Change::Pulling;
-        let optimal = step.change == Change::None && step.optimum.settled;
-        if separating || optimal {
-            let solution = Solution { iterations, ..Solution::of(model, bodies, problem, &step) };
-            if separating && solution.separates(flat) {
-                return Solution { ending: Ending::Separated, ..solution };
-            }
-            if optimal {
-                let quality = Quality::of(&solution, goal, model);
-                let solution = Solution { ending: quality.ending(), ..solution };
-                let short = step.length <= shortest;
-                if quality.precise || ((short || quality.rounded) && quality.telling) {
-                    return solution;
-                }
-                // Optimal, but over a long step; the same from nearby is sharper.
-                if best.as_ref().is_none_or(|best| solution.gap() < best.solution.gap()) {
-                    let age = best.map_or(0, |best| best.age);
-                    best = Some(Best { solution, model: *model, age });
-                }
-            }
-        }
-        if let Some(best) = &mut best {
-            best.age += 1;
-            if best.age > MOST_SHARPENING {
-                break;
-            }
-        }
-        let promised = larger(upper - lower, 0.0);
-        let x = model.x + step.v;
-        attempt = Some(Attempt { from: *model, step: step.v, lambda, merit: upper, promised });
-        *model = LocalModel::of(bodies, x, bodies.map(|body| body.locate(&x)), problem.weights(lambda), axes);
+        let behind = if problem == Problem::Midway { upper - self.lower } else { 0.0 };
+        let mismatch = problem.mismatch(self.model.q_a.expansion, self.model.q_b.expansion);
+        share * mismatch.max(behind).min(upper)
     }
-    match best {
-        Some(best) => {
-            *model = best.model;
-            Solution { iterations, ..best.solution }
+
+    /// The solution that the optimum of the model is, if it is one and good enough. One that is not is kept if it is the best so far:
+    /// optimal, but over a long step; the same from nearby is sharper.
+    fn answer(&mut self, step: &Step) -> Option<Solution> {
+        let separating = self.goal.stop_when_separated && self.lower > 1.0 && step.change != Change::Pulling;
+        let optimal = step.change == Change::None && step.optimum.settled;
+        if !separating && !optimal {
+            return None;
         }
-        None => Solution::unsettled(model.x, lambda, iterations),
+        let of_step = Solution::of(self.model, self.bodies, self.goal.problem, step);
+        let solution = Solution { iterations: self.iterations, ..of_step };
+        if separating && solution.separates(flat(self.bodies)) {
+            return Some(Solution { ending: Ending::Separated, ..solution });
+        }
+        if !optimal {
+            return None;
+        }
+        let quality = Quality::of(&solution, self.goal, self.model);
+        let solution = Solution { ending: quality.ending(), ..solution };
+        let short = step.length <= SHORT * local_model::smallest(self.bodies);
+        if quality.precise || ((short || quality.rounded) && quality.telling) {
+            return Some(solution);
+        }
+        if self.best.as_ref().is_none_or(|best| solution.gap() < best.solution.gap()) {
+            let age = self.best.as_ref().map_or(0, |best| best.age);
+            self.best = Some(Best { solution, model: *self.model, age });
+        }
+        None
+    }
+
+    /// Whether the best solution has been sharpened as often as is granted.
+    fn is_sharpened(&mut self) -> bool {
+        self.best.as_mut().is_some_and(|best| {
+            best.age += 1;
+            best.age > MOST_SHARPENING
+        })
+    }
+
+    /// Goes to the optimum of the model.
+    fn take(&mut self, step: &Step) {
+        let merit = self.merit();
+        let promised = larger(merit - self.lower, 0.0);
+        let x = self.model.x + step.v;
+        self.attempt = Some(Attempt { from: *self.model, step: step.v, lambda: self.lambda, merit, promised });
+        let points = self.bodies.map(|body| body.locate(&x));
+        *self.model = LocalModel::of(self.bodies, x, points, self.weights(), self.axes);
+    }
+
+    /// The best solution with its model, or where the search ended.
+    fn end(self) -> Solution {
+        match self.best {
+            Some(best) => {
+                *self.model = best.model;
+                Solution { iterations: self.iterations, ..best.solution }
+            }
+            None => Solution::unsettled(self.model.x, self.lambda, self.iterations),
+        }
+    }
+
+    fn merit(&self) -> f64 {
+        self.model.merit(self.goal.problem, self.lambda)
+    }
+
+    fn weights(&self) -> (f64, f64) {
+        self.goal.problem.weights(self.lambda)
     }
 }
 
