@@ -48,7 +48,7 @@ fn dual_value(bodies: [&Body; 2], start: &Start, problem: Problem, upper: f64) -
     let weights = problem.weights(start.lambda);
     let mut model = LocalModel::at(bodies, start, problem, Axes::Graded);
     loop {
-        let step = model.optimum(bodies, problem, start.lambda, 0.0)?;
+        let step = model.optimum(bodies, problem, start.lambda)?;
         match step.change {
             Change::Pulling => return None,
             Change::Leaving => model = model.without_leaving(bodies, &step, weights, Axes::Graded),

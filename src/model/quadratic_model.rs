@@ -58,19 +58,12 @@ impl<'a, N: Single> Model<'a, N> {
         Self { curve: Curve::new(a, b, problem), problem, expanded: of_a + of_b }
     }
 
-    /// Searches λ from a guess until the mismatch of the two sides is `enough`; 0 for as good as rounding allows.
-    /// `None` when a factorisation breaks down.
+    /// Searches λ from a guess until the two sides meet as well as rounding allows. `None` when a factorisation breaks down.
     #[inline(always)]
-    pub fn solve(&self, guess: N, enough: f64) -> Option<Optimum<N>> {
+    pub fn solve(&self, guess: N) -> Option<Optimum<N>> {
         let approximate = guess.approximate();
         let kept = approximate.clamp(LAMBDA_RANGE.0, LAMBDA_RANGE.1);
-        self.search(if kept == approximate { guess } else { N::of(kept) }, enough)
-    }
-
-    /// Searches λ from one that is in its range.
-    #[inline(always)]
-    pub fn search(&self, first: N, enough: f64) -> Option<Optimum<N>> {
-        let mut found = self.curve.probe(first)?;
+        let mut found = self.curve.probe(if kept == approximate { guess } else { N::of(kept) })?;
         let (nearest, farthest) = (found.lambda / N::of(FARTHEST), found.lambda * N::of(FARTHEST));
         let (mut low, mut high) = (nearest, farthest);
         let (mut last, mut slow) = (f64::INFINITY, 0);
@@ -86,9 +79,8 @@ impl<'a, N: Single> Model<'a, N> {
             // To rounding; or the search, which should do far better, does not even halve it any more.
             let noise = noise(N::UNIT, self.expanded, larger);
             slow = if difference.abs() > 0.5 * last { slow + 1 } else { 0 };
-            let settled = difference.abs() <= noise;
-            if settled || difference.abs() <= enough {
-                return Some(Optimum { settled, ..self.curve.optimum(&found) });
+            if difference.abs() <= noise {
+                return Some(Optimum { settled: true, ..self.curve.optimum(&found) });
             }
             if slow >= MOST_SLOW && difference.abs() <= STALLING * N::UNIT * larger {
                 return Some(self.corrected(found));
@@ -100,16 +92,10 @@ impl<'a, N: Single> Model<'a, N> {
                 low = found.lambda;
             }
             let next = match self.curve.series(&found) {
-                Some(series)
-                    if series.share.approximate() <= last_at_once
-                        || (series.share.approximate() <= NEAR && enough > 0.0) =>
-                {
+                Some(series) if series.share.approximate() <= last_at_once => {
                     let further = self.curve.along(&found, &series);
-                    let left = self.mismatch(&further);
-                    let settled =
-                        series.share.approximate() <= last_at_once && left <= noise && self.curve.is_balanced(&further);
-                    if settled || left <= enough {
-                        return Some(Optimum { settled, ..further });
+                    if self.mismatch(&further) <= noise && self.curve.is_balanced(&further) {
+                        return Some(Optimum { settled: true, ..further });
                     }
                     series.lambda
                 }
@@ -257,7 +243,7 @@ mod tests {
         let q_b = about([0.95, -0.2, 0.1], Symmetric { xx: 1.8, yx: -0.1, yy: 2.0, zx: 0.4, zy: 0.5, zz: 5.0 });
         let soft = (1.0, 1.0);
         let alone = [Problem::OnA, Problem::OnB]
-            .map(|problem| Model::new(side(&q_a, soft.0), side(&q_b, soft.1), problem).solve(1.0, 0.0).unwrap());
+            .map(|problem| Model::new(side(&q_a, soft.0), side(&q_b, soft.1), problem).solve(1.0).unwrap());
         let guesses = [alone[0].lambda * (1.0 + 3e-4), alone[1].lambda * (1.0 - 3e-4)];
         let both = both_closest([&q_a, &q_b], soft, guesses).expect("guesses from nearby");
         for ((problem, alone), both) in [Problem::OnA, Problem::OnB].into_iter().zip(&alone).zip(&both) {

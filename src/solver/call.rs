@@ -103,7 +103,7 @@ impl<'a> Call<'a> {
             return None;
         }
         let goal = self.goal(problem);
-        let optimum = model.quadratics(self.bodies(), problem).solve(lambda, 0.0)?;
+        let optimum = model.quadratics(self.bodies(), problem).solve(lambda)?;
         let solution = newton::accepted(self.bodies(), &goal, model, optimum)?;
         self.count(&solution);
         Some(solution)

@@ -29,10 +29,6 @@ const AS_SHARP: f64 = 8.0;
 /// Relative gap above which an optimum is sought again from nearby.
 const SHARP: f64 = 1e-2;
 
-/// Share of what is still to be gained to which λ is searched, early on and after a step that failed.
-const ROUGH: f64 = 1e-2;
-const FINE: f64 = 1e-4;
-
 /// Steps in a row that may come to nothing.
 const MOST_STOPS: u32 = 3;
 
@@ -119,7 +115,7 @@ pub(crate) fn solve(bodies: [&Body; 2], goal: &Goal, start: &Start, axes: Axes, 
     let problem = goal.problem;
     let most = if start.near { MOST_FROM_NEAR } else { MOST_ITERATIONS };
     let (flat, shortest) = (flat(bodies), SHORT * local_model::smallest(bodies));
-    let (mut lambda, mut lower) = (start.lambda, f64::NEG_INFINITY);
+    let mut lambda = start.lambda;
     let (mut attempt, mut best, mut stops, mut iterations) = (None::<Attempt>, None::<Best>, 0, 0);
     while iterations < most && stops <= MOST_STOPS {
         iterations += 1;
@@ -128,21 +124,10 @@ pub(crate) fn solve(bodies: [&Body; 2], goal: &Goal, start: &Start, axes: Axes, 
             let moved = attempt.shorten(bodies, problem, lambda, axes, model);
             stops = if moved { 0 } else { stops + 1 };
         }
-        let upper = model.merit(problem, lambda);
-        if !upper.is_finite() {
+        if !model.merit(problem, lambda).is_finite() {
             break;
         }
-        // Where the active set is likely right, at once the best λ; else a rough one will do, but for a better one after
-        // a step that failed.
-        let share = match () {
-            () if start.near && iterations == 1 => 0.0,
-            () if failed => FINE,
-            () => ROUGH,
-        };
-        let behind = if problem == Problem::Midway { upper - lower } else { 0.0 };
-        let mismatch = problem.mismatch(model.q_a.expansion, model.q_b.expansion);
-        let enough = share * mismatch.max(behind).min(upper);
-        let Some(step) = model.optimum(bodies, problem, lambda, enough) else { break };
+        let Some(step) = model.optimum(bodies, problem, lambda) else { break };
         lambda = step.optimum.lambda;
         if step.change == Change::Leaving {
             *model = model.without_leaving(bodies, &step, problem.weights(lambda), axes);
@@ -150,7 +135,7 @@ pub(crate) fn solve(bodies: [&Body; 2], goal: &Goal, start: &Start, axes: Axes, 
             continue;
         }
         let upper = model.merit(problem, lambda);
-        lower = problem.dual(step.optimum.values.0, step.optimum.values.1, lambda);
+        let lower = problem.dual(step.optimum.values.0, step.optimum.values.1, lambda);
         let separating = goal.stop_when_separated && lower > 1.0 && step.change != Change::Pulling;
         let optimal = step.change == Change::None && step.optimum.settled;
         if separating || optimal {
