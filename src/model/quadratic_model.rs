@@ -45,12 +45,6 @@ const NEAR: f64 = 0.1;
 const VERY_NEAR: f64 = 3e-4;
 const RATHER_NEAR: f64 = 1.5e-3;
 
-/// Relative mismatch below which a search that no longer gains is at the end of its digits, in units of rounding.
-const STALLING: f64 = 1e7;
-
-/// Searches in a row that may gain less than half: a side that hardly changes with λ gains late.
-const MOST_SLOW: u32 = 4;
-
 impl<'a, N: Single> Model<'a, N> {
     #[inline(always)]
     pub fn new(a: Side<'a, N>, b: Side<'a, N>, problem: Problem) -> Self {
@@ -66,7 +60,6 @@ impl<'a, N: Single> Model<'a, N> {
         let mut found = self.curve.probe(if kept == approximate { guess } else { N::of(kept) })?;
         let (nearest, farthest) = (found.lambda / N::of(FARTHEST), found.lambda * N::of(FARTHEST));
         let (mut low, mut high) = (nearest, farthest);
-        let (mut last, mut slow) = (f64::INFINITY, 0);
         // In numbers of 32 digits the series gains as many digits a search, but has more to gain.
         let last_at_once = VERY_NEAR * (2.0 * N::UNIT / f64::EPSILON).sqrt().sqrt();
         for _ in 0..MOST_SEARCHES {
@@ -76,16 +69,10 @@ impl<'a, N: Single> Model<'a, N> {
             if !difference.is_finite() {
                 return None;
             }
-            // To rounding; or the search, which should do far better, does not even halve it any more.
             let noise = noise(N::UNIT, self.expanded, larger);
-            slow = if difference.abs() > 0.5 * last { slow + 1 } else { 0 };
             if difference.abs() <= noise {
                 return Some(Optimum { settled: true, ..self.curve.optimum(&found) });
             }
-            if slow >= MOST_SLOW && difference.abs() <= STALLING * N::UNIT * larger {
-                return Some(self.corrected(found));
-            }
-            last = difference.abs();
             if difference > 0.0 {
                 high = found.lambda;
             } else {
@@ -133,16 +120,6 @@ impl<'a, N: Single> Model<'a, N> {
     fn mismatch(&self, optimum: &Optimum<N>) -> f64 {
         let (growing, falling) = self.problem.sides(optimum.values.0, optimum.values.1);
         (growing - falling).approximate().abs()
-    }
-
-    /// Where the rounding of the factorisation moves a side by more than its noise, at random for each λ: the way to the root
-    /// along the curve is smooth.
-    #[cold]
-    fn corrected(self, found: Probe<N>) -> Optimum<N> {
-        let here = self.curve.optimum(&found);
-        let further = self.curve.series(&found).map(|series| self.curve.along(&found, &series));
-        let best = further.filter(|further| self.mismatch(further) < self.mismatch(&here)).unwrap_or(here);
-        Optimum { settled: true, ..best }
     }
 
     /// The next λ where the series is of no use: far off, the logarithms of both sides are nearly linear in ln λ.
