@@ -1,7 +1,7 @@
 //! One call: the pair being solved, the order in which solvers are tried, and what it has cost so far.
 //!
 //! 1. One Newton step from the start, which is enough for nearly all pairs (`first_step`).
-//! 2. Newton's method from there, and once more from a cold start where the first was from memory ([`newton`]).
+//! 2. Newton's method from there ([`newton`]).
 //! 3. The extended tier, where that did not settle, where its bound is looser than rounding explains, or where the caller asks for
 //!    a smaller gap than doubles can give ([`extended`]).
 
@@ -117,12 +117,6 @@ impl<'a> Call<'a> {
         }
         let goal = self.goal(problem);
         let mut solution = newton::solve(self.bodies(), &goal, start, self.axes(), model);
-        if start.near && solution.ending == Ending::Unsettled {
-            self.iterations += solution.iterations;
-            let cold = self.cold();
-            *model = self.model(&cold, problem);
-            solution = newton::solve(self.bodies(), &goal, &cold, self.axes(), model);
-        }
         if self.wants_more(&solution, model, &goal) {
             self.iterations += solution.iterations;
             solution = self.extended(&goal, start, solution, model)?;
