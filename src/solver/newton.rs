@@ -29,9 +29,6 @@ const AS_SHARP: f64 = 8.0;
 /// Relative gap above which an optimum is sought again from nearby.
 const SHARP: f64 = 1e-2;
 
-/// Steps in a row that may come to nothing.
-const MOST_STOPS: u32 = 3;
-
 /// Iterations granted to sharpen an optimum that is known already.
 const MOST_SHARPENING: u32 = 3;
 
@@ -116,13 +113,11 @@ pub(crate) fn solve(bodies: [&Body; 2], goal: &Goal, start: &Start, axes: Axes, 
     let most = if start.near { MOST_FROM_NEAR } else { MOST_ITERATIONS };
     let (flat, shortest) = (flat(bodies), SHORT * local_model::smallest(bodies));
     let mut lambda = start.lambda;
-    let (mut attempt, mut best, mut stops, mut iterations) = (None::<Attempt>, None::<Best>, 0, 0);
-    while iterations < most && stops <= MOST_STOPS {
+    let (mut attempt, mut best, mut iterations) = (None::<Attempt>, None::<Best>, 0);
+    while iterations < most {
         iterations += 1;
-        let failed = attempt.as_ref().is_some_and(|attempt| !attempt.is_descent(bodies, problem, model));
-        if let Some(attempt) = attempt.as_ref().filter(|_| failed) {
-            let moved = attempt.shorten(bodies, problem, lambda, axes, model);
-            stops = if moved { 0 } else { stops + 1 };
+        if let Some(attempt) = attempt.as_ref().filter(|attempt| !attempt.is_descent(bodies, problem, model)) {
+            *model = attempt.shortened(bodies, problem, lambda, axes);
         }
         if !model.merit(problem, lambda).is_finite() {
             break;
@@ -195,12 +190,11 @@ impl Attempt {
         merit <= enough || merit <= enough + model.merit_rounding(bodies, problem, self.lambda)
     }
 
-    /// The model at the best point along the step instead; whether that is another point.
+    /// The model at the best point along the step instead.
     #[cold]
-    fn shorten(&self, bodies: [&Body; 2], problem: Problem, lambda: f64, axes: Axes, model: &mut LocalModel) -> bool {
+    fn shortened(&self, bodies: [&Body; 2], problem: Problem, lambda: f64, axes: Axes) -> LocalModel {
         let descent = line_search::descend(bodies, Merit(problem, self.lambda), &self.from.x, &self.step, (0.5, 1.0));
         let x = self.from.x + descent.alpha * self.step;
-        *model = LocalModel::of(bodies, x, bodies.map(|body| body.locate(&x)), problem.weights(lambda), axes);
-        (x - self.from.x).norm() > larger(self.from.points[0].shift, self.from.points[1].shift)
+        LocalModel::of(bodies, x, bodies.map(|body| body.locate(&x)), problem.weights(lambda), axes)
     }
 }
