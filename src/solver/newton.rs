@@ -32,9 +32,6 @@ const SHARP: f64 = 1e-2;
 /// Iterations granted to sharpen an optimum that is known already.
 const MOST_SHARPENING: u32 = 3;
 
-/// Share of the promised decrease of the merit that a step must bring (Armijo's rule).
-const DECREASE: f64 = 1e-4;
-
 /// What the solver is asked for.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Goal {
@@ -129,7 +126,6 @@ pub(crate) fn solve(bodies: [&Body; 2], goal: &Goal, start: &Start, axes: Axes, 
             attempt = None;
             continue;
         }
-        let upper = model.merit(problem, lambda);
         let lower = problem.dual(step.optimum.values.0, step.optimum.values.1, lambda);
         let separating = goal.stop_when_separated && lower > 1.0 && step.change != Change::Pulling;
         let optimal = step.change == Change::None && step.optimum.settled;
@@ -158,9 +154,8 @@ pub(crate) fn solve(bodies: [&Body; 2], goal: &Goal, start: &Start, axes: Axes, 
                 break;
             }
         }
-        let promised = larger(upper - lower, 0.0);
         let x = model.x + step.v;
-        attempt = Some(Attempt { from: *model, step: step.v, lambda, merit: upper, promised });
+        attempt = Some(Attempt { from: *model, step: step.v, lambda, merit: model.merit(problem, lambda) });
         *model = LocalModel::of(bodies, x, bodies.map(|body| body.locate(&x)), problem.weights(lambda), axes);
     }
     match best {
@@ -178,16 +173,13 @@ struct Attempt {
     step: Vector3<f64>,
     lambda: f64,
     merit: f64,
-    promised: f64,
 }
 
 impl Attempt {
-    /// Whether the merit at the end of the step is lower than before by a share of what was promised.
+    /// Whether the merit at the end of the step is no larger than before, but for rounding.
     fn is_descent(&self, bodies: [&Body; 2], problem: Problem, model: &LocalModel) -> bool {
         let merit = model.merit(problem, self.lambda);
-        let enough = self.merit - DECREASE * self.promised;
-        // Two values of S cannot be told apart below their rounding.
-        merit <= enough || merit <= enough + model.merit_rounding(bodies, problem, self.lambda)
+        merit <= self.merit || merit <= self.merit + model.merit_rounding(bodies, problem, self.lambda)
     }
 
     /// The model at the best point along the step instead.
