@@ -40,10 +40,8 @@ const FARTHEST: f64 = 1e6;
 /// out then is some 1e-3 of the mismatch.
 const NEAR: f64 = 0.1;
 
-/// The same share at which what is left out is below the rounding of a double: of a point that is taken to the third order, and
-/// to the fourth.
+/// The same share at which what is left out is below the rounding of a double, of a point that is taken to the third order.
 const VERY_NEAR: f64 = 3e-4;
-const RATHER_NEAR: f64 = 1.5e-3;
 
 impl<'a, N: Single> Model<'a, N> {
     #[inline(always)]
@@ -165,10 +163,10 @@ pub(crate) fn both_closest([q_a, q_b]: [&Quadratic; 2], soft: (f64, f64), lambda
     let curve = Curve::new(free, held, Problem::OnB);
     let probe = curve.probe(Twin::new(lambdas[1], 1.0 / lambdas[0]))?;
     let series = curve.series(&probe)?;
-    if !series.share.is_at_most(of(RATHER_NEAR)) {
+    if !series.share.is_at_most(of(VERY_NEAR)) {
         return None;
     }
-    let found = curve.further_along(&probe, &series);
+    let found = curve.along(&probe, &series);
     let noise = noise(Twin::UNIT, held.value, probe.values.1.larger(of(1.0)));
     let settled = (found.values.1 - of(1.0)).magnitude().is_at_most(noise) && curve.is_balanced(&found);
     settled.then(|| [found.lane(1).swapped(), found.lane(0)])
@@ -221,7 +219,7 @@ mod tests {
         let soft = (1.0, 1.0);
         let alone = [Problem::OnA, Problem::OnB]
             .map(|problem| Model::new(side(&q_a, soft.0), side(&q_b, soft.1), problem).solve(1.0).unwrap());
-        let guesses = [alone[0].lambda * (1.0 + 3e-4), alone[1].lambda * (1.0 - 3e-4)];
+        let guesses = [alone[0].lambda * (1.0 + 1e-4), alone[1].lambda * (1.0 - 1e-4)];
         let both = both_closest([&q_a, &q_b], soft, guesses).expect("guesses from nearby");
         for ((problem, alone), both) in [Problem::OnA, Problem::OnB].into_iter().zip(&alone).zip(&both) {
             assert!((both.step - alone.step).norm() < 1e-14, "{problem:?}");
