@@ -25,9 +25,6 @@ use crate::solver::{extended, initial_guess};
 use nalgebra::Vector3;
 use thiserror::Error;
 
-/// S at a point that is outside whatever rounding did to it.
-const CLEARLY: f64 = 2.0;
-
 /// A gap this many times what rounding, regularisation and tolerance explain is looked at in extended precision.
 const LOOSE: f64 = 20.0;
 
@@ -204,8 +201,7 @@ impl<'a> Call<'a> {
         problem: Problem,
         midway: Option<(&Solution, &LocalModel)>,
     ) -> Result<Option<CertifiedPoint>, SolveError> {
-        let clearly_outside = midway.is_some_and(|(midway, _)| self.centre_is_outside(problem, midway));
-        if !clearly_outside && self.centre_is_inside(problem) {
+        if self.centre_is_inside(problem) {
             return Ok(None);
         }
         let start = match midway {
@@ -265,17 +261,6 @@ impl<'a> Call<'a> {
         self.count(&on_a);
         self.count(&on_b);
         Some(points)
-    }
-
-    /// Whether the tangent of one potential at midway, which lies below it, is clearly above 1 at the other's centre.
-    #[inline(always)]
-    fn centre_is_outside(&self, problem: Problem, midway: &Solution) -> bool {
-        let (i, body, centre) = match problem {
-            Problem::OnB => (1, &self.body_b, self.body_a.centre()),
-            _ => (0, &self.body_a, self.body_b.centre()),
-        };
-        let tangent = midway.values[i] + midway.gradients[i].dot(&(centre - midway.x));
-        body.is_plain() && tangent > CLEARLY
     }
 
     fn centre_is_inside(&self, problem: Problem) -> bool {
