@@ -37,13 +37,10 @@ const SLOW: f64 = 1e-6;
 /// Square of the shortest vector of the hull, relative to the longest, that is none: the planes hold each other.
 const BALANCED: f64 = 1e-20;
 
-/// Sphericity from which the spheres decide as much as the planes.
-const ROUND: f64 = 0.5;
-
 /// A start without memory.
 pub(crate) fn cold(pair: &Pair, [a, b]: [&Body; 2]) -> Start {
-    let angular = |body: &Body| !body.particle.is_sphere() && body.particle.sphericity() < ROUND;
-    let between = if angular(a) && angular(b) { between_polyhedra([a, b], centre_line(pair)) } else { None };
+    let with_planes = !(a.particle.is_sphere() || b.particle.is_sphere());
+    let between = if with_planes { between_polyhedra([a, b], centre_line(pair)) } else { None };
     // Rounding may leave the program without a direction.
     between.filter(|start| start.x.iter().all(|c| c.is_finite())).unwrap_or_else(|| on_centre_line(pair, [a, b]))
 }
