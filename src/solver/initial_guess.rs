@@ -17,11 +17,9 @@
 
 use crate::linalg::number::larger;
 use crate::model::local_model::Start;
-use crate::model::problem::Problem;
 use crate::pair::placed_particle::Body;
 use crate::pair::relative_pose::Pair;
 use crate::particle::plane_clusters;
-use crate::solver::line_search::{self, Merit};
 use nalgebra::Vector3;
 
 /// Most planes that take over, one after the other, and most trials for each. A start need not be perfect.
@@ -42,24 +40,8 @@ pub(crate) fn cold(pair: &Pair, [a, b]: [&Body; 2]) -> Start {
     let with_planes = !(a.particle.is_sphere() || b.particle.is_sphere());
     let between = if with_planes { between_polyhedra([a, b], centre_line(pair)) } else { None };
     // Rounding may leave the program without a direction.
-    between.filter(|start| start.x.iter().all(|c| c.is_finite())).unwrap_or_else(|| on_centre_line(pair, [a, b]))
-}
-
-/// The best point on the line of centres.
-pub(crate) fn on_centre_line(pair: &Pair, [a, b]: [&Body; 2]) -> Start {
-    let from = a.centre();
-    let direction = -from;
-    let (ra, rb) = (pair.a.bounding_radius(), pair.b.bounding_radius());
-    let guess = ra / (ra + rb);
-    if direction.norm_squared() == 0.0 {
-        return Start { x: Vector3::zeros(), lambda: 1.0, near: false };
-    }
-    let line_search::Descent { alpha, slope_a, slope_b } =
-        line_search::descend([a, b], Merit(Problem::Midway, 1.0), &from, &direction, (guess, 1.0));
-    // (1−u) S_A' + u S_B' = 0 on the line.
-    let lambda = -slope_a / slope_b;
-    let lambda = if lambda > 0.0 && lambda.is_finite() { lambda } else { 1.0 };
-    Start { x: from + alpha * direction, lambda, near: false }
+    let on_centre_line = Start { x: centre_line(pair), lambda: 1.0, near: false };
+    between.filter(|start| start.x.iter().all(|c| c.is_finite())).unwrap_or(on_centre_line)
 }
 
 /// The point of the line of centres that divides it as the bounding radii do.

@@ -185,8 +185,8 @@ impl Attempt {
     /// The model at the best point along the step instead.
     #[cold]
     fn shortened(&self, bodies: [&Body; 2], problem: Problem, lambda: f64, axes: Axes) -> LocalModel {
-        let descent = line_search::descend(bodies, Merit(problem, self.lambda), &self.from.x, &self.step, (0.5, 1.0));
-        let x = self.from.x + descent.alpha * self.step;
+        let x = self.from.x
+            + line_search::descend(bodies, Merit(problem, self.lambda), &self.from.x, &self.step) * self.step;
         LocalModel::of(bodies, x, bodies.map(|body| body.locate(&x)), problem.weights(lambda), axes)
     }
 }
