@@ -14,7 +14,7 @@ use nalgebra::Vector3;
 /// Two dual bounds are tried: the local model's where its multipliers are admissible, and the
 /// linear one, φ(x) − |∇φ|·D, for any optimum within a distance D of x.
 pub(crate) fn judged(x: &Vector3<f64>, lambda: f64, s: f64, bodies: [&Body; 2], problem: Problem) -> Solution {
-    let start = Start { x: *x, lambda, near: true };
+    let start = Start { x: *x, lambda };
     let plain = LocalModel::at(bodies, &start, problem, Axes::OfB);
     let values = [plain.q_a.value, plain.q_b.value];
     let gradients = [plain.q_a.gradient, plain.q_b.gradient];

@@ -33,8 +33,6 @@ pub(crate) struct Start {
     pub x: Vector3<f64>,
     /// Ratio of weights λ = u/(1−u).
     pub lambda: f64,
-    /// Whether the active set at x is likely that of the optimum, as from memory or a neighbouring problem.
-    pub near: bool,
 }
 
 /// Both quadratics at a point.

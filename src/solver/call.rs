@@ -108,15 +108,15 @@ impl<'a> Call<'a> {
 
     /// By all solvers in their order, beginning with the model at hand; that of the solution is left there.
     #[inline(never)]
-    pub fn solve(&mut self, problem: Problem, start: &Start, model: &mut LocalModel) -> Result<Solution, SolveError> {
+    pub fn solve(&mut self, problem: Problem, lambda: f64, model: &mut LocalModel) -> Result<Solution, SolveError> {
         if self.settings.back_end == BackEnd::Conic {
             return self.by_cone_program(problem, model);
         }
         let goal = self.goal(problem);
-        let mut solution = newton::solve(self.bodies(), &goal, start, self.axes(), model);
+        let mut solution = newton::solve(self.bodies(), &goal, lambda, self.axes(), model);
         if self.wants_more(&solution, model, &goal) {
             self.iterations += solution.iterations;
-            solution = self.extended(&goal, start, solution, model)?;
+            solution = self.extended(&goal, solution, model)?;
         }
         self.count(&solution);
         Ok(solution)
@@ -137,16 +137,10 @@ impl<'a> Call<'a> {
     }
 
     #[cold]
-    fn extended(
-        &mut self,
-        goal: &Goal,
-        start: &Start,
-        first: Solution,
-        model: &mut LocalModel,
-    ) -> Result<Solution, SolveError> {
-        // Where Newton's method ended without a solution may be anywhere.
+    fn extended(&mut self, goal: &Goal, first: Solution, model: &mut LocalModel) -> Result<Solution, SolveError> {
+        // Where Newton's method ended without a solution may be anywhere, and so may what it began with from memory.
         let known = first.ending != Ending::Unsettled;
-        let start = if known { Start { x: first.x, lambda: first.lambda, near: true } } else { *start };
+        let start = if known { Start { x: first.x, lambda: first.lambda } } else { self.cold() };
         let solution = extended::solve(self.pair, self.bodies(), goal, &start);
         let settled = solution.ending != Ending::Unsettled;
         if known && !(settled && solution.gap() < first.gap()) {
@@ -156,7 +150,7 @@ impl<'a> Call<'a> {
             return Err(SolveError::Unsettled);
         }
         self.flags.insert(Flags::EXTENDED);
-        let start = Start { x: solution.x, lambda: solution.lambda, near: true };
+        let start = Start { x: solution.x, lambda: solution.lambda };
         *model = self.model(&start, goal.problem);
         Ok(solution)
     }
@@ -171,7 +165,7 @@ impl<'a> Call<'a> {
         self.iterations += found.iterations;
         let lambda = found.weight / (1.0 - found.weight);
         let solution = judged(&found.x, lambda, found.s, self.bodies(), problem);
-        *model = self.model(&Start { x: solution.x, lambda, near: true }, problem);
+        *model = self.model(&Start { x: solution.x, lambda }, problem);
         Ok(solution)
     }
 
@@ -205,7 +199,7 @@ impl<'a> Call<'a> {
             return Ok(None);
         }
         let start = match midway {
-            Some((midway, _)) => Start { x: midway.x, lambda: midway.towards(problem), near: true },
+            Some((midway, _)) => Start { x: midway.x, lambda: midway.towards(problem) },
             None => self.cold(),
         };
         let mut model = match midway {
@@ -214,7 +208,7 @@ impl<'a> Call<'a> {
         };
         let solution = match self.first_step(problem, start.lambda, &model) {
             Some(solution) => solution,
-            None => self.solve(problem, &start, &mut model)?,
+            None => self.solve(problem, start.lambda, &mut model)?,
         };
         let found = self.certified(problem, &solution, &model);
         // A scale that cannot be told from 0 is a sign of a core only if there is one.

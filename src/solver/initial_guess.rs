@@ -40,7 +40,7 @@ pub(crate) fn cold(pair: &Pair, [a, b]: [&Body; 2]) -> Start {
     let with_planes = !(a.particle.is_sphere() || b.particle.is_sphere());
     let between = if with_planes { between_polyhedra([a, b], centre_line(pair)) } else { None };
     // Rounding may leave the program without a direction.
-    let on_centre_line = Start { x: centre_line(pair), lambda: 1.0, near: false };
+    let on_centre_line = Start { x: centre_line(pair), lambda: 1.0 };
     between.filter(|start| start.x.iter().all(|c| c.is_finite())).unwrap_or(on_centre_line)
 }
 
@@ -70,7 +70,7 @@ fn between_polyhedra(bodies: [&Body; 2], from: Vector3<f64>) -> Option<Start> {
         x -= way * y;
         let Some(plane) = next else {
             // F = 0: inside both polyhedra.
-            return Some(Start { x, lambda: 1.0, near: false });
+            return Some(Start { x, lambda: 1.0 });
         };
         level -= way * rate;
         hull.join(envelope.face(plane))?;
@@ -298,6 +298,6 @@ impl Hull {
         let to_last = excess(last);
         let step = (0..last).fold(Vector3::zeros(), |sum, i| sum + (excess(i) - to_last) * self.reciprocal[i]);
         let (x, lambda) = (x + step, beta / alpha);
-        (lambda.is_finite() && x.iter().all(|v| v.is_finite())).then_some(Start { x, lambda, near: true })
+        (lambda.is_finite() && x.iter().all(|v| v.is_finite())).then_some(Start { x, lambda })
     }
 }

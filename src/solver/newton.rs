@@ -8,17 +8,15 @@ use crate::bounds::solution::{Ending, Solution};
 use crate::linalg::number::larger;
 use crate::model::dual_path::Optimum;
 use crate::model::kkt_check::Change;
-use crate::model::local_model::{self, Axes, LocalModel, Start};
+use crate::model::local_model::{self, Axes, LocalModel};
 use crate::model::problem::Problem;
 use crate::pair::placed_particle::Body;
 use crate::settings::LEAST_OF_DOUBLES;
 use crate::solver::line_search::{self, Merit};
 use nalgebra::Vector3;
 
-/// Most iterations from nothing, and from memory or a neighbouring problem. Of 20,000 pairs, fewer (20 and 8) sent half as many
-/// again to the extended tier, where a step of two bodies of 1,000 planes takes 75 µs; few come to an end after more.
-pub(crate) const MOST_ITERATIONS: u32 = 30;
-pub(crate) const MOST_FROM_NEAR: u32 = 20;
+/// Most iterations; few searches come to an end after more.
+const MOST_ITERATIONS: u32 = 30;
 
 /// Relative to the smaller particle, a step too short for the next one to be more precise.
 const SHORT: f64 = 1e-9;
@@ -105,13 +103,11 @@ struct Best {
 }
 
 /// Solves for the goal, beginning with the model at hand; that of the solution is left there.
-pub(crate) fn solve(bodies: [&Body; 2], goal: &Goal, start: &Start, axes: Axes, model: &mut LocalModel) -> Solution {
+pub(crate) fn solve(bodies: [&Body; 2], goal: &Goal, mut lambda: f64, axes: Axes, model: &mut LocalModel) -> Solution {
     let problem = goal.problem;
-    let most = if start.near { MOST_FROM_NEAR } else { MOST_ITERATIONS };
     let (flat, shortest) = (flat(bodies), SHORT * local_model::smallest(bodies));
-    let mut lambda = start.lambda;
     let (mut attempt, mut best, mut iterations) = (None::<Attempt>, None::<Best>, 0);
-    while iterations < most {
+    while iterations < MOST_ITERATIONS {
         iterations += 1;
         if let Some(attempt) = attempt.as_ref().filter(|attempt| !attempt.is_descent(bodies, problem, model)) {
             *model = attempt.shortened(bodies, problem, lambda, axes);
