@@ -57,7 +57,7 @@ fn dual_value(bodies: [&Body; 2], start: &Start, problem: Problem, upper: f64) -
                 let (of_a, of_b) = (of_sums(&model.q_a, optimum), of_sums(&model.q_b, optimum));
                 let value = problem.dual(optimum.values.0, optimum.values.1, lambda);
                 let force = problem.weighted(optimum.gradients[0].norm(), optimum.gradients[1].norm(), lambda);
-                let bound = DualBound::after(&model, bodies, problem, &step, (upper, force, 0.0));
+                let bound = DualBound::after(&model, bodies, problem, &step, (upper, force));
                 return Some(value - bound.height - problem.weighted(of_a, of_b, lambda));
             }
         }
