@@ -33,8 +33,6 @@ pub(crate) struct Start {
     pub x: Vector3<f64>,
     /// Ratio of weights λ = u/(1−u).
     pub lambda: f64,
-    /// Whether the active set at x is likely that of the optimum, as from memory or a neighbouring problem.
-    pub near: bool,
 }
 
 /// Both quadratics at a point.
@@ -143,17 +141,10 @@ impl LocalModel {
         Model::new(side(&self.q_a, soft.0), side(&self.q_b, soft.1), problem)
     }
 
-    /// The step to the optimum of both quadratics.
-    ///
-    /// λ is found to `enough` where the active set changes, and to rounding where it is right.
+    /// The step to the optimum of both quadratics, sought from a guess of λ.
     #[inline]
-    pub fn optimum(&self, bodies: [&Body; 2], problem: Problem, guess: f64, enough: f64) -> Option<Step> {
-        let model = self.quadratics(bodies, problem);
-        let step = self.step(bodies, model.solve(guess, enough)?);
-        if step.change == Change::None && !step.optimum.settled {
-            return Some(self.step(bodies, model.search(step.optimum.lambda, 0.0)?));
-        }
-        Some(step)
+    pub fn optimum(&self, bodies: [&Body; 2], problem: Problem, guess: f64) -> Option<Step> {
+        Some(self.step(bodies, self.quadratics(bodies, problem).solve(guess)?))
     }
 
     /// The step to an optimum, with its KKT check.

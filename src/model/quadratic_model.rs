@@ -40,16 +40,8 @@ const FARTHEST: f64 = 1e6;
 /// out then is some 1e-3 of the mismatch.
 const NEAR: f64 = 0.1;
 
-/// The same share at which what is left out is below the rounding of a double: of a point that is taken to the third order, and
-/// to the fourth.
+/// The same share at which what is left out is below the rounding of a double, of a point that is taken to the third order.
 const VERY_NEAR: f64 = 3e-4;
-const RATHER_NEAR: f64 = 1.5e-3;
-
-/// Relative mismatch below which a search that no longer gains is at the end of its digits, in units of rounding.
-const STALLING: f64 = 1e7;
-
-/// Searches in a row that may gain less than half: a side that hardly changes with λ gains late.
-const MOST_SLOW: u32 = 4;
 
 /// Where a search goes from a point of the curve.
 enum Advance<N> {
@@ -110,21 +102,13 @@ impl<'a, N: Single> Model<'a, N> {
         Self { curve: Curve::new(a, b, problem), problem, expanded: of_a + of_b }
     }
 
-    /// Searches λ from a guess until the mismatch of the two sides is `enough`; 0 for as good as rounding allows.
-    /// `None` when a factorisation breaks down.
+    /// Searches λ from a guess until the two sides meet as well as rounding allows. `None` when a factorisation breaks down.
     #[inline(always)]
-    pub fn solve(&self, guess: N, enough: f64) -> Option<Optimum<N>> {
+    pub fn solve(&self, guess: N) -> Option<Optimum<N>> {
         let approximate = guess.approximate();
         let kept = approximate.clamp(LAMBDA_RANGE.0, LAMBDA_RANGE.1);
-        self.search(if kept == approximate { guess } else { N::of(kept) }, enough)
-    }
-
-    /// Searches λ from one that is in its range.
-    #[inline(always)]
-    pub fn search(&self, first: N, enough: f64) -> Option<Optimum<N>> {
-        let mut found = self.curve.probe(first)?;
+        let mut found = self.curve.probe(if kept == approximate { guess } else { N::of(kept) })?;
         let mut bracket = Bracket::about(found.lambda);
-        let (mut last, mut slow) = (f64::INFINITY, 0);
         for _ in 0..MOST_SEARCHES {
             let (growing, falling) = self.sides(&found.values);
             let (difference, larger) =
@@ -132,19 +116,12 @@ impl<'a, N: Single> Model<'a, N> {
             if !difference.is_finite() {
                 return None;
             }
-            // To rounding; or the search, which should do far better, does not even halve it any more.
             let noise = noise(N::UNIT, self.expanded, larger);
-            slow = if difference.abs() > 0.5 * last { slow + 1 } else { 0 };
-            let settled = difference.abs() <= noise;
-            if settled || difference.abs() <= enough {
-                return Some(Optimum { settled, ..self.curve.optimum(&found) });
+            if difference.abs() <= noise {
+                return Some(Optimum { settled: true, ..self.curve.optimum(&found) });
             }
-            if slow >= MOST_SLOW && difference.abs() <= STALLING * N::UNIT * larger {
-                return Some(self.corrected(found));
-            }
-            last = difference.abs();
             bracket.narrow(found.lambda, difference > 0.0);
-            let next = match self.advance(&found, (growing, falling), noise, enough) {
+            let next = match self.advance(&found, (growing, falling), noise) {
                 Advance::Optimum(optimum) => return Some(optimum),
                 Advance::Lambda(next) => bracket.kept(next),
             };
@@ -157,20 +134,17 @@ impl<'a, N: Single> Model<'a, N> {
         Some(self.curve.optimum(&found))
     }
 
-    /// Along the series to the optimum, where that is as near as it has to be for `noise` or `enough`; else to another λ.
+    /// Along the series to the optimum, where that is all that is left; else to another λ.
     #[inline(always)]
-    fn advance(&self, found: &Probe<N>, (growing, falling): (f64, f64), noise: f64, enough: f64) -> Advance<N> {
+    fn advance(&self, found: &Probe<N>, (growing, falling): (f64, f64), noise: f64) -> Advance<N> {
         // In numbers of 32 digits the series gains as many digits a search, but has more to gain.
         let last_at_once = VERY_NEAR * (2.0 * N::UNIT / f64::EPSILON).sqrt().sqrt();
         let series = self.curve.series(found).filter(|series| series.share.approximate() <= NEAR);
         let Some(series) = series else { return Advance::Lambda(N::of(self.far(*found, growing, falling))) };
-        let very_near = series.share.approximate() <= last_at_once;
-        if very_near || enough > 0.0 {
+        if series.share.approximate() <= last_at_once {
             let further = self.curve.along(found, &series);
-            let left = self.mismatch(&further);
-            let settled = very_near && left <= noise && self.curve.is_balanced(&further);
-            if settled || left <= enough {
-                return Advance::Optimum(Optimum { settled, ..further });
+            if self.mismatch(&further) <= noise && self.curve.is_balanced(&further) {
+                return Advance::Optimum(Optimum { settled: true, ..further });
             }
         }
         Advance::Lambda(series.lambda)
@@ -186,16 +160,6 @@ impl<'a, N: Single> Model<'a, N> {
     fn mismatch(&self, optimum: &Optimum<N>) -> f64 {
         let (growing, falling) = self.problem.sides(optimum.values.0, optimum.values.1);
         (growing - falling).approximate().abs()
-    }
-
-    /// Where the rounding of the factorisation moves a side by more than its noise, at random for each λ: the way to the root
-    /// along the curve is smooth.
-    #[cold]
-    fn corrected(self, found: Probe<N>) -> Optimum<N> {
-        let here = self.curve.optimum(&found);
-        let further = self.curve.series(&found).map(|series| self.curve.along(&found, &series));
-        let best = further.filter(|further| self.mismatch(further) < self.mismatch(&here)).unwrap_or(here);
-        Optimum { settled: true, ..best }
     }
 
     /// The next λ where the series is of no use: far off, the logarithms of both sides are nearly linear in ln λ.
@@ -241,10 +205,10 @@ pub(crate) fn both_closest([q_a, q_b]: [&Quadratic; 2], soft: (f64, f64), lambda
     let curve = Curve::new(free, held, Problem::OnB);
     let probe = curve.probe(Twin::new(lambdas[1], 1.0 / lambdas[0]))?;
     let series = curve.series(&probe)?;
-    if !series.share.is_at_most(of(RATHER_NEAR)) {
+    if !series.share.is_at_most(of(VERY_NEAR)) {
         return None;
     }
-    let found = curve.further_along(&probe, &series);
+    let found = curve.along(&probe, &series);
     let noise = noise(Twin::UNIT, held.value, probe.values.1.larger(of(1.0)));
     let settled = (found.values.1 - of(1.0)).magnitude().is_at_most(noise) && curve.is_balanced(&found);
     settled.then(|| [found.lane(1).swapped(), found.lane(0)])
@@ -296,8 +260,8 @@ mod tests {
         let q_b = about([0.95, -0.2, 0.1], Symmetric { xx: 1.8, yx: -0.1, yy: 2.0, zx: 0.4, zy: 0.5, zz: 5.0 });
         let soft = (1.0, 1.0);
         let alone = [Problem::OnA, Problem::OnB]
-            .map(|problem| Model::new(side(&q_a, soft.0), side(&q_b, soft.1), problem).solve(1.0, 0.0).unwrap());
-        let guesses = [alone[0].lambda * (1.0 + 3e-4), alone[1].lambda * (1.0 - 3e-4)];
+            .map(|problem| Model::new(side(&q_a, soft.0), side(&q_b, soft.1), problem).solve(1.0).unwrap());
+        let guesses = [alone[0].lambda * (1.0 + 1e-4), alone[1].lambda * (1.0 - 1e-4)];
         let both = both_closest([&q_a, &q_b], soft, guesses).expect("guesses from nearby");
         for ((problem, alone), both) in [Problem::OnA, Problem::OnB].into_iter().zip(&alone).zip(&both) {
             assert!((both.step - alone.step).norm() < 1e-14, "{problem:?}");

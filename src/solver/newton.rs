@@ -8,7 +8,7 @@ use crate::bounds::solution::{Ending, Solution};
 use crate::linalg::number::larger;
 use crate::model::dual_path::Optimum;
 use crate::model::kkt_check::Change;
-use crate::model::local_model::{self, Axes, LocalModel, Start, Step};
+use crate::model::local_model::{self, Axes, LocalModel, Step};
 use crate::model::problem::Problem;
 use crate::pair::placed_particle::Body;
 use crate::settings::LEAST_OF_DOUBLES;
@@ -16,10 +16,8 @@ use crate::solver::line_search::{self, Merit};
 use nalgebra::Vector3;
 use std::ops::ControlFlow::{self, Break, Continue};
 
-/// Most iterations from nothing, and from memory or a neighbouring problem. Of 20,000 pairs, fewer (20 and 8) sent half as many
-/// again to the extended tier, where a step of two bodies of 1,000 planes takes 75 µs; few come to an end after more.
-pub(crate) const MOST_ITERATIONS: u32 = 30;
-pub(crate) const MOST_FROM_NEAR: u32 = 20;
+/// Most iterations; few searches come to an end after more.
+const MOST_ITERATIONS: u32 = 30;
 
 /// Relative to the smaller particle, a step too short for the next one to be more precise.
 const SHORT: f64 = 1e-9;
@@ -30,18 +28,8 @@ const AS_SHARP: f64 = 8.0;
 /// Relative gap above which an optimum is sought again from nearby.
 const SHARP: f64 = 1e-2;
 
-/// Share of what is still to be gained to which λ is searched, early on and after a step that failed.
-const ROUGH: f64 = 1e-2;
-const FINE: f64 = 1e-4;
-
-/// Steps in a row that may come to nothing.
-const MOST_STOPS: u32 = 3;
-
 /// Iterations granted to sharpen an optimum that is known already.
 const MOST_SHARPENING: u32 = 3;
-
-/// Share of the promised decrease of the merit that a step must bring (Armijo's rule).
-const DECREASE: f64 = 1e-4;
 
 /// What the solver is asked for.
 #[derive(Clone, Copy, Debug)]
@@ -108,22 +96,9 @@ impl Quality {
 }
 
 /// Solves for the goal, beginning with the model at hand; that of the solution is left there.
-pub(crate) fn solve(bodies: [&Body; 2], goal: &Goal, start: &Start, axes: Axes, model: &mut LocalModel) -> Solution {
-    let most = if start.near { MOST_FROM_NEAR } else { MOST_ITERATIONS };
-    let mut search = Search {
-        bodies,
-        goal,
-        near: start.near,
-        axes,
-        model,
-        lambda: start.lambda,
-        lower: f64::NEG_INFINITY,
-        attempt: None,
-        best: None,
-        stops: 0,
-        iterations: 0,
-    };
-    while search.iterations < most && search.stops <= MOST_STOPS {
+pub(crate) fn solve(bodies: [&Body; 2], goal: &Goal, lambda: f64, axes: Axes, model: &mut LocalModel) -> Solution {
+    let mut search = Search { bodies, goal, axes, model, lambda, attempt: None, best: None, iterations: 0 };
+    while search.iterations < MOST_ITERATIONS {
         match search.iterate() {
             Continue(()) => {}
             Break(Some(answer)) => return answer,
@@ -137,19 +112,13 @@ pub(crate) fn solve(bodies: [&Body; 2], goal: &Goal, start: &Start, axes: Axes, 
 struct Search<'a> {
     bodies: [&'a Body<'a>; 2],
     goal: &'a Goal,
-    /// Whether the active set of the first model is likely that of the optimum.
-    near: bool,
     axes: Axes,
     /// The model at hand.
     model: &'a mut LocalModel,
     lambda: f64,
-    /// Dual value of the last model.
-    lower: f64,
     /// The step that led to the model at hand.
     attempt: Option<Attempt>,
     best: Option<Best>,
-    /// Steps in a row that came to nothing.
-    stops: u32,
     iterations: u32,
 }
 
@@ -165,22 +134,17 @@ impl Search<'_> {
     /// Goes on to another model; or ends with an answer, or without one, where no step can be made or no further one is worth it.
     fn iterate(&mut self) -> ControlFlow<Option<Solution>> {
         self.iterations += 1;
-        let failed = self.shorten_if_failed();
-        let upper = self.merit();
-        if !upper.is_finite() {
+        self.shorten_if_failed();
+        if !self.merit().is_finite() {
             return Break(None);
         }
-        let enough = self.accuracy_of_lambda(upper, failed);
-        let Some(step) = self.model.optimum(self.bodies, self.goal.problem, self.lambda, enough) else {
-            return Break(None);
-        };
+        let Some(step) = self.model.optimum(self.bodies, self.goal.problem, self.lambda) else { return Break(None) };
         self.lambda = step.optimum.lambda;
         if step.change == Change::Leaving {
             *self.model = self.model.without_leaving(self.bodies, &step, self.weights(), self.axes);
             self.attempt = None;
             return Continue(());
         }
-        self.lower = self.goal.problem.dual(step.optimum.values.0, step.optimum.values.1, self.lambda);
         let answer = self.answer(&step);
         if answer.is_some() {
             return Break(answer);
@@ -192,36 +156,19 @@ impl Search<'_> {
         Continue(())
     }
 
-    /// Shortens the last step if it did not reduce the merit; whether it failed so.
-    fn shorten_if_failed(&mut self) -> bool {
+    /// Shortens the last step if it did not reduce the merit.
+    fn shorten_if_failed(&mut self) {
         let problem = self.goal.problem;
-        let Some(attempt) = self.attempt.as_ref().filter(|last| !last.is_descent(self.bodies, problem, self.model))
-        else {
-            return false;
-        };
-        let moved = attempt.shorten(self.bodies, problem, self.lambda, self.axes, self.model);
-        self.stops = if moved { 0 } else { self.stops + 1 };
-        true
-    }
-
-    /// The mismatch to which λ is searched. Where the active set is likely right, at once the best λ; else a rough one will do,
-    /// but for a better one after a step that failed.
-    fn accuracy_of_lambda(&self, upper: f64, failed: bool) -> f64 {
-        let problem = self.goal.problem;
-        let share = match () {
-            () if self.near && self.iterations == 1 => 0.0,
-            () if failed => FINE,
-            () => ROUGH,
-        };
-        let behind = if problem == Problem::Midway { upper - self.lower } else { 0.0 };
-        let mismatch = problem.mismatch(self.model.q_a.expansion, self.model.q_b.expansion);
-        share * mismatch.max(behind).min(upper)
+        if let Some(last) = self.attempt.as_ref().filter(|last| !last.is_descent(self.bodies, problem, self.model)) {
+            *self.model = last.shortened(self.bodies, problem, self.lambda, self.axes);
+        }
     }
 
     /// The solution that the optimum of the model is, if it is one and good enough. One that is not is kept if it is the best so far:
     /// optimal, but over a long step; the same from nearby is sharper.
     fn answer(&mut self, step: &Step) -> Option<Solution> {
-        let separating = self.goal.stop_when_separated && self.lower > 1.0 && step.change != Change::Pulling;
+        let lower = self.goal.problem.dual(step.optimum.values.0, step.optimum.values.1, self.lambda);
+        let separating = self.goal.stop_when_separated && lower > 1.0 && step.change != Change::Pulling;
         let optimal = step.change == Change::None && step.optimum.settled;
         if !separating && !optimal {
             return None;
@@ -257,10 +204,8 @@ impl Search<'_> {
 
     /// Goes to the optimum of the model.
     fn take(&mut self, step: &Step) {
-        let merit = self.merit();
-        let promised = larger(merit - self.lower, 0.0);
         let x = self.model.x + step.v;
-        self.attempt = Some(Attempt { from: *self.model, step: step.v, lambda: self.lambda, merit, promised });
+        self.attempt = Some(Attempt { from: *self.model, step: step.v, lambda: self.lambda, merit: self.merit() });
         let points = self.bodies.map(|body| body.locate(&x));
         *self.model = LocalModel::of(self.bodies, x, points, self.weights(), self.axes);
     }
@@ -291,24 +236,20 @@ struct Attempt {
     step: Vector3<f64>,
     lambda: f64,
     merit: f64,
-    promised: f64,
 }
 
 impl Attempt {
-    /// Whether the merit at the end of the step is lower than before by a share of what was promised.
+    /// Whether the merit at the end of the step is no larger than before, but for rounding.
     fn is_descent(&self, bodies: [&Body; 2], problem: Problem, model: &LocalModel) -> bool {
         let merit = model.merit(problem, self.lambda);
-        let enough = self.merit - DECREASE * self.promised;
-        // Two values of S cannot be told apart below their rounding.
-        merit <= enough || merit <= enough + model.merit_rounding(bodies, problem, self.lambda)
+        merit <= self.merit || merit <= self.merit + model.merit_rounding(bodies, problem, self.lambda)
     }
 
-    /// The model at the best point along the step instead; whether that is another point.
+    /// The model at the best point along the step instead.
     #[cold]
-    fn shorten(&self, bodies: [&Body; 2], problem: Problem, lambda: f64, axes: Axes, model: &mut LocalModel) -> bool {
-        let descent = line_search::descend(bodies, Merit(problem, self.lambda), &self.from.x, &self.step, (0.5, 1.0));
-        let x = self.from.x + descent.alpha * self.step;
-        *model = LocalModel::of(bodies, x, bodies.map(|body| body.locate(&x)), problem.weights(lambda), axes);
-        (x - self.from.x).norm() > larger(self.from.points[0].shift, self.from.points[1].shift)
+    fn shortened(&self, bodies: [&Body; 2], problem: Problem, lambda: f64, axes: Axes) -> LocalModel {
+        let x = self.from.x
+            + line_search::descend(bodies, Merit(problem, self.lambda), &self.from.x, &self.step) * self.step;
+        LocalModel::of(bodies, x, bodies.map(|body| body.locate(&x)), problem.weights(lambda), axes)
     }
 }
