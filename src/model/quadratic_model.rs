@@ -43,6 +43,10 @@ const NEAR: f64 = 0.1;
 /// The same share at which what is left out is below the rounding of a double, of a point that is taken to the third order.
 const VERY_NEAR: f64 = 3e-4;
 
+/// Points of both curves from which P1 and P2 are looked for before each is searched alone: where λ was guessed, and where the
+/// series leads from there.
+const MOST_PROBES: usize = 2;
+
 /// Where a search goes from a point of the curve.
 enum Advance<N> {
     Optimum(Optimum<N>),
@@ -185,7 +189,7 @@ pub(crate) fn side(q: &Quadratic, soft: f64) -> Side<'_, f64> {
     Side { value: q.expansion, gradient: &q.gradient, hessian: &q.hessian, soft }
 }
 
-/// P1 and P2 by one step along the series of their curves, from guesses of their λ; `None` where that does not do.
+/// P1 and P2 along the series of their curves, from guesses of their λ; `None` where that does not do.
 ///
 /// Each holds one body at S = 1 and minimises the other's S: the same in two lanes, in one of them with the bodies swapped.
 #[inline(always)]
@@ -203,15 +207,22 @@ pub(crate) fn both_closest([q_a, q_b]: [&Quadratic; 2], soft: (f64, f64), lambda
     let value = Twin::new(q_b.expansion, q_a.expansion);
     let held = Side { value, gradient: &g_held, hessian: &h_held, soft: Twin::new(soft.1, soft.0) };
     let curve = Curve::new(free, held, Problem::OnB);
-    let probe = curve.probe(Twin::new(lambdas[1], 1.0 / lambdas[0]))?;
-    let series = curve.series(&probe)?;
-    if !series.share.is_at_most(of(VERY_NEAR)) {
-        return None;
+    let mut lambda = Twin::new(lambdas[1], 1.0 / lambdas[0]);
+    for _ in 0..MOST_PROBES {
+        let probe = curve.probe(lambda)?;
+        let series = curve.series(&probe)?;
+        if series.share.is_at_most(of(VERY_NEAR)) {
+            let found = curve.along(&probe, &series);
+            let noise = noise(Twin::UNIT, held.value, probe.values.1.larger(of(1.0)));
+            let settled = (found.values.1 - of(1.0)).magnitude().is_at_most(noise) && curve.is_balanced(&found);
+            return settled.then(|| [found.lane(1).swapped(), found.lane(0)]);
+        }
+        if !series.share.is_at_most(of(NEAR)) {
+            return None;
+        }
+        lambda = series.lambda;
     }
-    let found = curve.along(&probe, &series);
-    let noise = noise(Twin::UNIT, held.value, probe.values.1.larger(of(1.0)));
-    let settled = (found.values.1 - of(1.0)).magnitude().is_at_most(noise) && curve.is_balanced(&found);
-    settled.then(|| [found.lane(1).swapped(), found.lane(0)])
+    None
 }
 
 impl Optimum {
@@ -261,16 +272,19 @@ mod tests {
         let soft = (1.0, 1.0);
         let alone = [Problem::OnA, Problem::OnB]
             .map(|problem| Model::new(side(&q_a, soft.0), side(&q_b, soft.1), problem).solve(1.0).unwrap());
-        let guesses = [alone[0].lambda * (1.0 + 1e-4), alone[1].lambda * (1.0 - 1e-4)];
-        let both = both_closest([&q_a, &q_b], soft, guesses).expect("guesses from nearby");
-        for ((problem, alone), both) in [Problem::OnA, Problem::OnB].into_iter().zip(&alone).zip(&both) {
-            assert!((both.step - alone.step).norm() < 1e-14, "{problem:?}");
-            assert!((both.lambda / alone.lambda - 1.0).abs() < 1e-13, "{problem:?}");
-            assert!(problem.mismatch(both.values.0, both.values.1) < 1e-14, "{problem:?}");
-            assert!(both.slope(problem).norm() < 1e-14, "{problem:?}");
+        let guesses = |off: f64| [alone[0].lambda * (1.0 + off), alone[1].lambda * (1.0 - off)];
+        // By one probe, and by two.
+        for off in [1e-4, 1e-2] {
+            let both = both_closest([&q_a, &q_b], soft, guesses(off)).expect("guesses from nearby");
+            for ((problem, alone), both) in [Problem::OnA, Problem::OnB].into_iter().zip(&alone).zip(&both) {
+                assert!((both.step - alone.step).norm() < 1e-14, "{problem:?}");
+                assert!((both.lambda / alone.lambda - 1.0).abs() < 1e-13, "{problem:?}");
+                assert!(problem.mismatch(both.values.0, both.values.1) < 1e-14, "{problem:?}");
+                assert!(both.slope(problem).norm() < 1e-14, "{problem:?}");
+            }
         }
         // From too far, and of no weights, it is left to the search.
-        assert!(both_closest([&q_a, &q_b], soft, guesses.map(|guess| 1.5 * guess)).is_none());
+        assert!(both_closest([&q_a, &q_b], soft, guesses(0.0).map(|guess| 1.5 * guess)).is_none());
         assert!(both_closest([&q_a, &q_b], soft, [-1.0, 1.0]).is_none());
     }
 }
