@@ -7,6 +7,8 @@ Contact detection between potential particles.
   make test     set up, build, and run every test
 
   make wedge    a wedge on two joints: at which friction angle does it slide? results in out/wedge
+  make mpi      a pile of pyramids on several processes, through YADE's mpy; results in out/mpi
+  make mpi-scale  when several processes pay: measured here, and a model; minutes; results in out/mpi/scale
 
   make test-debian13  set up, build and test in a Debian 13 of its own, beside this system; needs root; SUITE=sid: in unstable
 
@@ -24,14 +26,16 @@ Contact detection between potential particles.
 
 Variables, as in "make demo STEPS=1000 BODIES=50":
 
-  STEPS=14000       demo, long (200000): number of time steps
-  BODIES=200        demo, long: number of pyramids
+  STEPS=14000       demo, long (200000), mpi (6000): number of time steps
+  BODIES=200        demo, long, mpi (1000): number of pyramids
+  RANKS=3           mpi: processes; one holds floor and walls, the others the bodies
+  RESUME=1          mpi: go on from the last saved scene
   STARTS=500        long: how often a tiny scene is started
   KILLS=10          long: how often a run is killed and loaded
   FUNCTOR=library   demo: who finds the contacts: library, or builtin for YADE's own functor
   CASES=all         wedge: all, or short for two of them
-  OUTPUT=DIR        demo, wedge, side-by-side, long: where the results go (out/pyramids, ...)
-  THREADS=1         demo: threads of YADE
+  OUTPUT=DIR        demo, wedge, mpi, side-by-side, long: where the results go (out/pyramids, ...)
+  THREADS=1         demo, mpi: threads of YADE (of each process)
   QUICK=1           side-by-side: a little of everything, in seconds
   POSES=1000000     stress: number of poses
   SEED=N            stress: repeats the pairs of that seed; without it each run draws one, and prints it first
@@ -60,7 +64,7 @@ export PATH := $(PATH):$(HOME)/.cargo/bin
 
 heading = @printf '== %s\n' '$(1)'
 
-.PHONY: help demo wedge test test-debian13 side-by-side setup build library glue header lint bench stress fuzz long clean
+.PHONY: help demo wedge mpi mpi-scale test test-debian13 side-by-side setup build library glue header lint bench stress fuzz long clean
 .DEFAULT_GOAL := help
 # The steps of one goal build on each other in the order in which they are named.
 .NOTPARALLEL:
@@ -98,6 +102,19 @@ wedge: export OUTPUT := $(OUTPUT)
 wedge: glue
 	$(call heading,Sliding wedge)
 	@scripts/yade.sh -j$(THREADS) examples/wedge.py
+
+mpi: export STEPS := $(STEPS)
+mpi: export BODIES := $(BODIES)
+mpi: export RESUME := $(RESUME)
+mpi: export OUTPUT := $(OUTPUT)
+mpi: RANKS := $(or $(RANKS),3)
+mpi: glue
+	$(call heading,Pile on $(RANKS) ranks)
+	@scripts/yade_mpi.sh $(RANKS) -j$(THREADS) examples/mpi_pile.py
+
+mpi-scale: glue
+	$(call heading,Scale)
+	@benches/mpi_scale.py
 
 test:
 	@scripts/test.sh

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
 """Which functor finds the contacts: that of this library, or the one built into YADE."""
 
+import yade
 from yade import Ig2_PP_PP_ScGeom, PotentialParticle
 
 # The drop-in serves YADE's own shapes with this library.
@@ -23,6 +24,11 @@ class ContactFunctor:
             self.functor = self.plugin.Ig2_PP_PP_ScGeom_Conic(calContactArea=area, measureTime=measure_time)
         else:
             self.functor = self.plugin.Ig2_ConicPP_ConicPP_ScGeom(calContactArea=area, measureTime=measure_time)
+
+    @property
+    def loop(self):
+        """The contact loop that goes with the functor."""
+        return getattr(self.plugin, "ConicInteractionLoop", yade.InteractionLoop)
 
     @property
     def name(self):

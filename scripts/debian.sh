@@ -112,6 +112,7 @@ stage check "Sources" copy_sources
 stage check "Set-up" in_sources make setup
 stage check "Library and YADE plugin, compared with the YADE of this release" in_sources make build
 stage suite "YADE scenes, -j1" in_sources tests/yade/run.py -j 1
+stage suite "YADE on 1, 2 and 3 ranks" in_sources tests/mpi/run.py
 stage suite "Short demo" in_sources scripts/short_demo.sh
 if [ -e yade-glue/build/python/potential_particles/_glue.so ] && command -v yade >/dev/null; then
     stage suite "Files of this machine's YADE and of the other, loaded by either" scripts/exchange_saves.sh "$ROOT"

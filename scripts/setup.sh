@@ -9,6 +9,8 @@ readonly TABLE=yade-glue/tested_builds.txt
 readonly PACKAGES=(
     # the simulator whose classes the plugin extends, and its Python
     yade libyade python3-yade
+    # several processes through YADE's mpy: mpirun, and MPI for Python
+    openmpi-bin python3-mpi4py
     # to build the plugin
     g++ cmake make python3-dev libboost-python-dev libboost-serialization-dev libeigen3-dev
     # to check it: objdump and nm; leaks and bad memory accesses (libc6-dbg is what valgrind reads)

@@ -37,6 +37,7 @@ for threads in 1 2; do
     stage suite "YADE scenes, -j$threads" tests/yade/run.py -j "$threads"
 done
 
+stage suite "YADE on 1, 2 and 3 ranks" tests/mpi/run.py
 stage suite "YADE killed and loaded, shaken, started often" scripts/short_long.sh
 stage suite "Short demo" scripts/short_demo.sh
 stage suite "Short wedge" scripts/short_wedge.sh

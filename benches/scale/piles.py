@@ -35,8 +35,8 @@ STATE_FIELDS = ("pos", "ori", "vel", "angVel")
 class Pile:
     """Scene of one kind; `copies` compartments of the kept pile, or a loose one to be settled."""
 
-    def __init__(self, kind, count, functor=None, loop=None):
-        self.kind, self.count = kind, count
+    def __init__(self, kind, count, loop=None):
+        self.kind, self.count, self.loop = kind, count, loop
         self.contact = ContactFunctor(LIBRARY, measure_time=False) if kind == PYRAMIDS else None
         self.pyramid = Pyramid(pyramids.SIZE)
         mesh = surface_mesh(self.pyramid.surface)
@@ -120,7 +120,7 @@ class Pile:
 
     def _finish(self):
         if self.kind == PYRAMIDS:
-            O.engines = pyramids.engines(self.contact)
+            O.engines = pyramids.engines(self.contact, self.loop)
             self.contact.prepare()
         else:
             O.engines = [

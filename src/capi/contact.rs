@@ -6,7 +6,7 @@ use super::particle::pp_particle;
 use super::status::*;
 use super::types::*;
 use crate::contact::closest_point::closest_point;
-use crate::contact::detect::{detect_as, detect_carried_as};
+use crate::contact::detect::{carried_on, detect_as, detect_to_carry};
 use crate::{Contact, DetectError, Flags, Memory, Particle, Pose, Section, Settings};
 
 /// Fills settings with the defaults.
@@ -93,19 +93,24 @@ pub unsafe extern "C" fn pp_contact_detect_carried(
         let carried = carried_of(unsafe { carry.as_mut() }.ok_or(PP_NULL_POINTER)?);
         let out = unsafe { output(out) }?;
         let settings = settings_from(unsafe { settings.as_ref() })?;
+        let (a, b) = ((a, pose_a), (b, pose_b));
+        let carried_contact = carried_on(a, b, &settings, carry_tolerance, carried);
+        if let Some(contact) = carried_contact.map_err(|error| detect_status(&error))? {
+            out.write(contact_to(&contact));
+            return Ok(());
+        }
         // SAFETY: NULL or exclusively ours for the call.
         let memory = unsafe { memory.as_mut() };
         let write = |contact: Contact| {
             out.write(contact_to(&contact));
             contact.flags
         };
-        let (a, b) = ((a, pose_a), (b, pose_b));
-        remembering(memory, |memory| detect_carried_as(a, b, &settings, carry_tolerance, (memory, carried), write))
+        remembering(memory, |memory| detect_to_carry(a, b, &settings, carry_tolerance, (memory, carried), write))
     })
 }
 
-/// Flags of an answer without the solver, a cheap proof or a contact that is carried on: it leaves the memory as it was.
-const UNSOLVED: Flags = Flags::BY_SPHERES.with(Flags::BY_FACE).with(Flags::BY_MEMORY).with(Flags::CARRIED);
+/// Flags of a separated pair that the solver never saw.
+const CHEAP_PROOF: Flags = Flags::BY_SPHERES.with(Flags::BY_FACE).with(Flags::BY_MEMORY);
 
 /// Finds one contact and writes it.
 #[inline(always)]
@@ -132,8 +137,8 @@ pub(super) fn remembering(
     let mut remembered = memory.as_deref().map(memory_from);
     let flags = detect(remembered.as_mut()).map_err(|error| detect_status(&error))?;
     match (memory, remembered) {
-        // A cheap proof is over before the memory could be written.
-        (Some(memory), Some(remembered)) if !flags.has_any(UNSOLVED) => *memory = memory_to(remembered),
+        // A cheap proof leaves the memory as it was, and is over before it could be written.
+        (Some(memory), Some(remembered)) if !flags.has_any(CHEAP_PROOF) => *memory = memory_to(remembered),
         _ => {}
     }
     Ok(())

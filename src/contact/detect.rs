@@ -120,12 +120,29 @@ pub fn detect_carried(
     memory: Option<&mut Memory>,
     carried: &mut Carried,
 ) -> Result<Contact, DetectError> {
-    detect_carried_as((a, pose_a), (b, pose_b), settings, tolerance, (memory, carried), |contact| contact)
+    let (a, b) = ((a, pose_a), (b, pose_b));
+    match carried_on(a, b, settings, tolerance, carried)? {
+        Some(contact) => Ok(contact),
+        None => detect_to_carry(a, b, settings, tolerance, (memory, carried), |contact| contact),
+    }
 }
 
-/// The whole of [`detect_carried()`], for every entry that gives a contact another form.
-#[inline(always)]
-pub(crate) fn detect_carried_as<T>(
+/// The contact that is carried on, if it can be.
+#[inline]
+pub(crate) fn carried_on(
+    a: (&Particle, &Pose),
+    b: (&Particle, &Pose),
+    settings: &Settings,
+    tolerance: f64,
+    carried: &mut Carried,
+) -> Result<Option<Contact>, DetectError> {
+    settings.validate()?;
+    SettingsError::check_carry_tolerance(tolerance)?;
+    Ok(if carries(settings, tolerance) { carried.contact(a, b, tolerance) } else { None })
+}
+
+/// The contact from the planes, to be carried on from here.
+pub(crate) fn detect_to_carry<T>(
     a: (&Particle, &Pose),
     b: (&Particle, &Pose),
     settings: &Settings,
@@ -133,21 +150,16 @@ pub(crate) fn detect_carried_as<T>(
     (mut memory, carried): (Option<&mut Memory>, &mut Carried),
     answer: impl Fn(Contact) -> T,
 ) -> Result<T, DetectError> {
-    settings.validate()?;
-    SettingsError::check_carry_tolerance(tolerance)?;
-    if tolerance == 0.0 || settings.formulation != Formulation::Midway || settings.back_end != BackEnd::Fast {
-        return detect_as(a, b, settings, (memory, None), answer);
+    if let (Some(memory), Some((x, lambda))) = (memory.as_deref_mut(), carried.last(a.0, b.0)) {
+        memory.follow(x, lambda);
     }
-    match carried.contact(a, b, tolerance) {
-        Some(contact) => Ok(answer(contact)),
-        None => {
-            if let (Some(memory), Some((x, lambda))) = (memory.as_deref_mut(), carried.last(a.0, b.0)) {
-                memory.follow(x, lambda);
-            }
-            *carried = Carried::default();
-            detect_as(a, b, settings, (memory, Some(carried)), answer)
-        }
-    }
+    *carried = Carried::default();
+    let carried = carries(settings, tolerance).then_some(carried);
+    detect_as(a, b, settings, (memory, carried), answer)
+}
+
+fn carries(settings: &Settings, tolerance: f64) -> bool {
+    tolerance > 0.0 && settings.formulation == Formulation::Midway && settings.back_end == BackEnd::Fast
 }
 
 /// The whole of [`detect()`], for every entry that gives a contact another form. `answer` makes that form where the contact

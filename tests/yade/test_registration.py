@@ -13,7 +13,8 @@ import yade.wrapper
 from harness import *
 
 check = Checks()
-NAMES = ["ConicPotentialParticle", "ScGeomConicPP", "Ig2_ConicPP_ConicPP_ScGeom", "Ig2_PP_PP_ScGeom_Conic"]
+NAMES = ["ConicPotentialParticle", "ScGeomConicPP", "Ig2_ConicPP_ConicPP_ScGeom", "Ig2_PP_PP_ScGeom_Conic", "Bo1_ConicPP_Aabb",
+         "Bo1_PP_Aabb_Conic", "BoundWatch"]
 
 for name in NAMES:
     cls = getattr(yade.wrapper, name)
@@ -30,7 +31,8 @@ check.true(potential_particles.__version__.count(".") == 2, "module version")
 
 for name, base in [("ConicPotentialParticle", "PotentialParticle"), ("ConicPotentialParticle", "Shape"),
                    ("ScGeomConicPP", "ScGeom"), ("Ig2_ConicPP_ConicPP_ScGeom", "IGeomFunctor"),
-                   ("Ig2_PP_PP_ScGeom_Conic", "IGeomFunctor")]:
+                   ("Ig2_PP_PP_ScGeom_Conic", "IGeomFunctor"), ("Bo1_ConicPP_Aabb", "BoundFunctor"),
+                   ("Bo1_PP_Aabb_Conic", "BoundFunctor"), ("BoundWatch", "GlobalEngine")]:
     check.true(name in yade.system.childClasses(base), f"childClasses({base}) has {name}")
     check.true(issubclass(getattr(yade, name), getattr(yade, base)), f"{name} is a {base}")
 
@@ -78,6 +80,13 @@ for key, value in keywords.items():
 same(functor_, copy.copy(functor_), "copy of a functor")
 same(functor_, pickle.loads(pickle.dumps(functor_)), "pickled functor")
 check.equal(functor_.bases, ["ConicPotentialParticle"] * 2, "functor.bases")
+for bounds, shape_name in (yade.Bo1_ConicPP_Aabb(label="boxes"), "ConicPotentialParticle"), (yade.Bo1_PP_Aabb_Conic(), "PotentialParticle"):
+    same(bounds, pickle.loads(pickle.dumps(bounds)), "pickled bounds functor")
+    check.equal(bounds.bases, [shape_name], "its bases")
+watching = yade.BoundWatch(label="watch", dead=True)
+same(watching, pickle.loads(pickle.dumps(watching)), "pickled engine")
+check.equal((watching.requests, watching.label, watching.dead), (0, "watch", True), "engine: attributes")
+check.raises(AttributeError, lambda: setattr(watching, "requests", 1), "a count is read only")
 builtin = yade.Ig2_PP_PP_ScGeom(areaStep=9, twoDimension=True, unitWidth2D=0.5)
 drop_in = yade.Ig2_PP_PP_ScGeom_Conic(**builtin.dict())
 check.equal({key: drop_in.dict()[key] for key in builtin.dict()}, builtin.dict(), "keywords of the built-in functor")
@@ -111,6 +120,11 @@ add(cube(), Vector3(0, 0, 0))
 potential_particles.prepare()
 entered = O.engines[1].boundDispatcher.dispMatrix()
 check.equal(entered.get(("ConicPotentialParticle",)), "PotentialParticle2AABB", "prepare() entered the bounds functor")
+dispatcher = O.engines[1].boundDispatcher
+dispatcher.functors = [yade.Bo1_PP_Aabb_Conic(), yade.Bo1_ConicPP_Aabb(), yade.Bo1_Sphere_Aabb()]
+for one, name in (flat_one, "Bo1_ConicPP_Aabb"), (round_one, "Bo1_PP_Aabb_Conic"), (yade.Sphere(), "Bo1_Sphere_Aabb"):
+    check.equal(type(dispatcher.dispFunctor(one)).__name__, name, "bounds functor of each shape")
+dispatcher.functors = [yade.PotentialParticle2AABB()]
 
 # YADE's recorder of potential particles takes ours.
 with tempfile.TemporaryDirectory() as folder:

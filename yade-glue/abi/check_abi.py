@@ -25,6 +25,9 @@ PLUGIN_CLASSES = {
     "Ig2_ConicPP_ConicPP_ScGeom": "IGeomFunctor",
     "Ig2_PP_PP_ScGeom_Conic": "IGeomFunctor",
     "ConicInteractionLoop": "InteractionLoop",
+    "Bo1_ConicPP_Aabb": "BoundFunctor",
+    "Bo1_PP_Aabb_Conic": "BoundFunctor",
+    "BoundWatch": "GlobalEngine",
 }
 WORD = 8
 SHT_RELA, SHT_NOBITS, SHT_DYNSYM = 4, 8, 11
@@ -172,8 +175,10 @@ class Comparison:
         code = subprocess.run(["objdump", "-d", "--no-show-raw-insn", f"--start-address={start}",
                                f"--stop-address={start + length}", where.path],
                               capture_output=True, text=True, check=True).stdout
-        found = re.findall(r"mov\s+\$0x([0-9a-f]+),%esi\n(?:.*\n){0,12}?.*(?:jmp|call)\s.*<_ZdlPvm", code)
-        sizes = {int(size, 16) for size in found}
+        found = re.findall(r"mov\s+\$0x([0-9a-f]+),%esi\n(?:.*\n){0,12}?.*(jmp|call)\s.*<_ZdlPvm", code)
+        # What a field frees (nodes of a map) is called; the object itself is mostly freed last, by a jump.
+        own = [size for size, how in found if how == "jmp"] or [size for size, _ in found]
+        sizes = {int(size, 16) for size in own}
         declared = self.probe.word(self.probe.defined[f"abi_size_{name}"][0])
         if not sizes:
             self.note(f"{name}: no size found in {deleting} of {where.path.name}")

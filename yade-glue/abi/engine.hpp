@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Engine down to InteractionLoop: what runs in each step, and the one that visits all interactions.
+// Engine, what a scene runs in each step, down to InteractionLoop, the one that visits all interactions.
 #pragma once
 
 #include "serializable.hpp"
@@ -23,7 +23,7 @@ public:
     virtual bool isActivated();
     virtual void action();
 
-    Scene* scene; // set before every step
+    Scene* scene; // set before each step
     struct {
         long nExec;
         unsigned long long nsec;
@@ -43,7 +43,7 @@ PP_ABI_OFFSET(Engine, label, 72);
 
 class GlobalEngine : public Engine {
 public:
-    GlobalEngine();
+    GlobalEngine() { }
     ~GlobalEngine() override;
     PP_ABI_SERIALIZABLE_OVERRIDES
 };

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Functor down to IGeomFunctor: what a dispatcher calls for a pair of shapes.
+// Functor down to IGeomFunctor and BoundFunctor: what a dispatcher calls for a pair of shapes, and for one.
 #pragma once
 
+#include "bound.hpp"
 #include "interaction.hpp"
 #include "serializable.hpp"
 #include "shape.hpp"
@@ -14,6 +15,7 @@
 namespace yade {
 
 class TimingDeltas;
+class Body;
 
 class Functor : public Serializable {
 public:
@@ -88,5 +90,28 @@ public:
     virtual void preStep();
 };
 PP_ABI_SIZE(IGeomFunctor, 88);
+
+template <class Dispatch, class Result, class Arguments>
+class Functor1D : public Functor, public FunctorWrapper<Result, Arguments> {
+public:
+    Functor1D() { }
+    ~Functor1D() override { }
+    std::string getBaseClassName(unsigned int index = 0) const override;
+    int getBaseClassNumber() const override;
+    std::string getClassName() const override;
+    virtual std::string get1DFunctorType1() const;
+    std::vector<std::string> getFunctorTypes() const override;
+};
+
+using BoundArguments
+    = boost::mpl::vector<const boost::shared_ptr<Shape>&, boost::shared_ptr<Bound>&, const Se3r&, const Body*>;
+
+class BoundFunctor : public Functor1D<Shape, void, BoundArguments> {
+public:
+    BoundFunctor() { }
+    ~BoundFunctor() override;
+    PP_ABI_SERIALIZABLE_OVERRIDES
+};
+PP_ABI_SIZE(BoundFunctor, 88);
 
 } // namespace yade

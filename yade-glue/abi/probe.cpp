@@ -2,10 +2,13 @@
 //
 // Raw material for check_abi.py: for each declared class its size, and a class derived from it
 // whose virtual table the compiler writes from our declaration. Compiled and examined, never run.
+#include "body.hpp"
+#include "bound.hpp"
 #include "engine.hpp"
 #include "functor.hpp"
 #include "interaction.hpp"
 #include "knksphys.hpp"
+#include "scene.hpp"
 #include "scgeom.hpp"
 #include "serializable.hpp"
 #include "shape.hpp"
@@ -38,6 +41,13 @@ PROBE(KnKsPhys)
 PROBE(Interaction)
 PROBE(Functor)
 PROBE(IGeomFunctor)
+PROBE(BoundFunctor)
+PROBE(Bound)
+PROBE(Aabb)
 PROBE(Engine)
 PROBE(GlobalEngine)
+PROBE(Body)
+PROBE(BodyContainer)
+PROBE(Cell)
+PROBE(Scene)
 PROBE(InteractionLoop)

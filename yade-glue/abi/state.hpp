@@ -10,10 +10,12 @@
 
 namespace yade {
 
-struct Se3r {
+// A template, since its name is part of the names of functions.
+template <class Number> struct Se3 {
     Vector3r position;
     Quaternionr orientation;
 };
+using Se3r = Se3<Real>;
 
 class State : public Serializable, public Indexable {
 public:

@@ -20,7 +20,8 @@ namespace {
           "A convex shape of planes (a, b, c, d), rounding radius r, sphericity k and shadow sphere of radius R:\n"
           "(1-k)/r^2 * sum <a x + b y + c z - d>^2 + k/R^2 * |x|^2 = 1 on the surface, with <t> = max(t, 0).\n"
           "An invalid particle raises ValueError when it is made or changed. Without any box attribute the\n"
-          "bounding box is computed. Use with PotentialParticle2AABB and Ig2_ConicPP_ConicPP_ScGeom.";
+          "bounding box is computed. Use with PotentialParticle2AABB, or BoundWatch and Bo1_ConicPP_Aabb, and\n"
+          "Ig2_ConicPP_ConicPP_ScGeom.";
 
     constexpr pp_pose identity = { { 0, 0, 0 }, { 1, 0, 0, 0 } };
 

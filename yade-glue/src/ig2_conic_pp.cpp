@@ -15,7 +15,6 @@
 #include <boost/make_shared.hpp>
 
 #include <algorithm>
-#include <iterator>
 #include <limits>
 #include <typeinfo>
 #include <utility>
@@ -85,9 +84,9 @@ struct Ig2_ConicPP_ConicPP_ScGeom::Pair {
     const bool real;
 
     // Where a ConicInteractionLoop runs: what it knows already.
-    const BodyInStep* body1 = nullptr;
-    const BodyInStep* body2 = nullptr;
-    PairInStep* known = nullptr;
+    const BodyInStep* const body1;
+    const BodyInStep* const body2;
+    PairInStep* const known;
 
     const Particle* particle1 = nullptr;
     const Particle* particle2 = nullptr;
@@ -121,21 +120,6 @@ struct Ig2_ConicPP_ConicPP_ScGeom::Pair {
         return true;
     }
 
-    // What the loop that runs knows of both bodies and of the pair, if it is one of ours; a periodic image moves by itself.
-    void findStep()
-    {
-        Step* const step = Step::current();
-        if (!step || !shift2.isZero(0))
-            return;
-        body1 = step->body(interaction->id1, cm1, state1);
-        body2 = step->body(interaction->id2, cm2, state2);
-        known = step->pair(*interaction);
-        if (!known || !body1 || !body2 || !body1->particle || !body2->particle)
-            body1 = body2 = nullptr, known = nullptr;
-        else
-            step->fetchAhead(*interaction);
-    }
-
     void findParticles()
     {
         if (known) {
@@ -147,13 +131,10 @@ struct Ig2_ConicPP_ConicPP_ScGeom::Pair {
         }
     }
 
-    // Whether nothing can have changed for a pair that does not touch.
-    bool sleeps() const { return known && !real && !force && known->sleeps(*interaction, *body1, *body2); }
-
     // Whether they were apart, and have not moved by the distance between them since.
     bool isKeptApart()
     {
-        const double left = own
+        const double left = own && !own->carry
             ? own->apart.left(*particle1, *particle2, state1.se3.orientation, state2.se3.orientation, branch())
             : 0;
         if (left > 0)
@@ -163,17 +144,17 @@ struct Ig2_ConicPP_ConicPP_ScGeom::Pair {
 
     void noteApart(double distance)
     {
-        if (own)
-            own->apart.note(*particle1, *particle2, state1.se3.orientation, state2.se3.orientation, branch(), distance);
-        noteRoom(own ? own->apart.left(*particle1, *particle2, state1.se3.orientation, state2.se3.orientation, branch()) : 0);
+        if (!own)
+            return;
+        own->carry.reset();
+        own->apart.note(*particle1, *particle2, state1.se3.orientation, state2.se3.orientation, branch(), distance);
+        noteRoom(own->apart.left(*particle1, *particle2, state1.se3.orientation, state2.se3.orientation, branch()));
     }
 
     void noteRoom(double room)
     {
-        if (!known)
-            return;
-        known->note(*interaction, *body1, *body2, room);
-        std::fill(std::begin(known->places), std::end(known->places), nullptr);
+        if (known)
+            known->note(*interaction, *body1, *body2, room);
     }
 
     void noteTouching()
@@ -181,10 +162,9 @@ struct Ig2_ConicPP_ConicPP_ScGeom::Pair {
         if (!known)
             return;
         known->note(*interaction, *body1, *body2, 0);
-        known->places[0] = interaction.get();
-        known->places[1] = geom;
-        known->places[2] = own ? own->carry.get() : nullptr;
-        known->places[3] = interaction->phys.get();
+        known->geom = geom;
+        known->carry = own ? own->carry.get() : nullptr;
+        known->phys = interaction->phys.get();
     }
 
     // Ends the step for this pair. The stored normal must still be that of the last step.
@@ -209,6 +189,22 @@ bool Ig2_ConicPP_ConicPP_ScGeom::go(const boost::shared_ptr<Shape>& cm1, const b
         const AcceptedSettings& settings = *accepted.get();
         Counters::Row& counts = counters.ofThisThread();
         const Stopwatch stopwatch(counts, settings.given.measureTime);
+        const BodyInStep *body1 = nullptr, *body2 = nullptr;
+        PairInStep* known = nullptr;
+        // A periodic image moves by itself.
+        if (Step* const step = Step::current(); step && shift2.isZero(0)) {
+            body1 = step->body(interaction->id1, cm1, state1);
+            body2 = step->body(interaction->id2, cm2, state2);
+            known = body1 && body2 && body1->particle && body2->particle ? step->pair(*interaction) : nullptr;
+            if (known) {
+                step->fetchAhead(*interaction);
+                if (!real && !force && known->sleeps(*interaction, *body1, *body2)) {
+                    counts.add(Count::calls);
+                    counts.add(Count::motion);
+                    return false;
+                }
+            }
+        }
         // The dispatcher calls with what get2DFunctorType1/2 say, or shapes derived from it.
         Pair pair { cm1,
                     cm2,
@@ -221,13 +217,10 @@ bool Ig2_ConicPP_ConicPP_ScGeom::go(const boost::shared_ptr<Shape>& cm1, const b
                     interaction,
                     counts,
                     settings,
-                    real };
-        pair.findStep();
-        if (pair.sleeps()) {
-            counts.add(Count::calls);
-            counts.add(Count::motion);
-            return false;
-        }
+                    real,
+                    body1,
+                    body2,
+                    known };
         if (pair.shape1.isBoundary && pair.shape2.isBoundary)
             return false;
         counts.add(Count::calls);

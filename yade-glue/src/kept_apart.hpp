@@ -5,9 +5,8 @@
 
 #include "../abi/state.hpp"
 #include "particle.hpp"
-#include "turned.hpp"
+#include "turn_bound.hpp"
 
-#include <cmath>
 #include <cstdint>
 
 namespace potential_particles {
@@ -23,7 +22,7 @@ public:
         // The rounding of poses, over ten times of it; lengths of quaternions are taken for 1 below.
         const double lengths = particle1.boundingRadius() + particle2.boundingRadius() + branch.norm();
         const double room = distance - 1e-14 * lengths;
-        if (!(room > 0) || !isUnitQuaternion(turn1) || !isUnitQuaternion(turn2))
+        if (!(room > 0) || !isUnit(turn1) || !isUnit(turn2))
             return;
         serial1 = particle1.serial;
         serial2 = particle2.serial;
@@ -42,8 +41,8 @@ public:
     {
         if (!(limit > 0) || serial1 != particle1.serial || serial2 != particle2.serial)
             return 0;
-        const double moved = (branch - fromBranch).norm() + particle1.boundingRadius() * turnedFromUnit(from1, turn1)
-            + particle2.boundingRadius() * turnedFromUnit(from2, turn2);
+        const double moved = (branch - fromBranch).norm() + particle1.boundingRadius() * wayOfTurn(from1, turn1)
+            + particle2.boundingRadius() * wayOfTurn(from2, turn2);
         // Not a number where a pose is not.
         return moved < limit ? limit - moved : 0;
     }

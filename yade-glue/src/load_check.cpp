@@ -8,9 +8,12 @@
 
 #include "../abi/functor.hpp"
 #include "../abi/knksphys.hpp"
+#include "../abi/scene.hpp"
 #include "../abi/scgeom.hpp"
 #include "../abi/shape.hpp"
 
+#include "bo1_conic_pp.hpp"
+#include "bound_watch.hpp"
 #include "conic_potential_particle.hpp"
 #include "ig2_conic_pp.hpp"
 #include "sc_geom_conic_pp.hpp"
@@ -65,6 +68,11 @@ namespace {
     template <> Vector3r Values::next() { return Vector3r(number(), number(), number()); }
     template <> Vector3i Values::next() { return Vector3i::Constant(next<int>()) + Vector3i(0, 1000, 2000); }
     template <> Quaternionr Values::next() { return Quaternionr(number(), number(), number(), number()).normalized(); }
+    template <> Cell::Matrix Values::next()
+    {
+        Cell::Matrix matrix = 100 * Cell::Matrix::Identity(); // the cell inverts it
+        return matrix.colwise() + next<Vector3r>();
+    }
     template <> std::vector<double> Values::next() { return { number(), number() }; }
     template <> std::vector<Vector3r> Values::next() { return { next<Vector3r>(), next<Vector3r>() }; }
 
@@ -96,6 +104,16 @@ namespace {
             } else {
                 compare<Value>(name, access, values.template next<Value>());
             }
+            return *this;
+        }
+
+        // A shared pointer, to a new object of a class of YADE.
+        template <class Value> Probe& pointer(const char* name, const char* ofClass, boost::shared_ptr<Value> Class::*member)
+        {
+            const py::object given = py::import("yade.wrapper").attr(ofClass)();
+            object.attr(name) = given;
+            if ((seen.*member).get() != &py::extract<Value&>(given)())
+                differences.push_back(std::string(className) + "." + name + ": set from Python, not found at its declared place");
             return *this;
         }
 
@@ -267,6 +285,81 @@ namespace {
             found.push_back("IGeomFunctor: virtual calls on Ig2_PP_PP_ScGeom do not answer as they should");
     }
 
+    void checkBound(Differences& found)
+    {
+        Probe<Aabb>(found, "Aabb")
+            .field<int>("lastUpdateIter", [](Aabb& b) -> int& { return b.lastUpdateIter; })
+            .field<Vector3r>("refPos", [](Aabb& b) -> Vector3r& { return b.refPos; })
+            .field<double>("sweepLength", [](Aabb& b) -> double& { return b.sweepLength; })
+            .field<Vector3r>("color", [](Aabb& b) -> Vector3r& { return b.color; })
+            .field<Vector3r>("min", [](Aabb& b) -> Vector3r& { return b.min; })
+            .field<Vector3r>("max", [](Aabb& b) -> Vector3r& { return b.max; });
+        Probe<BoundFunctor> probe(found, "PotentialParticle2AABB");
+        probe.field<std::string>("label", [](BoundFunctor& f) -> std::string& { return f.label; });
+        if (probe.instance().get1DFunctorType1() != "PotentialParticle")
+            found.push_back("BoundFunctor: virtual calls on PotentialParticle2AABB do not answer as they should");
+    }
+
+    void checkEngine(Differences& found)
+    {
+        Probe<GlobalEngine> probe(found, "GlobalEngine");
+        probe.field<bool>("dead", [](GlobalEngine& e) -> bool& { return e.dead; })
+            .field<int>("ompThreads", [](GlobalEngine& e) -> int& { return e.ompThreads; })
+            .field<long>("execCount", [](GlobalEngine& e) -> long& { return e.timingInfo.nExec; })
+            .field<std::string>("label", [](GlobalEngine& e) -> std::string& { return e.label; });
+        if (!probe.instance().isActivated())
+            found.push_back("GlobalEngine: virtual calls do not answer as they should");
+    }
+
+    void checkBody(Differences& found)
+    {
+        Probe<Body>(found, "Body")
+            .field("id", &Body::id)
+            .field("mask", &Body::groupMask)
+            .field("flags", &Body::flags)
+            .field("subdomain", &Body::subdomain)
+            .pointer("state", "State", &Body::state)
+            .pointer("shape", "PotentialParticle", &Body::shape)
+            .pointer("bound", "Aabb", &Body::bound)
+            .field("clumpId", &Body::clumpId)
+            .field("iterBorn", &Body::iterBorn)
+            .field("timeBorn", &Body::timeBorn);
+    }
+
+    void checkScene(Differences& found)
+    {
+        using S = Scene;
+        Probe<Scene> probe(found, "Scene");
+        probe.field("dt", &S::dt)
+            .field("iter", &S::iter)
+            .field("time", &S::time)
+            .field("isPeriodic", &S::isPeriodic)
+            .field("trackEnergy", &S::trackEnergy)
+            .field("doSort", &S::doSort)
+            .field("selectedBody", &S::selectedBody)
+            .field("subdomain", &S::subdomain);
+        Probe<Cell>(found, "Cell")
+            .field("hSize", &Cell::hSize)
+            .field("shearTrsf", &Cell::shearTrsf)
+            .field("unshearTrsf", &Cell::unshearTrsf);
+        // What Python does not show is asked of YADE's own functions.
+        S& scene = probe.instance();
+        if (!scene.cell || scene.cell->getClassName() != "Cell")
+            found.push_back("Scene.cell: not found at its declared place");
+        if (!scene.bodies || scene.bodies->getClassName() != "BodyContainer") {
+            found.push_back("Scene.bodies: not found at its declared place");
+            return;
+        }
+        const auto body = boost::shared_ptr<Body>(new Body);
+        scene.bodies->body.push_back(body);
+        if (Body::byId(0, &scene) != body)
+            found.push_back("BodyContainer.body: not found at its declared place");
+        const auto engine = boost::shared_ptr<Engine>(new BoundWatch);
+        scene.engines.push_back(engine);
+        if (scene.engineByName("BoundWatch") != engine)
+            found.push_back("Scene.engines: not found at its declared place");
+    }
+
     // --- virtual tables ---------------------------------------------------------------------
 
     constexpr std::size_t firstVirtual = 2; // behind offset-to-top and type information
@@ -325,6 +418,16 @@ namespace {
         if (ours == 0 || ours != theirs)
             found.push_back("Ig2_ConicPP_ConicPP_ScGeom: virtual table of " + std::to_string(ours)
                             + " words, Ig2_PP_PP_ScGeom has " + std::to_string(theirs));
+        const Bo1_ConicPP_Aabb bounds;
+        const py::object builtinBounds = py::import("yade.wrapper").attr("PotentialParticle2AABB")();
+        const std::size_t own = tableOf(&bounds).words;
+        const std::size_t other = tableOf(&py::extract<BoundFunctor&>(builtinBounds)()).words;
+        if (own == 0 || own != other)
+            found.push_back("Bo1_ConicPP_Aabb: virtual table of " + std::to_string(own)
+                            + " words, PotentialParticle2AABB has " + std::to_string(other));
+        const BoundWatch watch;
+        const py::object plainEngine = py::import("yade.wrapper").attr("GlobalEngine")();
+        compareTables(found, "BoundWatch", watch, py::extract<GlobalEngine&>(plainEngine)(), 16, { 2, 3, 4, 6, 12, 15 });
     }
 
 } // namespace
@@ -332,8 +435,8 @@ namespace {
 std::vector<std::string> differencesOfLayout()
 {
     Differences found;
-    const std::array checks
-        = { checkShape, checkState, checkGeometry, checkPhysics, checkInteraction, checkFunctor, checkTables };
+    const std::array checks = { checkShape,   checkState, checkGeometry, checkPhysics, checkInteraction, checkFunctor,
+                                checkBound,   checkEngine, checkBody,    checkScene,   checkTables };
     for (const auto check : checks) {
         try {
             check(found);

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "particle.hpp"
 
+#include <algorithm>
 #include <atomic>
 #include <cstring>
+#include <iterator>
 #include <limits>
+#include <mutex>
 #include <stdexcept>
+#include <unordered_map>
 
 namespace potential_particles {
 
@@ -50,14 +54,59 @@ bool Definition::roughlyDescribes(const yade::PotentialParticle& shape) const
     return sameBits(r, shape.r) && sameBits(k, shape.k) && sameBits(R, shape.R);
 }
 
+bool Definition::sameAs(const Definition& other) const
+{
+    return sameBits(r, other.r) && sameBits(k, other.k) && sameBits(R, other.R) && sameBits(a, other.a)
+        && sameBits(b, other.b) && sameBits(c, other.c) && sameBits(d, other.d);
+}
+
+std::size_t Definition::hash() const
+{
+    std::size_t sum = a.size();
+    const auto add = [&sum](double value) {
+        std::uint64_t bits;
+        std::memcpy(&bits, &value, sizeof bits);
+        sum = (sum ^ bits) * 0x9e3779b97f4a7c15u;
+        sum ^= sum >> 32;
+    };
+    for (const auto* list : { &a, &b, &c, &d })
+        for (const double value : *list)
+            add(value);
+    for (const double value : { r, k, R })
+        add(value);
+    return sum;
+}
+
 bool Definition::listsAgree() const
 {
     return a.size() == b.size() && a.size() == c.size() && a.size() == d.size();
 }
 
+// One particle for all bodies of one shape: the planes of a scene then stay in the caches. Shapes are compared bit for bit.
 std::shared_ptr<const Particle> Particle::make(Definition definition)
 {
-    return std::shared_ptr<const Particle>(new Particle(std::move(definition)));
+    static std::mutex& mutex = *new std::mutex;
+    static auto& known = *new std::unordered_multimap<std::size_t, std::weak_ptr<const Particle>>;
+    static std::size_t sweepAt = 64;
+
+    const std::size_t key = definition.hash();
+    {
+        const std::lock_guard<std::mutex> lock(mutex);
+        const auto [first, last] = known.equal_range(key);
+        for (auto entry = first; entry != last; ++entry)
+            if (auto particle = entry->second.lock(); particle && particle->definition.sameAs(definition))
+                return particle;
+    }
+    // Made outside the lock: two threads may both make one, which is waste and no error.
+    const std::shared_ptr<const Particle> made(new Particle(std::move(definition)));
+    const std::lock_guard<std::mutex> lock(mutex);
+    if (known.size() >= sweepAt) {
+        for (auto entry = known.begin(); entry != known.end();)
+            entry = entry->second.expired() ? known.erase(entry) : std::next(entry);
+        sweepAt = std::max<std::size_t>(64, 2 * known.size());
+    }
+    known.emplace(key, made);
+    return made;
 }
 
 Particle::Particle(Definition given)
@@ -84,6 +133,7 @@ Particle::Particle(Definition given)
     }
     owned.reset(made);
     requireOk(pp_particle_bounding_radius(made, &radius));
+    reaches = Support(definition, made, radius);
 }
 
 const pp_particle* Particle::require() const

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "../abi/shape.hpp"
+#include "support.hpp"
 
 #include <potential_particles.h>
 
@@ -25,6 +26,8 @@ struct Definition {
     bool describes(const yade::PotentialParticle& shape) const;
     // r, k and R alone.
     bool roughlyDescribes(const yade::PotentialParticle& shape) const;
+    bool sameAs(const Definition& other) const;
+    std::size_t hash() const;
     bool listsAgree() const;
 };
 
@@ -43,6 +46,7 @@ public:
     // Throws std::invalid_argument with the refusal when there is no handle.
     const pp_particle* require() const;
     double boundingRadius() const { return radius; }
+    const Support& support() const { return reaches; }
 
     const Definition definition;
     // No other particle of this process has it, before or after: an address may be used again.
@@ -58,6 +62,7 @@ private:
     std::unique_ptr<pp_particle, Release> owned;
     std::string whyNot;
     double radius;
+    Support reaches;
 };
 
 // Throws std::invalid_argument with the library's sentence unless the status is PP_OK.

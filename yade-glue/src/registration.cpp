@@ -3,6 +3,8 @@
 
 #include "../abi/registry.hpp"
 
+#include "bo1_conic_pp.hpp"
+#include "bound_watch.hpp"
 #include "conic_interaction_loop.hpp"
 #include "conic_potential_particle.hpp"
 #include "ig2_conic_pp.hpp"
@@ -40,7 +42,10 @@ void registerClasses()
     registerWithFactory<ScGeomConicPP>(classNames[1]);
     registerWithFactory<Ig2_ConicPP_ConicPP_ScGeom>(classNames[2]);
     registerWithFactory<Ig2_PP_PP_ScGeom_Conic>(classNames[3]);
-    registerWithFactory<ConicInteractionLoop>(classNames[4]);
+    registerWithFactory<Bo1_ConicPP_Aabb>(classNames[4]);
+    registerWithFactory<Bo1_PP_Aabb_Conic>(classNames[5]);
+    registerWithFactory<BoundWatch>(classNames[6]);
+    registerWithFactory<ConicInteractionLoop>(classNames[7]);
 
     // The list of plugins is read once, when YADE starts; this enters classes later than that.
     Singleton<yade::Omega>::instance().buildDynlibDatabase({ std::begin(classNames), std::end(classNames) });

@@ -11,7 +11,8 @@ void registerClasses();
 
 // In the order in which bases come before what derives from them.
 constexpr const char* classNames[]
-    = { "ConicPotentialParticle", "ScGeomConicPP", "Ig2_ConicPP_ConicPP_ScGeom", "Ig2_PP_PP_ScGeom_Conic",
+    = { "ConicPotentialParticle", "ScGeomConicPP",     "Ig2_ConicPP_ConicPP_ScGeom", "Ig2_PP_PP_ScGeom_Conic",
+        "Bo1_ConicPP_Aabb",       "Bo1_PP_Aabb_Conic", "BoundWatch",
         "ConicInteractionLoop" };
 
 } // namespace potential_particles

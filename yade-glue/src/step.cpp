@@ -4,7 +4,7 @@
 #include "../abi/shape.hpp"
 #include "particle_of.hpp"
 #include "pose.hpp"
-#include "turned.hpp"
+#include "turn_bound.hpp"
 
 #include <cmath>
 #include <limits>
@@ -45,9 +45,10 @@ void Step::look(BodyInStep& body, const boost::shared_ptr<yade::Shape>& shape, c
         if (!particle->handle() || pp_frame_from_pose(&pose, &body.frame) != PP_OK)
             particle = nullptr;
         const double radius = particle ? particle->boundingRadius() : 0;
-        const double way = (position - body.position).norm() + radius * turned(body.orientation, orientation);
+        const double way = (position - body.position).norm() + radius * wayOfTurn(body.orientation, orientation);
         const double sum = body.travelled + way * (1 + 1e-12);
-        const bool reachesBack = particle && particle == body.particle && seen != 0 && std::isfinite(sum);
+        const bool reachesBack
+            = particle && particle == body.particle && seen != 0 && isUnit(body.orientation) && std::isfinite(sum);
         if (!reachesBack) {
             body.generation = nextGeneration();
             body.travelled = 0;
@@ -55,7 +56,7 @@ void Step::look(BodyInStep& body, const boost::shared_ptr<yade::Shape>& shape, c
             body.travelled = std::nextafter(sum, std::numeric_limits<double>::infinity());
         }
         body.particle = particle;
-        body.boundary = potentialParticle.isBoundary;
+        body.state = &state;
         body.position = position;
         body.orientation = orientation;
     } catch (...) {

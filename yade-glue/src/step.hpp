@@ -23,7 +23,7 @@ public:
     double travelled = 0;
     // Another one whenever that bound does not reach back: a new particle, or a motion without a bound. Never 0.
     std::uint64_t generation = 0;
-    bool boundary = false;
+    const yade::State* state = nullptr; // to be fetched, never followed
 
 private:
     friend class Step;
@@ -43,8 +43,11 @@ struct alignas(64) PairInStep {
     std::uint64_t generation1 = 0, generation2 = 0;
     // They do not touch while the bodies have travelled less than this, taken together.
     double wakes = 0;
-    // Where the data of a contact lies, to be fetched before its turn; never followed, since it may be gone.
-    const void* places[4] = {};
+    // Where its data lies, to be fetched before its turn; never followed, since it may be gone. A geometry only if they touch.
+    const void* interaction = nullptr;
+    const void* geom = nullptr;
+    const void* carry = nullptr;
+    const void* phys = nullptr;
 
     bool sleeps(const yade::Interaction& pair, const BodyInStep& body1, const BodyInStep& body2) const
     {
@@ -55,6 +58,8 @@ struct alignas(64) PairInStep {
     // They are `room` apart now; 0: nothing is known.
     void note(const yade::Interaction& pair, const BodyInStep& body1, const BodyInStep& body2, double room)
     {
+        interaction = &pair;
+        geom = carry = phys = nullptr;
         id1 = pair.id1;
         id2 = pair.id2;
         generation1 = body1.generation;
@@ -98,30 +103,40 @@ public:
         return pair.linIx >= 0 ? pairs.at(static_cast<std::size_t>(pair.linIx)) : nullptr;
     }
 
-    // Asks for the data of the contact that is so many places further in YADE's list.
+    // Asks for the data of the pair that is so many places further in YADE's list.
     void fetchAhead(const yade::Interaction& pair) const
     {
         const PairInStep* const next = pairs.find(static_cast<std::size_t>(pair.linIx) + ahead);
-        if (!next)
+        if (!next || !next->interaction)
             return;
-        fetch<yade::Interaction>(next->places[0]);
-        fetch<char[lineSize * 4]>(next->places[1]);
-        fetch<pp_carry>(next->places[2]);
-        fetch<char[lineSize * 8]>(next->places[3]);
+        fetch(next->interaction, sizeof(yade::Interaction));
+        const BodyInStep* const bodiesOfNext[] = { bodies.find(next->id1), bodies.find(next->id2) };
+        for (const BodyInStep* body : bodiesOfNext)
+            fetch(body, next->geom ? sizeof(BodyInStep) : lineSize);
+        if (!next->geom)
+            return;
+        fetch(next->geom, geomSize);
+        fetch(next->carry, sizeof(pp_carry));
+        fetch(next->phys, physSize);
+        for (const BodyInStep* body : bodiesOfNext)
+            fetch(body->state, stateSize);
     }
 
 private:
     // Contacts are some hundred nanoseconds apart, and memory as far away.
-    static constexpr std::size_t ahead = 4;
+    static constexpr std::size_t ahead = 6;
     static constexpr std::size_t lineSize = 64;
+    // What a contact touches of ScGeom, KnKsPhys and State.
+    static constexpr std::size_t geomSize = 256, physSize = 480, stateSize = 240;
     static constexpr std::uint64_t busy = ~std::uint64_t(0);
 
-    template <class Object> static void fetch(const void* place)
+    static void fetch(const void* place, std::size_t size)
     {
         if (!place)
             return;
-        for (std::size_t i = 0; i < sizeof(Object); i += lineSize)
-            __builtin_prefetch(static_cast<const char*>(place) + i);
+        // GCC 12 takes a function of __builtin_prefetch alone for one without effect, and drops it.
+        for (std::size_t i = 0; i < size; i += lineSize)
+            asm volatile("prefetcht0 (%0)" : : "r"(static_cast<const char*>(place) + i));
     }
 
     void look(BodyInStep& body, const boost::shared_ptr<yade::Shape>& shape, const yade::State& state);

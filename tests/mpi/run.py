@@ -1,0 +1,186 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""YADE on one, two and three ranks: the same results, one set of files, and a clear end when something fails.
+
+    tests/mpi/run.py
+
+Starts scene.py and the pile of examples/ through scripts/yade_mpi.sh, and judges what they write. The last line is
+'N passed, N failed'; exit status 1 if anything failed.
+"""
+import json
+import os
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+import numpy as np
+
+HERE = Path(__file__).resolve().parent
+TOP = HERE.parent.parent
+SECONDS = 100
+passed = failed = 0
+
+
+def check(good, text):
+    global passed, failed
+    if good:
+        passed += 1
+    else:
+        failed += 1
+        print(f"FAILED: {text}", flush=True)
+
+
+def command(ranks, *words):
+    return [str(TOP / "scripts" / "yade_mpi.sh"), str(ranks), "-j1", *map(str, words)]
+
+
+ENVIRONMENT = dict(os.environ, PYTHONPATH=str(TOP / "tests" / "yade"))
+
+
+def run(ranks, *words, **environment):
+    """(exit status, output) of a script on so many ranks."""
+    done = subprocess.run(command(ranks, *words), env={**ENVIRONMENT, **environment}, text=True, timeout=SECONDS,
+                          stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+    return done.returncode, done.stdout
+
+
+def scene(ranks, case, folder, *more):
+    return run(ranks, HERE / "scene.py", case, folder, *more)
+
+
+def sound(ranks, case, folder, *more):
+    status, text = scene(ranks, case, folder, *more)
+    check(status == 0, f"{case} on {ranks} ranks ends with {status}:\n{text}")
+
+
+def report(folder, name):
+    return json.loads((folder / f"{name}.json").read_text())
+
+
+def same(folder, expected, found):
+    """States of two runs, in sizes and seconds of the scene; it is short enough for rounding not to grow."""
+    first, second = (np.load(folder / f"{name}.npz") for name in (expected, found))
+    for what in ("position", "orientation", "velocity", "angular_velocity"):
+        difference = float(np.abs(first[what] - second[what]).max())
+        check(difference < 1e-11, f"{found}: {what} differs from that of {expected} by {difference:.1e}")
+
+
+def equal_runs(folder):
+    for ranks in (1, 2, 3):
+        sound(ranks, "whole", folder)
+    serial = report(folder, "whole1")
+    for ranks in (2, 3):
+        name = f"whole{ranks}"
+        same(folder, "whole1", name)
+        found = report(folder, name)
+        check(found["failures"] == [] and found["counters"]["failures"] == 0, f"{name}: failures {found['failures']}")
+        contacts = [sum(part[1] for part in run["parts"]) for run in (serial, found)]
+        check(contacts[0] == contacts[1] > 20, f"{name}: contacts of one process and of all ranks: {contacts}")
+        check(sum(found["counters"]["answers"].values()) == found["counters"]["calls"], f"{name}: answers do not add up to calls")
+    check(found["across"] > 20, f"too few contacts across borders for a test of them: {found['across']}")
+    # 27 and 9 at the start.
+    check([part[0] for part in found["parts"]] == [1, 18, 18], f"bodies were not shared out: {found['parts']}")
+    check(serial["counters"]["calls"] < found["counters"]["calls"], "counters of several workers are not summed")
+
+
+def saved_scenes(folder):
+    for ranks, of in ((1, 3), (3, 1)):
+        sound(ranks, "resumed", folder, of)
+        same(folder, "whole1", f"resumed{ranks}_of_{of}")
+
+
+def lonely_workers(folder):
+    status, text = scene(3, "apart", folder)
+    check(status == 0 and text.count("meets no other worker") == 2, f"workers apart end with {status}:\n{text}")
+    sound(1, "apart", folder)
+    same(folder, "apart1", "apart3")
+
+
+def recorders(folder):
+    sound(3, "recorders", folder)
+    names = {path.name for path in folder.glob("*own-*.vtp")}
+    check(len(names) == 3 and {name[:6] for name in names} == {"rank0.", "rank1.", "rank2."}, f"files of the ranks: {names}")
+
+
+def failures(folder):
+    for case, words in (("raising", ("rank 1: Traceback", "this worker has had enough")),
+                        ("raising_in_step", ("division by zero",))):
+        status, text = scene(2, case, folder)
+        check(status == 1 and all(word in text for word in words), f"{case} ends with {status}, without {words}:\n{text}")
+    sound(3, "refusals", folder)
+    said = report(folder, "refusals")
+    expected = ("1 bodies cannot be divided between 2 workers", "must be above 0", "body 36 is free to move and on rank 0")
+    check(len(said) == 3 and all(words in text for words, text in zip(expected, said)), f"refusals: {said}")
+
+
+def started(case, folder):
+    """A run in the background, once all its ranks have written their process ids."""
+    for old in folder.glob("pid*"):
+        old.unlink()
+    process = subprocess.Popen(command(3, HERE / "scene.py", case, folder), env=ENVIRONMENT, text=True,
+                               stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+    end = time.monotonic() + SECONDS
+    while time.monotonic() < end and len(list(folder.glob("pid*"))) < 3 and process.poll() is None:
+        time.sleep(0.05)
+    return process
+
+
+def killed_rank(folder):
+    """What was saved before is whole, and a run goes on from it."""
+    process = started("killed", folder)
+    time.sleep(0.5)
+    os.kill(int((folder / "pid2").read_text()), signal.SIGKILL)
+    text, _ = process.communicate(timeout=SECONDS)
+    check(process.returncode == 137, f"a run with a killed rank ends with {process.returncode}:\n{text}")
+    check("rank 2" in text and "ended by signal 9" in text, f"what is said of a killed rank:\n{text}")
+    (folder / "killed.yade.gz").rename(folder / "half4.yade.gz")
+    sound(3, "resumed", folder, 4)
+    check(report(folder, "resumed3_of_4")["step"] == 20 + 200, "the saved scene is that of step 20")
+
+
+def asked_to_stop(folder):
+    process = started("interrupted", folder)
+    process.send_signal(signal.SIGINT)
+    text, _ = process.communicate(timeout=SECONDS)
+    check(process.returncode == 130, f"an interrupted run ends with {process.returncode}:\n{text}")
+    check((folder / "interrupted.npz").exists(), "an interrupted run writes its results")
+
+
+def pile(folder):
+    """A pile is chaotic: what does not depend on how each body fell is compared; the files are those of one process."""
+    summaries = []
+    for ranks in (1, 3):
+        out = folder / f"pile{ranks}"
+        status, text = run(ranks, TOP / "examples" / "mpi_pile.py", OUTPUT=str(out), BODIES="30", STEPS="2400", FRAMES="3")
+        check(status == 0, f"the pile on {ranks} ranks ends with {status}:\n{text}")
+        summary = json.loads((out / "summary.json").read_text())
+        check(all(row["met"] for row in summary["targets"]), f"the pile on {ranks} ranks: {summary['targets']}")
+        check(sorted(path.name for path in out.glob("*.vtp")) == [f"pile.{step:06d}.vtp" for step in (0, 800, 1600, 2400)],
+              f"frames of {ranks} ranks: {list(out.glob('*.vtp'))}")
+        check((out / "pile.png").stat().st_size > 10_000, "the picture")
+        summaries.append(summary)
+    one, three = summaries
+    for what, tolerance in (("mean_height_m", 0.1), ("contacts", 0.5)):
+        check(abs(one[what] - three[what]) < tolerance * one[what], f"{what} of a pile: {one[what]} and {three[what]}")
+    status, text = run(3, TOP / "examples" / "mpi_pile.py",
+                       OUTPUT=str(folder / "pile3"), BODIES="30", STEPS="2450", FRAMES="0", RESUME="1")
+    resumed = json.loads((folder / "pile3" / "summary.json").read_text())
+    check(status == 0 and (resumed["first_step"], resumed["steps"]) == (2400, 2450), f"a resumed pile ends with {status}:\n{text}")
+
+
+def main():
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        for part in (equal_runs, saved_scenes, lonely_workers, recorders, failures, killed_rank, asked_to_stop, pile):
+            begin = time.monotonic()
+            part(folder)
+            print(f"{part.__name__}: {time.monotonic() - begin:.1f} s", flush=True)
+    print(f"{passed} passed, {failed} failed")
+    return 1 if failed or not passed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,177 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""One run of a small scene on the ranks that mpirun started; tests/mpi/run.py starts it and judges the results.
+
+The case is the first argument, a folder the second. Cubes lie on a floor and on each other, slide against each other in
+three rows, and are pushed together along x: there are contacts across the borders of workers at all times, but too little time passes for
+rounding to grow.
+"""
+import json
+import os
+import sys
+from pathlib import Path
+
+# The folder of this script is not on Python's path in YADE; that of harness.py is given by run.py.
+import numpy as np
+import potential_particles  # noqa: F401 (a saved scene holds its classes)
+import yade
+from harness import add, cube, fresh_scene, turned
+from potential_particles import mpi
+from potential_particles.mpi import stepping
+from yade import O, Vector3
+
+SIZE, STEPS, VERLET = 1.0, 400, 0.05
+CASE, FOLDER = sys.argv[1], Path(sys.argv[2])
+
+
+def build(gap=0.0):
+    """A floor, and 4 x 3 x 3 cubes above it, of which each touches some; ids of the cubes."""
+    contact = yade.Ig2_ConicPP_ConicPP_ScGeom(calContactArea=False)
+    fresh_scene(contact, dt=1e-3, damping=0.1, gravity=(0, 0, -9.81), stiffness=1e6, friction=0.5)
+    add(floor(), (0, 0, -0.5), fixed=True)
+    ids, draw = [], np.random.default_rng(7)
+    for x in range(4):
+        for y in range(3):
+            for z in range(3):
+                place = Vector3(x - 1.5 + (gap if x > 1 else 0.0), y - 1.0, z + 0.5) * 0.99 * SIZE
+                turn = turned(Vector3(*draw.normal(size=3)), 0.03)
+                number = add(cube(), place, turn)
+                O.bodies[number].state.vel = Vector3(0.5 * (y - 1.0) - 0.5 * place[0], 0.0, 0.0)
+                ids.append(number)
+    return ids
+
+
+def floor():
+    planes = [(1, 0, 0, 15), (-1, 0, 0, 15), (0, 1, 0, 15), (0, -1, 0, 15), (0, 0, 1, 0.25), (0, 0, -1, 0.25)]
+    return yade.ConicPotentialParticle(planes=planes, r=0.25, k=1e-4, R=22.0)
+
+
+def ids():
+    return range(1, 37)
+
+
+def result(name, **more):
+    """What the judge reads: states, counters, and who had what."""
+    states = mpi.states(ids())
+    counters, failures = mpi.counters(), mpi.failures()
+    parts = mpi.gather([len(mpi.owned_bodies()), len(mpi.owned_contacts())])
+    if mpi.rank() == 0:
+        np.savez(FOLDER / f"{name}.npz", **states)
+        report = {"step": O.iter, "parts": parts, "counters": counters, "failures": failures, **more}
+        (FOLDER / f"{name}.json").write_text(json.dumps(report))
+
+
+def start(**more):
+    if mpi.rank() == 0:
+        mine = build(**more)
+        mpi.safe_boxes(VERLET)
+        mpi.divide(mine)
+    mpi.run(0, reallocate=1)
+
+
+def whole():
+    """All steps, with a save in the middle, after which the run goes on. The last worker begins with too many cubes."""
+    if mpi.rank() == 0:
+        mine = build()
+        mpi.safe_boxes(VERLET)
+        mpi.divide(mine)
+        for number in mine[9:18] if mpi.ranks() > 2 else []:
+            O.bodies[number].subdomain = mpi.ranks() - 1
+    across = 0
+    for look in range(4):
+        mpi.run(STEPS // 4, reallocate=1)
+        across += contacts_across()
+        if look == 1:
+            mpi.save(FOLDER / f"half{mpi.ranks()}.yade.gz")
+    result(f"whole{mpi.ranks()}", across=across)
+
+
+def contacts_across():
+    """Between bodies of two workers, of all ranks."""
+    mine = sum(min(O.bodies[c.id1].subdomain, O.bodies[c.id2].subdomain) not in (0, mpi.rank()) for c in mpi.owned_contacts())
+    return sum(mpi.gather(mine) or [])
+
+
+def resumed():
+    """The second half, from the file that a run with as many ranks as the third argument says has saved."""
+    if mpi.rank() == 0:
+        O.load(str(FOLDER / f"half{sys.argv[3]}.yade.gz"))
+        mpi.divide(ids())
+    mpi.run(STEPS - STEPS // 2)
+    result(f"resumed{mpi.ranks()}_of_{sys.argv[3]}")
+
+
+def apart():
+    """The two halves of the scene lie far from each other: YADE's own exchange aborts here."""
+    start(gap=8.0)
+    mpi.run(50)
+    result(f"apart{mpi.ranks()}")
+
+
+def recorders():
+    """YADE's recorder on every rank."""
+    if mpi.rank() == 0:
+        mine = build()
+        mpi.safe_boxes(VERLET)
+        name = str(FOLDER / "own-")
+        O.engines += [yade.PotentialParticleVTKRecorder(fileName=name, iterPeriod=5, sampleX=4, sampleY=4, sampleZ=4)]
+        mpi.divide(mine)
+    mpi.run(10)
+    mpi.gather(None)
+
+
+def killed():
+    """Saves, says so, and steps until it is ended."""
+    start()
+    mpi.run(20)
+    mpi.save(FOLDER / "killed.yade.gz")
+    (FOLDER / f"pid{mpi.rank()}").write_text(str(os.getpid()))
+    for _ in range(10_000):
+        mpi.run(50)
+
+
+def interrupted():
+    """Steps until it is asked to stop."""
+    start()
+    (FOLDER / f"pid{mpi.rank()}").write_text(str(os.getpid()))
+    for _ in range(10_000):
+        mpi.run(10)
+        if mpi.interrupted():
+            break
+    result("interrupted")
+
+
+def raising():
+    """One worker fails while the others step."""
+    start()
+    mpi.run(10)
+    if mpi.rank() == mpi.ranks() - 1:
+        raise RuntimeError("this worker has had enough")
+    mpi.run(10)
+
+
+def raising_in_step():
+    """One worker's step fails."""
+    start()
+    if mpi.rank() == 1:
+        O.engines += [yade.PyRunner(iterPeriod=1, firstIterRun=5, command="1 / 0")]
+    mpi.run(10)
+
+
+def refusals():
+    """What rank 0 is told before anything is divided: more workers than bodies, no margin, a free body that was left over."""
+    if mpi.rank() == 0:
+        mine, said = build(), []
+        for attempt in (lambda: mpi.divide(mine[:1]), lambda: mpi.safe_boxes(0.0), lambda: left_over(mine)):
+            try:
+                attempt()
+            except ValueError as error:
+                said.append(str(error))
+        (FOLDER / "refusals.json").write_text(json.dumps(said))
+
+
+def left_over(mine):
+    mpi.divide(mine[:-1])
+    stepping._check_division()
+
+
+mpi.launch(globals()[CASE])
