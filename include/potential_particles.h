@@ -25,7 +25,7 @@
  *   Units     Any consistent length unit. Angles by quaternion w, x, y, z, local to world.
  *   Threads   Particles never change after creation: any number of threads may share them. A
  *             pp_memory or an output belongs to one call at a time. No state is shared between calls.
- *             Only pp_contact_detect_batch starts threads, and ends them before it returns.
+ *             Only pp_contact_detect_batch (and _2d) starts threads, and ends them before it returns.
  *   Errors    No panic, exception or signal leaves the library, and nothing is printed.
  *   Layout    Structs have the same layout on every platform with 8-byte doubles; reserved fields
  *             must be 0. pp_abi_version and pp_struct_size tell whether a loaded library fits.
@@ -87,6 +87,9 @@
 
 // struct pp_contact_2d, for pp_struct_size.
 #define PP_STRUCT_CONTACT_2D 8
+
+// struct pp_closest_2d, for pp_struct_size.
+#define PP_STRUCT_CLOSEST_2D 9
 
 // struct pp_frame, for pp_struct_size.
 #define PP_STRUCT_FRAME 10
@@ -365,6 +368,27 @@ typedef struct pp_contact_2d {
     double distance;
 } pp_contact_2d;
 
+// One closest point of the plane alone: the fields of struct pp_closest, with vectors of two.
+typedef struct pp_closest_2d {
+    // 1 when there is no such point, because the other particle's centre (for k = 0, its core) lies inside
+    // this one: the numbers below are NaN then. Else 0.
+    uint32_t slack;
+    // Always 0.
+    uint32_t reserved;
+    // Scale of the other particle at the point: s_B at P1, s_A at P2. No unit.
+    double s;
+    // Bound on the error of s: |s - s*| <= gap (as in struct pp_contact).
+    double gap;
+    // Estimated bound on the distance of the point to the exact optimum, length.
+    double point_bound;
+    // P1 or P2, world frame.
+    double point[2];
+    // The point minus position of A: exact lever arm even far from the world origin.
+    double branch_a[2];
+    // The point minus position of B.
+    double branch_b[2];
+} pp_closest_2d;
+
 // Volume and inertia of a particle of unit density, in its local frame.
 typedef struct pp_mass_properties {
     // Volume, length^3.
@@ -616,13 +640,31 @@ pp_status pp_particle_planes(const struct pp_particle *particle,
                              size_t capacity,
                              size_t *count);
 
+// Finds the contacts of many pairs of bodies of the plane: pp_contact_detect_batch with two coordinates,
+// where every argument, status and error is explained.
+//
+// Each contact and memory is, to the last bit, that of pp_contact_detect_2d for the pair alone, whatever
+// the number of threads.
+// Errors: PP_NULL_POINTER, PP_UNKNOWN_FORMULATION, PP_UNKNOWN_BACK_END, PP_NO_CONIC, PP_BAD_SETTING,
+// PP_BAD_INDEX (a count that no memory could hold).
+pp_status pp_contact_detect_batch_2d(const struct pp_particle_2d *const *particles,
+                                     const struct pp_pose_2d *poses,
+                                     size_t body_count,
+                                     const uint32_t *pairs,
+                                     size_t pair_count,
+                                     const struct pp_settings *settings,
+                                     uint32_t threads,
+                                     struct pp_memory *memories,
+                                     struct pp_contact_2d *contacts,
+                                     pp_status *statuses);
+
 // Finds the contact of particle A at pose_a with particle B at pose_b, both of the plane.
 //
 // settings: may be NULL (defaults). memory: may be NULL; else what this ordered pair remembers,
 // read and updated. out: the answer; see struct pp_contact_2d for frames, units and signs.
+// Pointers: memory and out are not used by another call at the same time.
 // Errors: PP_NULL_POINTER, PP_BAD_POSITION, PP_BAD_ORIENTATION (an angle that is not finite),
 // PP_UNKNOWN_FORMULATION, PP_UNKNOWN_BACK_END, PP_NO_CONIC, PP_BAD_SETTING, PP_SOLVER_FAILED.
-// Pointers: Pointers are NULL or valid; memory and out are not used by another call at the same time.
 pp_status pp_contact_detect_2d(const struct pp_particle_2d *a,
                                const struct pp_pose_2d *pose_a,
                                const struct pp_particle_2d *b,
@@ -630,6 +672,21 @@ pp_status pp_contact_detect_2d(const struct pp_particle_2d *a,
                                const struct pp_settings *settings,
                                struct pp_memory *memory,
                                struct pp_contact_2d *out);
+
+// The point on one of the particles of the plane where the scale of the other is least: P1 on A, P2 on B
+// (paper eqs 3, 9). As pp_closest_point.
+//
+// on: PP_ON_A or PP_ON_B. settings: may be NULL (defaults); the formulation and solve_separated do not
+// matter. out: the point, or slack = 1 where there is none.
+// Errors: PP_NULL_POINTER, PP_BAD_POSITION, PP_BAD_ORIENTATION (an angle that is not finite), PP_BAD_INDEX
+// (on), PP_UNKNOWN_FORMULATION, PP_UNKNOWN_BACK_END, PP_NO_CONIC, PP_BAD_SETTING, PP_SOLVER_FAILED.
+pp_status pp_closest_point_2d(const struct pp_particle_2d *a,
+                              const struct pp_pose_2d *pose_a,
+                              const struct pp_particle_2d *b,
+                              const struct pp_pose_2d *pose_b,
+                              uint32_t on,
+                              const struct pp_settings *settings,
+                              struct pp_closest_2d *out);
 
 // Contact length (YADE: jointLength): how much of the line through the contact point, normal to the
 // contact normal, lies in both particles.

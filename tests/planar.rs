@@ -1,7 +1,11 @@
 //! Particles of the plane, against closed forms and against searches that know nothing of the solver.
 
+#[path = "planar/batch.rs"]
+mod batch;
 #[path = "planar/body.rs"]
 mod body;
+#[path = "planar/closest.rs"]
+mod closest;
 #[path = "planar/properties.rs"]
 mod properties;
 

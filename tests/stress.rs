@@ -23,7 +23,7 @@ mod planted;
 mod random;
 #[path = "../examples/stress/reference.rs"]
 mod reference;
-#[path = "stress/regressions.rs"]
+#[path = "stress/regressions/mod.rs"]
 mod regressions;
 #[path = "../examples/stress/shapes.rs"]
 mod shapes;

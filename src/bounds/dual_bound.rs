@@ -27,15 +27,14 @@ pub(crate) struct DualBound {
 
 impl DualBound {
     /// After a step to where ∇S_A and ∇S_B, weighted, have the length `force`. The optimum lies in {S ≤ `upper`}: where the spheres
-    /// are all but flat, the slope over the way to its far end is less than what their curvature allows. A height that is
-    /// `negligible` is not looked at again.
+    /// are all but flat, the slope over the way to its far end is less than what their curvature allows.
     #[inline(always)]
     pub fn after(
         model: &LocalModel,
         bodies: [&Body; 2],
         problem: Problem,
         step: &Step,
-        (upper, force, negligible): (f64, f64, f64),
+        (upper, force): (f64, f64),
     ) -> Self {
         let ((a, b), soft) = (problem.weights(step.optimum.lambda), local_model::softest(bodies));
         let [check_a, check_b] = &step.checks;
@@ -47,11 +46,7 @@ impl DualBound {
         let turned = TURN * f64::EPSILON * force;
         let slope = optimum.slope(problem).norm() + rounding + doubtful + turned;
         let by_curvature = 0.5 * slope * slope / (a * soft.0 + b * soft.1);
-        let height = if by_curvature > negligible {
-            smaller(slope * local_model::farthest(bodies, &(model.x + step.v), upper), by_curvature)
-        } else {
-            by_curvature
-        };
+        let height = smaller(slope * local_model::farthest(bodies, &(model.x + step.v), upper), by_curvature);
         let certain = doubtful == 0.0
             && !check_a.near_inactive
             && !check_b.near_inactive

@@ -14,7 +14,7 @@ use nalgebra::Vector3;
 /// Two dual bounds are tried: the local model's where its multipliers are admissible, and the
 /// linear one, φ(x) − |∇φ|·D, for any optimum within a distance D of x.
 pub(crate) fn judged(x: &Vector3<f64>, lambda: f64, s: f64, bodies: [&Body; 2], problem: Problem) -> Solution {
-    let start = Start { x: *x, lambda, near: true };
+    let start = Start { x: *x, lambda };
     let plain = LocalModel::at(bodies, &start, problem, Axes::OfB);
     let values = [plain.q_a.value, plain.q_b.value];
     let gradients = [plain.q_a.gradient, plain.q_b.gradient];
@@ -48,7 +48,7 @@ fn dual_value(bodies: [&Body; 2], start: &Start, problem: Problem, upper: f64) -
     let weights = problem.weights(start.lambda);
     let mut model = LocalModel::at(bodies, start, problem, Axes::Graded);
     loop {
-        let step = model.optimum(bodies, problem, start.lambda, 0.0)?;
+        let step = model.optimum(bodies, problem, start.lambda)?;
         match step.change {
             Change::Pulling => return None,
             Change::Leaving => model = model.without_leaving(bodies, &step, weights, Axes::Graded),
@@ -57,7 +57,7 @@ fn dual_value(bodies: [&Body; 2], start: &Start, problem: Problem, upper: f64) -
                 let (of_a, of_b) = (of_sums(&model.q_a, optimum), of_sums(&model.q_b, optimum));
                 let value = problem.dual(optimum.values.0, optimum.values.1, lambda);
                 let force = problem.weighted(optimum.gradients[0].norm(), optimum.gradients[1].norm(), lambda);
-                let bound = DualBound::after(&model, bodies, problem, &step, (upper, force, 0.0));
+                let bound = DualBound::after(&model, bodies, problem, &step, (upper, force));
                 return Some(value - bound.height - problem.weighted(of_a, of_b, lambda));
             }
         }

@@ -25,10 +25,8 @@ pub(crate) fn sums(count: u32) -> f64 {
 /// Bounds on the rounding of S_A and S_B at the end of a step.
 #[derive(Clone, Copy)]
 pub(crate) struct Rounding {
-    /// Of first order in the places of the planes, with that of the sums.
-    first: [f64; 2],
-    /// Of second order.
-    second: [f64; 2],
+    /// In all.
+    all: [f64; 2],
     /// Of the sums alone.
     pub sums: [f64; 2],
 }
@@ -37,7 +35,7 @@ impl Rounding {
     /// After a step to where ∇S_A and ∇S_B are as long as `gradients`.
     #[inline(always)]
     pub fn after(model: &LocalModel, bodies: [&Body; 2], step: &Step, gradients: [f64; 2]) -> Self {
-        let (mut first, mut second, mut sums) = ([0.0; 2], [0.0; 2], [0.0; 2]);
+        let (mut all, mut sums) = ([0.0; 2], [0.0; 2]);
         let values = [step.optimum.values.0, step.optimum.values.1];
         for (i, q) in [&model.q_a, &model.q_b].into_iter().enumerate() {
             let (body, point, check) = (bodies[i], &model.points[i], &step.checks[i]);
@@ -45,23 +43,17 @@ impl Rounding {
             // The rounding of the sums at the point of expansion is carried along.
             let of_places = check.pull * blur + gradients[i] * shift + q.pull * (blur - point.blur);
             sums[i] = body.rounding_of_value(values[i], q.count) + of_sums(q, &step.optimum);
-            first[i] = of_places + sums[i];
             // A plane that is left out at a depth of one blur may be on by two.
-            second[i] = 4.0 * check.near * body.plane_weight() * blur * blur;
+            let of_second_order = 4.0 * check.near * body.plane_weight() * blur * blur;
+            all[i] = of_places + sums[i] + of_second_order;
         }
-        Self { first, second, sums }
-    }
-
-    /// Bound on what it does to the optimum of first order while the weights stay: the least that any bound counts.
-    #[inline(always)]
-    pub fn least(&self, problem: Problem, lambda: f64) -> f64 {
-        problem.weighted(self.first[0], self.first[1], lambda)
+        Self { all, sums }
     }
 
     /// Bound on what it does to the optimum; `None` where it moves the weights.
     #[inline(always)]
     pub fn of_optimum(&self, problem: Problem, optimum: &Optimum) -> Option<f64> {
-        let (of_a, of_b) = (self.first[0] + self.second[0], self.first[1] + self.second[1]);
+        let [of_a, of_b] = self.all;
         let (change_a, change_b) = problem.changes(of_a, of_b);
         let swing = larger(change_a, change_b) / optimum.rate(problem).abs();
         (swing < UNMOVED).then(|| problem.weighted(of_a, of_b, optimum.lambda) * (1.0 + 4.0 * swing))
@@ -70,7 +62,7 @@ impl Rounding {
     /// Bound on the rounding of the merit of the point, whatever the weights do.
     #[cold]
     pub fn of_merit(&self, problem: Problem, lambda: f64) -> f64 {
-        problem.merit_rounding(self.first[0] + self.second[0], self.first[1] + self.second[1], lambda)
+        problem.merit_rounding(self.all[0], self.all[1], lambda)
     }
 }
 

@@ -95,8 +95,7 @@ impl Solution {
         let rounding = Rounding::after(model, bodies, step, gradient_norms);
         let of_optimum = rounding.of_optimum(problem, optimum);
         let force = problem.weighted(gradient_norms[0], gradient_norms[1], lambda);
-        let negligible = rounding.least(problem, lambda);
-        let DualBound { height, certain } = DualBound::after(model, bodies, problem, step, (upper, force, negligible));
+        let DualBound { height, certain } = DualBound::after(model, bodies, problem, step, (upper, force));
         let sensitivity = if certain { Sensitivity::of(optimum, problem, local_model::softest(bodies)) } else { None };
         Self {
             x: model.x + step.v,

@@ -1,6 +1,6 @@
 //! Which library was loaded, and whether its structs are those that the caller was compiled with.
 
-use super::planar::{pp_contact_2d, pp_pose_2d};
+use super::planar::{pp_closest_2d, pp_contact_2d, pp_pose_2d};
 use super::types::{pp_carry, pp_closest, pp_contact, pp_frame, pp_mass_properties, pp_memory, pp_pose, pp_settings};
 use std::ffi::{CStr, c_char};
 
@@ -33,6 +33,8 @@ pub const PP_STRUCT_MASS_PROPERTIES: u32 = 6;
 pub const PP_STRUCT_POSE_2D: u32 = 7;
 /// struct pp_contact_2d, for pp_struct_size.
 pub const PP_STRUCT_CONTACT_2D: u32 = 8;
+/// struct pp_closest_2d, for pp_struct_size.
+pub const PP_STRUCT_CLOSEST_2D: u32 = 9;
 /// struct pp_frame, for pp_struct_size.
 pub const PP_STRUCT_FRAME: u32 = 10;
 /// struct pp_carry, for pp_struct_size.
@@ -67,6 +69,7 @@ pub extern "C" fn pp_struct_size(which: u32) -> usize {
         PP_STRUCT_MASS_PROPERTIES => size_of::<pp_mass_properties>(),
         PP_STRUCT_POSE_2D => size_of::<pp_pose_2d>(),
         PP_STRUCT_CONTACT_2D => size_of::<pp_contact_2d>(),
+        PP_STRUCT_CLOSEST_2D => size_of::<pp_closest_2d>(),
         PP_STRUCT_FRAME => size_of::<pp_frame>(),
         PP_STRUCT_CARRY => size_of::<pp_carry>(),
         _ => 0,

@@ -2,11 +2,12 @@
 
 use super::contact::contact;
 use super::convert::{pose_from, settings_from, settings_status};
-use super::fence::{array, array_mut, borrow, fenced, outputs};
+use super::fence::{Output, array, array_mut, borrow, fenced, outputs};
 use super::particle::pp_particle;
 use super::status::*;
 use super::types::*;
 use crate::contact::batch::{CHUNK, in_parallel, optional_chunks};
+use crate::{Particle, Pose, Settings};
 
 /// Finds the contacts of many pairs of bodies: the way for a DEM program to hand over a whole step.
 ///
@@ -42,6 +43,36 @@ pub unsafe extern "C" fn pp_contact_detect_batch(
     contacts: *mut pp_contact,
     statuses: *mut pp_status,
 ) -> pp_status {
+    let (bodies, pairs, outputs) = ((particles, poses, body_count), (pairs, pair_count), (contacts, statuses));
+    let one =
+        |a: &(&Particle, Pose), b: &(&Particle, Pose), settings: &Settings, memory: Option<&mut pp_memory>, out| {
+            contact((a.0, &a.1), (b.0, &b.1), settings, memory, out)
+        };
+    // SAFETY: as the caller promised.
+    unsafe { detect_batch(bodies, pairs, settings, threads, memories, outputs, (body, one)) }
+}
+
+fn body<'a>(particle: &'a pp_particle, pose: &pp_pose) -> Result<(&'a Particle, Pose), pp_status> {
+    Ok((&particle.0, pose_from(pose)?))
+}
+
+/// pp_contact_detect_batch of particles P at poses Q with contacts C: `body` makes a body of a particle and its pose, `contact`
+/// finds the contact of two and writes it.
+///
+/// # Safety
+/// Pointers and counts are as pp_contact_detect_batch asks for.
+pub(super) unsafe fn detect_batch<'a, P: 'a, Q: 'a, B: Sync, C: Send>(
+    (particles, poses, body_count): (*const *const P, *const Q, usize),
+    (pairs, pair_count): (*const u32, usize),
+    settings: *const pp_settings,
+    threads: u32,
+    memories: *mut pp_memory,
+    (contacts, statuses): (*mut C, *mut pp_status),
+    (body, contact): (
+        impl Fn(&'a P, &'a Q) -> Result<B, pp_status>,
+        impl Fn(&B, &B, &Settings, Option<&mut pp_memory>, Output<C>) -> Result<(), pp_status> + Sync,
+    ),
+) -> pp_status {
     fenced(|| {
         let (particles, poses) = unsafe { (array(particles, body_count)?, array(poses, body_count)?) };
         let pairs = unsafe { array(pairs.cast::<[u32; 2]>(), pair_count) }?;
@@ -52,13 +83,9 @@ pub unsafe extern "C" fn pp_contact_detect_batch(
         settings.validate().map_err(|error| settings_status(&error))?;
 
         // SAFETY: each is NULL or a particle.
-        let body = |(&particle, pose)| Ok((&unsafe { borrow::<pp_particle>(particle) }?.0, pose_from(pose)?));
-        let bodies: Vec<Result<_, pp_status>> = particles.iter().zip(poses).map(body).collect();
-        let find = |index: u32| match bodies.get(index as usize) {
-            Some(Ok((particle, pose))) => Ok((*particle, pose)),
-            Some(Err(status)) => Err(*status),
-            None => Err(PP_BAD_INDEX),
-        };
+        let bodies = particles.iter().zip(poses).map(|(&particle, pose)| body(unsafe { borrow(particle) }?, pose));
+        let bodies: Vec<Result<B, pp_status>> = bodies.collect();
+        let find = |index: u32| bodies.get(index as usize).ok_or(PP_BAD_INDEX)?.as_ref().map_err(|&status| status);
 
         let outputs = contacts.chunks_mut(CHUNK).zip(statuses.chunks_mut(CHUNK));
         let chunks = pairs.chunks(CHUNK).zip(optional_chunks(memories)).zip(outputs);

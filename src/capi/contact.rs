@@ -7,7 +7,7 @@ use super::status::*;
 use super::types::*;
 use crate::contact::closest_point::closest_point;
 use crate::contact::detect::{carried_on, detect_as, detect_to_carry};
-use crate::{Contact, DetectError, Flags, Memory, Particle, Pose, Role, Section, Settings};
+use crate::{Contact, DetectError, Flags, Memory, Particle, Pose, Section, Settings};
 
 /// Fills settings with the defaults.
 ///
@@ -101,13 +101,11 @@ pub unsafe extern "C" fn pp_contact_detect_carried(
         }
         // SAFETY: NULL or exclusively ours for the call.
         let memory = unsafe { memory.as_mut() };
-        remembering(memory, |remembered| {
-            let write = |contact: Contact| {
-                out.write(contact_to(&contact));
-                contact.flags.has_any(CHEAP_PROOF)
-            };
-            detect_to_carry(a, b, &settings, carry_tolerance, (remembered, carried), write)
-        })
+        let write = |contact: Contact| {
+            out.write(contact_to(&contact));
+            contact.flags
+        };
+        remembering(memory, |memory| detect_to_carry(a, b, &settings, carry_tolerance, (memory, carried), write))
     })
 }
 
@@ -123,26 +121,25 @@ pub(super) fn contact(
     memory: Option<&mut pp_memory>,
     out: Output<pp_contact>,
 ) -> Result<(), pp_status> {
-    remembering(memory, |remembered| {
-        let write = |contact: Contact| {
-            out.write(contact_to(&contact));
-            contact.flags.has_any(CHEAP_PROOF)
-        };
-        detect_as(a, b, settings, (remembered, None), write)
-    })
+    let write = |contact: Contact| {
+        out.write(contact_to(&contact));
+        contact.flags
+    };
+    remembering(memory, |memory| detect_as(a, b, settings, (memory, None), write))
 }
 
-/// Runs a search with what the pair remembers; `found` says whether a cheap proof was enough, which leaves the memory as it was, and
-/// is over before it could be written.
+/// Finds a contact, in space or in the plane, by `detect`, which writes it and gives its flags; with the memory of the pair.
 #[inline(always)]
 pub(super) fn remembering(
     memory: Option<&mut pp_memory>,
-    found: impl FnOnce(Option<&mut Memory>) -> Result<bool, DetectError>,
+    detect: impl FnOnce(Option<&mut Memory>) -> Result<Flags, DetectError>,
 ) -> Result<(), pp_status> {
     let mut remembered = memory.as_deref().map(memory_from);
-    let cheap = found(remembered.as_mut()).map_err(|error| detect_status(&error))?;
-    if let (Some(memory), Some(remembered), false) = (memory, remembered, cheap) {
-        *memory = memory_to(remembered);
+    let flags = detect(remembered.as_mut()).map_err(|error| detect_status(&error))?;
+    match (memory, remembered) {
+        // A cheap proof leaves the memory as it was, and is over before it could be written.
+        (Some(memory), Some(remembered)) if !flags.has_any(CHEAP_PROOF) => *memory = memory_to(remembered),
+        _ => {}
     }
     Ok(())
 }
@@ -169,11 +166,7 @@ pub unsafe extern "C" fn pp_closest_point(
         let (a, b) = unsafe { (&borrow(a)?.0, &borrow(b)?.0) };
         let (pose_a, pose_b) = unsafe { (pose_from(borrow(pose_a)?)?, pose_from(borrow(pose_b)?)?) };
         let out = unsafe { output(out) }?;
-        let on = match on {
-            PP_ON_A => Role::A,
-            PP_ON_B => Role::B,
-            _ => return Err(PP_BAD_INDEX),
-        };
+        let on = role_from(on)?;
         let settings = settings_from(unsafe { settings.as_ref() })?;
         let found = closest_point(a, &pose_a, b, &pose_b, on, &settings).map_err(|error| detect_status(&error))?;
         out.write(closest_to(found));

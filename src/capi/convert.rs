@@ -3,7 +3,7 @@
 use super::status::*;
 use super::types::*;
 use crate::{
-    BackEnd, Carried, ClosestPoint, Contact, DetectError, Formulation, Kind, Memory, Pose, PoseError, Settings,
+    BackEnd, Carried, ClosestPoint, Contact, DetectError, Formulation, Kind, Memory, Pose, PoseError, Role, Settings,
     SettingsError,
 };
 use nalgebra::Vector3;
@@ -123,6 +123,15 @@ pub(super) fn contact_to(contact: &Contact) -> pp_contact {
         point_on_a: contact.point_on_a.into(),
         point_on_b: contact.point_on_b.into(),
         distance: contact.distance,
+    }
+}
+
+/// Which particle the closest point is asked on.
+pub(super) fn role_from(on: u32) -> Result<Role, pp_status> {
+    match on {
+        PP_ON_A => Ok(Role::A),
+        PP_ON_B => Ok(Role::B),
+        _ => Err(PP_BAD_INDEX),
     }
 }
 

@@ -48,6 +48,30 @@ pub fn detect_batch(
     threads: usize,
     memories: &mut [Memory],
 ) -> Result<Vec<Result<Contact, DetectError>>, DetectError> {
+    detect_batch_by(detect, particles, poses, pairs, settings, threads, memories)
+}
+
+/// The contact of one pair, in space or in the plane.
+pub(crate) trait Detect<P, Q, C>:
+    Fn(&P, &Q, &P, &Q, &Settings, Option<&mut Memory>) -> Result<C, DetectError> + Sync
+{
+}
+
+impl<P, Q, C, F> Detect<P, Q, C> for F where
+    F: Fn(&P, &Q, &P, &Q, &Settings, Option<&mut Memory>) -> Result<C, DetectError> + Sync
+{
+}
+
+/// [`detect_batch`] of particles P at poses Q with contacts C.
+pub(crate) fn detect_batch_by<P: Sync, Q: Sync, C: From<Contact> + Clone + Send>(
+    detect: impl Detect<P, Q, C>,
+    particles: &[&P],
+    poses: &[Q],
+    pairs: &[[u32; 2]],
+    settings: &Settings,
+    threads: usize,
+    memories: &mut [Memory],
+) -> Result<Vec<Result<C, DetectError>>, DetectError> {
     settings.validate()?;
     same_length("poses", poses.len(), particles.len())?;
     if !memories.is_empty() {
@@ -61,7 +85,7 @@ pub fn detect_batch(
         let ((a, pose_a), (b, pose_b)) = (body(i)?, body(j)?);
         detect(a, pose_a, b, pose_b, settings, memory)
     };
-    let mut answers = vec![Ok(Contact::UNKNOWN); pairs.len()];
+    let mut answers = vec![Ok(C::from(Contact::UNKNOWN)); pairs.len()];
     let chunks = pairs.chunks(CHUNK).zip(answers.chunks_mut(CHUNK)).zip(optional_chunks(memories));
     in_parallel(threads, pairs.len(), chunks, |((pairs, answers), memories)| {
         let mut memories = memories.iter_mut();

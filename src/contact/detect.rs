@@ -199,7 +199,7 @@ fn solved(
             if settings.back_end == BackEnd::Fast {
                 call.flags.insert(Flags::WARM);
             }
-            Start { x: last.x, lambda: last.lambda, near: true }
+            Start { x: last.x, lambda: last.lambda }
         }
         None => call.cold(),
     };
@@ -213,7 +213,7 @@ fn solved(
     // Written so that the solution need not be copied.
     let midway = match call.first_step(Problem::Midway, start.lambda, &model) {
         Some(solution) => solution,
-        None => call.solve(Problem::Midway, &start, &mut model)?,
+        None => call.solve(Problem::Midway, start.lambda, &mut model)?,
     };
     let scale = call.scale(&midway, Problem::Midway);
     let separated = midway.ending == Ending::Separated;

@@ -11,8 +11,7 @@
 //! v(δ) = Σ δⁿ v_n,   v_n = −H⁻¹ w_{n−1},   w_n = D v_n,   m_n = −(n+1)/2 · v_i·w_j  for any i + j = n, i ≥ 1
 //! ```
 //!
-//! so that v₁ and v₂ give m to the fourth order, and each search multiplies the number of right digits by five; v₃ gives
-//! it to the sixth.
+//! so that v₁ and v₂ give m to the fourth order, and each search multiplies the number of right digits by five.
 
 use crate::linalg::number::Number;
 use crate::linalg::symmetric::{Factor, Symmetric};
@@ -92,8 +91,6 @@ pub(crate) struct Series<N> {
     pub lambda: N,
     v2: Vector3<N>,
     w2: Vector3<N>,
-    /// m₂, m₃ and m₄.
-    rates: [N; 3],
     /// Share of the higher terms in the first.
     pub share: N,
 }
@@ -170,7 +167,7 @@ impl<'a, N: Number> Curve<'a, N> {
             (alpha * delta).magnitude().is_at_most(of(0.5) * a) && (beta * delta).magnitude().is_at_most(of(0.5) * b);
         let lambda = self.lambda_after(found, delta);
         let share = c2.magnitude() + c3.magnitude() + c4.magnitude();
-        stays.then_some(Series { delta, lambda, v2, w2, rates: [m2, m3, m4], share })
+        stays.then_some(Series { delta, lambda, v2, w2, share })
     }
 
     #[inline(always)]
@@ -186,22 +183,6 @@ impl<'a, N: Number> Curve<'a, N> {
         let delta = series.delta;
         let step = found.step + (found.along + (series.v2 + v3 * delta) * delta) * delta;
         self.after(step, series.lambda, found)
-    }
-
-    /// The same to the fourth order, the way to it by one more step of Newton's method on the mismatch to the sixth.
-    #[inline(always)]
-    pub fn further_along(&self, found: &Probe<N>, series: &Series<N>) -> Optimum<N> {
-        let v3 = -found.factor.solve(&series.w2);
-        let w3 = self.turning.times(&v3);
-        let v4 = -found.factor.solve(&w3);
-        let (of, d, [m2, m3, m4]) = (N::of, series.delta, series.rates);
-        let (m5, m6) = (of(-3.0) * v3.dot(&series.w2), of(-3.5) * v3.dot(&w3));
-        let mismatch = found.mismatch + d * (found.rate + d * (m2 + d * (m3 + d * (m4 + d * (m5 + d * m6)))));
-        let higher = of(4.0) * m4 + d * (of(5.0) * m5 + d * of(6.0) * m6);
-        let slope = found.rate + d * (of(2.0) * m2 + d * (of(3.0) * m3 + d * higher));
-        let delta = d - mismatch / slope;
-        let step = found.step + (found.along + (series.v2 + (v3 + v4 * delta) * delta) * delta) * delta;
-        self.after(step, self.lambda_after(found, delta), found)
     }
 
     /// Whether the slope a·g_A + b·g_B is zero to rounding. In a pair that is alike on both sides the terms of the mismatch

@@ -9,7 +9,7 @@ use nalgebra::Vector3;
 pub(crate) const DEPTH_ROUNDING: f64 = 14.0 * f64::EPSILON;
 
 /// Less than 1 by more than the rounding of a distance to a plane, relative to the terms of its sum.
-const CLEAR: f64 = 1.0 - 4.0 * DEPTH_ROUNDING;
+pub(crate) const CLEAR: f64 = 1.0 - 4.0 * DEPTH_ROUNDING;
 
 /// What a step does to the active set of one body.
 #[derive(Clone, Copy, Debug)]
@@ -76,62 +76,23 @@ impl KktCheck {
 
     #[inline(never)]
     fn plane_by_plane(body: &Body, point: &LocalPoint, v: Vector3<f64>) -> Self {
-        let (y, blur, e) = (point.y, point.blur, body.turn(&v));
-        let particle = body.particle;
-        let mut worst: Option<(usize, f64)> = None;
-        let (mut pulling, mut doubtful, mut depths, mut near) = (false, 0.0, 0.0, 0.0);
-        let (mut entering, mut near_inactive, mut least_push) = (false, false, f64::INFINITY);
+        let (e, particle) = (body.turn(&v), body.particle);
         // Active planes are near y, entering ones near y + e: no other plane is within reach of either.
         let far = if particle.clusters.is_single() {
             0.0
         } else {
-            blur + particle.bounds.longest_normal * e.norm() * (1.0 + DEPTH_ROUNDING)
+            point.blur + particle.bounds.longest_normal * e.norm() * (1.0 + DEPTH_ROUNDING)
         };
-        // The step was turned: what is left of a long one across a plane is but rounding.
-        let turned = DEPTH_ROUNDING * (e.x.abs() + e.y.abs() + e.z.abs());
-        let doubt_of_all = turned * particle.bounds.longest_normal;
-        particle.visit_near(&y, far, |place, n, excess| {
+        let mut planes = Planes::after(body, point, &e);
+        particle.visit_near(&point.y, far, |place, n, excess| {
             let depth = excess + n.dot(&e);
-            if !point.is_active(place, excess) {
-                if depth > -blur {
-                    near += 1.0;
-                    near_inactive = true;
-                    entering |= depth > blur;
-                }
-                return;
-            }
-            depths += depth.max(0.0);
-            near += 1.0;
-            if depth * particle.bounds.shortest_normal < least_push {
-                least_push = least_push.min(depth * n.norm());
-            }
-            if depth >= doubt_of_all + DEPTH_ROUNDING * excess.abs() {
-                return;
-            }
-            // The longest normal may be that of another plane.
-            let length = n.norm();
-            let doubt = turned * length + DEPTH_ROUNDING * excess.abs();
-            if depth >= -doubt {
-                if depth < doubt {
-                    doubtful += length * (doubt + (-depth).max(0.0));
-                }
-            } else if excess > blur {
-                pulling = true;
-            } else if worst.is_none_or(|(_, most)| depth < most) {
-                worst = Some((place, depth));
+            if point.is_active(place, excess) {
+                planes.add_active(place, &n, excess, depth);
+            } else {
+                planes.add_inactive(depth);
             }
         });
-        // One at a time: without the worst, the others may push again.
-        let drop = worst.map(|(place, _)| place).filter(|_| !pulling);
-        let change = match drop {
-            _ if pulling => Change::Pulling,
-            None if entering => Change::Entering,
-            None => Change::None,
-            Some(_) if point.is_full() => Change::Pulling,
-            Some(_) => Change::Leaving,
-        };
-        let pull = body.plane_curvature() * depths;
-        Self { change, drop, doubtful, least_push, pull, near, near_inactive }
+        planes.check()
     }
 
     /// Whether every active plane pushes with more than a force, for a body of this weight.
@@ -148,5 +109,103 @@ impl KktCheck {
         let lost = if self.pushes_more(body, weight, rounding) { 0.0 } else { self.near * rounding };
         // Weights that overflow times no doubt at all would not be a number.
         if self.doubtful > 0.0 { lost + weight * body.plane_curvature() * self.doubtful } else { lost }
+    }
+}
+
+/// What a step does to the planes of one body, as they are looked at one by one.
+struct Planes<'a> {
+    body: &'a Body<'a>,
+    point: &'a LocalPoint,
+    /// Bound on the rounding of the turned step, and of a depth by it.
+    turned: f64,
+    doubt_of_all: f64,
+    /// The plane that pulls most of those that were on by no more than their rounding, and its depth.
+    worst: Option<(usize, f64)>,
+    /// Whether a plane pulls that was clearly on.
+    pulling: bool,
+    entering: bool,
+    near_inactive: bool,
+    doubtful: f64,
+    depths: f64,
+    near: f64,
+    least_push: f64,
+}
+
+impl<'a> Planes<'a> {
+    /// None yet, after the step e of the particle's own frame.
+    #[inline(always)]
+    fn after(body: &'a Body<'a>, point: &'a LocalPoint, e: &Vector3<f64>) -> Self {
+        // The step was turned: what is left of a long one across a plane is but rounding.
+        let turned = DEPTH_ROUNDING * (e.x.abs() + e.y.abs() + e.z.abs());
+        Self {
+            body,
+            point,
+            turned,
+            doubt_of_all: turned * body.particle.bounds.longest_normal,
+            worst: None,
+            pulling: false,
+            entering: false,
+            near_inactive: false,
+            doubtful: 0.0,
+            depths: 0.0,
+            near: 0.0,
+            least_push: f64::INFINITY,
+        }
+    }
+
+    #[inline(always)]
+    fn add_inactive(&mut self, depth: f64) {
+        let blur = self.point.blur;
+        if depth > -blur {
+            self.near += 1.0;
+            self.near_inactive = true;
+            self.entering |= depth > blur;
+        }
+    }
+
+    #[inline(always)]
+    fn add_active(&mut self, place: usize, n: &Vector3<f64>, excess: f64, depth: f64) {
+        self.depths += depth.max(0.0);
+        self.near += 1.0;
+        if depth * self.body.particle.bounds.shortest_normal < self.least_push {
+            self.least_push = self.least_push.min(depth * n.norm());
+        }
+        if depth >= self.doubt_of_all + DEPTH_ROUNDING * excess.abs() {
+            return;
+        }
+        // The longest normal may be that of another plane.
+        let length = n.norm();
+        let doubt = self.turned * length + DEPTH_ROUNDING * excess.abs();
+        if depth >= -doubt {
+            if depth < doubt {
+                self.doubtful += length * (doubt + (-depth).max(0.0));
+            }
+        } else if excess > self.point.blur {
+            self.pulling = true;
+        } else if self.worst.is_none_or(|(_, most)| depth < most) {
+            self.worst = Some((place, depth));
+        }
+    }
+
+    #[inline(always)]
+    fn check(self) -> KktCheck {
+        // One at a time: without the worst, the others may push again.
+        let drop = self.worst.map(|(place, _)| place).filter(|_| !self.pulling);
+        let change = match drop {
+            _ if self.pulling => Change::Pulling,
+            None if self.entering => Change::Entering,
+            None => Change::None,
+            Some(_) if self.point.is_full() => Change::Pulling,
+            Some(_) => Change::Leaving,
+        };
+        KktCheck {
+            change,
+            drop,
+            doubtful: self.doubtful,
+            least_push: self.least_push,
+            pull: self.body.plane_curvature() * self.depths,
+            near: self.near,
+            near_inactive: self.near_inactive,
+        }
     }
 }

@@ -3,7 +3,7 @@
 use crate::linalg::graded_basis::{self, StiffNormals};
 use crate::linalg::number::{larger, smaller};
 use crate::model::dual_path::Optimum;
-use crate::model::kkt_check::{Change, KktCheck};
+use crate::model::kkt_check::{CLEAR, Change, KktCheck};
 use crate::model::problem::Problem;
 use crate::model::quadratic_model::{Model, side};
 use crate::pair::active_set::LocalPoint;
@@ -33,8 +33,6 @@ pub(crate) struct Start {
     pub x: Vector3<f64>,
     /// Ratio of weights λ = u/(1−u).
     pub lambda: f64,
-    /// Whether the active set at x is likely that of the optimum, as from memory or a neighbouring problem.
-    pub near: bool,
 }
 
 /// Both quadratics at a point.
@@ -120,7 +118,7 @@ impl LocalModel {
         let piece = |body: &Body, q: &Quadratic| {
             let exact = body.is_plain() && q.expansion <= NEAR_SURFACE;
             let reach = if exact { q.clear / body.particle.bounds.longest_normal - moved } else { 0.0 };
-            Piece { curvature: q.hessian.times(&n).dot(&n), reach: SHORT_OF_SWITCH * reach }
+            Piece { curvature: q.hessian.times(&n).dot(&n), reach: CLEAR * reach }
         };
         [piece(bodies[0], &self.q_a), piece(bodies[1], &self.q_b)]
     }
@@ -143,17 +141,10 @@ impl LocalModel {
         Model::new(side(&self.q_a, soft.0), side(&self.q_b, soft.1), problem)
     }
 
-    /// The step to the optimum of both quadratics.
-    ///
-    /// λ is found to `enough` where the active set changes, and to rounding where it is right.
+    /// The step to the optimum of both quadratics, sought from a guess of λ.
     #[inline]
-    pub fn optimum(&self, bodies: [&Body; 2], problem: Problem, guess: f64, enough: f64) -> Option<Step> {
-        let model = self.quadratics(bodies, problem);
-        let step = self.step(bodies, model.solve(guess, enough)?);
-        if step.change == Change::None && !step.optimum.settled {
-            return Some(self.step(bodies, model.search(step.optimum.lambda, 0.0)?));
-        }
-        Some(step)
+    pub fn optimum(&self, bodies: [&Body; 2], problem: Problem, guess: f64) -> Option<Step> {
+        Some(self.step(bodies, self.quadratics(bodies, problem).solve(guess)?))
     }
 
     /// The step to an optimum, with its KKT check.
@@ -179,9 +170,6 @@ impl LocalModel {
         Self::of(bodies, self.x, points, weights, axes)
     }
 }
-
-/// Less than 1 by more than the rounding of a distance to a plane, relative to the terms of its sum.
-const SHORT_OF_SWITCH: f64 = 1.0 - 1e-14;
 
 /// The active planes of both bodies.
 struct ActiveNormals<'a> {

@@ -40,16 +40,64 @@ const FARTHEST: f64 = 1e6;
 /// out then is some 1e-3 of the mismatch.
 const NEAR: f64 = 0.1;
 
-/// The same share at which what is left out is below the rounding of a double: of a point that is taken to the third order, and
-/// to the fourth.
+/// The same share at which what is left out is below the rounding of a double, of a point that is taken to the third order.
 const VERY_NEAR: f64 = 3e-4;
-const RATHER_NEAR: f64 = 1.5e-3;
 
-/// Relative mismatch below which a search that no longer gains is at the end of its digits, in units of rounding.
-const STALLING: f64 = 1e7;
+/// Points of both curves from which P1 and P2 are looked for before each is searched alone: where λ was guessed, and where the
+/// series leads from there.
+const MOST_PROBES: usize = 2;
 
-/// Searches in a row that may gain less than half: a side that hardly changes with λ gains late.
-const MOST_SLOW: u32 = 4;
+/// Where a search goes from a point of the curve.
+enum Advance<N> {
+    Optimum(Optimum<N>),
+    Lambda(N),
+}
+
+/// The values of λ between which that of the optimum lies, as far as one search may go.
+struct Bracket<N> {
+    low: N,
+    high: N,
+    nearest: N,
+    farthest: N,
+}
+
+impl<N: Single> Bracket<N> {
+    #[inline(always)]
+    fn about(lambda: N) -> Self {
+        let (nearest, farthest) = (lambda / N::of(FARTHEST), lambda * N::of(FARTHEST));
+        Self { low: nearest, high: farthest, nearest, farthest }
+    }
+
+    /// Leaves out what is beyond a λ that was too large or too small.
+    #[inline(always)]
+    fn narrow(&mut self, lambda: N, too_large: bool) {
+        if too_large {
+            self.high = lambda;
+        } else {
+            self.low = lambda;
+        }
+    }
+
+    /// λ, or where it is beyond what is known of the curve: to its end, and no further.
+    #[inline(always)]
+    fn kept(&self, lambda: N) -> N {
+        let (beyond_high, beyond_low) = (self.high.is_at_most(lambda), lambda.is_at_most(self.low));
+        if beyond_high && self.high == self.farthest {
+            self.farthest
+        } else if beyond_low && self.low == self.nearest {
+            self.nearest
+        } else if !beyond_high && !beyond_low {
+            lambda
+        } else {
+            N::of((self.low * self.high).approximate().sqrt())
+        }
+    }
+
+    #[inline(always)]
+    fn is_end(&self, lambda: N) -> bool {
+        lambda == self.nearest || lambda == self.farthest
+    }
+}
 
 impl<'a, N: Single> Model<'a, N> {
     #[inline(always)]
@@ -58,24 +106,13 @@ impl<'a, N: Single> Model<'a, N> {
         Self { curve: Curve::new(a, b, problem), problem, expanded: of_a + of_b }
     }
 
-    /// Searches λ from a guess until the mismatch of the two sides is `enough`; 0 for as good as rounding allows.
-    /// `None` when a factorisation breaks down.
+    /// Searches λ from a guess until the two sides meet as well as rounding allows. `None` when a factorisation breaks down.
     #[inline(always)]
-    pub fn solve(&self, guess: N, enough: f64) -> Option<Optimum<N>> {
+    pub fn solve(&self, guess: N) -> Option<Optimum<N>> {
         let approximate = guess.approximate();
         let kept = approximate.clamp(LAMBDA_RANGE.0, LAMBDA_RANGE.1);
-        self.search(if kept == approximate { guess } else { N::of(kept) }, enough)
-    }
-
-    /// Searches λ from one that is in its range.
-    #[inline(always)]
-    pub fn search(&self, first: N, enough: f64) -> Option<Optimum<N>> {
-        let mut found = self.curve.probe(first)?;
-        let (nearest, farthest) = (found.lambda / N::of(FARTHEST), found.lambda * N::of(FARTHEST));
-        let (mut low, mut high) = (nearest, farthest);
-        let (mut last, mut slow) = (f64::INFINITY, 0);
-        // In numbers of 32 digits the series gains as many digits a search, but has more to gain.
-        let last_at_once = VERY_NEAR * (2.0 * N::UNIT / f64::EPSILON).sqrt().sqrt();
+        let mut found = self.curve.probe(if kept == approximate { guess } else { N::of(kept) })?;
+        let mut bracket = Bracket::about(found.lambda);
         for _ in 0..MOST_SEARCHES {
             let (growing, falling) = self.sides(&found.values);
             let (difference, larger) =
@@ -83,58 +120,38 @@ impl<'a, N: Single> Model<'a, N> {
             if !difference.is_finite() {
                 return None;
             }
-            // To rounding; or the search, which should do far better, does not even halve it any more.
             let noise = noise(N::UNIT, self.expanded, larger);
-            slow = if difference.abs() > 0.5 * last { slow + 1 } else { 0 };
-            let settled = difference.abs() <= noise;
-            if settled || difference.abs() <= enough {
-                return Some(Optimum { settled, ..self.curve.optimum(&found) });
+            if difference.abs() <= noise {
+                return Some(Optimum { settled: true, ..self.curve.optimum(&found) });
             }
-            if slow >= MOST_SLOW && difference.abs() <= STALLING * N::UNIT * larger {
-                return Some(self.corrected(found));
-            }
-            last = difference.abs();
-            if difference > 0.0 {
-                high = found.lambda;
-            } else {
-                low = found.lambda;
-            }
-            let next = match self.curve.series(&found) {
-                Some(series)
-                    if series.share.approximate() <= last_at_once
-                        || (series.share.approximate() <= NEAR && enough > 0.0) =>
-                {
-                    let further = self.curve.along(&found, &series);
-                    let left = self.mismatch(&further);
-                    let settled =
-                        series.share.approximate() <= last_at_once && left <= noise && self.curve.is_balanced(&further);
-                    if settled || left <= enough {
-                        return Some(Optimum { settled, ..further });
-                    }
-                    series.lambda
-                }
-                Some(series) if series.share.approximate() <= NEAR => series.lambda,
-                _ => N::of(self.far(found, growing, falling)),
-            };
-            // Beyond what is known of the curve: to its end, and no further.
-            let (beyond_high, beyond_low) = (high.is_at_most(next), next.is_at_most(low));
-            let next = if beyond_high && high == farthest {
-                farthest
-            } else if beyond_low && low == nearest {
-                nearest
-            } else if !beyond_high && !beyond_low {
-                next
-            } else {
-                N::of((low * high).approximate().sqrt())
+            bracket.narrow(found.lambda, difference > 0.0);
+            let next = match self.advance(&found, (growing, falling), noise) {
+                Advance::Optimum(optimum) => return Some(optimum),
+                Advance::Lambda(next) => bracket.kept(next),
             };
             if next == found.lambda {
                 // No λ does better. At an end of the range there may be a better one, for other quadratics.
-                let settled = next != nearest && next != farthest;
-                return Some(Optimum { settled, ..self.curve.optimum(&found) });
+                return Some(Optimum { settled: !bracket.is_end(next), ..self.curve.optimum(&found) });
             }
             found = self.curve.probe(next)?;
         }
         Some(self.curve.optimum(&found))
+    }
+
+    /// Along the series to the optimum, where that is all that is left; else to another λ.
+    #[inline(always)]
+    fn advance(&self, found: &Probe<N>, (growing, falling): (f64, f64), noise: f64) -> Advance<N> {
+        // In numbers of 32 digits the series gains as many digits a search, but has more to gain.
+        let last_at_once = VERY_NEAR * (2.0 * N::UNIT / f64::EPSILON).sqrt().sqrt();
+        let series = self.curve.series(found).filter(|series| series.share.approximate() <= NEAR);
+        let Some(series) = series else { return Advance::Lambda(N::of(self.far(*found, growing, falling))) };
+        if series.share.approximate() <= last_at_once {
+            let further = self.curve.along(found, &series);
+            if self.mismatch(&further) <= noise && self.curve.is_balanced(&further) {
+                return Advance::Optimum(Optimum { settled: true, ..further });
+            }
+        }
+        Advance::Lambda(series.lambda)
     }
 
     #[inline(always)]
@@ -147,16 +164,6 @@ impl<'a, N: Single> Model<'a, N> {
     fn mismatch(&self, optimum: &Optimum<N>) -> f64 {
         let (growing, falling) = self.problem.sides(optimum.values.0, optimum.values.1);
         (growing - falling).approximate().abs()
-    }
-
-    /// Where the rounding of the factorisation moves a side by more than its noise, at random for each λ: the way to the root
-    /// along the curve is smooth.
-    #[cold]
-    fn corrected(self, found: Probe<N>) -> Optimum<N> {
-        let here = self.curve.optimum(&found);
-        let further = self.curve.series(&found).map(|series| self.curve.along(&found, &series));
-        let best = further.filter(|further| self.mismatch(further) < self.mismatch(&here)).unwrap_or(here);
-        Optimum { settled: true, ..best }
     }
 
     /// The next λ where the series is of no use: far off, the logarithms of both sides are nearly linear in ln λ.
@@ -182,7 +189,7 @@ pub(crate) fn side(q: &Quadratic, soft: f64) -> Side<'_, f64> {
     Side { value: q.expansion, gradient: &q.gradient, hessian: &q.hessian, soft }
 }
 
-/// P1 and P2 by one step along the series of their curves, from guesses of their λ; `None` where that does not do.
+/// P1 and P2 along the series of their curves, from guesses of their λ; `None` where that does not do.
 ///
 /// Each holds one body at S = 1 and minimises the other's S: the same in two lanes, in one of them with the bodies swapped.
 #[inline(always)]
@@ -200,15 +207,22 @@ pub(crate) fn both_closest([q_a, q_b]: [&Quadratic; 2], soft: (f64, f64), lambda
     let value = Twin::new(q_b.expansion, q_a.expansion);
     let held = Side { value, gradient: &g_held, hessian: &h_held, soft: Twin::new(soft.1, soft.0) };
     let curve = Curve::new(free, held, Problem::OnB);
-    let probe = curve.probe(Twin::new(lambdas[1], 1.0 / lambdas[0]))?;
-    let series = curve.series(&probe)?;
-    if !series.share.is_at_most(of(RATHER_NEAR)) {
-        return None;
+    let mut lambda = Twin::new(lambdas[1], 1.0 / lambdas[0]);
+    for _ in 0..MOST_PROBES {
+        let probe = curve.probe(lambda)?;
+        let series = curve.series(&probe)?;
+        if series.share.is_at_most(of(VERY_NEAR)) {
+            let found = curve.along(&probe, &series);
+            let noise = noise(Twin::UNIT, held.value, probe.values.1.larger(of(1.0)));
+            let settled = (found.values.1 - of(1.0)).magnitude().is_at_most(noise) && curve.is_balanced(&found);
+            return settled.then(|| [found.lane(1).swapped(), found.lane(0)]);
+        }
+        if !series.share.is_at_most(of(NEAR)) {
+            return None;
+        }
+        lambda = series.lambda;
     }
-    let found = curve.further_along(&probe, &series);
-    let noise = noise(Twin::UNIT, held.value, probe.values.1.larger(of(1.0)));
-    let settled = (found.values.1 - of(1.0)).magnitude().is_at_most(noise) && curve.is_balanced(&found);
-    settled.then(|| [found.lane(1).swapped(), found.lane(0)])
+    None
 }
 
 impl Optimum {
@@ -257,17 +271,20 @@ mod tests {
         let q_b = about([0.95, -0.2, 0.1], Symmetric { xx: 1.8, yx: -0.1, yy: 2.0, zx: 0.4, zy: 0.5, zz: 5.0 });
         let soft = (1.0, 1.0);
         let alone = [Problem::OnA, Problem::OnB]
-            .map(|problem| Model::new(side(&q_a, soft.0), side(&q_b, soft.1), problem).solve(1.0, 0.0).unwrap());
-        let guesses = [alone[0].lambda * (1.0 + 3e-4), alone[1].lambda * (1.0 - 3e-4)];
-        let both = both_closest([&q_a, &q_b], soft, guesses).expect("guesses from nearby");
-        for ((problem, alone), both) in [Problem::OnA, Problem::OnB].into_iter().zip(&alone).zip(&both) {
-            assert!((both.step - alone.step).norm() < 1e-14, "{problem:?}");
-            assert!((both.lambda / alone.lambda - 1.0).abs() < 1e-13, "{problem:?}");
-            assert!(problem.mismatch(both.values.0, both.values.1) < 1e-14, "{problem:?}");
-            assert!(both.slope(problem).norm() < 1e-14, "{problem:?}");
+            .map(|problem| Model::new(side(&q_a, soft.0), side(&q_b, soft.1), problem).solve(1.0).unwrap());
+        let guesses = |off: f64| [alone[0].lambda * (1.0 + off), alone[1].lambda * (1.0 - off)];
+        // By one probe, and by two.
+        for off in [1e-4, 1e-2] {
+            let both = both_closest([&q_a, &q_b], soft, guesses(off)).expect("guesses from nearby");
+            for ((problem, alone), both) in [Problem::OnA, Problem::OnB].into_iter().zip(&alone).zip(&both) {
+                assert!((both.step - alone.step).norm() < 1e-14, "{problem:?}");
+                assert!((both.lambda / alone.lambda - 1.0).abs() < 1e-13, "{problem:?}");
+                assert!(problem.mismatch(both.values.0, both.values.1) < 1e-14, "{problem:?}");
+                assert!(both.slope(problem).norm() < 1e-14, "{problem:?}");
+            }
         }
         // From too far, and of no weights, it is left to the search.
-        assert!(both_closest([&q_a, &q_b], soft, guesses.map(|guess| 1.5 * guess)).is_none());
+        assert!(both_closest([&q_a, &q_b], soft, guesses(0.0).map(|guess| 1.5 * guess)).is_none());
         assert!(both_closest([&q_a, &q_b], soft, [-1.0, 1.0]).is_none());
     }
 }

@@ -16,11 +16,15 @@
 //! The one thing not taken over is what bounds a particle: lines that enclose an area are enough, and ball
 //! and corners are those of the cut.
 
+mod batch;
+mod closest_point;
 mod contact;
 mod particle;
 mod pose;
 mod section;
 
+pub use batch::detect_batch;
+pub use closest_point::{ClosestPoint, closest_point};
 #[cfg(feature = "capi")]
 pub(crate) use contact::detect_as;
 pub use contact::{Contact, detect};
@@ -38,7 +42,7 @@ fn raised(v: &Vector2<f64>) -> Vector3<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{BackEnd, Formulation, Kind, Memory, Settings};
+    use crate::{BackEnd, Formulation, Kind, Memory, Role, Settings};
 
     /// The doc of this module says that z stays 0: seen here in the contact of space.
     #[test]
@@ -77,6 +81,11 @@ mod tests {
                     assert!(vectors.iter().all(|v| v.z == 0.0), "{contact:?}");
                     // Number 3 of a filled memory is z.
                     assert_eq!(memory.into_raw()[3], 0.0);
+                    for on in [Role::A, Role::B] {
+                        let found = crate::closest_point(&a.0, &pose_a, &b.0, &pose_b, on, &settings).unwrap();
+                        let vectors = found.map(|found| [found.point, found.branch_a, found.branch_b]);
+                        assert!(vectors.iter().flatten().all(|v| v.z == 0.0), "{vectors:?}");
+                    }
                 }
             }
         }

@@ -1,7 +1,7 @@
 //! One call: the pair being solved, the order in which solvers are tried, and what it has cost so far.
 //!
 //! 1. One Newton step from the start, which is enough for nearly all pairs (`first_step`).
-//! 2. Newton's method from there, and once more from a cold start where the first was from memory ([`newton`]).
+//! 2. Newton's method from there ([`newton`]).
 //! 3. The extended tier, where that did not settle, where its bound is looser than rounding explains, or where the caller asks for
 //!    a smaller gap than doubles can give ([`extended`]).
 
@@ -24,9 +24,6 @@ use crate::solver::newton::{self, Goal};
 use crate::solver::{extended, initial_guess};
 use nalgebra::Vector3;
 use thiserror::Error;
-
-/// S at a point that is outside whatever rounding did to it.
-const CLEARLY: f64 = 2.0;
 
 /// A gap this many times what rounding, regularisation and tolerance explain is looked at in extended precision.
 const LOOSE: f64 = 20.0;
@@ -103,7 +100,7 @@ impl<'a> Call<'a> {
             return None;
         }
         let goal = self.goal(problem);
-        let optimum = model.quadratics(self.bodies(), problem).solve(lambda, 0.0)?;
+        let optimum = model.quadratics(self.bodies(), problem).solve(lambda)?;
         let solution = newton::accepted(self.bodies(), &goal, model, optimum)?;
         self.count(&solution);
         Some(solution)
@@ -111,21 +108,15 @@ impl<'a> Call<'a> {
 
     /// By all solvers in their order, beginning with the model at hand; that of the solution is left there.
     #[inline(never)]
-    pub fn solve(&mut self, problem: Problem, start: &Start, model: &mut LocalModel) -> Result<Solution, SolveError> {
+    pub fn solve(&mut self, problem: Problem, lambda: f64, model: &mut LocalModel) -> Result<Solution, SolveError> {
         if self.settings.back_end == BackEnd::Conic {
             return self.by_cone_program(problem, model);
         }
         let goal = self.goal(problem);
-        let mut solution = newton::solve(self.bodies(), &goal, start, self.axes(), model);
-        if start.near && solution.ending == Ending::Unsettled {
-            self.iterations += solution.iterations;
-            let cold = self.cold();
-            *model = self.model(&cold, problem);
-            solution = newton::solve(self.bodies(), &goal, &cold, self.axes(), model);
-        }
+        let mut solution = newton::solve(self.bodies(), &goal, lambda, self.axes(), model);
         if self.wants_more(&solution, model, &goal) {
             self.iterations += solution.iterations;
-            solution = self.extended(&goal, start, solution, model)?;
+            solution = self.extended(&goal, solution, model)?;
         }
         self.count(&solution);
         Ok(solution)
@@ -146,16 +137,10 @@ impl<'a> Call<'a> {
     }
 
     #[cold]
-    fn extended(
-        &mut self,
-        goal: &Goal,
-        start: &Start,
-        first: Solution,
-        model: &mut LocalModel,
-    ) -> Result<Solution, SolveError> {
-        // Where Newton's method ended without a solution may be anywhere.
+    fn extended(&mut self, goal: &Goal, first: Solution, model: &mut LocalModel) -> Result<Solution, SolveError> {
+        // Where Newton's method ended without a solution may be anywhere, and so may what it began with from memory.
         let known = first.ending != Ending::Unsettled;
-        let start = if known { Start { x: first.x, lambda: first.lambda, near: true } } else { *start };
+        let start = if known { Start { x: first.x, lambda: first.lambda } } else { self.cold() };
         let solution = extended::solve(self.pair, self.bodies(), goal, &start);
         let settled = solution.ending != Ending::Unsettled;
         if known && !(settled && solution.gap() < first.gap()) {
@@ -165,7 +150,7 @@ impl<'a> Call<'a> {
             return Err(SolveError::Unsettled);
         }
         self.flags.insert(Flags::EXTENDED);
-        let start = Start { x: solution.x, lambda: solution.lambda, near: true };
+        let start = Start { x: solution.x, lambda: solution.lambda };
         *model = self.model(&start, goal.problem);
         Ok(solution)
     }
@@ -180,7 +165,7 @@ impl<'a> Call<'a> {
         self.iterations += found.iterations;
         let lambda = found.weight / (1.0 - found.weight);
         let solution = judged(&found.x, lambda, found.s, self.bodies(), problem);
-        *model = self.model(&Start { x: solution.x, lambda, near: true }, problem);
+        *model = self.model(&Start { x: solution.x, lambda }, problem);
         Ok(solution)
     }
 
@@ -210,12 +195,11 @@ impl<'a> Call<'a> {
         problem: Problem,
         midway: Option<(&Solution, &LocalModel)>,
     ) -> Result<Option<CertifiedPoint>, SolveError> {
-        let clearly_outside = midway.is_some_and(|(midway, _)| self.centre_is_outside(problem, midway));
-        if !clearly_outside && self.centre_is_inside(problem) {
+        if self.centre_is_inside(problem) {
             return Ok(None);
         }
         let start = match midway {
-            Some((midway, _)) => Start { x: midway.x, lambda: midway.towards(problem), near: true },
+            Some((midway, _)) => Start { x: midway.x, lambda: midway.towards(problem) },
             None => self.cold(),
         };
         let mut model = match midway {
@@ -224,7 +208,7 @@ impl<'a> Call<'a> {
         };
         let solution = match self.first_step(problem, start.lambda, &model) {
             Some(solution) => solution,
-            None => self.solve(problem, &start, &mut model)?,
+            None => self.solve(problem, start.lambda, &mut model)?,
         };
         let found = self.certified(problem, &solution, &model);
         // A scale that cannot be told from 0 is a sign of a core only if there is one.
@@ -271,17 +255,6 @@ impl<'a> Call<'a> {
         self.count(&on_a);
         self.count(&on_b);
         Some(points)
-    }
-
-    /// Whether the tangent of one potential at midway, which lies below it, is clearly above 1 at the other's centre.
-    #[inline(always)]
-    fn centre_is_outside(&self, problem: Problem, midway: &Solution) -> bool {
-        let (i, body, centre) = match problem {
-            Problem::OnB => (1, &self.body_b, self.body_a.centre()),
-            _ => (0, &self.body_a, self.body_b.centre()),
-        };
-        let tangent = midway.values[i] + midway.gradients[i].dot(&(centre - midway.x));
-        body.is_plain() && tangent > CLEARLY
     }
 
     fn centre_is_inside(&self, problem: Problem) -> bool {

@@ -130,7 +130,7 @@ impl Extended<'_> {
         let mut bracket = Bracket { low: 0.0, high: f64::INFINITY, slow: 0 };
         // The active set at the start may be that of the optimum.
         let model = self.model(&found.delta, first);
-        if let Some(optimum) = model.quadratics(self.problem).solve(first, 0.0) {
+        if let Some(optimum) = model.quadratics(self.problem).solve(first) {
             self.accept(&mut found, &model, optimum);
         }
         for _ in 0..MOST_WEIGHTS {
@@ -138,7 +138,7 @@ impl Extended<'_> {
                 break;
             }
             let Some(model) = self.minimise(&mut found.delta, found.lambda) else { break };
-            let Some(optimum) = model.quadratics(self.problem).solve(found.lambda, 0.0) else { break };
+            let Some(optimum) = model.quadratics(self.problem).solve(found.lambda) else { break };
             if self.accept(&mut found, &model, optimum) {
                 break;
             }

@@ -17,11 +17,9 @@
 
 use crate::linalg::number::larger;
 use crate::model::local_model::Start;
-use crate::model::problem::Problem;
 use crate::pair::placed_particle::Body;
 use crate::pair::relative_pose::Pair;
 use crate::particle::plane_clusters;
-use crate::solver::line_search::{self, Merit};
 use nalgebra::Vector3;
 
 /// Most planes that take over, one after the other, and most trials for each. A start need not be perfect.
@@ -37,32 +35,13 @@ const SLOW: f64 = 1e-6;
 /// Square of the shortest vector of the hull, relative to the longest, that is none: the planes hold each other.
 const BALANCED: f64 = 1e-20;
 
-/// Sphericity from which the spheres decide as much as the planes.
-const ROUND: f64 = 0.5;
-
 /// A start without memory.
 pub(crate) fn cold(pair: &Pair, [a, b]: [&Body; 2]) -> Start {
-    let angular = |body: &Body| !body.particle.is_sphere() && body.particle.sphericity() < ROUND;
-    let between = if angular(a) && angular(b) { between_polyhedra([a, b], centre_line(pair)) } else { None };
+    let with_planes = !(a.particle.is_sphere() || b.particle.is_sphere());
+    let between = if with_planes { between_polyhedra([a, b], centre_line(pair)) } else { None };
     // Rounding may leave the program without a direction.
-    between.filter(|start| start.x.iter().all(|c| c.is_finite())).unwrap_or_else(|| on_centre_line(pair, [a, b]))
-}
-
-/// The best point on the line of centres.
-pub(crate) fn on_centre_line(pair: &Pair, [a, b]: [&Body; 2]) -> Start {
-    let from = a.centre();
-    let direction = -from;
-    let (ra, rb) = (pair.a.bounding_radius(), pair.b.bounding_radius());
-    let guess = ra / (ra + rb);
-    if direction.norm_squared() == 0.0 {
-        return Start { x: Vector3::zeros(), lambda: 1.0, near: false };
-    }
-    let line_search::Descent { alpha, slope_a, slope_b } =
-        line_search::descend([a, b], Merit(Problem::Midway, 1.0), &from, &direction, (guess, 1.0));
-    // (1−u) S_A' + u S_B' = 0 on the line.
-    let lambda = -slope_a / slope_b;
-    let lambda = if lambda > 0.0 && lambda.is_finite() { lambda } else { 1.0 };
-    Start { x: from + alpha * direction, lambda, near: false }
+    let on_centre_line = Start { x: centre_line(pair), lambda: 1.0 };
+    between.filter(|start| start.x.iter().all(|c| c.is_finite())).unwrap_or(on_centre_line)
 }
 
 /// The point of the line of centres that divides it as the bounding radii do.
@@ -91,7 +70,7 @@ fn between_polyhedra(bodies: [&Body; 2], from: Vector3<f64>) -> Option<Start> {
         x -= way * y;
         let Some(plane) = next else {
             // F = 0: inside both polyhedra.
-            return Some(Start { x, lambda: 1.0, near: false });
+            return Some(Start { x, lambda: 1.0 });
         };
         level -= way * rate;
         hull.join(envelope.face(plane))?;
@@ -319,6 +298,6 @@ impl Hull {
         let to_last = excess(last);
         let step = (0..last).fold(Vector3::zeros(), |sum, i| sum + (excess(i) - to_last) * self.reciprocal[i]);
         let (x, lambda) = (x + step, beta / alpha);
-        (lambda.is_finite() && x.iter().all(|v| v.is_finite())).then_some(Start { x, lambda, near: true })
+        (lambda.is_finite() && x.iter().all(|v| v.is_finite())).then_some(Start { x, lambda })
     }
 }

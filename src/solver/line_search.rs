@@ -3,6 +3,7 @@
 //! On a line both potentials are convex, piecewise quadratic functions of one variable, and every
 //! merit is the larger of two sums of them.
 
+use crate::linalg::number::larger;
 use crate::model::problem::{PRICE, Problem};
 use crate::pair::placed_particle::Body;
 use crate::particle::potential::OnLine;
@@ -11,33 +12,19 @@ use nalgebra::Vector3;
 /// Most trial points of one search; each costs less than an evaluation with Hessians.
 const MOST_TRIALS: usize = 20;
 
-/// Both potentials at a point of the line.
-#[derive(Clone, Copy, Debug)]
-struct Trial {
-    merit: f64,
-    pieces: [OnLine; 2],
-}
-
-/// Looks for the minimum over α in (0, most) of the merit at `from + α·direction`, from `start` on.
-pub(crate) fn descend(
-    [a, b]: [&Body; 2],
-    merit: Merit,
-    from: &Vector3<f64>,
-    direction: &Vector3<f64>,
-    (start, most): (f64, f64),
-) -> Descent {
-    let (mut low, mut high) = (0.0, most);
-    let mut alpha = start;
-    let mut best: Option<(Trial, Descent)> = None;
+/// The best α tried on the way to the minimum over α in (0, 1) of the merit at `from + α·direction`.
+pub(crate) fn descend([a, b]: [&Body; 2], merit: Merit, from: &Vector3<f64>, direction: &Vector3<f64>) -> f64 {
+    let (mut low, mut high) = (0.0, 1.0);
+    let mut alpha = 0.5;
+    let mut best = (f64::INFINITY, 0.0);
     for _ in 0..MOST_TRIALS {
         let x = from + alpha * direction;
-        let (on_a, on_b) = (a.on_line(&x, direction), b.on_line(&x, direction));
-        let pieces = merit.pieces(on_a, on_b);
-        let trial = Trial { merit: pieces[0].value.max(pieces[1].value), pieces };
-        let step = trial.minimise_pieces();
+        let pieces = merit.pieces(a.on_line(&x, direction), b.on_line(&x, direction));
+        let step = to_minimum(&pieces);
         let close = step.abs() <= CLOSE * alpha.abs();
-        if best.is_none_or(|(b, _)| trial.merit < b.merit) {
-            best = Some((trial, Descent { alpha, slope_a: on_a.slope, slope_b: on_b.slope }));
+        let value = larger(pieces[0].value, pieces[1].value);
+        if value < best.0 {
+            best = (value, alpha);
         }
         if step > 0.0 {
             low = alpha
@@ -51,21 +38,11 @@ pub(crate) fn descend(
         }
         alpha = next;
     }
-    best.map_or(Descent { alpha: 0.0, slope_a: 0.0, slope_b: 0.0 }, |(_, descent)| descent)
+    best.1
 }
 
 /// Relative accuracy of the minimum: the direction is itself an approximation.
 const CLOSE: f64 = 1e-3;
-
-/// Where a descent ended.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Descent {
-    /// The best α tried.
-    pub alpha: f64,
-    /// dS_A/dα and dS_B/dα at the best α.
-    pub slope_a: f64,
-    pub slope_b: f64,
-}
 
 /// The merit of a problem at λ.
 #[derive(Clone, Copy, Debug)]
@@ -88,24 +65,21 @@ impl Merit {
     }
 }
 
-impl Trial {
-    /// Step to the minimum of the larger of the two quadratics.
-    fn minimise_pieces(&self) -> f64 {
-        let [p, q] = &self.pieces;
-        let (upper, other) = if p.value >= q.value { (p, q) } else { (q, p) };
-        let at = |f: &OnLine, t: f64| f.value + t * (f.slope + 0.5 * f.curvature * t);
-        let descent = -upper.slope / upper.curvature;
-        if !descent.is_finite() || at(other, descent) <= at(upper, descent) {
-            return descent;
-        }
-        // The other piece takes over on the way: where they cross, or at its own minimum if that lies
-        // before the crossing.
-        let (v, s, c) = (upper.value - other.value, upper.slope - other.slope, upper.curvature - other.curvature);
-        let towards = descent.signum();
-        let crossing = first_crossing(v, s * towards, c).map_or(0.0, |t| t * towards);
-        let valley = -other.slope / other.curvature;
-        if (valley - crossing) * towards > 0.0 && valley.is_finite() { valley } else { crossing }
+/// Step to the minimum of the larger of the two quadratics.
+fn to_minimum([p, q]: &[OnLine; 2]) -> f64 {
+    let (upper, other) = if p.value >= q.value { (p, q) } else { (q, p) };
+    let at = |f: &OnLine, t: f64| f.value + t * (f.slope + 0.5 * f.curvature * t);
+    let descent = -upper.slope / upper.curvature;
+    if !descent.is_finite() || at(other, descent) <= at(upper, descent) {
+        return descent;
     }
+    // The other piece takes over on the way: where they cross, or at its own minimum if that lies
+    // before the crossing.
+    let (v, s, c) = (upper.value - other.value, upper.slope - other.slope, upper.curvature - other.curvature);
+    let towards = descent.signum();
+    let crossing = first_crossing(v, s * towards, c).map_or(0.0, |t| t * towards);
+    let valley = -other.slope / other.curvature;
+    if (valley - crossing) * towards > 0.0 && valley.is_finite() { valley } else { crossing }
 }
 
 /// Least t ≥ 0 with v + s·t + ½c·t² = 0 for v ≥ 0, without cancellation.

@@ -8,17 +8,16 @@ use crate::bounds::solution::{Ending, Solution};
 use crate::linalg::number::larger;
 use crate::model::dual_path::Optimum;
 use crate::model::kkt_check::Change;
-use crate::model::local_model::{self, Axes, LocalModel, Start};
+use crate::model::local_model::{self, Axes, LocalModel, Step};
 use crate::model::problem::Problem;
 use crate::pair::placed_particle::Body;
 use crate::settings::LEAST_OF_DOUBLES;
 use crate::solver::line_search::{self, Merit};
 use nalgebra::Vector3;
+use std::ops::ControlFlow::{self, Break, Continue};
 
-/// Most iterations from nothing, and from memory or a neighbouring problem. Of 20,000 pairs, fewer (20 and 8) sent half as many
-/// again to the extended tier, where a step of two bodies of 1,000 planes takes 75 µs; few come to an end after more.
-pub(crate) const MOST_ITERATIONS: u32 = 30;
-pub(crate) const MOST_FROM_NEAR: u32 = 20;
+/// Most iterations; few searches come to an end after more.
+const MOST_ITERATIONS: u32 = 30;
 
 /// Relative to the smaller particle, a step too short for the next one to be more precise.
 const SHORT: f64 = 1e-9;
@@ -29,18 +28,8 @@ const AS_SHARP: f64 = 8.0;
 /// Relative gap above which an optimum is sought again from nearby.
 const SHARP: f64 = 1e-2;
 
-/// Share of what is still to be gained to which λ is searched, early on and after a step that failed.
-const ROUGH: f64 = 1e-2;
-const FINE: f64 = 1e-4;
-
-/// Steps in a row that may come to nothing.
-const MOST_STOPS: u32 = 3;
-
 /// Iterations granted to sharpen an optimum that is known already.
 const MOST_SHARPENING: u32 = 3;
-
-/// Share of the promised decrease of the merit that a step must bring (Armijo's rule).
-const DECREASE: f64 = 1e-4;
 
 /// What the solver is asked for.
 #[derive(Clone, Copy, Debug)]
@@ -106,6 +95,33 @@ impl Quality {
     }
 }
 
+/// Solves for the goal, beginning with the model at hand; that of the solution is left there.
+pub(crate) fn solve(bodies: [&Body; 2], goal: &Goal, lambda: f64, axes: Axes, model: &mut LocalModel) -> Solution {
+    let mut search = Search { bodies, goal, axes, model, lambda, attempt: None, best: None, iterations: 0 };
+    while search.iterations < MOST_ITERATIONS {
+        match search.iterate() {
+            Continue(()) => {}
+            Break(Some(answer)) => return answer,
+            Break(None) => break,
+        }
+    }
+    search.end()
+}
+
+/// What is known on the way.
+struct Search<'a> {
+    bodies: [&'a Body<'a>; 2],
+    goal: &'a Goal,
+    axes: Axes,
+    /// The model at hand.
+    model: &'a mut LocalModel,
+    lambda: f64,
+    /// The step that led to the model at hand.
+    attempt: Option<Attempt>,
+    best: Option<Best>,
+    iterations: u32,
+}
+
 /// The best solution so far, with the model it is an optimum of.
 struct Best {
     solution: Solution,
@@ -114,81 +130,103 @@ struct Best {
     age: u32,
 }
 
-/// Solves for the goal, beginning with the model at hand; that of the solution is left there.
-pub(crate) fn solve(bodies: [&Body; 2], goal: &Goal, start: &Start, axes: Axes, model: &mut LocalModel) -> Solution {
-    let problem = goal.problem;
-    let most = if start.near { MOST_FROM_NEAR } else { MOST_ITERATIONS };
-    let (flat, shortest) = (flat(bodies), SHORT * local_model::smallest(bodies));
-    let (mut lambda, mut lower) = (start.lambda, f64::NEG_INFINITY);
-    let (mut attempt, mut best, mut stops, mut iterations) = (None::<Attempt>, None::<Best>, 0, 0);
-    while iterations < most && stops <= MOST_STOPS {
-        iterations += 1;
-        let failed = attempt.as_ref().is_some_and(|attempt| !attempt.is_descent(bodies, problem, model));
-        if let Some(attempt) = attempt.as_ref().filter(|_| failed) {
-            let moved = attempt.shorten(bodies, problem, lambda, axes, model);
-            stops = if moved { 0 } else { stops + 1 };
+impl Search<'_> {
+    /// Goes on to another model; or ends with an answer, or without one, where no step can be made or no further one is worth it.
+    fn iterate(&mut self) -> ControlFlow<Option<Solution>> {
+        self.iterations += 1;
+        self.shorten_if_failed();
+        if !self.merit().is_finite() {
+            return Break(None);
         }
-        let upper = model.merit(problem, lambda);
-        if !upper.is_finite() {
-            break;
-        }
-        // Where the active set is likely right, at once the best λ; else a rough one will do, but for a better one after
-        // a step that failed.
-        let share = match () {
-            () if start.near && iterations == 1 => 0.0,
-            () if failed => FINE,
-            () => ROUGH,
-        };
-        let behind = if problem == Problem::Midway { upper - lower } else { 0.0 };
-        let mismatch = problem.mismatch(model.q_a.expansion, model.q_b.expansion);
-        let enough = share * mismatch.max(behind).min(upper);
-        let Some(step) = model.optimum(bodies, problem, lambda, enough) else { break };
-        lambda = step.optimum.lambda;
+        let Some(step) = self.model.optimum(self.bodies, self.goal.problem, self.lambda) else { return Break(None) };
+        self.lambda = step.optimum.lambda;
         if step.change == Change::Leaving {
-            *model = model.without_leaving(bodies, &step, problem.weights(lambda), axes);
-            attempt = None;
-            continue;
+            *self.model = self.model.without_leaving(self.bodies, &step, self.weights(), self.axes);
+            self.attempt = None;
+            return Continue(());
         }
-        let upper = model.merit(problem, lambda);
-        lower = problem.dual(step.optimum.values.0, step.optimum.values.1, lambda);
-        let separating = goal.stop_when_separated && lower > 1.0 && step.change != Change::Pulling;
-        let optimal = step.change == Change::None && step.optimum.settled;
-        if separating || optimal {
-            let solution = Solution { iterations, ..Solution::of(model, bodies, problem, &step) };
-            if separating && solution.separates(flat) {
-                return Solution { ending: Ending::Separated, ..solution };
-            }
-            if optimal {
-                let quality = Quality::of(&solution, goal, model);
-                let solution = Solution { ending: quality.ending(), ..solution };
-                let short = step.length <= shortest;
-                if quality.precise || ((short || quality.rounded) && quality.telling) {
-                    return solution;
-                }
-                // Optimal, but over a long step; the same from nearby is sharper.
-                if best.as_ref().is_none_or(|best| solution.gap() < best.solution.gap()) {
-                    let age = best.map_or(0, |best| best.age);
-                    best = Some(Best { solution, model: *model, age });
-                }
-            }
+        let answer = self.answer(&step);
+        if answer.is_some() {
+            return Break(answer);
         }
-        if let Some(best) = &mut best {
-            best.age += 1;
-            if best.age > MOST_SHARPENING {
-                break;
-            }
+        if self.is_sharpened() {
+            return Break(None);
         }
-        let promised = larger(upper - lower, 0.0);
-        let x = model.x + step.v;
-        attempt = Some(Attempt { from: *model, step: step.v, lambda, merit: upper, promised });
-        *model = LocalModel::of(bodies, x, bodies.map(|body| body.locate(&x)), problem.weights(lambda), axes);
+        self.take(&step);
+        Continue(())
     }
-    match best {
-        Some(best) => {
-            *model = best.model;
-            Solution { iterations, ..best.solution }
+
+    /// Shortens the last step if it did not reduce the merit.
+    fn shorten_if_failed(&mut self) {
+        let problem = self.goal.problem;
+        if let Some(last) = self.attempt.as_ref().filter(|last| !last.is_descent(self.bodies, problem, self.model)) {
+            *self.model = last.shortened(self.bodies, problem, self.lambda, self.axes);
         }
-        None => Solution::unsettled(model.x, lambda, iterations),
+    }
+
+    /// The solution that the optimum of the model is, if it is one and good enough. One that is not is kept if it is the best so far:
+    /// optimal, but over a long step; the same from nearby is sharper.
+    fn answer(&mut self, step: &Step) -> Option<Solution> {
+        let lower = self.goal.problem.dual(step.optimum.values.0, step.optimum.values.1, self.lambda);
+        let separating = self.goal.stop_when_separated && lower > 1.0 && step.change != Change::Pulling;
+        let optimal = step.change == Change::None && step.optimum.settled;
+        if !separating && !optimal {
+            return None;
+        }
+        let of_step = Solution::of(self.model, self.bodies, self.goal.problem, step);
+        let solution = Solution { iterations: self.iterations, ..of_step };
+        if separating && solution.separates(flat(self.bodies)) {
+            return Some(Solution { ending: Ending::Separated, ..solution });
+        }
+        if !optimal {
+            return None;
+        }
+        let quality = Quality::of(&solution, self.goal, self.model);
+        let solution = Solution { ending: quality.ending(), ..solution };
+        let short = step.length <= SHORT * local_model::smallest(self.bodies);
+        if quality.precise || ((short || quality.rounded) && quality.telling) {
+            return Some(solution);
+        }
+        if self.best.as_ref().is_none_or(|best| solution.gap() < best.solution.gap()) {
+            let age = self.best.as_ref().map_or(0, |best| best.age);
+            self.best = Some(Best { solution, model: *self.model, age });
+        }
+        None
+    }
+
+    /// Whether the best solution has been sharpened as often as is granted.
+    fn is_sharpened(&mut self) -> bool {
+        self.best.as_mut().is_some_and(|best| {
+            best.age += 1;
+            best.age > MOST_SHARPENING
+        })
+    }
+
+    /// Goes to the optimum of the model.
+    fn take(&mut self, step: &Step) {
+        let x = self.model.x + step.v;
+        self.attempt = Some(Attempt { from: *self.model, step: step.v, lambda: self.lambda, merit: self.merit() });
+        let points = self.bodies.map(|body| body.locate(&x));
+        *self.model = LocalModel::of(self.bodies, x, points, self.weights(), self.axes);
+    }
+
+    /// The best solution with its model, or where the search ended.
+    fn end(self) -> Solution {
+        match self.best {
+            Some(best) => {
+                *self.model = best.model;
+                Solution { iterations: self.iterations, ..best.solution }
+            }
+            None => Solution::unsettled(self.model.x, self.lambda, self.iterations),
+        }
+    }
+
+    fn merit(&self) -> f64 {
+        self.model.merit(self.goal.problem, self.lambda)
+    }
+
+    fn weights(&self) -> (f64, f64) {
+        self.goal.problem.weights(self.lambda)
     }
 }
 
@@ -198,24 +236,20 @@ struct Attempt {
     step: Vector3<f64>,
     lambda: f64,
     merit: f64,
-    promised: f64,
 }
 
 impl Attempt {
-    /// Whether the merit at the end of the step is lower than before by a share of what was promised.
+    /// Whether the merit at the end of the step is no larger than before, but for rounding.
     fn is_descent(&self, bodies: [&Body; 2], problem: Problem, model: &LocalModel) -> bool {
         let merit = model.merit(problem, self.lambda);
-        let enough = self.merit - DECREASE * self.promised;
-        // Two values of S cannot be told apart below their rounding.
-        merit <= enough || merit <= enough + model.merit_rounding(bodies, problem, self.lambda)
+        merit <= self.merit || merit <= self.merit + model.merit_rounding(bodies, problem, self.lambda)
     }
 
-    /// The model at the best point along the step instead; whether that is another point.
+    /// The model at the best point along the step instead.
     #[cold]
-    fn shorten(&self, bodies: [&Body; 2], problem: Problem, lambda: f64, axes: Axes, model: &mut LocalModel) -> bool {
-        let descent = line_search::descend(bodies, Merit(problem, self.lambda), &self.from.x, &self.step, (0.5, 1.0));
-        let x = self.from.x + descent.alpha * self.step;
-        *model = LocalModel::of(bodies, x, bodies.map(|body| body.locate(&x)), problem.weights(lambda), axes);
-        (x - self.from.x).norm() > larger(self.from.points[0].shift, self.from.points[1].shift)
+    fn shortened(&self, bodies: [&Body; 2], problem: Problem, lambda: f64, axes: Axes) -> LocalModel {
+        let x = self.from.x
+            + line_search::descend(bodies, Merit(problem, self.lambda), &self.from.x, &self.step) * self.step;
+        LocalModel::of(bodies, x, bodies.map(|body| body.locate(&x)), problem.weights(lambda), axes)
     }
 }

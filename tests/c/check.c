@@ -61,6 +61,14 @@ void check_near3(const double got[3], const double expected[3], double tolerance
     }
 }
 
+void check_near2(const double got[2], double x, double y, double tolerance, const char *what, const char *file,
+                 int line) {
+    bool near = fabs(got[0] - x) <= tolerance && fabs(got[1] - y) <= tolerance;
+    if (!count(near, what, file, line)) {
+        printf("(%.17g, %.17g), expected (%.17g, %.17g) within %.3g\n", got[0], got[1], x, y, tolerance);
+    }
+}
+
 void check_same_bytes(const void *got, const void *expected, size_t size, const char *what,
                       const char *file, int line) {
     if (!count(memcmp(got, expected, size) == 0, what, file, line)) printf("bytes differ\n");

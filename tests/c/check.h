@@ -20,6 +20,9 @@
     check_near((value), (expected), (tolerance), #value, __FILE__, __LINE__)
 #define CHECK_NEAR3(value, expected, tolerance) \
     check_near3((value), (expected), (tolerance), #value, __FILE__, __LINE__)
+/* Of two coordinates. */
+#define CHECK_NEAR2(value, x, y, tolerance) \
+    check_near2((value), (x), (y), (tolerance), #value, __FILE__, __LINE__)
 #define CHECK_SAME_BYTES(value, expected, size) \
     check_same_bytes((value), (expected), (size), #value, __FILE__, __LINE__)
 
@@ -32,6 +35,8 @@ void check_text(const char *got, const char *expected, const char *what, const c
 void check_near(double got, double expected, double tolerance, const char *what, const char *file, int line);
 void check_near3(const double got[3], const double expected[3], double tolerance, const char *what,
                  const char *file, int line);
+void check_near2(const double got[2], double x, double y, double tolerance, const char *what, const char *file,
+                 int line);
 void check_same_bytes(const void *got, const void *expected, size_t size, const char *what,
                       const char *file, int line);
 void check_fill(void *object, size_t size);

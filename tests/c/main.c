@@ -34,5 +34,7 @@ int main(int count, char **arguments) {
     test_threads();
     test_batch();
     test_planar();
+    test_planar_batch();
+    test_planar_closest();
     return check_report();
 }

@@ -10,7 +10,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { SIDES = 4 };
 static const double not_finite[] = {NAN, INFINITY, -INFINITY};
 
 static void layout_is_as_written_down(void) {
@@ -38,47 +37,28 @@ static void layout_is_as_written_down(void) {
     CHECK(offsetof(pp_contact_2d, point_on_a) == 136);
     CHECK(offsetof(pp_contact_2d, point_on_b) == 152);
     CHECK(offsetof(pp_contact_2d, distance) == 168);
-}
 
-/* Four lines x, y = +-core. */
-static void square_lines(double core, double lines[3 * SIDES]) {
-    for (int i = 0; i < SIDES; i++) {
-        for (int j = 0; j < 2; j++) lines[3 * i + j] = j == i / 2 ? (i % 2 == 0 ? 1.0 : -1.0) : 0.0;
-        lines[3 * i + 2] = core;
-    }
-}
-
-static pp_particle_2d *new_polygon(const double *lines, size_t count, double r, double k, double shadow_radius) {
-    pp_particle_2d *particle = NULL;
-    CHECK_STATUS(pp_particle_new_2d(lines, count, r, k, shadow_radius, &particle, NULL, 0), PP_OK);
-    return particle;
-}
-
-static pp_particle_2d *new_square(double core, double r, double k, double shadow_radius) {
-    double lines[3 * SIDES];
-    square_lines(core, lines);
-    return new_polygon(lines, SIDES, r, k, shadow_radius);
-}
-
-static pp_particle_2d *new_circle(double radius) {
-    return new_polygon(NULL, 0, 0.0, 1.0, radius);
-}
-
-static void check_near2(const double got[2], double x, double y, double tolerance) {
-    CHECK_NEAR(got[0], x, tolerance);
-    CHECK_NEAR(got[1], y, tolerance);
+    CHECK(sizeof(pp_closest_2d) == 80);
+    CHECK(offsetof(pp_closest_2d, slack) == 0);
+    CHECK(offsetof(pp_closest_2d, reserved) == 4);
+    CHECK(offsetof(pp_closest_2d, s) == 8);
+    CHECK(offsetof(pp_closest_2d, gap) == 16);
+    CHECK(offsetof(pp_closest_2d, point_bound) == 24);
+    CHECK(offsetof(pp_closest_2d, point) == 32);
+    CHECK(offsetof(pp_closest_2d, branch_a) == 48);
+    CHECK(offsetof(pp_closest_2d, branch_b) == 64);
 }
 
 /* A square that is accepted; each refusal spoils one thing in it. */
 typedef struct {
-    double lines[3 * SIDES];
+    double lines[3 * SQUARE_LINES];
     size_t count;
     double r, k, shadow_radius;
 } recipe;
 
 static recipe good_recipe(void) {
-    recipe square = {.count = SIDES, .r = 0.5, .k = 0.3, .shadow_radius = 2.0};
-    square_lines(1.0, square.lines);
+    recipe square = {.count = SQUARE_LINES, .r = 0.5, .k = 0.3, .shadow_radius = 2.0};
+    square_lines_2d(1.0, square.lines);
     return square;
 }
 
@@ -124,13 +104,13 @@ static void lines_are_checked(void) {
     spoilt = good_recipe();
     spoilt.lines[3 * 1 + 2] = -0.7;
     check_refused(&spoilt, PP_CENTRE_OUTSIDE, "line 1");
-    for (size_t count = 0; count < SIDES; count++) {
+    for (size_t count = 0; count < SQUARE_LINES; count++) {
         recipe open = good_recipe();
         open.count = count;
         open.k = 0.0;
         check_case("%zu lines of a square", count);
         check_refused(&open, PP_UNBOUNDED, "the lines do not enclose an area");
-        pp_particle_free_2d(new_polygon(open.lines, count, open.r, 0.3, open.shadow_radius)); /* the circle closes it */
+        pp_particle_free_2d(new_polygon_2d(open.lines, count, open.r, 0.3, open.shadow_radius)); /* the circle closes it */
     }
     check_case(NULL);
 }
@@ -148,7 +128,7 @@ static void lines_are_limited_and_null_refused(void) {
     CHECK(strstr(message, "65537 lines") != NULL);
     CHECK_STATUS(pp_particle_new_2d(lines, SIZE_MAX, 0.5, 0.3, 2.0, &particle, NULL, 0), PP_TOO_MANY_PLANES);
     CHECK_STATUS(pp_particle_new_2d(lines, most, 0.5, 0.3, 2.0, &particle, NULL, 0), PP_PLANE_ZERO_NORMAL);
-    CHECK_STATUS(pp_particle_new_2d(NULL, SIDES, 0.5, 0.3, 2.0, &particle, message, sizeof message), PP_NULL_POINTER);
+    CHECK_STATUS(pp_particle_new_2d(NULL, SQUARE_LINES, 0.5, 0.3, 2.0, &particle, message, sizeof message), PP_NULL_POINTER);
     CHECK(strstr(message, "lines and out") != NULL);
     CHECK_UNTOUCHED(particle);
     CHECK_STATUS(pp_particle_new_2d(NULL, 0, 0.0, 1.0, 2.0, NULL, message, sizeof message), PP_NULL_POINTER);
@@ -159,14 +139,14 @@ static void lines_are_limited_and_null_refused(void) {
 /* S of a square by hand: line x = 1 is passed by 0.25, half of r. */
 static void potential_and_radius(void) {
     const double core = 1.0, r = 0.5, k = 0.3, shadow_radius = 2.0;
-    pp_particle_2d *square = new_square(core, r, k, shadow_radius);
+    pp_particle_2d *square = new_square_2d(core, r, k, shadow_radius);
     const pp_pose_2d pose = {.position = {3, 4}, .angle = PI / 2}; /* local x is world y */
     const double point[2] = {3 - 0.5, 4 + 1.25};
     double f, gradient[2], radius;
     CHECK_STATUS(pp_particle_potential_2d(square, &pose, point, &f, gradient), PP_OK);
     double m = k / (shadow_radius * shadow_radius);
     CHECK_NEAR(f, (1 - k) * 0.25 + m * (0.5 * 0.5 + 1.25 * 1.25) - 1, 1e-14);
-    check_near2(gradient, -2 * m * 0.5, 2 * (1 - k) * 0.25 / (r * r) + 2 * m * 1.25, 1e-14);
+    CHECK_NEAR2(gradient, -2 * m * 0.5, 2 * (1 - k) * 0.25 / (r * r) + 2 * m * 1.25, 1e-14);
     double alone;
     CHECK_STATUS(pp_particle_potential_2d(square, &pose, point, &alone, NULL), PP_OK);
     CHECK(alone == f);
@@ -206,7 +186,7 @@ static double length_of(const pp_particle_2d *a, const pp_pose_2d *pose_a, const
 
 static void circles(void) {
     const double radius_a = 1.0, radius_b = 2.0, normal[2] = {0.6, -0.8};
-    pp_particle_2d *a = new_circle(radius_a), *b = new_circle(radius_b);
+    pp_particle_2d *a = new_circle_2d(radius_a), *b = new_circle_2d(radius_b);
     const pp_pose_2d pose_a = {.position = {-1, 2}, .angle = 3.0};
     const double parts[] = {0.9, 0.999, 1.001, 1.5};
     for (size_t i = 0; i < sizeof parts / sizeof parts[0]; i++) {
@@ -228,8 +208,8 @@ static void circles(void) {
             CHECK_NEAR(contact.s, s, contact.gap + 1e-14);
             CHECK(contact.gap <= allowed.s * fmax(1.0, s));
             if (midway) CHECK_NEAR(contact.weight, radius_b / (radius_a + radius_b), allowed.direction);
-            check_near2(contact.normal, normal[0], normal[1], allowed.direction);
-            if (midway || s < 1) check_near2(contact.branch_a, from_a * normal[0], from_a * normal[1], allowed.length);
+            CHECK_NEAR2(contact.normal, normal[0], normal[1], allowed.direction);
+            if (midway || s < 1) CHECK_NEAR2(contact.branch_a, from_a * normal[0], from_a * normal[1], allowed.length);
             for (int j = 0; j < 2; j++) {
                 CHECK_NEAR(contact.branch_a[j], contact.point[j] - pose_a.position[j], 1e-14);
                 CHECK_NEAR(contact.branch_b[j], contact.point[j] - pose_b.position[j], 1e-14);
@@ -242,9 +222,9 @@ static void circles(void) {
             }
             CHECK_NEAR(contact.overlap, radius_a + radius_b - distance, allowed.length);
             double on_b = distance - radius_b;
-            check_near2(contact.point_on_a, pose_a.position[0] + radius_a * normal[0],
+            CHECK_NEAR2(contact.point_on_a, pose_a.position[0] + radius_a * normal[0],
                         pose_a.position[1] + radius_a * normal[1], allowed.length);
-            check_near2(contact.point_on_b, pose_a.position[0] + on_b * normal[0],
+            CHECK_NEAR2(contact.point_on_b, pose_a.position[0] + on_b * normal[0],
                         pose_a.position[1] + on_b * normal[1], allowed.length);
             if (midway) {
                 /* The smaller circle's chord; square roots halve the digits. */
@@ -262,7 +242,7 @@ static void circles(void) {
 /* With k = 0, squares side on side: s from the depth of the sides, the point at the centre of the patch. */
 static void stacked_squares(void) {
     const double core = 1.0, r = 0.25, shift = 0.5, s = 0.5;
-    pp_particle_2d *square = new_square(core, r, 0.0, 0.0);
+    pp_particle_2d *square = new_square_2d(core, r, 0.0, 0.0);
     double height = 2 * (core + s * r);
     const pp_pose_2d pose_a = {.position = {5, 6}}, pose_b = {.position = {5 + shift, 6 + height}};
     for (int w = 0; w < WAYS; w++) {
@@ -273,7 +253,7 @@ static void stacked_squares(void) {
         check_case("stacked squares, %s", ways[w].name);
         if (!CHECK_STATUS(pp_contact_detect_2d(square, &pose_a, square, &pose_b, &settings, NULL, &contact), PP_OK)) continue;
         CHECK_NEAR(contact.s, s, contact.gap + 1e-14);
-        check_near2(contact.normal, 0, 1, allowed.direction);
+        CHECK_NEAR2(contact.normal, 0, 1, allowed.direction);
         CHECK_NEAR(contact.overlap, 2 * (core + r) - height, allowed.length);
         CHECK_NEAR(contact.point[1], 6 + height / 2, allowed.length);
         if (settings.back_end == PP_FAST) CHECK_NEAR(contact.point[0], 5 + shift / 2, 1e-9);
@@ -286,7 +266,7 @@ static void stacked_squares(void) {
 
 /* What pp_contact_detect_2d and pp_contact_length_2d refuse; nothing is written then. */
 static void bad_input_is_refused(void) {
-    pp_particle_2d *circle = new_circle(1.0);
+    pp_particle_2d *circle = new_circle_2d(1.0);
     const pp_pose_2d home = {.angle = 1.0}, beside = {.position = {1.5, 0}};
     pp_contact_2d good, contact;
     pp_memory memory;
@@ -360,7 +340,7 @@ static void bad_input_is_refused(void) {
 }
 
 static void memory_and_rejection(void) {
-    pp_particle_2d *square = new_square(1.0, 0.5, 0.3, 2.0);
+    pp_particle_2d *square = new_square_2d(1.0, 0.5, 0.3, 2.0);
     const pp_pose_2d home = {.angle = 0.3}, beside = {.position = {2.4, 0.4}, .angle = -0.2}, far = {.position = {30, 0}};
     pp_memory memory = {{0}};
     pp_contact_2d cold, warm;
@@ -369,7 +349,7 @@ static void memory_and_rejection(void) {
     CHECK(cold.kind == PP_OVERLAPPING && warm.kind == PP_OVERLAPPING);
     CHECK((cold.flags & PP_FLAG_WARM) == 0 && (warm.flags & PP_FLAG_WARM) != 0);
     CHECK_NEAR(warm.s, cold.s, warm.gap + cold.gap);
-    check_near2(warm.point, cold.point[0], cold.point[1], 1e-9);
+    CHECK_NEAR2(warm.point, cold.point[0], cold.point[1], 1e-9);
 
     pp_contact_2d apart;
     CHECK_STATUS(pp_contact_detect_2d(square, &home, square, &far, NULL, NULL, &apart), PP_OK);

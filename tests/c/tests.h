@@ -19,5 +19,7 @@ void test_symmetry(void);
 void test_threads(void);
 void test_batch(void);
 void test_planar(void);
+void test_planar_batch(void);
+void test_planar_closest(void);
 
 #endif

@@ -2,8 +2,8 @@
 
 use crate::body::{Body, midway, searched_closest, searched_midway, solve};
 use nalgebra::{Vector2, Vector3};
-use potential_particles::planar::{Pose, detect};
-use potential_particles::{BackEnd, Flags, Formulation, Kind, Memory, ParticleError, Plane, Settings};
+use potential_particles::planar::{Pose, closest_point, detect};
+use potential_particles::{BackEnd, Flags, Formulation, Kind, Memory, ParticleError, Plane, Role, Settings};
 use proptest::prelude::*;
 use std::f64::consts::TAU;
 
@@ -102,6 +102,27 @@ proptest! {
                 prop_assert!((fast - searched).abs() <= contact.gap + 1e4 * noise, "{fast} for {searched}, gap {:e}", contact.gap);
                 prop_assert!((fast - searched).abs() <= 1e-8 * searched.max(1.0), "{fast} for {searched}");
                 prop_assert!((fast - conic).abs() <= 1e-7 * searched.max(1.0), "{fast} and {conic}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_closest_point_alone_is_the_least_on_its_boundary((a, b) in pairs()) {
+        let settings = Settings::default();
+        for (on, held, free) in [(Role::A, &a, &b), (Role::B, &b, &a)] {
+            let found = closest_point(&a.particle(), &a.pose(), &b.particle(), &b.pose(), on, &settings).unwrap();
+            let inside = held.s(&Vector2::from(free.position)) < 1.0;
+            let Some(found) = found else {
+                prop_assert!(inside || free.k == 0.0);
+                continue;
+            };
+            prop_assert!(!inside);
+            let (searched, noise) = (searched_closest(free, held), a.noise() + b.noise());
+            prop_assert!((found.s - searched).abs() <= found.gap + 1e4 * noise, "{} for {searched}, gap {:e}", found.s, found.gap);
+            prop_assert!((held.s(&found.point) - 1.0).abs() <= found.gap + 4.0 * noise, "{:e}", held.s(&found.point) - 1.0);
+            prop_assert!((free.s(&found.point) - found.s).abs() <= found.gap + 4.0 * noise, "{:e}", free.s(&found.point) - found.s);
+            for (branch, body) in [(found.branch_a, &a), (found.branch_b, &b)] {
+                prop_assert!((found.point - branch - Vector2::from(body.position)).norm() < 1e-14);
             }
         }
     }
@@ -253,6 +274,17 @@ proptest! {
                 prop_assert!((space.s - plane.s).abs() <= space.gap + plane.gap + a.noise() + b.noise());
                 let accuracy = if back_end == BackEnd::Fast { 1e-7 } else { 1e-3 };
                 prop_assert!((space.point - Vector3::new(plane.point.x, plane.point.y, 0.0)).norm() < accuracy);
+            }
+            for on in [Role::A, Role::B] {
+                let settings = Settings::default();
+                let space = potential_particles::closest_point(&prism_a, &at_a, &prism_b, &at_b, on, &settings).unwrap();
+                let plane = closest_point(&a.particle(), &a.pose(), &b.particle(), &b.pose(), on, &settings).unwrap();
+                prop_assert_eq!(space.is_some(), plane.is_some());
+                if let (Some(space), Some(plane)) = (space, plane) {
+                    prop_assert!((space.s - plane.s).abs() <= space.gap + plane.gap + a.noise() + b.noise());
+                    let off = (space.point - Vector3::new(plane.point.x, plane.point.y, 0.0)).norm();
+                    prop_assert!(off <= space.point_bound + plane.point_bound + 1e-15, "{off:e}");
+                }
             }
         } else {
             prop_assert!(a.k > 0.0 || matches!(prism(&a).0, Err(ParticleError::Unbounded)));

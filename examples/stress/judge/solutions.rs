@@ -14,7 +14,7 @@ pub(super) fn settle(verdict: &mut Verdict, scene: &Scene, contact: &Contact, st
     let [a, b] = scene.bodies();
     let lambda = contact.weight / (1.0 - contact.weight);
     match optimum(a, b, Wanted::Midway, start, lambda) {
-        Some(truth) if truth.most - truth.least <= 0.1 * contact.gap + 1e-300 => {
+        Some(truth) if is_settled(&truth, contact.gap) => {
             verdict.judged += 1;
             midway(verdict, scene, contact, &truth, start);
         }
@@ -110,12 +110,17 @@ fn shaken(scene: &Scene, contact: &Contact, truth: &Optimum) -> f64 {
     axes.iter().flat_map(|axis| [*axis, -axis]).map(|by| change(a, &b.tilted(&by))).fold(moved_in, f64::max)
 }
 
-/// The same about the optimum near an answer; 0 if it is not found.
-pub(super) fn shaken_at(scene: &Scene, contact: &Contact) -> f64 {
-    let [a, b] = scene.bodies();
+/// Whether midway of two bodies lies within the gap of an answer, as far as 32 digits tell it.
+pub(super) fn is_right([a, b]: &[Body; 2], contact: &Contact) -> bool {
+    let (s, gap) = (contact.s, contact.gap);
     let lambda = contact.weight / (1.0 - contact.weight);
     let truth = optimum(a, b, Wanted::Midway, &contact.branch_b, lambda);
-    truth.map_or(0.0, |truth| shaken(scene, contact, &truth))
+    truth.is_some_and(|truth| is_settled(&truth, gap) && s + gap >= truth.least && s - gap <= truth.most)
+}
+
+/// Whether the interval of an optimum is narrow enough to judge an answer with this gap.
+fn is_settled(truth: &Optimum, gap: f64) -> bool {
+    truth.most - truth.least <= 0.1 * gap + f64::MIN_POSITIVE
 }
 
 /// Units in the last place by which the direction of a normal is off that is turned by the product of two rotations, each made from a

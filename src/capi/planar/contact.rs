@@ -1,21 +1,23 @@
-//! The contact of one pair of the plane, and its length.
+//! The contact of one pair of the plane, its length, and one closest point alone.
 
-use super::convert::{contact_to, pose_from};
+use super::convert::{closest_to, contact_to, pose_from};
 use super::particle::pp_particle_2d;
-use super::types::{pp_contact_2d, pp_pose_2d};
-use crate::capi::convert::{detect_status, memory_from, memory_to, settings_from};
-use crate::capi::fence::{borrow, fenced, output};
+use super::types::{pp_closest_2d, pp_contact_2d, pp_pose_2d};
+use crate::Settings;
+use crate::capi::contact::remembering;
+use crate::capi::convert::{detect_status, role_from, settings_from};
+use crate::capi::fence::{Output, borrow, fenced, output};
 use crate::capi::status::*;
 use crate::capi::types::{PP_OVERLAPPING, PP_SEPARATED, pp_memory, pp_settings};
-use crate::planar::{Section, detect_as};
+use crate::planar::{Contact, Particle, Pose, Section, closest_point, detect_as};
 
 /// Finds the contact of particle A at pose_a with particle B at pose_b, both of the plane.
 ///
 /// settings: may be NULL (defaults). memory: may be NULL; else what this ordered pair remembers,
 /// read and updated. out: the answer; see struct pp_contact_2d for frames, units and signs.
+/// Pointers: memory and out are not used by another call at the same time.
 /// Errors: PP_NULL_POINTER, PP_BAD_POSITION, PP_BAD_ORIENTATION (an angle that is not finite),
 /// PP_UNKNOWN_FORMULATION, PP_UNKNOWN_BACK_END, PP_NO_CONIC, PP_BAD_SETTING, PP_SOLVER_FAILED.
-/// Pointers: Pointers are NULL or valid; memory and out are not used by another call at the same time.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pp_contact_detect_2d(
     a: *const pp_particle_2d,
@@ -33,13 +35,50 @@ pub unsafe extern "C" fn pp_contact_detect_2d(
         let settings = settings_from(unsafe { settings.as_ref() })?;
         // SAFETY: NULL or exclusively ours for the call.
         let memory = unsafe { memory.as_mut() };
-        let mut remembered = memory.as_deref().map(memory_from);
-        let write = |contact| out.write(contact_to(&contact));
-        detect_as((a, &pose_a), (b, &pose_b), &settings, remembered.as_mut(), write)
-            .map_err(|error| detect_status(&error))?;
-        if let (Some(memory), Some(remembered)) = (memory, remembered) {
-            *memory = memory_to(remembered);
-        }
+        contact((a, &pose_a), (b, &pose_b), &settings, memory, out)
+    })
+}
+
+/// Finds one contact and writes it.
+pub(super) fn contact(
+    a: (&Particle, &Pose),
+    b: (&Particle, &Pose),
+    settings: &Settings,
+    memory: Option<&mut pp_memory>,
+    out: Output<pp_contact_2d>,
+) -> Result<(), pp_status> {
+    let write = |contact: Contact| {
+        out.write(contact_to(&contact));
+        contact.flags
+    };
+    remembering(memory, |memory| detect_as(a, b, settings, memory, write))
+}
+
+/// The point on one of the particles of the plane where the scale of the other is least: P1 on A, P2 on B
+/// (paper eqs 3, 9). As pp_closest_point.
+///
+/// on: PP_ON_A or PP_ON_B. settings: may be NULL (defaults); the formulation and solve_separated do not
+/// matter. out: the point, or slack = 1 where there is none.
+/// Errors: PP_NULL_POINTER, PP_BAD_POSITION, PP_BAD_ORIENTATION (an angle that is not finite), PP_BAD_INDEX
+/// (on), PP_UNKNOWN_FORMULATION, PP_UNKNOWN_BACK_END, PP_NO_CONIC, PP_BAD_SETTING, PP_SOLVER_FAILED.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn pp_closest_point_2d(
+    a: *const pp_particle_2d,
+    pose_a: *const pp_pose_2d,
+    b: *const pp_particle_2d,
+    pose_b: *const pp_pose_2d,
+    on: u32,
+    settings: *const pp_settings,
+    out: *mut pp_closest_2d,
+) -> pp_status {
+    fenced(|| {
+        let (a, b) = unsafe { (&borrow(a)?.0, &borrow(b)?.0) };
+        let (pose_a, pose_b) = unsafe { (pose_from(borrow(pose_a)?)?, pose_from(borrow(pose_b)?)?) };
+        let out = unsafe { output(out) }?;
+        let on = role_from(on)?;
+        let settings = settings_from(unsafe { settings.as_ref() })?;
+        let found = closest_point(a, &pose_a, b, &pose_b, on, &settings).map_err(|error| detect_status(&error))?;
+        out.write(closest_to(found));
         Ok(())
     })
 }

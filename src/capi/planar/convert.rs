@@ -1,9 +1,9 @@
 //! The one conversion of each plain struct of the plane.
 
-use super::types::{pp_contact_2d, pp_pose_2d};
+use super::types::{pp_closest_2d, pp_contact_2d, pp_pose_2d};
 use crate::capi::convert::{back_end_code, formulation_code, kind_code};
 use crate::capi::status::*;
-use crate::planar::{Contact, Pose, PoseError};
+use crate::planar::{ClosestPoint, Contact, Pose, PoseError};
 use nalgebra::Vector2;
 
 pub(super) fn pose_from(pose: &pp_pose_2d) -> Result<Pose, pp_status> {
@@ -40,5 +40,33 @@ pub(super) fn contact_to(contact: &Contact) -> pp_contact_2d {
         point_on_a: contact.point_on_a.into(),
         point_on_b: contact.point_on_b.into(),
         distance: contact.distance,
+    }
+}
+
+pub(super) fn closest_to(closest: Option<ClosestPoint>) -> pp_closest_2d {
+    match closest {
+        Some(ClosestPoint { s, gap, point, branch_a, branch_b, point_bound }) => pp_closest_2d {
+            slack: 0,
+            reserved: 0,
+            s,
+            gap,
+            point_bound,
+            point: point.into(),
+            branch_a: branch_a.into(),
+            branch_b: branch_b.into(),
+        },
+        None => {
+            let (nan, none) = (f64::NAN, [f64::NAN; 2]);
+            pp_closest_2d {
+                slack: 1,
+                reserved: 0,
+                s: nan,
+                gap: nan,
+                point_bound: nan,
+                point: none,
+                branch_a: none,
+                branch_b: none,
+            }
+        }
     }
 }

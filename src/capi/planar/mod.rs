@@ -1,11 +1,13 @@
 //! Particles of the plane over the C boundary.
 
+mod batch;
 mod contact;
 mod convert;
 mod particle;
 mod shape;
 mod types;
 
+pub use batch::*;
 pub use contact::*;
 pub use particle::*;
 pub use shape::*;

@@ -61,3 +61,26 @@ pub struct pp_contact_2d {
     /// to each other by as much, they stay separated. NaN when overlapping.
     pub distance: f64,
 }
+
+/// One closest point of the plane alone: the fields of struct pp_closest, with vectors of two.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct pp_closest_2d {
+    /// 1 when there is no such point, because the other particle's centre (for k = 0, its core) lies inside
+    /// this one: the numbers below are NaN then. Else 0.
+    pub slack: u32,
+    /// Always 0.
+    pub reserved: u32,
+    /// Scale of the other particle at the point: s_B at P1, s_A at P2. No unit.
+    pub s: f64,
+    /// Bound on the error of s: |s - s*| <= gap (as in struct pp_contact).
+    pub gap: f64,
+    /// Estimated bound on the distance of the point to the exact optimum, length.
+    pub point_bound: f64,
+    /// P1 or P2, world frame.
+    pub point: [f64; 2],
+    /// The point minus position of A: exact lever arm even far from the world origin.
+    pub branch_a: [f64; 2],
+    /// The point minus position of B.
+    pub branch_b: [f64; 2],
+}
