@@ -28,7 +28,7 @@ public:
 private:
     friend class Step;
     std::atomic<std::uint64_t> step { 0 }; // the one in which it was looked at last
-    double radius = 0;
+    std::uint64_t serial = 0; // of the particle: its address may be used again
     yade::Vector3r position;
     yade::Quaternionr orientation;
     std::shared_ptr<const Particle> keeper; // of particles that the shape cannot hold itself
