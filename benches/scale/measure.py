@@ -27,12 +27,11 @@ WARMING = 60  # steps before the first window: memories, sleeping pairs and cach
 def main():
     kind, count = os.environ["KIND"], int(os.environ["COUNT"])
     copies = int(os.environ.get("COPIES", "1"))
-    best = os.environ.get("WAY", "best") == "best" and kind == PYRAMIDS and hasattr(yade, "ConicPotentialParticle")
     kept = Path(os.environ["PILE"])
     if not kept.exists():
         settle(kind, count, kept)
     import_plugin(kind)
-    best = best and hasattr(yade, "BoundWatch")
+    best = kind == PYRAMIDS and os.environ.get("WAY", "best") == "best"
     pile = Pile(kind, count, loop=None if best else yade.InteractionLoop, watched=best)
     started = time.perf_counter()
     before = memory()
