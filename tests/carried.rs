@@ -1,5 +1,14 @@
 //! A contact that is carried on against one that is solved, over walks of random pairs.
 
+#[path = "../benches/scene/random.rs"]
+#[allow(dead_code)]
+mod random;
+#[path = "../examples/stress/shapes.rs"]
+#[allow(dead_code)]
+mod shapes;
+#[path = "carried/wide.rs"]
+mod wide;
+
 use nalgebra::{UnitQuaternion, Vector3};
 use potential_particles::{
     BackEnd, Carried, Contact, Flags, Formulation, Kind, Memory, Particle, Plane, Pose, Settings, detect,
@@ -151,4 +160,33 @@ fn only_the_pair_and_the_problem_that_it_was_made_for_are_carried_on() {
     assert!(!look(&twin, &b, &Settings { back_end: BackEnd::Conic, ..midway }, 1e-9));
     assert!(detect_carried(&a, &pose_a, &b, &pose_b, &midway, 0.2, None, &mut carried).is_err());
     assert!(detect_carried(&a, &pose_a, &b, &pose_b, &midway, f64::NAN, None, &mut carried).is_err());
+}
+
+/// Walks of all shapes, steps and places from a seed: none is out of its bounds.
+fn wide_walks(seed: u64, walks: u64) {
+    let mut tally = wide::Tally::default();
+    for walk in 0..walks {
+        wide::walk(
+            &mut random::Random::seeded(seed.wrapping_add(walk.wrapping_mul(0x9e37_79b9_7f4a_7c15)) | 1),
+            &mut tally,
+        );
+    }
+    let wide::Tally { contacts, carried, ended, faults, most } = &tally;
+    println!("{carried} of {contacts} carried on, {ended} ended, {} faults; errors / bounds {most:.2?}", faults.len());
+    assert!(faults.is_empty(), "{:#?}", &faults[..faults.len().min(20)]);
+    assert!(*carried > 7 * walks && *ended > walks / 10, "{carried} carried on, {ended} ended");
+}
+
+#[test]
+fn contacts_of_any_shape_are_within_their_bounds() {
+    wide_walks(1, 3000);
+}
+
+#[test]
+#[ignore = "takes minutes; another seed in each run"]
+fn contacts_of_any_shape_are_within_their_bounds_for_longer() {
+    let now = std::time::SystemTime::now().duration_since(std::time::UNIX_EPOCH).unwrap();
+    let seed = now.as_secs();
+    println!("seed {seed}");
+    wide_walks(seed, 30_000);
 }

@@ -3,8 +3,8 @@
 //! At a contact that is solved, S_A and S_B are known as quadratics, each in the frame of its own body, and so is how far a
 //! point may move there before a plane switches. While the contact point stays within, midway at new poses is the problem of
 //! the same two quadratics: (1−u)∇S_A + u∇S_B = 0 and S_A = S_B (paper eq. 4). Newton's method from the last point solves
-//! it, a step or two of one 3×3 factorisation each; what a further step would change bounds the error
-//! (docs/theory.md, "Carrying a contact on").
+//! it, a step or two of one 3×3 factorisation each; what a further step would change, from the slope and the mismatch that are
+//! left, bounds the error (docs/theory.md, "Carrying a contact on").
 
 use crate::bounds::gap::Scale;
 use crate::bounds::solution::Solution;
@@ -47,7 +47,7 @@ struct KnownPiece {
     value: f64,
     gradient: Vector3<f64>,
     hessian: Symmetric,
-    /// How far from there it is S for sure, length.
+    /// How far from there it is S for sure, and places are rounded by no more than three times as much; length.
     reach: f64,
 }
 
@@ -65,7 +65,7 @@ const MOST_STEPS: usize = 3;
 /// Each step is at most this share of the last: Newton's method converges then (Kantorovich's theorem asks for the half).
 const CONVERGING: f64 = 0.25;
 
-/// Times by which the rounding of places may exceed that of the solved contact, whose reach was cut by as much.
+/// Bound on how many times that of the solved contact the rounding of places is within reach (derived: 3.1).
 const MORE_ROUNDING: f64 = 4.0;
 
 /// Units of rounding, times the ratio of curvatures, in a slope that is carried along a distance (estimated).
@@ -82,7 +82,7 @@ impl KnownPiece {
             value: q.expansion,
             gradient: body.turn(&q.gradient),
             hessian: body.turn_matrix(&q.hessian),
-            reach: clear / body.particle.bounds.longest_normal,
+            reach: smaller(clear / body.particle.bounds.longest_normal, point.y.norm()),
         }
     }
 
@@ -150,16 +150,17 @@ impl Carried {
             let apart = g_b - g_a;
             let along = factor.solve(&apart);
             let rate = apart.dot(&along);
+            // With it, twice what the slope alone leaves of the weighted sum.
             let newton = |slope: &Vector3<f64>, behind: f64| {
                 let first = factor.solve(slope);
                 let du = -(behind + apart.dot(&first)) / rate;
-                (-(first + du * along), du)
+                (-(first + du * along), du, slope.dot(&first))
             };
-            let (v, du) = newton(&((1.0 - u) * g_a + u * g_b), here_a.value - here_b.value);
+            let (v, du, _) = newton(&((1.0 - u) * g_a + u * g_b), here_a.value - here_b.value);
             // What the quadratics leave after it, exactly, and what that would change.
             let bend = h_b.times(&v) - h_a.times(&v);
             let (rest, behind) = (du * bend, -0.5 * v.dot(&bend));
-            let (more, du_more) = newton(&rest, behind);
+            let (more, du_more, _) = newton(&rest, behind);
             let (length, off) = (v.norm(), more.norm());
             // Written so that what is not a number fails.
             if !(off <= CONVERGING * length || off <= f64::MIN_POSITIVE) || !(length <= CONVERGING * last) {
@@ -168,15 +169,21 @@ impl Carried {
             let way = v + more;
             (x, u, last) = (x + way, u + du + du_more, length);
             if off <= room {
-                let moved = [here_a.moved + way.norm(), here_b.moved + way.norm()];
-                let steep = SLOPE_ROUNDING * h.trace() / soft * (moved[0] + moved[1]);
-                let left = (behind.abs() + rest.norm() * off, off + steep);
                 let changes = [h_a.times(&way), h_b.times(&way)];
                 let gradients = [g_a + changes[0], g_b + changes[1]];
                 let values = [
                     here_a.value + (g_a + 0.5 * changes[0]).dot(&way),
                     here_b.value + (g_b + 0.5 * changes[1]).dot(&way),
                 ];
+                let (next, _, open) = newton(&((1.0 - u) * gradients[0] + u * gradients[1]), values[0] - values[1]);
+                let next = next.norm();
+                // Where it is no shorter by far, it must be rounding.
+                if !(next <= larger(CONVERGING * off, self.point_bound)) {
+                    return None;
+                }
+                let moved = [here_a.moved + way.norm(), here_b.moved + way.norm()];
+                let steep = SLOPE_ROUNDING * h.trace() / soft * (moved[0] + moved[1]);
+                let left = ((values[0] - values[1]).abs() + open, 2.0 * next + steep);
                 let optimum = Optimum { x, u, gradients, values, moved, left };
                 return self.placed(&pair, b.1, &optimum, [&h_a, &h_b], step as u32);
             }
@@ -196,7 +203,11 @@ impl Carried {
         let &Optimum { x, u, gradients, values, moved, left } = optimum;
         let square = (1.0 - u) * values[0] + u * values[1];
         let s = square.sqrt();
-        let gap = self.gap + left.0 / s + (values[0] - values[1]).abs() / s;
+        let share = |i: usize| moved[i] / self.pieces[i].reach;
+        let share = larger(share(0), share(1));
+        // Depths and distances from the centres change by that share at most, places are rounded as much more.
+        let grown = (1.0 + 3.0 * share) * (1.0 + 3.0 * share) / (1.0 - share);
+        let gap = grown * self.gap + left.0 / s;
         let rest = [self.pieces[0].reach - moved[0], self.pieces[1].reach - moved[1]];
         if !(u > 0.0 && u < 1.0 && rest[0] > 0.0 && rest[1] > 0.0 && s + gap < 1.0) {
             return None;
@@ -206,7 +217,8 @@ impl Carried {
         let solution = Solution { gradients, gradient_norms, values, ..Solution::unsettled(x, lambda, steps) };
         let pieces =
             |n: &Vector3<f64>| [0, 1].map(|i| Piece { curvature: hessians[i].times(n).dot(n), reach: rest[i] });
-        let bound = 2.0 * self.point_bound + left.1;
+        // That of the pieces, which are turned back and forth, and that of this place.
+        let bound = (1.0 + grown) * self.point_bound + left.1;
         let local = LocalContact::midway(pair, &solution, Scale { s, gap, low: s - gap }, || bound, pieces, true)?;
         (self.x, self.weight) = (x, u);
         let call = Contact { flags: Flags::WARM.with(Flags::CARRIED), iterations: steps, ..Contact::UNKNOWN };

@@ -39,6 +39,12 @@ void test_layout(void) {
     CHECK(sizeof(pp_memory) == 128);
     CHECK(offsetof(pp_memory, state) == 0);
 
+    CHECK(sizeof(pp_frame) == 128);
+    CHECK(offsetof(pp_frame, state) == 0);
+
+    CHECK(sizeof(pp_carry) == 320);
+    CHECK(offsetof(pp_carry, state) == 0);
+
     CHECK(sizeof(pp_contact) == 224);
     CHECK(offsetof(pp_contact, kind) == 0);
     CHECK(offsetof(pp_contact, formulation) == 4);

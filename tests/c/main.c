@@ -29,6 +29,7 @@ int main(int count, char **arguments) {
     test_area();
     test_closest();
     test_memory();
+    test_carried();
     test_hostile();
     test_symmetry();
     test_threads();
