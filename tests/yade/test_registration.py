@@ -14,7 +14,7 @@ from harness import *
 
 check = Checks()
 NAMES = ["ConicPotentialParticle", "ScGeomConicPP", "Ig2_ConicPP_ConicPP_ScGeom", "Ig2_PP_PP_ScGeom_Conic", "Bo1_ConicPP_Aabb",
-         "Bo1_PP_Aabb_Conic", "BoundWatch"]
+         "Bo1_PP_Aabb_Conic", "BoundWatch", "ConicInteractionLoop"]
 
 for name in NAMES:
     cls = getattr(yade.wrapper, name)
@@ -25,14 +25,16 @@ for name in NAMES:
     check.true(len(cls.__doc__ or "") > 40, f"{name} has a docstring")
     check.equal(cls().__class__.__name__, name, "made without arguments")
     check.raises(AttributeError, lambda: cls(noSuchThing=1), f"{name}: unknown keyword", "noSuchThing")
-    check.raises(RuntimeError, lambda: cls(1), f"{name}: argument without keyword", "keyword")
+    if not issubclass(cls, yade.InteractionLoop):  # which takes lists of functors so
+        check.raises(RuntimeError, lambda: cls(1), f"{name}: argument without keyword", "keyword")
 check.true(potential_particles.library_version().count(".") == 2, "library version")
 check.true(potential_particles.__version__.count(".") == 2, "module version")
 
 for name, base in [("ConicPotentialParticle", "PotentialParticle"), ("ConicPotentialParticle", "Shape"),
                    ("ScGeomConicPP", "ScGeom"), ("Ig2_ConicPP_ConicPP_ScGeom", "IGeomFunctor"),
                    ("Ig2_PP_PP_ScGeom_Conic", "IGeomFunctor"), ("Bo1_ConicPP_Aabb", "BoundFunctor"),
-                   ("Bo1_PP_Aabb_Conic", "BoundFunctor"), ("BoundWatch", "GlobalEngine")]:
+                   ("Bo1_PP_Aabb_Conic", "BoundFunctor"), ("BoundWatch", "GlobalEngine"),
+                   ("ConicInteractionLoop", "InteractionLoop")]:
     check.true(name in yade.system.childClasses(base), f"childClasses({base}) has {name}")
     check.true(issubclass(getattr(yade, name), getattr(yade, base)), f"{name} is a {base}")
 
@@ -70,8 +72,8 @@ check.equal(from_plain.planes, cube().planes, "from the dict of a plain shape")
 check.equal(from_plain.vertices, cube().vertices, "which gets a box, having had none")
 
 # Functor and geometry.
-keywords = dict(formulation="closest", backEnd="conic", tolerance=1e-9, flatRegularisation=1e-4, calContactArea=False,
-                areaTolerance=1e-5, twoDimension=True, twoDdir=Vector3(0, 0, 1), unitWidth2D=2.0, areaStep=3,
+keywords = dict(formulation="closest", backEnd="conic", tolerance=1e-9, flatRegularisation=1e-4, carryTolerance=1e-8,
+                calContactArea=False, areaTolerance=1e-5, twoDimension=True, twoDdir=Vector3(0, 0, 1), unitWidth2D=2.0, areaStep=3,
                 accuracyTol=1e-6, measureTime=True, label="contacts")
 functor_ = yade.Ig2_ConicPP_ConicPP_ScGeom(**keywords)
 for key, value in keywords.items():
@@ -87,11 +89,17 @@ watching = yade.BoundWatch(label="watch", dead=True)
 same(watching, pickle.loads(pickle.dumps(watching)), "pickled engine")
 check.equal((watching.requests, watching.label, watching.dead), (0, "watch", True), "engine: attributes")
 check.raises(AttributeError, lambda: setattr(watching, "requests", 1), "a count is read only")
+loop = yade.ConicInteractionLoop([functor_], [yade.Ip2_FrictMat_FrictMat_KnKsPhys()], [yade.Law2_SCG_KnKsPhys_KnKsLaw()],
+                                 label="loop")
+for one in loop, pickle.loads(pickle.dumps(loop)):
+    check.equal((one.label, [type(part).__name__ for part in one.geomDispatcher.functors]),
+                ("loop", ["Ig2_ConicPP_ConicPP_ScGeom"]), "the loop with its functors, and pickled")
 builtin = yade.Ig2_PP_PP_ScGeom(areaStep=9, twoDimension=True, unitWidth2D=0.5)
 drop_in = yade.Ig2_PP_PP_ScGeom_Conic(**builtin.dict())
 check.equal({key: drop_in.dict()[key] for key in builtin.dict()}, builtin.dict(), "keywords of the built-in functor")
 for keyword, value in [("formulation", "nearest"), ("backEnd", "mosek"), ("tolerance", -1.0), ("tolerance", float("nan")),
-                       ("flatRegularisation", 2.0), ("areaTolerance", 0.0), ("unitWidth2D", 0.0), ("twoDdir", (0, 0, 0))]:
+                       ("flatRegularisation", 2.0), ("carryTolerance", -1.0), ("areaTolerance", 0.0), ("unitWidth2D", 0.0),
+                       ("twoDdir", (0, 0, 0))]:
     check.raises(ValueError, lambda: yade.Ig2_ConicPP_ConicPP_ScGeom(**{keyword: value}), f"{keyword}={value}", keyword)
     before = getattr(functor_, keyword)
     check.raises(ValueError, lambda: setattr(functor_, keyword, value), f"{keyword} set to {value}", keyword)

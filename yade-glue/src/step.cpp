@@ -48,7 +48,7 @@ void Step::look(BodyInStep& body, const boost::shared_ptr<yade::Shape>& shape, c
         const double way = (position - body.position).norm() + radius * wayOfTurn(body.orientation, orientation);
         const double sum = body.travelled + way * (1 + 1e-12);
         const bool reachesBack
-            = particle && particle->serial == body.serial && seen != 0 && isUnit(body.orientation) && std::isfinite(sum);
+            = particle && particle->serial == body.serial && isUnit(body.orientation) && std::isfinite(sum);
         if (!reachesBack) {
             body.generation = nextGeneration();
             body.travelled = 0;
@@ -56,12 +56,13 @@ void Step::look(BodyInStep& body, const boost::shared_ptr<yade::Shape>& shape, c
             body.travelled = std::nextafter(sum, std::numeric_limits<double>::infinity());
         }
         body.particle = particle;
-        body.serial = particle ? particle->serial : 0;
+        body.serial = particle ? particle->serial : 0; // no particle has 0
         body.state = &state;
         body.position = position;
         body.orientation = orientation;
     } catch (...) {
         body.particle = nullptr;
+        body.serial = 0;
         body.generation = nextGeneration();
     }
     body.step.store(count, std::memory_order_release);

@@ -14,6 +14,17 @@
 
 namespace potential_particles {
 
+// Read by other threads than the one that writes it, which take it for a guess: it may be of another step than its neighbours.
+template <class Value> class Guess {
+public:
+    Guess(Value value) : held(value) { }
+    operator Value() const noexcept { return held.load(std::memory_order_relaxed); }
+    void operator=(Value value) noexcept { held.store(value, std::memory_order_relaxed); }
+
+private:
+    std::atomic<Value> held;
+};
+
 // A body as the pairs of one step see it: looked at once a step, by the thread that meets it first.
 class alignas(64) BodyInStep {
 public:
@@ -23,14 +34,14 @@ public:
     double travelled = 0;
     // Another one whenever that bound does not reach back: a new particle, or a motion without a bound. Never 0.
     std::uint64_t generation = 0;
-    const yade::State* state = nullptr; // to be fetched, never followed
+    Guess<const yade::State*> state = nullptr; // to be fetched, never followed
 
 private:
     friend class Step;
     std::atomic<std::uint64_t> step { 0 }; // the one in which it was looked at last
-    std::uint64_t serial = 0; // of the particle: its address may be used again
-    yade::Vector3r position;
-    yade::Quaternionr orientation;
+    std::uint64_t serial = 0; // of the particle; its address may be used again
+    yade::Vector3r position = yade::Vector3r::Zero();
+    yade::Quaternionr orientation = yade::Quaternionr::Identity();
     std::shared_ptr<const Particle> keeper; // of particles that the shape cannot hold itself
 
 public:
@@ -39,19 +50,20 @@ public:
 
 // A pair of bodies, where YADE keeps their interaction in its list. Written by the thread that has the interaction.
 struct alignas(64) PairInStep {
-    int id1 = -1, id2 = -1;
+    Guess<int> id1 = -1, id2 = -1;
     std::uint64_t generation1 = 0, generation2 = 0;
     // They do not touch while the bodies have travelled less than this, taken together.
     double wakes = 0;
     // Where its data lies, to be fetched before its turn; never followed, since it may be gone. A geometry only if they touch.
-    const void* interaction = nullptr;
-    const void* geom = nullptr;
-    const void* carry = nullptr;
-    const void* phys = nullptr;
+    Guess<const void*> interaction = nullptr;
+    Guess<const void*> geom = nullptr;
+    Guess<const void*> carry = nullptr;
+    Guess<const void*> phys = nullptr;
 
+    // An interaction that YADE made anew is looked at once more, so that its memory becomes the same as by InteractionLoop.
     bool sleeps(const yade::Interaction& pair, const BodyInStep& body1, const BodyInStep& body2) const
     {
-        return body1.travelled + body2.travelled < wakes && id1 == pair.id1 && id2 == pair.id2
+        return pair.geom && body1.travelled + body2.travelled < wakes && id1 == pair.id1 && id2 == pair.id2
             && generation1 == body1.generation && generation2 == body2.generation;
     }
 
@@ -59,7 +71,9 @@ struct alignas(64) PairInStep {
     void note(const yade::Interaction& pair, const BodyInStep& body1, const BodyInStep& body2, double room)
     {
         interaction = &pair;
-        geom = carry = phys = nullptr;
+        geom = nullptr;
+        carry = nullptr;
+        phys = nullptr;
         id1 = pair.id1;
         id2 = pair.id2;
         generation1 = body1.generation;
@@ -107,19 +121,25 @@ public:
     void fetchAhead(const yade::Interaction& pair) const
     {
         const PairInStep* const next = pairs.find(static_cast<std::size_t>(pair.linIx) + ahead);
-        if (!next || !next->interaction)
+        if (!next)
             return;
-        fetch(next->interaction, sizeof(yade::Interaction));
+        // Once each: another thread may be writing them.
+        const void* const interaction = next->interaction;
+        const void* const geom = next->geom;
+        if (!interaction)
+            return;
+        fetch(interaction, sizeof(yade::Interaction));
         const BodyInStep* const bodiesOfNext[] = { bodies.find(next->id1), bodies.find(next->id2) };
         for (const BodyInStep* body : bodiesOfNext)
-            fetch(body, next->geom ? sizeof(BodyInStep) : lineSize);
-        if (!next->geom)
+            fetch(body, geom ? sizeof(BodyInStep) : lineSize);
+        if (!geom)
             return;
-        fetch(next->geom, geomSize);
+        fetch(geom, geomSize);
         fetch(next->carry, sizeof(pp_carry));
         fetch(next->phys, physSize);
         for (const BodyInStep* body : bodiesOfNext)
-            fetch(body->state, stateSize);
+            if (body)
+                fetch(body->state, stateSize);
     }
 
 private:

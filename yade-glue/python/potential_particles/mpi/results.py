@@ -81,10 +81,11 @@ def failures():
 
 def _functor():
     """The contact functor of this rank: each has one of its own once the scene is divided."""
-    loop = yade.utils.typedEngine("InteractionLoop")
-    for functor in loop.geomDispatcher.functors:
-        if hasattr(functor, "failureReport"):
-            return functor
+    # By kind, since a ConicInteractionLoop is one.
+    for engine in O.engines:
+        for functor in engine.geomDispatcher.functors if isinstance(engine, yade.wrapper.InteractionLoop) else ():
+            if hasattr(functor, "failureReport"):
+                return functor
     raise ValueError("the InteractionLoop has no contact functor of potential_particles")
 
 
