@@ -276,6 +276,18 @@ upper.pos = Vector3(0, 0, 0.99)
 loop()
 check.true(touching() and O.interactions[0, 1].geom.penetrationDepth > 0, "from far away and back")
 
+# An interaction that YADE made anew is looked at anew, so that it remembers what it would by InteractionLoop.
+edge = cube().surfaceDistance([(0, 1, 1)])[0]
+pair(2 * edge + 0.002 - 1)
+O.bodies[0].state.ori, O.bodies[1].state.ori = turned((1, 0, 0), math.pi / 4), turned((0, 1, 0), math.pi / 4)
+run(5)
+check.equal((functor().answers["motion"], O.interactions[0, 1].isReal), (3, False), f"edges that cross sleep: {functor().answers}")
+remembered = O.interactions[0, 1].geom.memory
+collide()
+run(2)
+check.true(O.interactions[0, 1].geom is not None, "a new interaction has a geometry")
+check.equal(O.interactions[0, 1].geom.memory, remembered, "and remembers as much as the one before")
+
 # --- two scenes -----------------------------------------------------------------------------------
 pair(-0.02)
 name = os.path.join(folder, "touching.xml")
