@@ -154,6 +154,10 @@ fn only_the_pair_and_the_problem_that_it_was_made_for_are_carried_on() {
     assert!(!look(&a, &b, &midway, 1e-9) && look(&a, &b, &midway, 1e-9));
     assert!(look(&a.clone(), &b, &midway, 1e-9), "a clone is the same particle");
     assert!(!look(&a, &b, &midway, 0.0), "a tolerance of 0 always solves");
+    let smoother = Settings { flat_regularisation: 1e-3, ..midway };
+    let coarser = Settings { gap_tolerance: 1e-9, ..midway };
+    assert!(!look(&a, &b, &smoother, 1e-9) && !look(&a, &b, &coarser, 1e-9), "each value of the settings solves anew");
+    assert!(look(&a, &b, &coarser, 1e-9) && !look(&a, &b, &midway, 1e-9) && look(&a, &b, &midway, 1e-9));
     let twin = particle(6, 0.05, 0.05, &mut 77);
     assert!(!look(&twin, &b, &midway, 1e-9) && look(&twin, &b, &midway, 1e-9));
     assert!(!look(&twin, &b, &Settings { formulation: Formulation::Closest, ..midway }, 1e-9));

@@ -18,6 +18,7 @@ use crate::pair::placed_particle::Body;
 use crate::pair::relative_pose::Pair;
 use crate::particle::particle::Particle;
 use crate::pose::Pose;
+use crate::settings::Settings;
 use nalgebra::Vector3;
 
 /// What a solved contact of one ordered pair says about poses near by; empty by default.
@@ -37,6 +38,8 @@ pub struct Carried {
     /// Bounds that the contact had when it was solved.
     gap: f64,
     point_bound: f64,
+    /// `gap_tolerance` and `flat_regularisation` with which it was solved.
+    precision: [f64; 2],
 }
 
 /// S about a point in the frame of its body.
@@ -98,6 +101,10 @@ impl KnownPiece {
     }
 }
 
+fn precision_of(settings: &Settings) -> [f64; 2] {
+    [settings.gap_tolerance, settings.flat_regularisation]
+}
+
 impl Carried {
     /// From a contact that was solved as an overlap in doubles; empty where its quadratics do not say enough.
     pub(crate) fn of(
@@ -105,6 +112,7 @@ impl Carried {
         bodies: [&Body; 2],
         model: &LocalModel,
         solution: &Solution,
+        settings: &Settings,
         scale: Scale,
         point_bound: f64,
     ) -> Self {
@@ -120,7 +128,13 @@ impl Carried {
             weight: solution.lambda / (1.0 + solution.lambda),
             gap: scale.gap,
             point_bound,
+            precision: precision_of(settings),
         }
+    }
+
+    /// Whether the last contact was solved with these settings, as far as they matter.
+    pub(crate) fn is_for(&self, settings: &Settings) -> bool {
+        self.precision == precision_of(settings)
     }
 
     /// Contact point, frame of B, and ratio of weights λ of the last contact of these two, if known.

@@ -138,7 +138,8 @@ pub(crate) fn carried_on(
 ) -> Result<Option<Contact>, DetectError> {
     settings.validate()?;
     SettingsError::check_carry_tolerance(tolerance)?;
-    Ok(if carries(settings, tolerance) { carried.contact(a, b, tolerance) } else { None })
+    let carries = carries(settings, tolerance) && carried.is_for(settings);
+    Ok(if carries { carried.contact(a, b, tolerance) } else { None })
 }
 
 /// The contact from the planes, to be carried on from here.
@@ -247,7 +248,8 @@ fn solved(
             let local = LocalContact::midway(pair, &midway, scale, bound, pieces, overlapping)
                 .ok_or_else(|| DetectError::Failed { reason: "the surface was not found along the normal".into() })?;
             if let Some(carried) = carried.filter(|_| overlapping && !call.flags.contains(Flags::EXTENDED)) {
-                *carried = Carried::of(pair, call.solved_bodies(), &model, &midway, scale, local.point_bound());
+                *carried =
+                    Carried::of(pair, call.solved_bodies(), &model, &midway, settings, scale, local.point_bound());
             }
             local
         }
