@@ -439,6 +439,9 @@ typedef struct pp_mass_properties {
 // An index or a count names something that is not there.
 #define PP_BAD_INDEX 12
 
+// The tolerance of a mesh is outside its documented range.
+#define PP_BAD_TOLERANCE 13
+
 // A plane holds a coefficient that is not finite.
 #define PP_PLANE_NOT_FINITE 20
 
@@ -860,6 +863,31 @@ pp_status pp_particle_mass_properties(const struct pp_particle *particle,
 //
 // Never NULL; an unknown code gives "unknown status code". The text is static: do not free it.
 const char *pp_status_message(pp_status status);
+
+// A closed mesh of triangles inside the particle, its corners on the surface, local frame.
+//
+// tolerance: the largest distance from the surface to the mesh, over the bounding radius; in [1e-5, 1].
+// vertices: room for vertex_capacity rows of x, y, z. normals: the same for the outward unit normals of
+// the surface at the vertices; NULL when not wanted. triangles: room for triangle_capacity rows of
+// three indices of vertices, from 0, counter-clockwise from outside. Buffers may be NULL when their
+// capacity is 0.
+// vertex_count, triangle_count: receive the numbers, also when a buffer is too small
+// (PP_BUFFER_TOO_SMALL), so that one call asks the size; it takes as long as one that fills the buffers.
+// error: receives the bound on the distance from any point of the surface to the mesh, length. May be
+// NULL.
+// Errors: PP_NULL_POINTER, PP_BAD_TOLERANCE, PP_BUFFER_TOO_SMALL, PP_SOLVER_FAILED (rounding leaves no
+// surface: scale the particle to a size near 1).
+// Pointers: Pointers are NULL or valid for writing what they have room for.
+pp_status pp_particle_mesh(const struct pp_particle *particle,
+                           double tolerance,
+                           double *vertices,
+                           double *normals,
+                           size_t vertex_capacity,
+                           size_t *vertex_count,
+                           uint32_t *triangles,
+                           size_t triangle_capacity,
+                           size_t *triangle_count,
+                           double *error);
 
 #ifdef __cplusplus
 }  // extern "C"

@@ -17,6 +17,8 @@ readonly PACKAGES=(
     binutils valgrind libc6-dbg
     # pictures and summaries
     python3-matplotlib python3-numpy
+    # files for ParaView
+    python3-vtk9
 )
 
 die() {

@@ -21,6 +21,7 @@
 //! | `reference` | the paper's second-order cone programs, as an independent back end (feature `conic`) |
 //! | `contact` | point, normal and overlap from a solution; [`detect`](detect()), the whole on one screen; many pairs at once |
 //! | `section` | the contact area |
+//! | `surface` | a closed mesh of triangles on the surface |
 //! | [`planar`] | the same for particles of the plane |
 //! | `serialisation` | what can be written down and read back with serde (feature `serde`) |
 //! | `capi` | the C interface, the only place with `unsafe` (feature `capi`) |
@@ -74,6 +75,7 @@ mod section;
 mod serialisation;
 mod settings;
 mod solver;
+mod surface;
 
 pub use contact::batch::detect_batch;
 pub use contact::carried::Carried;
@@ -88,6 +90,7 @@ pub use particle::particle::{MAX_PLANES, Particle, ParticleError, Plane};
 pub use pose::{Pose, PoseError};
 pub use section::Section;
 pub use settings::{BackEnd, Formulation, Settings, SettingsError};
+pub use surface::surface_mesh::{MeshError, SurfaceMesh};
 
 /// Stages of the solver for benchmarks; no part of the public interface, and changed without notice.
 #[doc(hidden)]

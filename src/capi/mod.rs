@@ -16,6 +16,7 @@ mod particle;
 mod planar;
 mod shape;
 mod status;
+mod surface;
 mod types;
 
 pub use abi::*;
@@ -25,4 +26,5 @@ pub use particle::*;
 pub use planar::*;
 pub use shape::*;
 pub use status::*;
+pub use surface::*;
 pub use types::*;

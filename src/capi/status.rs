@@ -34,6 +34,8 @@ pub const PP_BUFFER_TOO_SMALL: pp_status = 10;
 pub const PP_NO_CONIC: pp_status = 11;
 /// An index or a count names something that is not there.
 pub const PP_BAD_INDEX: pp_status = 12;
+/// The tolerance of a mesh is outside its documented range.
+pub const PP_BAD_TOLERANCE: pp_status = 13;
 
 /// A plane holds a coefficient that is not finite.
 pub const PP_PLANE_NOT_FINITE: pp_status = 20;
@@ -67,6 +69,10 @@ const MESSAGES: &[(pp_status, &CStr)] = &[
     (PP_BUFFER_TOO_SMALL, c"the output buffer is too small; the needed size was written"),
     (PP_NO_CONIC, c"the library was built without the conic back end (Cargo feature conic): use PP_FAST"),
     (PP_BAD_INDEX, c"an index or a count names something that is not there"),
+    (
+        PP_BAD_TOLERANCE,
+        c"the tolerance of a mesh must lie in [1e-5, 1]: the distance to the surface over the bounding radius",
+    ),
     (PP_PLANE_NOT_FINITE, c"a plane coefficient is not finite"),
     (PP_PLANE_ZERO_NORMAL, c"a plane normal (a, b, c) has no length, or none that can be squared"),
     (PP_BAD_SPHERICITY, c"sphericity k must lie in [0, 1]"),

@@ -8,6 +8,7 @@
 #include "plane_lists.hpp"
 #include "registration.hpp"
 #include "retired.hpp"
+#include "surface_mesh.hpp"
 
 #include <boost/archive/basic_archive.hpp>
 #include <boost/python/def.hpp>
@@ -59,4 +60,5 @@ BOOST_PYTHON_MODULE(_glue)
     py::def("stored_particles", &storedParticles);
     py::def("retired_count", &pp::retiredCount);
     py::def("set_list", &setListOf);
+    py::def("surface_mesh", &pp::surfaceMesh);
 }

@@ -29,7 +29,7 @@ from .outside import protect_runs
 
 __version__ = "0.1.0"
 
-__all__ = ["AbiError", "library_version", "prepare", "protect_runs"]
+__all__ = ["AbiError", "Mesh", "Recorder", "library_version", "mesh", "plot", "prepare", "protect_runs", "save_mesh"]
 
 
 class AbiError(ImportError):
@@ -193,3 +193,6 @@ def _load():
 
 
 _glue = _load()
+
+# After the classes that they serve.
+from .output import Mesh, Recorder, mesh, plot, save_mesh  # noqa: E402, F401
