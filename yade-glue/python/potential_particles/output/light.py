@@ -36,8 +36,9 @@ class ShadowMap:
     def lit(self, points, normals):
         """Whether points (n, 3), with outward normals, see the light."""
         # From slightly above their own surface, by about one pixel of the map.
-        x, y, height = ((points + 1.5 * self.step * normals) @ self.axes.T).T
-        column, row = ((x - self.low[0]) / self.step).astype(int), ((y - self.low[1]) / self.step).astype(int)
+        axes = self.axes.astype(points.dtype)
+        x, y, height = axes @ (points + points.dtype.type(1.5 * self.step) * normals).T
+        column, row = ((x - self.low[0]) / self.step).astype(np.int32), ((y - self.low[1]) / self.step).astype(np.int32)
         inside = (column >= 0) & (row >= 0) & (column < self.nearest.shape[1]) & (row < self.nearest.shape[0])
         lit = np.ones(len(points), bool)
         lit[inside] = height[inside] >= self.nearest[row[inside], column[inside]]
@@ -46,6 +47,7 @@ class ShadowMap:
 
 def brightness(points, normals, triangles):
     """Light that falls on points (n, 3) with normals (n, 3), about 0 to 1, among these triangles (m, 3, 3)."""
+    points, normals = points.astype(np.float32), normals.astype(np.float32)
     lights = [(SUN, SUN_SHARE, SUN_PIXELS)]
     sky = _sky()
     share = SKY_SHARE / np.maximum(sky[:, 2], 0.0).sum()

@@ -60,21 +60,26 @@ def render(of_bodies, of_boundaries, view, width, height):
     columns, rows = SAMPLES * width, SAMPLES * height
     corners = view.project(scene.corners, columns, rows)
     closeness, index = nearest_triangles(corners, columns, rows)
-    image = np.full((rows * columns, 3), PAPER)
-    hit = np.flatnonzero(index.ravel() != NOTHING)
-    chosen, x, y = index.ravel()[hit], hit % columns + 0.5, hit // columns + 0.5
-    points = view.points(x, y, closeness.ravel()[hit], columns, rows)
+    seen, closeness = (array.reshape(height, SAMPLES, width, SAMPLES).swapaxes(1, 2).reshape(height * width, -1)
+                       for array in (index, closeness))
+    # Samples of a pixel that see the same triangle share the light at the first of them.
+    first = (seen[:, :, None] == seen[:, None, :]).argmax(2)
+    pixel, sample = np.nonzero((first == np.arange(SAMPLES**2)) & (seen != NOTHING))
+    chosen = seen[pixel, sample]
+    x, y = pixel % width * SAMPLES + sample % SAMPLES + 0.5, pixel // width * SAMPLES + sample // SAMPLES + 0.5
+    points = view.points(x, y, closeness[pixel, sample], columns, rows)
     normals = unit(interpolate(corners, scene.normals, chosen, x, y))
     light = brightness(points, normals, of_bodies.corners)
     is_boundary = chosen >= len(of_bodies.corners)
     # Light adds up linearly; colours are given, and screens expect them, with the usual gamma.
     colours = np.where(is_boundary[:, None], BOUNDARY_COLOUR, scene.colours[chosen] ** 2.2)
-    shaded = np.clip(colours * light[:, None], 0.0, 1.0)
     far = np.linalg.norm(points - middle, axis=1) / radius
     inward = np.clip((FADE[1] - far) / (FADE[1] - FADE[0]), 0.0, 1.0)
     solid = np.where(is_boundary, inward**2 * (3.0 - 2.0 * inward), 1.0)[:, None]
-    image[hit] = solid * shaded + (1.0 - solid) * PAPER
-    return image.reshape(height, SAMPLES, width, SAMPLES, 3).mean((1, 3)) ** (1.0 / 2.2)
+    image = np.full((height * width, SAMPLES**2, 3), PAPER, np.float32)
+    image[pixel, sample] = solid * np.clip(colours * light[:, None], 0.0, 1.0) + (1.0 - solid) * PAPER
+    image = np.take_along_axis(image, first[:, :, None], axis=1).mean(1)
+    return image.reshape(height, width, 3) ** (1.0 / 2.2)
 
 
 def _ball(points):
