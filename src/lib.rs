@@ -21,6 +21,7 @@
 //! | `reference` | the paper's second-order cone programs, as an independent back end (feature `conic`) |
 //! | `contact` | point, normal and overlap from a solution; [`detect`](detect()), the whole on one screen; many pairs at once |
 //! | `section` | the contact area |
+//! | [`packing`] | bodies placed in a container without overlap, as a start for a simulation |
 //! | [`planar`] | the same for particles of the plane |
 //! | `serialisation` | what can be written down and read back with serde (feature `serde`) |
 //! | `capi` | the C interface, the only place with `unsafe` (feature `capi`) |
@@ -60,6 +61,7 @@ mod contact;
 mod flags;
 mod linalg;
 mod model;
+pub mod packing;
 mod pair;
 mod particle;
 pub mod planar;

@@ -76,6 +76,16 @@ impl Particle {
         Self::new(&[], 0.0, 1.0, radius)
     }
 
+    /// The same shape `factor` times as large: d, r and R multiplied by it.
+    ///
+    /// # Errors
+    /// Those of [`Particle::new`], for a factor that is not positive and finite, or out of range with these planes.
+    pub fn scaled(&self, factor: f64) -> Result<Self, ParticleError> {
+        let scaled = |plane: Plane| Plane { offset: factor * plane.offset, ..plane };
+        let planes: Vec<Plane> = self.planes().map(scaled).collect();
+        Self::new(&planes, factor * self.rounding_radius(), self.sphericity(), factor * self.shadow_radius())
+    }
+
     /// f(x) = S(x) − 1 at a local point (paper eq. 2): negative inside, zero on the surface.
     pub fn potential(&self, x: &Vector3<f64>) -> f64 {
         potential::value(self, x) - 1.0

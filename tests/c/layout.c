@@ -15,7 +15,9 @@ static void sizes_are_those_of_the_library(void) {
     CHECK(pp_struct_size(PP_STRUCT_CLOSEST_2D) == sizeof(pp_closest_2d));
     CHECK(pp_struct_size(PP_STRUCT_FRAME) == sizeof(pp_frame));
     CHECK(pp_struct_size(PP_STRUCT_CARRY) == sizeof(pp_carry));
-    CHECK(pp_struct_size(0) == 0 && pp_struct_size(12) == 0 && pp_struct_size(UINT32_MAX) == 0);
+    CHECK(pp_struct_size(PP_STRUCT_PACKING) == sizeof(pp_packing));
+    CHECK(pp_struct_size(PP_STRUCT_PLACEMENT) == sizeof(pp_placement));
+    CHECK(pp_struct_size(0) == 0 && pp_struct_size(14) == 0 && pp_struct_size(UINT32_MAX) == 0);
 }
 
 void test_layout(void) {
@@ -80,4 +82,21 @@ void test_layout(void) {
     CHECK(offsetof(pp_mass_properties, volume) == 0);
     CHECK(offsetof(pp_mass_properties, centroid) == 8);
     CHECK(offsetof(pp_mass_properties, inertia) == 32);
+
+    CHECK(sizeof(pp_packing) == 88);
+    CHECK(offsetof(pp_packing, container) == 0);
+    CHECK(offsetof(pp_packing, arrangement) == 4);
+    CHECK(offsetof(pp_packing, shares) == 8);
+    CHECK(offsetof(pp_packing, threads) == 12);
+    CHECK(offsetof(pp_packing, lower) == 16);
+    CHECK(offsetof(pp_packing, upper) == 40);
+    CHECK(offsetof(pp_packing, margin) == 64);
+    CHECK(offsetof(pp_packing, seed) == 72);
+    CHECK(offsetof(pp_packing, number) == 80);
+
+    CHECK(sizeof(pp_placement) == 72);
+    CHECK(offsetof(pp_placement, pose) == 0);
+    CHECK(offsetof(pp_placement, scale) == 56);
+    CHECK(offsetof(pp_placement, shape) == 64);
+    CHECK(offsetof(pp_placement, reserved) == 68);
 }
