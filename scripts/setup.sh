@@ -17,6 +17,8 @@ readonly PACKAGES=(
     binutils valgrind libc6-dbg
     # pictures and summaries
     python3-matplotlib python3-numpy
+    # progress bars
+    python3-tqdm
 )
 
 die() {
