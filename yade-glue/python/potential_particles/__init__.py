@@ -13,6 +13,8 @@ Then these classes stand beside YADE's own:
                                  place of Ig2_PP_PP_ScGeom
     ScGeomConicPP                the ScGeom that they fill
 
+potential_particles.shapes makes shapes from planes, points, files and names of solids, and body() a YADE body of one.
+
 Before, the classes of the YADE that runs are compared with what the plugin was compiled for. One that
 differs is refused with AbiError, which lists the differences, and nothing is registered; one that fits
 and was never tested is taken, with a warning of one line.
@@ -25,11 +27,12 @@ import builtins
 import functools
 
 from . import builds
+from .bodies import body
 from .outside import protect_runs
 
 __version__ = "0.1.0"
 
-__all__ = ["AbiError", "library_version", "prepare", "protect_runs"]
+__all__ = ["AbiError", "body", "library_version", "prepare", "protect_runs"]
 
 
 class AbiError(ImportError):
