@@ -85,7 +85,7 @@ pub use contact::detect::{DetectError, detect, detect_carried};
 pub use flags::Flags;
 pub use pair::role::Role;
 pub use pair::warm_start::Memory;
-pub use particle::mass_properties::MassProperties;
+pub use particle::mass_properties::{MASS_TOLERANCE, MassProperties};
 pub use particle::particle::{MAX_PLANES, Particle, ParticleError, Plane};
 pub use pose::{Pose, PoseError};
 pub use section::Section;

@@ -3,6 +3,7 @@
 use crate::packing::error::PackError;
 use crate::packing::random::Random;
 use crate::packing::sizes::Sizes;
+use crate::particle::mass_properties::MASS_TOLERANCE;
 use crate::particle::particle::Particle;
 use std::f64::consts::PI;
 
@@ -115,7 +116,7 @@ impl<'a> Supply<'a> {
 
 /// Diameter of a ball of the same volume.
 fn size_of(shape: &Particle) -> f64 {
-    (6.0 / PI * shape.mass_properties().volume).cbrt()
+    (6.0 / PI * shape.mass_properties(MASS_TOLERANCE).volume).cbrt()
 }
 
 /// Radius ρ of a ball about the origin within the particle: by Cauchy's inequality S(x) is at most

@@ -13,6 +13,9 @@ Then these classes stand beside YADE's own:
                                  place of Ig2_PP_PP_ScGeom
     ScGeomConicPP                the ScGeom that they fill
 
+potential_particles.shapes makes shapes from planes, points, files and names of solids, and body() a YADE body of one.
+pack() fills a container with many, add_packing() makes bodies of them; potential_particles.boundaries has walls and funnels.
+
 Before, the classes of the YADE that runs are compared with what the plugin was compiled for. One that
 differs is refused with AbiError, which lists the differences, and nothing is registered; one that fits
 and was never tested is taken, with a warning of one line.
@@ -25,11 +28,13 @@ import builtins
 import functools
 
 from . import builds
+from .bodies import body
 from .outside import protect_runs
+from .packing import add_packing, pack
 
 __version__ = "0.1.0"
 
-__all__ = ["AbiError", "library_version", "prepare", "protect_runs"]
+__all__ = ["AbiError", "add_packing", "body", "library_version", "pack", "prepare", "protect_runs"]
 
 
 class AbiError(ImportError):
