@@ -19,6 +19,8 @@ readonly PACKAGES=(
     python3-matplotlib python3-numpy
     # files for ParaView
     python3-vtk9
+    # progress bars
+    python3-tqdm
 )
 
 die() {

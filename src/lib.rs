@@ -22,6 +22,7 @@
 //! | `contact` | point, normal and overlap from a solution; [`detect`](detect()), the whole on one screen; many pairs at once |
 //! | `section` | the contact area |
 //! | `surface` | a closed mesh of triangles on the surface |
+//! | [`packing`] | bodies placed in a container without overlap, as a start for a simulation |
 //! | [`planar`] | the same for particles of the plane |
 //! | `serialisation` | what can be written down and read back with serde (feature `serde`) |
 //! | `capi` | the C interface, the only place with `unsafe` (feature `capi`) |
@@ -61,6 +62,7 @@ mod contact;
 mod flags;
 mod linalg;
 mod model;
+pub mod packing;
 mod pair;
 mod particle;
 pub mod planar;
@@ -85,7 +87,7 @@ pub use contact::detect::{DetectError, detect, detect_carried};
 pub use flags::Flags;
 pub use pair::role::Role;
 pub use pair::warm_start::Memory;
-pub use particle::mass_properties::MassProperties;
+pub use particle::mass_properties::{MASS_TOLERANCE, MassProperties};
 pub use particle::particle::{MAX_PLANES, Particle, ParticleError, Plane};
 pub use pose::{Pose, PoseError};
 pub use section::Section;

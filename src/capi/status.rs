@@ -54,6 +54,9 @@ pub const PP_UNBOUNDED: pp_status = 26;
 /// More planes than PP_MAX_PLANES.
 pub const PP_TOO_MANY_PLANES: pp_status = 27;
 
+/// Nothing can be packed with these values; the message names the one at fault.
+pub const PP_BAD_PACKING: pp_status = 30;
+
 /// Every code with its sentence; pp_status_message and the tests read this one table.
 const MESSAGES: &[(pp_status, &CStr)] = &[
     (PP_OK, c"success"),
@@ -81,6 +84,7 @@ const MESSAGES: &[(pp_status, &CStr)] = &[
     (PP_CENTRE_OUTSIDE, c"the local origin lies outside the particle: f(0) must be negative"),
     (PP_UNBOUNDED, c"with k = 0 the planes must enclose a bounded volume"),
     (PP_TOO_MANY_PLANES, c"more planes than PP_MAX_PLANES"),
+    (PP_BAD_PACKING, c"nothing can be packed with these values; the message of pp_pack names the one at fault"),
 ];
 
 /// The sentence for a status code, in English, without a full stop.

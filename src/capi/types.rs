@@ -207,4 +207,7 @@ pub struct pp_mass_properties {
     /// Inertia about the local origin for density 1: xx, yy, zz, xy, yz, zx of the integral of
     /// (|x|^2 I - x x^T) dV, length^5.
     pub inertia: [f64; 6],
+    /// Estimated bound on the relative error of the volume and of every moment of inertia about an axis through
+    /// the origin, and of the centroid as a share of the radii of gyration. No unit.
+    pub error: f64,
 }

@@ -38,5 +38,6 @@ int main(int count, char **arguments) {
     test_planar();
     test_planar_batch();
     test_planar_closest();
+    test_packing();
     return check_report();
 }

@@ -23,5 +23,6 @@ void test_batch(void);
 void test_planar(void);
 void test_planar_batch(void);
 void test_planar_closest(void);
+void test_packing(void);
 
 #endif

@@ -4,6 +4,7 @@
 #include "../abi/base.hpp"
 
 #include "load_check.hpp"
+#include "packing.hpp"
 #include "particle_store.hpp"
 #include "plane_lists.hpp"
 #include "registration.hpp"
@@ -61,4 +62,6 @@ BOOST_PYTHON_MODULE(_glue)
     py::def("retired_count", &pp::retiredCount);
     py::def("set_list", &setListOf);
     py::def("surface_mesh", &pp::surfaceMesh);
+    py::def("pack", &pp::packContainer);
+    py::scope().attr("packing_choices") = pp::packingChoices();
 }

@@ -13,6 +13,9 @@ Then these classes stand beside YADE's own:
                                  place of Ig2_PP_PP_ScGeom
     ScGeomConicPP                the ScGeom that they fill
 
+potential_particles.shapes makes shapes from planes, points, files and names of solids, and body() a YADE body of one.
+pack() fills a container with many, add_packing() makes bodies of them; potential_particles.boundaries has walls and funnels.
+
 Before, the classes of the YADE that runs are compared with what the plugin was compiled for. One that
 differs is refused with AbiError, which lists the differences, and nothing is registered; one that fits
 and was never tested is taken, with a warning of one line.
@@ -25,11 +28,14 @@ import builtins
 import functools
 
 from . import builds
+from .bodies import body
 from .outside import protect_runs
+from .packing import add_packing, pack
 
 __version__ = "0.1.0"
 
-__all__ = ["AbiError", "Mesh", "Recorder", "library_version", "mesh", "plot", "prepare", "protect_runs", "save_mesh"]
+__all__ = ["AbiError", "Mesh", "Recorder", "add_packing", "body", "library_version", "mesh", "pack", "plot", "prepare",
+           "protect_runs", "save_mesh"]
 
 
 class AbiError(ImportError):
