@@ -1,5 +1,6 @@
 //! Which library was loaded, and whether its structs are those that the caller was compiled with.
 
+use super::flat::pp_flat_contact;
 use super::planar::{pp_closest_2d, pp_contact_2d, pp_pose_2d};
 use super::types::{pp_carry, pp_closest, pp_contact, pp_frame, pp_mass_properties, pp_memory, pp_pose, pp_settings};
 use std::ffi::{CStr, c_char};
@@ -39,6 +40,8 @@ pub const PP_STRUCT_CLOSEST_2D: u32 = 9;
 pub const PP_STRUCT_FRAME: u32 = 10;
 /// struct pp_carry, for pp_struct_size.
 pub const PP_STRUCT_CARRY: u32 = 11;
+/// struct pp_flat_contact, for pp_struct_size.
+pub const PP_STRUCT_FLAT_CONTACT: u32 = 12;
 
 /// Version of the loaded library as "major.minor.patch". Static text: do not free it.
 #[unsafe(no_mangle)]
@@ -72,6 +75,7 @@ pub extern "C" fn pp_struct_size(which: u32) -> usize {
         PP_STRUCT_CLOSEST_2D => size_of::<pp_closest_2d>(),
         PP_STRUCT_FRAME => size_of::<pp_frame>(),
         PP_STRUCT_CARRY => size_of::<pp_carry>(),
+        PP_STRUCT_FLAT_CONTACT => size_of::<pp_flat_contact>(),
         _ => 0,
     }
 }

@@ -34,6 +34,8 @@ pub const PP_BUFFER_TOO_SMALL: pp_status = 10;
 pub const PP_NO_CONIC: pp_status = 11;
 /// An index or a count names something that is not there.
 pub const PP_BAD_INDEX: pp_status = 12;
+/// The vertices of a triangle lie on one line, so that it has no normal.
+pub const PP_DEGENERATE_TRIANGLE: pp_status = 13;
 
 /// A plane holds a coefficient that is not finite.
 pub const PP_PLANE_NOT_FINITE: pp_status = 20;
@@ -67,6 +69,7 @@ const MESSAGES: &[(pp_status, &CStr)] = &[
     (PP_BUFFER_TOO_SMALL, c"the output buffer is too small; the needed size was written"),
     (PP_NO_CONIC, c"the library was built without the conic back end (Cargo feature conic): use PP_FAST"),
     (PP_BAD_INDEX, c"an index or a count names something that is not there"),
+    (PP_DEGENERATE_TRIANGLE, c"a triangle has no area to rounding: remove it from the mesh"),
     (PP_PLANE_NOT_FINITE, c"a plane coefficient is not finite"),
     (PP_PLANE_ZERO_NORMAL, c"a plane normal (a, b, c) has no length, or none that can be squared"),
     (PP_BAD_SPHERICITY, c"sphericity k must lie in [0, 1]"),
