@@ -42,6 +42,8 @@ inline const Particle* particleOf(const boost::shared_ptr<yade::Shape>& shape, s
         keeper = ParticleStore::instance().find(shape, static_cast<const yade::Box&>(one));
     else if (const auto* pp = potentialParticle(one))
         return particleOf(shape, *pp, keeper);
+    else if (const auto* sphere = dynamic_cast<const yade::Sphere*>(&one)) // a shape of YADE derived from it
+        keeper = ParticleStore::instance().find(shape, *sphere);
     else
         throw std::invalid_argument("a " + one.getClassName() + " is no particle");
     return keeper.get();
