@@ -76,6 +76,7 @@ const Body* Ig2_Facet_ConicPP_ScGeom::ownerOf(FlatPair& pair, const BoundaryPoin
     const auto& bodies = scene->bodies->body;
     const Body* const body = bodies[static_cast<std::size_t>(own.id)].get();
     const Body* owner = nullptr;
+    BoundaryPoints best;
     if (!body)
         return nullptr;
     const double weld = weldOf(points);
@@ -94,11 +95,14 @@ const Body* Ig2_Facet_ConicPP_ScGeom::ownerOf(FlatPair& pair, const BoundaryPoin
             pp_flat_contact other;
             if (!common.any() || contactWith(pair, vertices, other) != PP_OK || other.kind != PP_OVERLAPPING)
                 continue;
-            if (!yieldsTo({ vertices, other, *id, doubtOf(other, radius) }, own, common))
+            const FacetContact theirs { vertices, other, *id, doubtOf(other, radius) };
+            if (!yieldsTo(theirs, own, common))
                 continue;
-            if (!owner || other.s < ofOwner.s || (other.s == ofOwner.s && *id < owner->id)) {
+            const FacetContact least { best, ofOwner, owner ? owner->id : -1, 0 };
+            if (!owner || isLower(theirs, least)) {
                 owner = neighbour;
                 ofOwner = other;
+                best = vertices;
             }
         }
     }

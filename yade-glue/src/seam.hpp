@@ -13,6 +13,7 @@
 #include <potential_particles.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace potential_particles {
 
@@ -79,6 +80,16 @@ inline Parts sharedParts(const BoundaryPoints& vertices, const BoundaryPoints& o
     return parts;
 }
 
+// Where s is the same to within its error, as on facets in one plane under a flat face of a particle with k = 0, the point
+// nearest to the particle's centre is the least: there s is that of k -> 0.
+inline bool isLower(const FacetContact& one, const FacetContact& other)
+{
+    if (!(std::abs(one.found.s - other.found.s) <= one.found.gap + other.found.gap))
+        return one.found.s < other.found.s;
+    const double way = one.point().squaredNorm(), otherWay = other.point().squaredNorm();
+    return way != otherWay ? way < otherWay : one.id < other.id;
+}
+
 // `common`: what the two share, of that on which the first one's point lies.
 inline bool yieldsTo(const FacetContact& other, const FacetContact& own, const Parts& common)
 {
@@ -100,7 +111,7 @@ inline bool yieldsTo(const FacetContact& other, const FacetContact& own, const P
     }
     if (inOnePlace)
         return other.id < own.id;
-    return onCommon && (other.found.s < own.found.s || (other.found.s == own.found.s && other.id < own.id));
+    return onCommon && isLower(other, own);
 }
 
 } // namespace potential_particles
