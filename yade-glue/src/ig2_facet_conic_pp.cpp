@@ -68,7 +68,7 @@ const Body* Ig2_Facet_ConicPP_ScGeom::ownerOf(FlatPair& pair, const BoundaryPoin
                                               pp_flat_contact& ofOwner)
 {
     const double radius = pair.particle->boundingRadius();
-    const FacetContact own { points, found, pair.interaction->id1, doubtOf(found, radius) };
+    const FacetContact own = facetContact(points, found, pair.interaction->id1, radius);
     const Parts parts = partsAt(own);
     if (!parts.any())
         return nullptr;
@@ -95,11 +95,10 @@ const Body* Ig2_Facet_ConicPP_ScGeom::ownerOf(FlatPair& pair, const BoundaryPoin
             pp_flat_contact other;
             if (!common.any() || contactWith(pair, vertices, other) != PP_OK || other.kind != PP_OVERLAPPING)
                 continue;
-            const FacetContact theirs { vertices, other, *id, doubtOf(other, radius) };
+            const FacetContact theirs = facetContact(vertices, other, *id, radius);
             if (!yieldsTo(theirs, own, common))
                 continue;
-            const FacetContact least { best, ofOwner, owner ? owner->id : -1, 0 };
-            if (!owner || isLower(theirs, least)) {
+            if (!owner || isLower(theirs, facetContact(best, ofOwner, owner->id, radius))) {
                 owner = neighbour;
                 ofOwner = other;
                 best = vertices;

@@ -4,8 +4,9 @@
 //
 // The scale s of a particle is convex, and so is each facet. The point of a facet where s is least is therefore one of the
 // mesh around it exactly if no facet that shares its edge or vertex has a lower s: a facet whose point lies inside it keeps
-// its contact, one whose point lies on a seam yields to a neighbour with less. Two neighbours that have their least point
-// in one place, on the seam, have one contact, and the one with the lower number of its body keeps it.
+// its contact, one whose point lies on a seam yields to a neighbour with less. Where both may have their least point on
+// the seam for all that is known of it, in one place, they have one contact: that of the lower s, or, in the very same
+// place, of the lower number of the body.
 #pragma once
 
 #include "kept_off.hpp"
@@ -22,18 +23,20 @@ struct FacetContact {
     const BoundaryPoints& vertices;
     const pp_flat_contact& found;
     int id;
-    double doubt; // how far its point may be from where it says
+    double least; // to which points are told apart at all: rounding
+    double doubt; // how far this one may be from where it says
 
     yade::Vector3r point() const { return yade::Vector3r(found.on_boundary); }
 };
 
-// Rounding of a point, in the particle's size: where the library says more, up to the second, more.
+// In the particle's size.
 constexpr double leastDoubt = 1e-9, mostDoubt = 0.1;
 
-inline double doubtOf(const pp_flat_contact& found, double radius)
+inline FacetContact facetContact(const BoundaryPoints& vertices, const pp_flat_contact& found, int id, double radius)
 {
     const double bound = found.point_bound >= 0 ? found.point_bound : mostDoubt * radius;
-    return leastDoubt * radius + std::min(bound, mostDoubt * radius);
+    const double least = leastDoubt * radius;
+    return { vertices, found, id, least, least + std::min(bound, mostDoubt * radius) };
 }
 
 inline double distanceToSegment(const yade::Vector3r& x, const yade::Vector3r& from, const yade::Vector3r& to)
@@ -109,9 +112,9 @@ inline bool yieldsTo(const FacetContact& other, const FacetContact& own, const P
             inOnePlace = inOnePlace || (close && (x - from).norm() <= own.doubt && (y - from).norm() <= other.doubt);
         }
     }
-    if (inOnePlace)
+    if (inOnePlace && (x - y).norm() <= own.least + other.least)
         return other.id < own.id;
-    return onCommon && isLower(other, own);
+    return (inOnePlace || onCommon) && isLower(other, own);
 }
 
 } // namespace potential_particles
