@@ -12,6 +12,9 @@
 #include <boost/serialization/base_object.hpp>
 #include <boost/serialization/string.hpp>
 
+// The name of the base in archives must be known wherever its part is archived; ig2_registration.cpp exports it.
+BOOST_CLASS_EXPORT_KEY(potential_particles::Ig2_ConicPP_ConicPP_ScGeom)
+
 namespace potential_particles {
 
 namespace {
