@@ -128,6 +128,17 @@
 // Rows of sizes: a grading curve, linear between its rows: a size, and the share of the mass in bodies
 // below it; both grow, the shares from 0 to 1.
 #define PP_PASSING 2
+// struct pp_flat_contact, for pp_struct_size.
+#define PP_STRUCT_FLAT_CONTACT 12
+
+// The point on the boundary lies on the plane, or inside the triangle.
+#define PP_ON_INTERIOR 0
+
+// It lies on the edge from vertex 0 to 1; PP_ON_EDGE + 1: from 1 to 2; PP_ON_EDGE + 2: from 2 to 0.
+#define PP_ON_EDGE 1
+
+// It is vertex 0; PP_ON_VERTEX + i: vertex i.
+#define PP_ON_VERTEX 4
 
 // Most planes that a particle may have.
 #define PP_MAX_PLANES 65536
@@ -189,6 +200,10 @@
 // flat_regularisation was raised, and its default value was used in this call instead: the raised one
 // would have left open whether the particles overlap.
 #define PP_FLAG_DEFAULT_REGULARISATION 1024
+
+// The gradient vanishes on a flat boundary, as when the centre of the particle lies on it: the normal is the
+// boundary's own.
+#define PP_FLAG_NORMAL_BY_BOUNDARY 2048
 
 // pp_closest_point: the point P1 on A, where s_B is least.
 #define PP_ON_A 0
@@ -381,6 +396,45 @@ typedef struct pp_placement {
 // with a count of 0, when none has for a while. Returns 0 to go on; anything else ends the packing, and
 // what was handed over is it. context: as given to pp_pack. No exception may leave it.
 typedef int32_t (*pp_placed)(void *context, const struct pp_placement *placements, size_t count);
+// The contact of a particle A with a flat boundary T, a plane or a closed triangle of no thickness. World
+// axes; lengths in the caller's unit; s and gap have no unit. Fields that do not apply are NaN.
+//
+// x*, the point of T where the scale s of A is least, decides: A touches T where it is below 1.
+typedef struct pp_flat_contact {
+    // PP_SEPARATED or PP_OVERLAPPING. A failed solve has no kind: it returns a status.
+    int32_t kind;
+    // Where on T the point x* lies: PP_ON_INTERIOR, PP_ON_EDGE + i or PP_ON_VERTEX + i.
+    uint32_t feature;
+    // Sum of PP_FLAG_... bits: REJECTED with BY_SPHERES or BY_FACE, ROUNDING_LIMITED,
+    // DEFAULT_REGULARISATION, NORMAL_BY_BOUNDARY.
+    uint32_t flags;
+    // Quadratics solved.
+    uint32_t iterations;
+    // Scale of A at x*, the least on T. Rejected: a lower bound, >= 1. The same bits for the same particle,
+    // pose and boundary, and on an edge or vertex for every triangle that has it: of the triangles of a mesh
+    // the one with the least s (of equal ones, the first) owns the contact at a seam.
+    double s;
+    // Bound on the error of s, with rounding to first order (as in struct pp_contact for doubles).
+    double gap;
+    // Estimated bound on the distance of on_boundary to the exact x*, length.
+    double point_bound;
+    // Distance from x* along the normal to the surface of A (YADE: penetrationDepth), length, > 0 when
+    // overlapping; NaN when separated.
+    double overlap;
+    // Separated: lower bound on the distance between A and T, length; 0 when none is known. NaN when
+    // overlapping.
+    double distance;
+    // Unit normal from A to T: the gradient of S_A at x*; inside T exactly the normal of T or its opposite.
+    double normal[3];
+    // Contact point, halfway between on_boundary and on_particle, world frame; x* when separated.
+    double point[3];
+    // Contact point minus position of A: exact lever arm even far from the world origin.
+    double branch[3];
+    // x*, world frame.
+    double on_boundary[3];
+    // The point of the surface of A beyond x* along the normal, world frame; NaN when separated.
+    double on_particle[3];
+} pp_flat_contact;
 
 // Where a body of the plane is: world = rotation(angle) * local + position.
 typedef struct pp_pose_2d {
@@ -529,6 +583,8 @@ typedef struct pp_mass_properties {
 
 // The tolerance of a mesh is outside its documented range.
 #define PP_BAD_TOLERANCE 13
+// The vertices of a triangle lie on one line, so that it has no normal.
+#define PP_DEGENERATE_TRIANGLE 13
 
 // A plane holds a coefficient that is not finite.
 #define PP_PLANE_NOT_FINITE 20
@@ -705,6 +761,47 @@ pp_status pp_pack(const struct pp_particle *const *shapes,
                   void *context,
                   char *message,
                   size_t message_size);
+// Finds the contact of particle A at pose_a with the plane through a point (world frame) with this normal
+// (of any length). A may touch it from either side; where its centre lies on the plane to rounding, A counts
+// as in front of it (PP_FLAG_NORMAL_BY_BOUNDARY).
+//
+// settings: may be NULL (defaults); gap_tolerance, flat_regularisation and solve_separated count.
+// Pointers: point and normal hold 3 numbers each.
+// Errors: PP_NULL_POINTER, PP_BAD_POSITION, PP_BAD_ORIENTATION, PP_BAD_POINT, PP_UNKNOWN_FORMULATION,
+// PP_UNKNOWN_BACK_END, PP_NO_CONIC, PP_BAD_SETTING, PP_SOLVER_FAILED.
+pp_status pp_contact_plane(const struct pp_particle *a,
+                           const struct pp_pose *pose_a,
+                           const double *point,
+                           const double *normal,
+                           const struct pp_settings *settings,
+                           struct pp_flat_contact *out);
+
+// Finds the contact of particle A at pose_a with a closed triangle, which A may touch from either side.
+//
+// vertices: three points, world frame, one after the other; seen from the front they run
+// counter-clockwise. Where the centre of A lies on the triangle to rounding, A counts as in front of it
+// (PP_FLAG_NORMAL_BY_BOUNDARY).
+// settings: may be NULL (defaults); gap_tolerance, flat_regularisation and solve_separated count.
+// Pointers: vertices holds 9 numbers.
+// Errors: those of pp_contact_plane, and PP_DEGENERATE_TRIANGLE.
+pp_status pp_contact_triangle(const struct pp_particle *a,
+                              const struct pp_pose *pose_a,
+                              const double *vertices,
+                              const struct pp_settings *settings,
+                              struct pp_flat_contact *out);
+
+// Contact area with a flat boundary: the area of the cut that the plane through the contact point, normal to
+// the contact normal, makes through the particle. (It is not cut off at the edges of a triangle.)
+//
+// contact: an overlapping answer of pp_contact_plane or pp_contact_triangle for the same particle and pose.
+// relative_tolerance: in [1e-12, 0.1], as for pp_contact_area. area: receives length^2; 0 when separated.
+// Errors: PP_NULL_POINTER, PP_BAD_POSITION, PP_BAD_ORIENTATION, PP_BAD_POINT (the contact was not filled, or
+// its point is outside the particle), PP_BAD_SETTING.
+pp_status pp_flat_contact_area(const struct pp_particle *a,
+                               const struct pp_pose *pose_a,
+                               const struct pp_flat_contact *contact,
+                               double relative_tolerance,
+                               double *area);
 
 // Creates a particle from count planes.
 //

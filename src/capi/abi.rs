@@ -1,5 +1,6 @@
 //! Which library was loaded, and whether its structs are those that the caller was compiled with.
 
+use super::flat::pp_flat_contact;
 use super::packing::{pp_packing, pp_placement};
 use super::planar::{pp_area_properties, pp_closest_2d, pp_contact_2d, pp_pose_2d};
 use super::types::{pp_carry, pp_closest, pp_contact, pp_frame, pp_mass_properties, pp_memory, pp_pose, pp_settings};
@@ -46,6 +47,8 @@ pub const PP_STRUCT_AREA_PROPERTIES: u32 = 12;
 pub const PP_STRUCT_PACKING: u32 = 14;
 /// struct pp_placement, for pp_struct_size.
 pub const PP_STRUCT_PLACEMENT: u32 = 15;
+/// struct pp_flat_contact, for pp_struct_size.
+pub const PP_STRUCT_FLAT_CONTACT: u32 = 13;
 
 /// Version of the loaded library as "major.minor.patch". Static text: do not free it.
 #[unsafe(no_mangle)]
@@ -82,6 +85,7 @@ pub extern "C" fn pp_struct_size(which: u32) -> usize {
         PP_STRUCT_AREA_PROPERTIES => size_of::<pp_area_properties>(),
         PP_STRUCT_PACKING => size_of::<pp_packing>(),
         PP_STRUCT_PLACEMENT => size_of::<pp_placement>(),
+        PP_STRUCT_FLAT_CONTACT => size_of::<pp_flat_contact>(),
         _ => 0,
     }
 }

@@ -34,8 +34,10 @@ pub const PP_BUFFER_TOO_SMALL: pp_status = 10;
 pub const PP_NO_CONIC: pp_status = 11;
 /// An index or a count names something that is not there.
 pub const PP_BAD_INDEX: pp_status = 12;
+/// The vertices of a triangle lie on one line, so that it has no normal.
+pub const PP_DEGENERATE_TRIANGLE: pp_status = 13;
 /// The tolerance of a mesh is outside its documented range.
-pub const PP_BAD_TOLERANCE: pp_status = 13;
+pub const PP_BAD_TOLERANCE: pp_status = 14;
 
 /// A plane holds a coefficient that is not finite.
 pub const PP_PLANE_NOT_FINITE: pp_status = 20;
@@ -72,6 +74,7 @@ const MESSAGES: &[(pp_status, &CStr)] = &[
     (PP_BUFFER_TOO_SMALL, c"the output buffer is too small; the needed size was written"),
     (PP_NO_CONIC, c"the library was built without the conic back end (Cargo feature conic): use PP_FAST"),
     (PP_BAD_INDEX, c"an index or a count names something that is not there"),
+    (PP_DEGENERATE_TRIANGLE, c"a triangle has no area to rounding: remove it from the mesh"),
     (
         PP_BAD_TOLERANCE,
         c"the tolerance of a mesh must lie in [1e-5, 1]: the distance to the surface over the bounding radius",

@@ -41,6 +41,9 @@ pub const PP_FLAG_BY_MEMORY: u32 = 512;
 /// flat_regularisation was raised, and its default value was used in this call instead: the raised one
 /// would have left open whether the particles overlap.
 pub const PP_FLAG_DEFAULT_REGULARISATION: u32 = 1024;
+/// The gradient vanishes on a flat boundary, as when the centre of the particle lies on it: the normal is the
+/// boundary's own.
+pub const PP_FLAG_NORMAL_BY_BOUNDARY: u32 = 2048;
 
 /// pp_closest_point: the point P1 on A, where s_B is least.
 pub const PP_ON_A: u32 = 0;
