@@ -5,7 +5,7 @@
 
 Rank 0 holds floor and walls, the other ranks divide the pyramids; with one rank it is a serial run. Environment: STEPS (6000),
 BODIES (1000), FRAMES (10, files for ParaView), RESUME (1: go on from the last saved scene). Results go to out/mpi: pile.png,
-pile.pvd with its .vtp files, summary.json, and pile.yade.gz, saved four times on the way. SI units; z up, floor at z = 0.
+pile.bodies.pvd and pile.contacts.pvd with their .vtp files, summary.json, and pile.yade.gz, saved four times on the way. SI units; z up, floor at z = 0.
 """
 
 import os
@@ -19,7 +19,7 @@ sys.path.insert(0, str(HERE))
 
 import numpy as np
 import yade
-from potential_particles import mpi
+from potential_particles import Recorder, mpi
 from yade import O
 
 import machine
@@ -31,8 +31,6 @@ from contact_functor import LIBRARY, ContactFunctor
 from loose_grid import loose_grid
 from progress import Progress
 from pyramid import Pyramid
-from surface_mesh import surface_mesh
-from vtp import VtpSeries
 
 # How far a centre moves before boxes and borders are made anew: large, it costs pairs; small, exchanges between ranks.
 VERLET_DISTANCE = 0.06 * pyramids.SIZE
@@ -48,8 +46,7 @@ class Pile:
         self.count = count
         self.pyramid = Pyramid(pyramids.SIZE)
         # A coarse mesh is enough for many bodies.
-        self.mesh = surface_mesh(self.pyramid.surface, rings=(1.0,), along_edge=(0.0, 0.9, 1.0))
-        self.ball_radius = float(np.linalg.norm(surface_mesh(self.pyramid.surface)[0], axis=1).max())
+        self.ball_radius = self.pyramid.ball_radius
         self.grid = loose_grid(count, self.ball_radius, pyramids.JITTER, pyramids.SEED)
         half_width = self.grid.half_width + 0.3 * self.grid.height
         self.box = Box(half_width, half_width, self.grid.height + pyramids.SIZE, thickness=pyramids.SIZE)
@@ -111,10 +108,7 @@ class Run:
         self.save_steps = {round(i * steps / SAVES) for i in range(1, SAVES + 1)}
         looks = set(range(0, steps, LOOK_STEPS)) | self.frame_steps | self.picture_steps | self.save_steps
         self.stops = sorted(stop for stop in looks if stop >= self.first)
-        self.series = None
-        if mpi.rank() == 0:
-            layers = pile.grid.layers.astype(np.int32)
-            self.series = VtpSeries(out, "pile", pile.mesh, {"body": np.array(pile.ids, np.int32), "layer": layers})
+        self.series = Recorder(out / "pile", tolerance=0.05, ids=pile.ids)
         self.pictures = []
         self.overlap, self.stepping_seconds, self.interrupted, self.kinetic_peak = 0.0, 0.0, False, 0.0
 
@@ -140,6 +134,8 @@ class Run:
         overlaps = mpi.gather(mine)
         if overlaps:
             self.overlap = max(self.overlap, *overlaps)
+        if step in self.frame_steps:
+            self.series()
         if step in self.frame_steps or step in self.picture_steps:
             states = mpi.states(self.pile.ids)
             if states:
@@ -151,11 +147,6 @@ class Run:
         if step in self.picture_steps:
             self.pictures.append((step, O.time, states))
         self.kinetic_peak = max(self.kinetic_peak, report.kinetic(self.pile, states))
-        if step in self.frame_steps:
-            speeds = np.linalg.norm(states["velocity"], axis=1).astype(np.float32)
-            turns = report.rotations(states["orientation"])
-            data = {"speed": speeds, "rank": states["rank"].astype(np.int32)}
-            self.series.write(step, O.time, states["position"], turns, data)
 
     def result(self):
         """What the summary says of the run; on rank 0. Collective."""
@@ -189,7 +180,7 @@ class Run:
             "counters": counters,
             "failures": counters["failures"],
             "failure_report": failures,
-            "frames": len(self.series.frames),
+            "frames": len(self.series.frames["bodies"]),
             "versions": {"yade": yade.config.version, **ContactFunctor(LIBRARY).versions()},
             "machine": machine.machine_line(),
             "date": machine.now(),

@@ -7,12 +7,16 @@ import sys
 import matplotlib
 import numpy as np
 
+from potential_particles import ConicPotentialParticle
+from potential_particles.output.drawn import ShapeMeshes, copies
+from potential_particles.output.view import framing_view
+
 import pyramids
+from bodies import potential_shape
 from panels import PANEL_PIXELS, save_panels
-from picture import Bodies, Floor, framing_view
 from summary import print_table, write_summary
 
-MOST_DRAWN = 5_000  # bodies: the picture's rays take a second for each thousand
+MOST_DRAWN = 20_000  # bodies
 
 
 def rotations(orientations):
@@ -77,7 +81,8 @@ def write(out, pile, result, pictures):
 
 def _draw(path, pile, pictures, ranks):
     """The first and the last state; colour tells the worker."""
-    table = matplotlib.colormaps["tab10"](np.arange(10))[:, :3] ** 2.2
+    table = matplotlib.colormaps["tab10"](np.arange(10))[:, :3]
+    mesh = ShapeMeshes(0.01).of(potential_shape(ConicPotentialParticle, pile.pyramid.surface))
     ends = [
         states["position"] + side * axis
         for _, _, states in pictures
@@ -88,19 +93,19 @@ def _draw(path, pile, pictures, ranks):
     panels = [
         (
             f"step {step:,}:  t = {time:.2f} s",
-            Bodies(
-                pile.pyramid.surface,
-                pile.ball_radius,
+            copies(
+                mesh,
                 states["position"],
                 rotations(states["orientation"]),
                 table[states["rank"] % len(table)],
+                np.arange(pile.count),
             ),
         )
         for step, time, states in pictures
     ]
     workers = "one process" if ranks == 1 else f"{ranks - 1} workers"
     title, note = f"{pile.count:,} pyramids on {workers}", "Colour: the worker that moves a body."
-    save_panels(path, panels, Floor(0.0, 1.05 * pile.grid.height), view, title, note)
+    save_panels(path, panels, 2.0 * pile.grid.height, view, title, note)
 
 
 def _print(out, result):
@@ -118,7 +123,7 @@ def _print(out, result):
         *[(row["name"], f"{row['measured']:.4g}, {row['sense']} {row['target']:g}: {'met' if row['met'] else 'MISSED'}") for row in result["targets"]],
         ("versions", ", ".join(f"{name} {version}" for name, version in result["versions"].items())),
         ("machine", result["machine"]),
-        ("results", f"{out}: pile.png, pile.pvd (ParaView), summary.json, pile.yade.gz"),
+        ("results", f"{out}: pile.png, pile.bodies.pvd (ParaView), summary.json, pile.yade.gz"),
     ]
     print_table(rows)
     sys.stdout.flush()

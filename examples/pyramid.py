@@ -9,6 +9,7 @@ import numpy as np
 
 from mass_properties import mass_properties
 from potential_surface import PotentialSurface
+from surface_mesh import surface_mesh
 
 # All relative to the base edge, which is the size of the particle.
 HEIGHT = 1.0
@@ -34,6 +35,8 @@ class Pyramid:
         )
         self.volume = volume * size**3
         self.principal_inertia = np.diag(inertia) * size**5
+        # Of a ball about the centre that holds it.
+        self.ball_radius = float(np.linalg.norm(surface_mesh(self.surface)[0], axis=1).max())
 
 
 def _unit_surface(height, below, r, k):

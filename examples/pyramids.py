@@ -6,8 +6,8 @@ Simulation A of Boon, Houlsby & Utili. Run it inside YADE:
     yade -x -n -j1 examples/pyramids.py
 
 Environment: STEPS (14000), BODIES (200), FUNCTOR (library, or builtin for YADE's own contact
-detection). Results go to out/pyramids: pyramids.png, pyramids.pvd with its .vtp files for
-ParaView, summary.json, and history.csv with energies and overlaps. SI units throughout; world
+detection). Results go to out/pyramids: pyramids.png, pyramids.bodies.pvd and pyramids.contacts.pvd with
+their .vtp files for ParaView, summary.json, and history.csv with energies and overlaps. SI units throughout; world
 frame with z up, floor at z = 0.
 """
 
@@ -22,6 +22,9 @@ sys.path.insert(0, str(HERE))
 import matplotlib
 import numpy as np
 import yade
+from potential_particles import Recorder
+from potential_particles.output.drawn import ShapeMeshes, copies
+from potential_particles.output.view import framing_view
 from yade import O
 
 import machine
@@ -31,12 +34,9 @@ from box import BODY_MASK, SLAB_ONLY, Box
 from contact_functor import BUILTIN, LIBRARY, ContactFunctor
 from loose_grid import loose_grid
 from panels import PANEL_PIXELS, save_panels
-from picture import Bodies, Floor, framing_view
 from pyramid import Pyramid
 from recorded_run import RecordedRun
 from summary import print_table, write_summary
-from surface_mesh import surface_mesh
-from vtp import VtpSeries, read_vtp
 from watch import Watch, unbalanced_force
 
 SIZE = 0.1  # base edge, m
@@ -66,7 +66,8 @@ LOCAL_DAMPING = 0.1
 VERLET_DISTANCE = 0.0
 WATCH_STEPS = 20  # between looks at energies and overlaps; an impact lasts about 15 steps
 VIEW_FROM, VIEW_ANGLE = np.array([0.46, -0.84, 0.42]), 0.42  # scene to eye; full height, radians
-FRAMES = 28  # .vtp files after the first
+FRAMES = 28  # for ParaView, after the first
+MESH_TOLERANCE = 2e-3  # of the picture, over the size
 AT_REST = 0.9  # of the steps: from there on the pile counts as settled
 PAPER_STEPS, PAPER_PICTURES = 14_000, (0, 4_000, 14_000)  # the paper's Fig. 3
 
@@ -80,8 +81,7 @@ def main():
     out = settings.folder("OUTPUT", HERE.parent / "out" / "pyramids")
     contact = ContactFunctor(kind)
     pyramid = Pyramid(SIZE)
-    mesh = surface_mesh(pyramid.surface)
-    ball_radius = float(np.linalg.norm(mesh[0], axis=1).max())
+    ball_radius = pyramid.ball_radius
     grid = loose_grid(count, ball_radius, JITTER, SEED)
     # The walls only guard against losing a body that slides far: the heap stays clear of them.
     half_width = grid.half_width + grid.height
@@ -90,9 +90,7 @@ def main():
     clear(out)
 
     watch = Watch(ids, GRAVITY)
-    series = VtpSeries(
-        out, "pyramids", mesh, {"body": np.array(ids, np.int32), "layer": grid.layers.astype(np.int32)}
-    )
+    series = Recorder(out / "pyramids", ids=ids)
     run = RecordedRun(
         steps,
         watch,
@@ -108,8 +106,7 @@ def main():
         print(f"interrupted at step {O.iter:,}: drawing and summing up what there is", flush=True)
         run.keep_last()
     watch.save(out / "history.csv")
-    check_frames(out, series, count * len(mesh[2]))
-    draw(out / "pyramids.png", run.states, pyramid, ball_radius, grid)
+    draw(out / "pyramids.png", run.states, O.bodies[ids[0]].shape, ball_radius, grid)
     summary = summarise(run, contact, pyramid, box, count, steps, interrupted)
     summary["total_seconds"] = time.perf_counter() - started
     write_summary(out / "summary.json", summary)
@@ -179,20 +176,11 @@ def engines(contact, loop=None):
     ]
 
 
-def check_frames(out, series, triangles):
-    """Reads the last .vtp file back as a viewer would, and ends with a sentence if it is not whole."""
-    if not series.frames:
-        return
-    path = out / series.frames[-1][1]
-    arrays = read_vtp(path)
-    if len(arrays["connectivity"]) != triangles or not np.isfinite(arrays["Points"]).all():
-        raise SystemExit(f"{path} does not hold what was written to it: is the disk full?")
-
-
-def draw(path, states, pyramid, ball_radius, grid):
+def draw(path, states, shape, ball_radius, grid):
     """The panels of the paper's Fig. 3; colour tells the layer in which a body started."""
     shades = matplotlib.colormaps["viridis"](np.linspace(0.12, 0.9, grid.layers[-1] + 1))
-    colours = (shades[:, :3] ** 2.2)[grid.layers]
+    colours = shades[:, :3][grid.layers]
+    mesh = ShapeMeshes(MESH_TOLERANCE).of(shape)
     ends = [
         state.positions + side * axis
         for state in states
@@ -203,18 +191,17 @@ def draw(path, states, pyramid, ball_radius, grid):
     panels = [
         (
             f"step {state.step:,}:  t = {state.time:.2f} s,  kinetic energy {state.kinetic:.2g} J",
-            Bodies(pyramid.surface, ball_radius, state.positions, state.rotations, colours),
+            copies(mesh, state.positions, state.rotations, colours, np.arange(len(colours))),
         )
         for state in states
     ]
     save_panels(
         path,
         panels,
-        Floor(0.0, 1.05 * grid.height),
+        2.0 * grid.height,
         view,
         f"{len(colours)} pyramids, as potential particles, falling under gravity",
-        "True surfaces f = 0: every pixel's ray is traced to the potential. "
-        "Colour: layer in which a body started.",
+        f"Surfaces f = 0, to {MESH_TOLERANCE:g} of the size. Colour: layer in which a body started.",
     )
 
 
@@ -252,7 +239,7 @@ def summarise(run, contact, pyramid, box, count, steps, interrupted):
         "engine_seconds": {
             engine.label or type(engine).__name__: engine.execTime / 1e9 for engine in O.engines
         },
-        "frames": len(run.series.frames),
+        "frames": len(run.series.frames["bodies"]),
         "threads": O.numThreads,
         "versions": {"yade": yade.config.version, **contact.versions()},
         "machine": machine.machine_line(),
@@ -330,7 +317,7 @@ def print_summary(summary, out):
         ),
         ("versions", ", ".join(f"{name} {version}" for name, version in summary["versions"].items())),
         ("machine", summary["machine"]),
-        ("results", f"{out}: pyramids.png, pyramids.pvd (ParaView), summary.json"),
+        ("results", f"{out}: pyramids.png, pyramids.bodies.pvd (ParaView), summary.json"),
     ]
     print_table(rows)
 

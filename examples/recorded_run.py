@@ -24,7 +24,7 @@ class State:
 class RecordedRun:
     """Steps from 0 to `steps`; looks, frames and pictures fall on steps of their own choosing.
 
-    calls: functions to be called at a step, as {step: function}.
+    series: a Recorder. calls: functions to be called at a step, as {step: function}.
     """
 
     def __init__(self, steps, watch, series, watch_steps, frame_steps, picture_steps, calls=None):
@@ -63,9 +63,7 @@ class RecordedRun:
         if step in self.picture_steps:
             self.states.append(self._state())
         if step in self.frame_steps:
-            state = self._state()
-            speeds = self.watch.speeds().astype(np.float32)
-            self.series.write(step, state.time, state.positions, state.rotations, {"speed": speeds})
+            self.series()
 
     def _state(self):
         return State(O.iter, O.time, self.watch.look().kinetic, *self.watch.poses())

@@ -6,7 +6,7 @@ Simulation B of Boon, Houlsby & Utili, against the closed form. Run it inside YA
     yade -x -n -j1 examples/wedge.py
 
 Environment: CASES (all, or short), OUTPUT (out/wedge). Results: a table on the terminal; wedge.png, study.png,
-wedge.pvd with its .vtp files for ParaView, trials.csv with each friction angle that was tried, and
+wedge.bodies.pvd and wedge.contacts.pvd with their .vtp files for ParaView, trials.csv with each friction angle that was tried, and
 summary.json. SI units, angles in degrees; world frame with x east, y north, z up.
 """
 
@@ -21,6 +21,8 @@ sys.path.insert(0, str(HERE))
 
 import numpy as np
 import yade
+from potential_particles import Recorder
+from potential_particles.output.drawn import ShapeMeshes, drawn
 from yade import O
 
 import friction_reduction
@@ -43,12 +45,12 @@ from wedge_cases import (
 )
 from wedge_figures import save_overview, save_study
 from wedge_scene import WedgeScene
-from wedge_series import BlockSeries
 from wedge_studies import ROUGH, UNREGULARISED, not_run_in, points_at_rest, slide_out
 
 CHOICES = {"all": ALL, "short": [PAPER, NEAR_POLYHEDRAL]}
-RESULTS = ["wedge.png", "study.png", "wedge.pvd", "trials.csv", "summary.json"]
-FRAMES = 28  # .vtp files after the first
+RESULTS = ["wedge.png", "study.png", "wedge.bodies.pvd", "wedge.contacts.pvd", "trials.csv", "summary.json"]
+FRAMES = 28  # for ParaView, after the first
+MESH_TOLERANCE = 2e-3  # of pictures and frames, over the radius of a block
 
 
 class Run:
@@ -113,20 +115,19 @@ class Run:
 
     def _look_closer(self, scene, result):
         """The path of the paper's wedge, frames and states for the pictures, contact points at rest."""
-        series = BlockSeries(self.out, "wedge", scene.surfaces)
+        series = Recorder(self.out / "wedge", MESH_TOLERANCE)
         frames = iter(np.linspace(0.0, 1.0, FRAMES + 1)[1:])
-        self.picture["surfaces"] = scene.surfaces
-        self.picture["before"] = _poses()
-        series.write(0, 0.0, *_poses())
-        begin, due = O.time, [next(frames)]
+        self.picture["before"] = _blocks()
+        series()
+        due = [next(frames)]
 
         def on_look(part):
             if due[0] is not None and part >= due[0]:
-                series.write(len(series.frames), O.time - begin, *_poses())
+                series()
                 due[0] = next(frames, None)
 
         path = slide_out(scene, result, on_look)
-        self.picture["after"] = _poses()
+        self.picture["after"] = _blocks()
         regularisation = scene.functor.flatRegularisation
         raw = points_at_rest(scene, UNREGULARISED)
         held = points_at_rest(scene, regularisation)
@@ -142,7 +143,7 @@ class Run:
             "direction_error_degrees": float(path.angle[-1]),
             "largest_force_a_error": float(np.abs(path.forces[20:, 0] / limit.force_a - 1.0).max()),
             "largest_force_b_error": float(np.abs(path.forces[20:, 1] / limit.force_b - 1.0).max()),
-            "frames": len(series.frames),
+            "frames": len(series.frames["bodies"]),
         }
         self.studies["at_rest"] = [
             {
@@ -257,10 +258,9 @@ def within_target(row):
     return bool(good)
 
 
-def _poses():
-    states = [body.state for body in O.bodies]
-    rotations = [[tuple(row) for row in state.ori.toRotationMatrix()] for state in states]
-    return np.array([tuple(state.pos) for state in states]), np.array(rotations)
+def _blocks():
+    """The blocks where they are, as triangles for a picture."""
+    return drawn(O.bodies, ShapeMeshes(MESH_TOLERANCE))[0]
 
 
 def save_trials(path, trials):
@@ -281,15 +281,15 @@ def draw(run):
     trials = [trial for name, trial in run.trials if name == PAPER.name]
     row = next(row for row in run.rows if row["name"] == PAPER.name)
     states = [
-        (f"at rest, friction angle {row['holds_at_degrees']:.3f}°", *picture["before"]),
-        (f"after sliding by {path.moved[-1] / blocks.size:.2f} of its height", *picture["after"]),
+        (f"at rest, friction angle {row['holds_at_degrees']:.3f}°", picture["before"]),
+        (f"after sliding by {path.moved[-1] / blocks.size:.2f} of its height", picture["after"]),
     ]
     note = (
         f"Joints {blocks.plane_a} and {blocks.plane_b}. Slides at {row['slides_at_degrees']:.4f}°, holds at "
         f"{row['holds_at_degrees']:.4f}°; closed form {row['closed_form_degrees']:.4f}°. "
         "W/k$_n$: overlap of a joint that carries the weight."
     )
-    save_overview(run.out / "wedge.png", states, picture["surfaces"], blocks, trials, note)
+    save_overview(run.out / "wedge.png", states, blocks, trials, note)
     sweep = [
         (
             r["sphericity"],

@@ -7,8 +7,11 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 
+from potential_particles.output.drawn import floor
+from potential_particles.output.picture import render
+from potential_particles.output.view import framing_view
+
 from friction_reduction import HOLDS, RUN_IN_STAGE, SLIDES
-from picture import Bodies, Floor, framing_view, render
 from wedge_cases import PAPER_ANGLE, THREE_DEC_ANGLE
 
 PIXELS = (760, 560)  # width, height of one view
@@ -20,18 +23,18 @@ LEAST_SHOWN = 1e-4  # displacement in W/k_n; what moved less is drawn there
 CLOSED_FORM, HELD, SLID, OTHER = "#1a1a1a", "#2a6f97", "#c8553d", "#8a8a8a"
 
 
-def save_overview(path, states, surfaces, blocks, trials, note):
+def save_overview(path, states, blocks, trials, note):
     """Two views of the blocks, and displacement against friction angle.
 
-    states: (caption, positions, rotations) twice; trials: those of the paper's wedge.
+    states: (caption, Triangles of the blocks) twice; trials: those of the paper's wedge.
     """
     figure = plt.figure(figsize=(10.4, 8.3), dpi=DOTS_PER_INCH)
     grid = figure.add_gridspec(2, 2, height_ratios=(1.12, 1.0), left=0.075, right=0.985, top=0.97, bottom=0.1)
     grid.update(hspace=0.2, wspace=0.14)
-    view = _view(states, surfaces, blocks)
-    for column, (caption, positions, rotations) in enumerate(states):
+    view = _view(states, blocks)
+    for column, (caption, triangles) in enumerate(states):
         axis = figure.add_subplot(grid[0, column])
-        axis.imshow(_render(surfaces, positions, rotations, blocks, view), interpolation="antialiased")
+        axis.imshow(_render(triangles, blocks, view), interpolation="antialiased")
         axis.set_axis_off()
         axis.set_title(f"({'ab'[column]}) {caption}", fontsize=10, y=-0.06)
     analytic = blocks.limit.friction_angle
@@ -64,10 +67,10 @@ def save_study(path, blocks, rests, slide, sweep, note):
 # --- blocks ----------------------------------------------------------------------------------
 
 
-def _view(states, surfaces, blocks):
+def _view(states, blocks):
     corners = [np.vstack(p.faces()) for p in (blocks.wedge, blocks.block_a, blocks.block_b, blocks.base)]
-    moved = states[-1][1][0] - states[0][1][0]
-    points = np.vstack([*corners, corners[0] + moved])
+    start, end = (state.corners[state.bodies == 0].mean((0, 1)) for _, state in (states[0], states[-1]))
+    points = np.vstack([*corners, corners[0] + end - start])
     along = blocks.limit.line * [1.0, 1.0, 0.0]
     along /= np.linalg.norm(along)
     side = np.cross([0.0, 0.0, 1.0], along)
@@ -75,11 +78,10 @@ def _view(states, surfaces, blocks):
     return framing_view(points, towards, VIEW_ANGLE, PIXELS[0] / PIXELS[1])
 
 
-def _render(surfaces, positions, rotations, blocks, view):
-    radii = [1.001 * surface.R for surface in surfaces]
-    bodies = Bodies(list(surfaces), np.array(radii), positions, rotations, COLOURS**2.2)
-    lowest = min(corner[2] for corner in np.vstack(blocks.base.faces()))
-    return render(bodies, Floor(lowest, 3.4 * blocks.size), view, *PIXELS)
+def _render(triangles, blocks, view):
+    triangles.colours = COLOURS[triangles.bodies]
+    middle, lowest = np.vstack(blocks.base.faces()).mean(0), np.vstack(blocks.base.faces()).min(0)[2]
+    return render(triangles, floor(lowest, 6.0 * blocks.size, middle[:2]), view, *PIXELS)
 
 
 # --- displacement against friction angle -----------------------------------------------------

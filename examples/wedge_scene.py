@@ -52,11 +52,10 @@ class WedgeScene:
         self.rounding = case.rounding * case.size
         material = yade.FrictMat(young=1.0, poisson=1.0, frictionAngle=0.0, density=case.density)
         O.materials.append(material)
-        self.surfaces, radii = [], []
+        radii = []
         for polyhedron in (blocks.wedge, blocks.block_a, blocks.block_b, blocks.base):
-            body, surface = self._body(polyhedron, material, free=not radii)
+            body = self._body(polyhedron, material, free=not radii)
             O.bodies.append(body)
-            self.surfaces.append(surface)
             radii.append(body.shape.boundingRadius)
         state = O.bodies[WEDGE].state
         self.weight = state.mass * GRAVITY
@@ -104,24 +103,22 @@ class WedgeScene:
                 polyhedron.normals @ turn, offsets, self.rounding, case.sphericity, reach
             )
             orientation = _quaternion(turn)
-            return potential_body(
-                self.contact.shape_class, surface, material, origin, orientation
-            ), surface
+            return potential_body(self.contact.shape_class, surface, material, origin, orientation)
 
-        body, surface = make()
+        body = make()
         for _ in range(3):
             origin = origin + np.array(body.shape.centroid)
-            body, surface = make()
+            body = make()
         if not free:
             fix(body)
             body.mask = FIXED_MASK
-            return body, surface
+            return body
         _, axes = np.linalg.eigh(_matrix(body.shape.inertia))
         turn = axes * np.sign(np.linalg.det(axes))
-        body, surface = make()
+        body = make()
         give_mass(body, body.shape.volume, np.diag(_matrix(body.shape.inertia)))
         body.mask = FREE_MASK
-        return body, surface
+        return body
 
     def _time_step(self, state, radii, regularisation):
         """s; from the springs, and from the tilting of the wedge on its slightly curved faces.

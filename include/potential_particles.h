@@ -25,7 +25,8 @@
  *   Units     Any consistent length unit. Angles by quaternion w, x, y, z, local to world.
  *   Threads   Particles never change after creation: any number of threads may share them. A
  *             pp_memory or an output belongs to one call at a time. No state is shared between calls.
- *             Only pp_contact_detect_batch (and _2d) starts threads, and ends them before it returns.
+ *             Only pp_contact_detect_batch (and _2d) and pp_pack start threads, and end them before
+ *             they return.
  *   Errors    No panic, exception or signal leaves the library, and nothing is printed.
  *   Layout    Structs have the same layout on every platform with 8-byte doubles; reserved fields
  *             must be 0. pp_abi_version and pp_struct_size tell whether a loaded library fits.
@@ -62,7 +63,7 @@
 // not use the library (a struct, a function or the meaning of a number has changed), and not with
 // additions. A program that loads the library should refuse to go on unless pp_abi_version() ==
 // PP_ABI_VERSION.
-#define PP_ABI_VERSION 1
+#define PP_ABI_VERSION 2
 
 // struct pp_pose, for pp_struct_size.
 #define PP_STRUCT_POSE 1
@@ -96,6 +97,48 @@
 
 // struct pp_carry, for pp_struct_size.
 #define PP_STRUCT_CARRY 11
+
+// struct pp_area_properties, for pp_struct_size.
+#define PP_STRUCT_AREA_PROPERTIES 12
+
+// struct pp_packing, for pp_struct_size.
+#define PP_STRUCT_PACKING 14
+
+// struct pp_placement, for pp_struct_size.
+#define PP_STRUCT_PLACEMENT 15
+
+// A box, sides along the axes.
+#define PP_BOX 0
+
+// The upright cylinder that stands in a box, as wide as its smaller width.
+#define PP_CYLINDER 1
+
+// Bodies anywhere in the container, the largest first: random sequential addition.
+#define PP_SCATTERED 0
+
+// Each body as low as it gets, from the bottom upwards: a loose packing.
+#define PP_SETTLED 1
+
+// Rows of sizes: a size, and its share of the number of bodies; shares add up to 1.
+#define PP_BY_NUMBER 0
+
+// Rows of sizes: a size, and its share of the mass; shares add up to 1.
+#define PP_BY_MASS 1
+
+// Rows of sizes: a grading curve, linear between its rows: a size, and the share of the mass in bodies
+// below it; both grow, the shares from 0 to 1.
+#define PP_PASSING 2
+// struct pp_flat_contact, for pp_struct_size.
+#define PP_STRUCT_FLAT_CONTACT 12
+
+// The point on the boundary lies on the plane, or inside the triangle.
+#define PP_ON_INTERIOR 0
+
+// It lies on the edge from vertex 0 to 1; PP_ON_EDGE + 1: from 1 to 2; PP_ON_EDGE + 2: from 2 to 0.
+#define PP_ON_EDGE 1
+
+// It is vertex 0; PP_ON_VERTEX + i: vertex i.
+#define PP_ON_VERTEX 4
 
 // Most planes that a particle may have.
 #define PP_MAX_PLANES 65536
@@ -157,6 +200,10 @@
 // flat_regularisation was raised, and its default value was used in this call instead: the raised one
 // would have left open whether the particles overlap.
 #define PP_FLAG_DEFAULT_REGULARISATION 1024
+
+// The gradient vanishes on a flat boundary, as when the centre of the particle lies on it: the normal is the
+// boundary's own.
+#define PP_FLAG_NORMAL_BY_BOUNDARY 2048
 
 // pp_closest_point: the point P1 on A, where s_B is least.
 #define PP_ON_A 0
@@ -310,6 +357,85 @@ typedef struct pp_closest {
     double branch_b[3];
 } pp_closest;
 
+// What pp_pack fills, and how.
+typedef struct pp_packing {
+    // PP_BOX or PP_CYLINDER.
+    uint32_t container;
+    // PP_SCATTERED or PP_SETTLED.
+    uint32_t arrangement;
+    // What the rows of sizes mean: PP_BY_NUMBER, PP_BY_MASS or PP_PASSING.
+    uint32_t shares;
+    // Threads that work on it, the calling one among them: 0 and 1 mean the calling thread alone.
+    uint32_t threads;
+    // Lowest corner of the box, or of that about the cylinder; world frame, z upwards, length.
+    double lower[3];
+    // Highest corner of it.
+    double upper[3];
+    // Least distance between two bodies, and twice that of a body to the container, length. Bodies are a
+    // millionth of their size apart in any case.
+    double margin;
+    // The same seed gives the same packing, whatever the number of threads.
+    uint64_t seed;
+    // How many bodies; 0: as many as fit (PP_SETTLED only).
+    uint64_t number;
+} pp_packing;
+
+// A body of a packing: a shape, scaled, at a pose.
+typedef struct pp_placement {
+    // Where it is.
+    struct pp_pose pose;
+    // Factor by which d, r and R of the shape are multiplied.
+    double scale;
+    // Index into the shapes.
+    uint32_t shape;
+    // Always 0.
+    uint32_t reserved;
+} pp_placement;
+
+// Receives bodies that have found their places, in the calling thread, several times during pp_pack; also
+// with a count of 0, when none has for a while. Returns 0 to go on; anything else ends the packing, and
+// what was handed over is it. context: as given to pp_pack. No exception may leave it.
+typedef int32_t (*pp_placed)(void *context, const struct pp_placement *placements, size_t count);
+// The contact of a particle A with a flat boundary T, a plane or a closed triangle of no thickness. World
+// axes; lengths in the caller's unit; s and gap have no unit. Fields that do not apply are NaN.
+//
+// x*, the point of T where the scale s of A is least, decides: A touches T where it is below 1.
+typedef struct pp_flat_contact {
+    // PP_SEPARATED or PP_OVERLAPPING. A failed solve has no kind: it returns a status.
+    int32_t kind;
+    // Where on T the point x* lies: PP_ON_INTERIOR, PP_ON_EDGE + i or PP_ON_VERTEX + i.
+    uint32_t feature;
+    // Sum of PP_FLAG_... bits: REJECTED with BY_SPHERES or BY_FACE, ROUNDING_LIMITED,
+    // DEFAULT_REGULARISATION, NORMAL_BY_BOUNDARY.
+    uint32_t flags;
+    // Quadratics solved.
+    uint32_t iterations;
+    // Scale of A at x*, the least on T. Rejected: a lower bound, >= 1. The same bits for the same particle,
+    // pose and boundary, and on an edge or vertex for every triangle that has it: of the triangles of a mesh
+    // the one with the least s (of equal ones, the first) owns the contact at a seam.
+    double s;
+    // Bound on the error of s, with rounding to first order (as in struct pp_contact for doubles).
+    double gap;
+    // Estimated bound on the distance of on_boundary to the exact x*, length.
+    double point_bound;
+    // Distance from x* along the normal to the surface of A (YADE: penetrationDepth), length, > 0 when
+    // overlapping; NaN when separated.
+    double overlap;
+    // Separated: lower bound on the distance between A and T, length; 0 when none is known. NaN when
+    // overlapping.
+    double distance;
+    // Unit normal from A to T: the gradient of S_A at x*; inside T exactly the normal of T or its opposite.
+    double normal[3];
+    // Contact point, halfway between on_boundary and on_particle, world frame; x* when separated.
+    double point[3];
+    // Contact point minus position of A: exact lever arm even far from the world origin.
+    double branch[3];
+    // x*, world frame.
+    double on_boundary[3];
+    // The point of the surface of A beyond x* along the normal, world frame; NaN when separated.
+    double on_particle[3];
+} pp_flat_contact;
+
 // Where a body of the plane is: world = rotation(angle) * local + position.
 typedef struct pp_pose_2d {
     // Centre of the particle (origin of its local frame), world frame, length units of the caller.
@@ -389,6 +515,19 @@ typedef struct pp_closest_2d {
     double branch_b[2];
 } pp_closest_2d;
 
+// Area and second moments of a particle of the plane of unit density, in its local frame.
+typedef struct pp_area_properties {
+    // Area, length^2.
+    double area;
+    // Centroid, local frame.
+    double centroid[2];
+    // xx, yy, xy of the integral of x x^T dA about the local origin, length^4. xx + yy is the moment of inertia
+    // of a body that turns in the plane.
+    double second_moment[3];
+    // Estimated bound on the relative error, as in struct pp_mass_properties.
+    double error;
+} pp_area_properties;
+
 // Volume and inertia of a particle of unit density, in its local frame.
 typedef struct pp_mass_properties {
     // Volume, length^3.
@@ -398,6 +537,9 @@ typedef struct pp_mass_properties {
     // Inertia about the local origin for density 1: xx, yy, zz, xy, yz, zx of the integral of
     // (|x|^2 I - x x^T) dV, length^5.
     double inertia[6];
+    // Estimated bound on the relative error of the volume and of every moment of inertia about an axis through
+    // the origin, and of the centroid as a share of the radii of gyration. No unit.
+    double error;
 } pp_mass_properties;
 
 // The call did what it says; its outputs are written.
@@ -439,6 +581,11 @@ typedef struct pp_mass_properties {
 // An index or a count names something that is not there.
 #define PP_BAD_INDEX 12
 
+// The tolerance of a mesh is outside its documented range.
+#define PP_BAD_TOLERANCE 13
+// The vertices of a triangle lie on one line, so that it has no normal.
+#define PP_DEGENERATE_TRIANGLE 13
+
 // A plane holds a coefficient that is not finite.
 #define PP_PLANE_NOT_FINITE 20
 
@@ -462,6 +609,9 @@ typedef struct pp_mass_properties {
 
 // More planes than PP_MAX_PLANES.
 #define PP_TOO_MANY_PLANES 27
+
+// Nothing can be packed with these values; the message names the one at fault.
+#define PP_BAD_PACKING 30
 
 #ifdef __cplusplus
 extern "C" {
@@ -589,6 +739,69 @@ pp_status pp_contact_area(const struct pp_particle *a,
                           const struct pp_contact *contact,
                           double relative_tolerance,
                           double *area);
+
+// Fills a box or an upright cylinder with bodies of random orientation that do not overlap, as
+// pp_contact_detect decides.
+//
+// shapes: shape_count particles, each as likely as the others. sizes: size_count rows of a size and a
+// share, see struct pp_packing; a size is the diameter of a ball of the body's volume. May be NULL when
+// size_count is 0: shapes as they are.
+// placed: receives the bodies; see pp_placed. The packing ends with the number asked for, when placed ends
+// it, or when no further body finds a place: then fewer have been handed over.
+// message: receives, on failure, a sentence that names the value (may be NULL).
+// Pointers: shapes points to shape_count particles, sizes to 2*size_count doubles, message to message_size
+// bytes; placed is a function.
+// Errors: PP_NULL_POINTER, PP_BAD_PACKING.
+pp_status pp_pack(const struct pp_particle *const *shapes,
+                  size_t shape_count,
+                  const double *sizes,
+                  size_t size_count,
+                  const struct pp_packing *how,
+                  pp_placed placed,
+                  void *context,
+                  char *message,
+                  size_t message_size);
+// Finds the contact of particle A at pose_a with the plane through a point (world frame) with this normal
+// (of any length). A may touch it from either side; where its centre lies on the plane to rounding, A counts
+// as in front of it (PP_FLAG_NORMAL_BY_BOUNDARY).
+//
+// settings: may be NULL (defaults); gap_tolerance, flat_regularisation and solve_separated count.
+// Pointers: point and normal hold 3 numbers each.
+// Errors: PP_NULL_POINTER, PP_BAD_POSITION, PP_BAD_ORIENTATION, PP_BAD_POINT, PP_UNKNOWN_FORMULATION,
+// PP_UNKNOWN_BACK_END, PP_NO_CONIC, PP_BAD_SETTING, PP_SOLVER_FAILED.
+pp_status pp_contact_plane(const struct pp_particle *a,
+                           const struct pp_pose *pose_a,
+                           const double *point,
+                           const double *normal,
+                           const struct pp_settings *settings,
+                           struct pp_flat_contact *out);
+
+// Finds the contact of particle A at pose_a with a closed triangle, which A may touch from either side.
+//
+// vertices: three points, world frame, one after the other; seen from the front they run
+// counter-clockwise. Where the centre of A lies on the triangle to rounding, A counts as in front of it
+// (PP_FLAG_NORMAL_BY_BOUNDARY).
+// settings: may be NULL (defaults); gap_tolerance, flat_regularisation and solve_separated count.
+// Pointers: vertices holds 9 numbers.
+// Errors: those of pp_contact_plane, and PP_DEGENERATE_TRIANGLE.
+pp_status pp_contact_triangle(const struct pp_particle *a,
+                              const struct pp_pose *pose_a,
+                              const double *vertices,
+                              const struct pp_settings *settings,
+                              struct pp_flat_contact *out);
+
+// Contact area with a flat boundary: the area of the cut that the plane through the contact point, normal to
+// the contact normal, makes through the particle. (It is not cut off at the edges of a triangle.)
+//
+// contact: an overlapping answer of pp_contact_plane or pp_contact_triangle for the same particle and pose.
+// relative_tolerance: in [1e-12, 0.1], as for pp_contact_area. area: receives length^2; 0 when separated.
+// Errors: PP_NULL_POINTER, PP_BAD_POSITION, PP_BAD_ORIENTATION, PP_BAD_POINT (the contact was not filled, or
+// its point is outside the particle), PP_BAD_SETTING.
+pp_status pp_flat_contact_area(const struct pp_particle *a,
+                               const struct pp_pose *pose_a,
+                               const struct pp_flat_contact *contact,
+                               double relative_tolerance,
+                               double *area);
 
 // Creates a particle from count planes.
 //
@@ -802,6 +1015,26 @@ pp_status pp_particle_surface_distance_2d(const struct pp_particle_2d *particle,
                                           const double *direction,
                                           double *distance);
 
+// Area, centroid and second moments for unit density; tolerance as in pp_particle_mass_properties.
+//
+// Errors: PP_NULL_POINTER, PP_BAD_SETTING.
+pp_status pp_particle_area_properties_2d(const struct pp_particle_2d *particle,
+                                         double tolerance,
+                                         struct pp_area_properties *properties);
+
+// Points of the boundary, local frame, in order: rows of x, y. No chord between two of them is farther than
+// tolerance (length, above 0) from the boundary; there are about a million at most.
+//
+// points: room for capacity rows; may be NULL when capacity is 0. count: receives the number of
+// points, also when the buffer is too small (PP_BUFFER_TOO_SMALL), so that one call asks the size.
+// Pointers: points is valid for writing 2*capacity doubles.
+// Errors: PP_NULL_POINTER, PP_BAD_SETTING, PP_BUFFER_TOO_SMALL.
+pp_status pp_particle_outline_2d(const struct pp_particle_2d *particle,
+                                 double tolerance,
+                                 double *points,
+                                 size_t capacity,
+                                 size_t *count);
+
 // f = S - 1 at a world point (3 doubles), and its gradient (3 doubles, world axes, 1/length; may
 // be NULL).
 //
@@ -849,17 +1082,44 @@ pp_status pp_particle_surface_distance(const struct pp_particle *particle,
                                        const double *direction,
                                        double *distance);
 
-// Volume, centroid and inertia for unit density, by quadrature over the true surface (relative
-// error about 1e-4 for sharp shapes, less for round ones).
+// Volume, centroid and inertia for unit density, by adaptive quadrature over the true surface.
 //
-// Errors: PP_NULL_POINTER.
+// tolerance: relative, 1e-12 to 1; 1e-6 is usual and takes milliseconds for some tens of planes. Where it
+// cannot be reached, the error of the properties says so.
+// Errors: PP_NULL_POINTER, PP_BAD_SETTING.
 pp_status pp_particle_mass_properties(const struct pp_particle *particle,
+                                      double tolerance,
                                       struct pp_mass_properties *properties);
 
 // The sentence for a status code, in English, without a full stop.
 //
 // Never NULL; an unknown code gives "unknown status code". The text is static: do not free it.
 const char *pp_status_message(pp_status status);
+
+// A closed mesh of triangles inside the particle, its corners on the surface, local frame.
+//
+// tolerance: the largest distance from the surface to the mesh, over the bounding radius; in [1e-5, 1].
+// vertices: room for vertex_capacity rows of x, y, z. normals: the same for the outward unit normals of
+// the surface at the vertices; NULL when not wanted. triangles: room for triangle_capacity rows of
+// three indices of vertices, from 0, counter-clockwise from outside. Buffers may be NULL when their
+// capacity is 0.
+// vertex_count, triangle_count: receive the numbers, also when a buffer is too small
+// (PP_BUFFER_TOO_SMALL), so that one call asks the size; it takes as long as one that fills the buffers.
+// error: receives the bound on the distance from any point of the surface to the mesh, length. May be
+// NULL.
+// Errors: PP_NULL_POINTER, PP_BAD_TOLERANCE, PP_BUFFER_TOO_SMALL, PP_SOLVER_FAILED (rounding leaves no
+// surface: scale the particle to a size near 1).
+// Pointers: Pointers are NULL or valid for writing what they have room for.
+pp_status pp_particle_mesh(const struct pp_particle *particle,
+                           double tolerance,
+                           double *vertices,
+                           double *normals,
+                           size_t vertex_capacity,
+                           size_t *vertex_count,
+                           uint32_t *triangles,
+                           size_t triangle_capacity,
+                           size_t *triangle_count,
+                           double *error);
 
 #ifdef __cplusplus
 }  // extern "C"

@@ -17,6 +17,10 @@ readonly PACKAGES=(
     binutils valgrind libc6-dbg
     # pictures and summaries
     python3-matplotlib python3-numpy
+    # files for ParaView
+    python3-vtk9
+    # progress bars
+    python3-tqdm
 )
 
 die() {

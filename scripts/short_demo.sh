@@ -20,7 +20,7 @@ checks = {
     "overlaps are small": 0 < summary["largest_overlap_over_size_in_run"] < 0.05,
     "energy never rises": summary["largest_energy_rise_J"] < 1e-3 * summary["initial_potential_energy_J"],
     "picture": (folder / "pyramids.png").stat().st_size > 10_000,
-    "series": len(list(folder.glob("*.vtp"))) >= 2,
+    "series": len(list(folder.glob("pyramids.bodies.*.vtp"))) >= 2,
 }
 for name, good in checks.items():
     if not good:

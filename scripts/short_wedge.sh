@@ -30,7 +30,7 @@ checks["forces while sliding"] = max(slide["largest_force_a_error"], slide["larg
 checks["sits still when regularised"] = held["spread_of_point_over_size"] < 1e-5
 checks["rattles when not"] = raw["spread_of_point_over_size"] > 0.1
 checks["picture"] = (folder / "wedge.png").stat().st_size > 10_000
-checks["series"] = len(list(folder.glob("*.vtp"))) == slide["frames"] > 10
+checks["series"] = len(list(folder.glob("*.bodies.*.vtp"))) == slide["frames"] > 10
 for name, good in checks.items():
     if not good:
         print(f"short wedge: {name}: does not hold; summary: {summary}")

@@ -41,9 +41,11 @@ impl Flags {
     /// [`crate::Settings::flat_regularisation`] was raised, and its default value was used in this call instead: the raised one
     /// would have left open whether the particles overlap.
     pub const DEFAULT_REGULARISATION: Self = Self(1024);
+    /// The gradient vanishes on a flat boundary, as when the centre lies on it: the normal is the boundary's own.
+    pub const NORMAL_BY_BOUNDARY: Self = Self(2048);
 
     /// Every flag with its name, in the order of the bits.
-    const NAMES: [(Self, &'static str); 11] = [
+    const NAMES: [(Self, &'static str); 12] = [
         (Self::SLACK, "slack"),
         (Self::REJECTED, "rejected"),
         (Self::NORMAL_BY_CENTRES, "normal by centres"),
@@ -55,6 +57,7 @@ impl Flags {
         (Self::BY_FACE, "by face"),
         (Self::BY_MEMORY, "by memory"),
         (Self::DEFAULT_REGULARISATION, "default regularisation"),
+        (Self::NORMAL_BY_BOUNDARY, "normal by boundary"),
     ];
 
     /// The bits, as in the C interface.

@@ -21,6 +21,9 @@
 //! | `reference` | the paper's second-order cone programs, as an independent back end (feature `conic`) |
 //! | `contact` | point, normal and overlap from a solution; [`detect`](detect()), the whole on one screen; many pairs at once |
 //! | `section` | the contact area |
+//! | `flat` | the contact with a flat boundary: a plane, or a triangle of a mesh |
+//! | `surface` | a closed mesh of triangles on the surface |
+//! | [`packing`] | bodies placed in a container without overlap, as a start for a simulation |
 //! | [`planar`] | the same for particles of the plane |
 //! | `serialisation` | what can be written down and read back with serde (feature `serde`) |
 //! | `capi` | the C interface, the only place with `unsafe` (feature `capi`) |
@@ -30,7 +33,7 @@
 //! A [`Particle`] is made once for each shape; a body is a particle at a [`Pose`]. [`detect()`] finds the [`Contact`] of two
 //! bodies, [`detect_batch`] those of many pairs on several threads; [`Settings`] choose the formulation and the accuracy, and
 //! a [`Memory`] for each pair lets the next call start from the last solution. [`Section::area`] gives the contact area,
-//! [`closest_point`] one closest point alone, [`Particle::mass_properties`] volume and inertia.
+//! [`closest_point`] one closest point alone, [`contact_with_plane`] and [`contact_with_triangle`] the contact with a wall, [`Particle::mass_properties`] volume and inertia.
 //!
 //! ```
 //! use potential_particles::{Kind, Memory, Particle, Plane, Pose, Section, Settings, detect};
@@ -58,8 +61,10 @@ mod bounds;
 pub mod capi;
 mod contact;
 mod flags;
+mod flat;
 mod linalg;
 mod model;
+pub mod packing;
 mod pair;
 mod particle;
 pub mod planar;
@@ -74,6 +79,7 @@ mod section;
 mod serialisation;
 mod settings;
 mod solver;
+mod surface;
 
 pub use contact::batch::detect_batch;
 pub use contact::carried::Carried;
@@ -81,13 +87,15 @@ pub use contact::closest_point::{ClosestPoint, closest_point};
 pub use contact::contact::{Contact, Kind};
 pub use contact::detect::{DetectError, detect, detect_carried};
 pub use flags::Flags;
+pub use flat::{BoundaryError, Feature, FlatContact, Triangle, Wall, contact_with_plane, contact_with_triangle};
 pub use pair::role::Role;
 pub use pair::warm_start::Memory;
-pub use particle::mass_properties::MassProperties;
+pub use particle::mass_properties::{MASS_TOLERANCE, MassProperties};
 pub use particle::particle::{MAX_PLANES, Particle, ParticleError, Plane};
 pub use pose::{Pose, PoseError};
 pub use section::Section;
 pub use settings::{BackEnd, Formulation, Settings, SettingsError};
+pub use surface::surface_mesh::{MeshError, SurfaceMesh};
 
 /// Stages of the solver for benchmarks; no part of the public interface, and changed without notice.
 #[doc(hidden)]

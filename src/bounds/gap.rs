@@ -32,9 +32,14 @@ impl Scale {
         let level = larger(solution.upper, 1.0);
         let most = weighted(a.most_surplus(level), b.most_surplus(level));
         let square = larger(solution.estimate - weighted(a.surplus(&solution.x), b.surplus(&solution.x)), 0.0);
-        let low = larger(solution.lower - most - solution.rounding, 0.0);
         let high = larger(larger(solution.upper, solution.lower), square) + solution.rounding;
-        let low = smaller(low, square);
+        Self::between(square, solution.lower - most - solution.rounding, high)
+    }
+
+    /// From an estimate of S that is not negative and bounds of it.
+    #[inline(always)]
+    pub fn between(square: f64, low: f64, high: f64) -> Self {
+        let low = smaller(larger(low, 0.0), square);
         let s = square.sqrt();
         let low = low.sqrt() * (1.0 - ROUNDING);
         Self { s, gap: larger(high.sqrt() - s, s - low) + ROUNDING * s + UNDERFLOW, low }

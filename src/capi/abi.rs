@@ -1,6 +1,8 @@
 //! Which library was loaded, and whether its structs are those that the caller was compiled with.
 
-use super::planar::{pp_closest_2d, pp_contact_2d, pp_pose_2d};
+use super::flat::pp_flat_contact;
+use super::packing::{pp_packing, pp_placement};
+use super::planar::{pp_area_properties, pp_closest_2d, pp_contact_2d, pp_pose_2d};
 use super::types::{pp_carry, pp_closest, pp_contact, pp_frame, pp_mass_properties, pp_memory, pp_pose, pp_settings};
 use std::ffi::{CStr, c_char};
 
@@ -15,7 +17,7 @@ pub const PP_VERSION_PATCH: u32 = 0;
 /// not use the library (a struct, a function or the meaning of a number has changed), and not with
 /// additions. A program that loads the library should refuse to go on unless pp_abi_version() ==
 /// PP_ABI_VERSION.
-pub const PP_ABI_VERSION: u32 = 1;
+pub const PP_ABI_VERSION: u32 = 2;
 
 /// struct pp_pose, for pp_struct_size.
 pub const PP_STRUCT_POSE: u32 = 1;
@@ -39,6 +41,14 @@ pub const PP_STRUCT_CLOSEST_2D: u32 = 9;
 pub const PP_STRUCT_FRAME: u32 = 10;
 /// struct pp_carry, for pp_struct_size.
 pub const PP_STRUCT_CARRY: u32 = 11;
+/// struct pp_area_properties, for pp_struct_size.
+pub const PP_STRUCT_AREA_PROPERTIES: u32 = 12;
+/// struct pp_packing, for pp_struct_size.
+pub const PP_STRUCT_PACKING: u32 = 14;
+/// struct pp_placement, for pp_struct_size.
+pub const PP_STRUCT_PLACEMENT: u32 = 15;
+/// struct pp_flat_contact, for pp_struct_size.
+pub const PP_STRUCT_FLAT_CONTACT: u32 = 13;
 
 /// Version of the loaded library as "major.minor.patch". Static text: do not free it.
 #[unsafe(no_mangle)]
@@ -72,6 +82,10 @@ pub extern "C" fn pp_struct_size(which: u32) -> usize {
         PP_STRUCT_CLOSEST_2D => size_of::<pp_closest_2d>(),
         PP_STRUCT_FRAME => size_of::<pp_frame>(),
         PP_STRUCT_CARRY => size_of::<pp_carry>(),
+        PP_STRUCT_AREA_PROPERTIES => size_of::<pp_area_properties>(),
+        PP_STRUCT_PACKING => size_of::<pp_packing>(),
+        PP_STRUCT_PLACEMENT => size_of::<pp_placement>(),
+        PP_STRUCT_FLAT_CONTACT => size_of::<pp_flat_contact>(),
         _ => 0,
     }
 }

@@ -34,6 +34,10 @@ pub const PP_BUFFER_TOO_SMALL: pp_status = 10;
 pub const PP_NO_CONIC: pp_status = 11;
 /// An index or a count names something that is not there.
 pub const PP_BAD_INDEX: pp_status = 12;
+/// The vertices of a triangle lie on one line, so that it has no normal.
+pub const PP_DEGENERATE_TRIANGLE: pp_status = 13;
+/// The tolerance of a mesh is outside its documented range.
+pub const PP_BAD_TOLERANCE: pp_status = 14;
 
 /// A plane holds a coefficient that is not finite.
 pub const PP_PLANE_NOT_FINITE: pp_status = 20;
@@ -52,6 +56,9 @@ pub const PP_UNBOUNDED: pp_status = 26;
 /// More planes than PP_MAX_PLANES.
 pub const PP_TOO_MANY_PLANES: pp_status = 27;
 
+/// Nothing can be packed with these values; the message names the one at fault.
+pub const PP_BAD_PACKING: pp_status = 30;
+
 /// Every code with its sentence; pp_status_message and the tests read this one table.
 const MESSAGES: &[(pp_status, &CStr)] = &[
     (PP_OK, c"success"),
@@ -67,6 +74,11 @@ const MESSAGES: &[(pp_status, &CStr)] = &[
     (PP_BUFFER_TOO_SMALL, c"the output buffer is too small; the needed size was written"),
     (PP_NO_CONIC, c"the library was built without the conic back end (Cargo feature conic): use PP_FAST"),
     (PP_BAD_INDEX, c"an index or a count names something that is not there"),
+    (PP_DEGENERATE_TRIANGLE, c"a triangle has no area to rounding: remove it from the mesh"),
+    (
+        PP_BAD_TOLERANCE,
+        c"the tolerance of a mesh must lie in [1e-5, 1]: the distance to the surface over the bounding radius",
+    ),
     (PP_PLANE_NOT_FINITE, c"a plane coefficient is not finite"),
     (PP_PLANE_ZERO_NORMAL, c"a plane normal (a, b, c) has no length, or none that can be squared"),
     (PP_BAD_SPHERICITY, c"sphericity k must lie in [0, 1]"),
@@ -75,6 +87,7 @@ const MESSAGES: &[(pp_status, &CStr)] = &[
     (PP_CENTRE_OUTSIDE, c"the local origin lies outside the particle: f(0) must be negative"),
     (PP_UNBOUNDED, c"with k = 0 the planes must enclose a bounded volume"),
     (PP_TOO_MANY_PLANES, c"more planes than PP_MAX_PLANES"),
+    (PP_BAD_PACKING, c"nothing can be packed with these values; the message of pp_pack names the one at fault"),
 ];
 
 /// The sentence for a status code, in English, without a full stop.

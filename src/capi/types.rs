@@ -41,6 +41,9 @@ pub const PP_FLAG_BY_MEMORY: u32 = 512;
 /// flat_regularisation was raised, and its default value was used in this call instead: the raised one
 /// would have left open whether the particles overlap.
 pub const PP_FLAG_DEFAULT_REGULARISATION: u32 = 1024;
+/// The gradient vanishes on a flat boundary, as when the centre of the particle lies on it: the normal is the
+/// boundary's own.
+pub const PP_FLAG_NORMAL_BY_BOUNDARY: u32 = 2048;
 
 /// pp_closest_point: the point P1 on A, where s_B is least.
 pub const PP_ON_A: u32 = 0;
@@ -207,4 +210,7 @@ pub struct pp_mass_properties {
     /// Inertia about the local origin for density 1: xx, yy, zz, xy, yz, zx of the integral of
     /// (|x|^2 I - x x^T) dV, length^5.
     pub inertia: [f64; 6],
+    /// Estimated bound on the relative error of the volume and of every moment of inertia about an axis through
+    /// the origin, and of the centroid as a share of the radii of gyration. No unit.
+    pub error: f64,
 }

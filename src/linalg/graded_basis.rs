@@ -8,7 +8,7 @@
 use nalgebra::{Matrix3, Vector3};
 
 /// Square of the sine below which what is left of a normal is rounding.
-const PARALLEL: f64 = 1e-30;
+pub(crate) const PARALLEL: f64 = 1e-30;
 
 /// Most normals that are kept from the first look at the planes for the second: few points have more planes on.
 const MOST_KEPT: usize = 16;
@@ -66,7 +66,7 @@ impl Stiffest {
 }
 
 /// A unit vector at right angles to a unit vector.
-fn any_across(n: &Vector3<f64>) -> Vector3<f64> {
+pub(crate) fn any_across(n: &Vector3<f64>) -> Vector3<f64> {
     // Of equally good axes the last: across a normal in the plane z = 0 that gives another one in it.
     let axis = (0..3).rev().min_by(|&i, &j| n[i].abs().total_cmp(&n[j].abs())).unwrap_or(2);
     n.cross(&Vector3::ith(axis, 1.0)).normalize()

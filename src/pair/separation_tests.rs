@@ -9,7 +9,7 @@ use crate::pose::Pose;
 use nalgebra::{Matrix3, Vector3};
 
 /// Bound on the rounding of the sums below, relative to the lengths in them: 45ε, of which they need 40 (docs/theory.md, "Rounding").
-const MARGIN: f64 = 1e-14;
+pub(crate) const MARGIN: f64 = 1e-14;
 
 /// A proof that two particles share no point.
 #[derive(Clone, Copy, Debug)]
@@ -22,7 +22,7 @@ pub struct Apart {
 
 impl Apart {
     /// From a distance that is known but for the rounding of a few operations on it.
-    fn new(by: Flags, distance: f64) -> Self {
+    pub(crate) fn new(by: Flags, distance: f64) -> Self {
         Self { by, distance: distance * (1.0 - MARGIN) }
     }
 }

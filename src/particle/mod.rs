@@ -10,10 +10,12 @@
 //! | `shape` | the validated definition with its clusters and bounding volumes |
 //! | `potential` | S, its gradient and its Hessian |
 //! | `ray_cast` | the distance from a point inside to the surface |
+//! | `direction_mesh` | a partition of all directions along faces and edges |
 //! | `mass_properties` | volume, centroid and inertia |
 //! | `particle` | the public interface |
 
 pub mod bounding_volumes;
+pub mod direction_mesh;
 pub mod error;
 pub mod linear_program;
 pub mod mass_properties;

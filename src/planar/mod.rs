@@ -16,6 +16,7 @@
 //! The one thing not taken over is what bounds a particle: lines that enclose an area are enough, and ball
 //! and corners are those of the cut.
 
+mod area_properties;
 mod batch;
 mod closest_point;
 mod contact;
@@ -23,6 +24,7 @@ mod particle;
 mod pose;
 mod section;
 
+pub use area_properties::AreaProperties;
 pub use batch::detect_batch;
 pub use closest_point::{ClosestPoint, closest_point};
 #[cfg(feature = "capi")]

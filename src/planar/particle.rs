@@ -1,5 +1,6 @@
 //! Particles of the plane, each a particle of space cut at z = 0.
 
+use super::area_properties::{self, AreaProperties};
 use super::pose::Pose;
 use super::raised;
 use crate::particle::particle::{self, ParticleError};
@@ -75,6 +76,17 @@ impl Particle {
     /// not finite.
     pub fn surface_distance(&self, from: &Vector2<f64>, direction: &Vector2<f64>) -> Option<f64> {
         ray_cast::distance(&self.0, &raised(from), &raised(direction))
+    }
+
+    /// Area, centroid and second moments to a relative tolerance (1e-12 or more), by adaptive quadrature over rays from the origin.
+    pub fn area_properties(&self, tolerance: f64) -> AreaProperties {
+        area_properties::of(&self.0, tolerance)
+    }
+
+    /// Points of the boundary in order, so dense that a chord between two neighbours is within `tolerance` (length) of the
+    /// boundary: the boundary is at most that far outside. At most a million or so, whatever the tolerance.
+    pub fn outline(&self, tolerance: f64) -> Vec<Vector2<f64>> {
+        area_properties::outline(&self.0, tolerance)
     }
 
     /// Lines as given.

@@ -10,12 +10,16 @@ static void sizes_are_those_of_the_library(void) {
     CHECK(pp_struct_size(PP_STRUCT_CONTACT) == sizeof(pp_contact));
     CHECK(pp_struct_size(PP_STRUCT_CLOSEST) == sizeof(pp_closest));
     CHECK(pp_struct_size(PP_STRUCT_MASS_PROPERTIES) == sizeof(pp_mass_properties));
+    CHECK(pp_struct_size(PP_STRUCT_AREA_PROPERTIES) == sizeof(pp_area_properties));
     CHECK(pp_struct_size(PP_STRUCT_POSE_2D) == sizeof(pp_pose_2d));
     CHECK(pp_struct_size(PP_STRUCT_CONTACT_2D) == sizeof(pp_contact_2d));
     CHECK(pp_struct_size(PP_STRUCT_CLOSEST_2D) == sizeof(pp_closest_2d));
     CHECK(pp_struct_size(PP_STRUCT_FRAME) == sizeof(pp_frame));
     CHECK(pp_struct_size(PP_STRUCT_CARRY) == sizeof(pp_carry));
-    CHECK(pp_struct_size(0) == 0 && pp_struct_size(12) == 0 && pp_struct_size(UINT32_MAX) == 0);
+    CHECK(pp_struct_size(PP_STRUCT_FLAT_CONTACT) == sizeof(pp_flat_contact));
+    CHECK(pp_struct_size(PP_STRUCT_PACKING) == sizeof(pp_packing));
+    CHECK(pp_struct_size(PP_STRUCT_PLACEMENT) == sizeof(pp_placement));
+    CHECK(pp_struct_size(0) == 0 && pp_struct_size(16) == 0 && pp_struct_size(UINT32_MAX) == 0);
 }
 
 void test_layout(void) {
@@ -76,8 +80,48 @@ void test_layout(void) {
     CHECK(offsetof(pp_closest, branch_a) == 56);
     CHECK(offsetof(pp_closest, branch_b) == 80);
 
-    CHECK(sizeof(pp_mass_properties) == 80);
+    CHECK(sizeof(pp_flat_contact) == 176);
+    CHECK(offsetof(pp_flat_contact, kind) == 0);
+    CHECK(offsetof(pp_flat_contact, feature) == 4);
+    CHECK(offsetof(pp_flat_contact, flags) == 8);
+    CHECK(offsetof(pp_flat_contact, iterations) == 12);
+    CHECK(offsetof(pp_flat_contact, s) == 16);
+    CHECK(offsetof(pp_flat_contact, gap) == 24);
+    CHECK(offsetof(pp_flat_contact, point_bound) == 32);
+    CHECK(offsetof(pp_flat_contact, overlap) == 40);
+    CHECK(offsetof(pp_flat_contact, distance) == 48);
+    CHECK(offsetof(pp_flat_contact, normal) == 56);
+    CHECK(offsetof(pp_flat_contact, point) == 80);
+    CHECK(offsetof(pp_flat_contact, branch) == 104);
+    CHECK(offsetof(pp_flat_contact, on_boundary) == 128);
+    CHECK(offsetof(pp_flat_contact, on_particle) == 152);
+
+    CHECK(sizeof(pp_mass_properties) == 88);
     CHECK(offsetof(pp_mass_properties, volume) == 0);
     CHECK(offsetof(pp_mass_properties, centroid) == 8);
     CHECK(offsetof(pp_mass_properties, inertia) == 32);
+    CHECK(offsetof(pp_mass_properties, error) == 80);
+
+    CHECK(sizeof(pp_area_properties) == 56);
+    CHECK(offsetof(pp_area_properties, area) == 0);
+    CHECK(offsetof(pp_area_properties, centroid) == 8);
+    CHECK(offsetof(pp_area_properties, second_moment) == 24);
+    CHECK(offsetof(pp_area_properties, error) == 48);
+
+    CHECK(sizeof(pp_packing) == 88);
+    CHECK(offsetof(pp_packing, container) == 0);
+    CHECK(offsetof(pp_packing, arrangement) == 4);
+    CHECK(offsetof(pp_packing, shares) == 8);
+    CHECK(offsetof(pp_packing, threads) == 12);
+    CHECK(offsetof(pp_packing, lower) == 16);
+    CHECK(offsetof(pp_packing, upper) == 40);
+    CHECK(offsetof(pp_packing, margin) == 64);
+    CHECK(offsetof(pp_packing, seed) == 72);
+    CHECK(offsetof(pp_packing, number) == 80);
+
+    CHECK(sizeof(pp_placement) == 72);
+    CHECK(offsetof(pp_placement, pose) == 0);
+    CHECK(offsetof(pp_placement, scale) == 56);
+    CHECK(offsetof(pp_placement, shape) == 64);
+    CHECK(offsetof(pp_placement, reserved) == 68);
 }

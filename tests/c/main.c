@@ -21,6 +21,7 @@ int main(int count, char **arguments) {
     test_status();
     test_particle();
     test_query();
+    test_surface();
     test_definition();
     test_pose();
     test_settings();
@@ -37,5 +38,6 @@ int main(int count, char **arguments) {
     test_planar();
     test_planar_batch();
     test_planar_closest();
+    test_packing();
     return check_report();
 }

@@ -226,7 +226,7 @@ static void mass_properties_of_sphere_and_padded_cube(void) {
     const double centre[3] = {0, 0, 0};
     pp_particle *sphere = new_sphere(radius), *cube = new_cube(d, r, 0.0, 0.0);
     pp_mass_properties mass;
-    CHECK_STATUS(pp_particle_mass_properties(sphere, &mass), PP_OK);
+    CHECK_STATUS(pp_particle_mass_properties(sphere, 1e-6, &mass), PP_OK);
     double volume = 4.0 / 3.0 * PI * radius * radius * radius, inertia = 0.4 * volume * radius * radius;
     CHECK_NEAR(mass.volume, volume, 1e-6 * volume);
     CHECK_NEAR3(mass.centroid, centre, 1e-6 * radius);
@@ -236,20 +236,23 @@ static void mass_properties_of_sphere_and_padded_cube(void) {
     }
 
     /* Steiner: cube, slabs on its faces, quarter cylinders on its edges, ball octants on its corners. */
-    CHECK_STATUS(pp_particle_mass_properties(cube, &mass), PP_OK);
+    CHECK_STATUS(pp_particle_mass_properties(cube, 1e-6, &mass), PP_OK);
     volume = 8 * d * d * d + 24 * d * d * r + 6 * PI * d * r * r + 4.0 / 3.0 * PI * r * r * r;
-    CHECK_NEAR(mass.volume, volume, 1e-3 * volume);
-    CHECK_NEAR3(mass.centroid, centre, 1e-3);
+    CHECK_NEAR(mass.volume, volume, 1e-6 * volume);
+    CHECK(mass.error >= 0.0 && mass.error <= 1e-6);
+    CHECK_NEAR3(mass.centroid, centre, 1e-6);
     for (int j = 0; j < 3; j++) {
-        CHECK_NEAR(mass.inertia[j], mass.inertia[0], 1e-3 * mass.inertia[0]);
-        CHECK_NEAR(mass.inertia[3 + j], 0.0, 1e-3 * mass.inertia[0]);
+        CHECK_NEAR(mass.inertia[j], mass.inertia[0], 1e-6 * mass.inertia[0]);
+        CHECK_NEAR(mass.inertia[3 + j], 0.0, 1e-6 * mass.inertia[0]);
     }
     CHECK(mass.inertia[0] > volume * 2.0 / 3.0 * d * d); /* more than the bare cube's */
 
     FILL(mass);
-    CHECK_STATUS(pp_particle_mass_properties(NULL, &mass), PP_NULL_POINTER);
+    CHECK_STATUS(pp_particle_mass_properties(NULL, 1e-6, &mass), PP_NULL_POINTER);
+    CHECK_STATUS(pp_particle_mass_properties(cube, 1e-6, NULL), PP_NULL_POINTER);
+    const double refused[4] = {0.0, -1e-6, 2.0, NAN};
+    for (int j = 0; j < 4; j++) CHECK_STATUS(pp_particle_mass_properties(cube, refused[j], &mass), PP_BAD_SETTING);
     CHECK_UNTOUCHED(mass);
-    CHECK_STATUS(pp_particle_mass_properties(cube, NULL), PP_NULL_POINTER);
     pp_particle_free(sphere);
     pp_particle_free(cube);
 }

@@ -22,6 +22,8 @@ static const struct {
     {PP_BUFFER_TOO_SMALL, 10},
     {PP_NO_CONIC, 11},
     {PP_BAD_INDEX, 12},
+    {PP_DEGENERATE_TRIANGLE, 13},
+    {PP_BAD_TOLERANCE, 14},
     {PP_PLANE_NOT_FINITE, 20},
     {PP_PLANE_ZERO_NORMAL, 21},
     {PP_BAD_SPHERICITY, 22},
@@ -30,6 +32,7 @@ static const struct {
     {PP_CENTRE_OUTSIDE, 25},
     {PP_UNBOUNDED, 26},
     {PP_TOO_MANY_PLANES, 27},
+    {PP_BAD_PACKING, 30},
 };
 enum { CODES = sizeof codes / sizeof codes[0] };
 
@@ -54,7 +57,7 @@ static void every_code_has_its_own_sentence(void) {
 }
 
 static void other_codes_are_unknown(void) {
-    const pp_status others[] = {-1, 13, 19, 28, 1000, INT32_MAX, INT32_MIN};
+    const pp_status others[] = {-1, 15, 19, 28, 29, 31, 1000, INT32_MAX, INT32_MIN};
     for (size_t i = 0; i < sizeof others / sizeof others[0]; i++) {
         CHECK_TEXT(pp_status_message(others[i]), unknown);
     }

@@ -6,6 +6,7 @@ void test_layout(void);
 void test_status(void);
 void test_particle(void);
 void test_query(void);
+void test_surface(void);
 void test_definition(void);
 void test_pose(void);
 void test_settings(void);
@@ -22,5 +23,6 @@ void test_batch(void);
 void test_planar(void);
 void test_planar_batch(void);
 void test_planar_closest(void);
+void test_packing(void);
 
 #endif

@@ -158,7 +158,7 @@ def pile(folder):
         check(status == 0, f"the pile on {ranks} ranks ends with {status}:\n{text}")
         summary = json.loads((out / "summary.json").read_text())
         check(all(row["met"] for row in summary["targets"]), f"the pile on {ranks} ranks: {summary['targets']}")
-        check(sorted(path.name for path in out.glob("*.vtp")) == [f"pile.{step:06d}.vtp" for step in (0, 800, 1600, 2400)],
+        check(sorted(path.name for path in out.glob("*.bodies.*.vtp")) == [f"pile.bodies.{step:07d}.vtp" for step in (0, 800, 1600, 2400)],
               f"frames of {ranks} ranks: {list(out.glob('*.vtp'))}")
         check((out / "pile.png").stat().st_size > 10_000, "the picture")
         summaries.append(summary)

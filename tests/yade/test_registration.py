@@ -14,7 +14,8 @@ from harness import *
 
 check = Checks()
 NAMES = ["ConicPotentialParticle", "ScGeomConicPP", "Ig2_ConicPP_ConicPP_ScGeom", "Ig2_PP_PP_ScGeom_Conic", "Bo1_ConicPP_Aabb",
-         "Bo1_PP_Aabb_Conic", "BoundWatch", "ConicInteractionLoop"]
+         "Bo1_PP_Aabb_Conic", "BoundWatch", "ConicInteractionLoop", "Ig2_Sphere_ConicPP_ScGeom", "Ig2_Box_ConicPP_ScGeom",
+         "Ig2_Wall_ConicPP_ScGeom", "Ig2_Facet_ConicPP_ScGeom"]
 
 for name in NAMES:
     cls = getattr(yade.wrapper, name)
@@ -34,7 +35,8 @@ for name, base in [("ConicPotentialParticle", "PotentialParticle"), ("ConicPoten
                    ("ScGeomConicPP", "ScGeom"), ("Ig2_ConicPP_ConicPP_ScGeom", "IGeomFunctor"),
                    ("Ig2_PP_PP_ScGeom_Conic", "IGeomFunctor"), ("Bo1_ConicPP_Aabb", "BoundFunctor"),
                    ("Bo1_PP_Aabb_Conic", "BoundFunctor"), ("BoundWatch", "GlobalEngine"),
-                   ("ConicInteractionLoop", "InteractionLoop")]:
+                   ("ConicInteractionLoop", "InteractionLoop"), ("Ig2_Sphere_ConicPP_ScGeom", "IGeomFunctor"),
+                   ("Ig2_Facet_ConicPP_ScGeom", "Ig2_ConicPP_ConicPP_ScGeom")]:
     check.true(name in yade.system.childClasses(base), f"childClasses({base}) has {name}")
     check.true(issubclass(getattr(yade, name), getattr(yade, base)), f"{name} is a {base}")
 
@@ -124,6 +126,16 @@ check.equal(type(find(flat_one, flat_one)).__name__, "Ig2_ConicPP_ConicPP_ScGeom
 check.equal(type(find(round_one, flat_one)).__name__, "Ig2_PP_PP_ScGeom_Conic", "plain and ours")
 check.equal(type(find(round_one, round_one)).__name__, "Ig2_PP_PP_ScGeom_Conic", "two plain ones")
 check.true(find(flat_one, yade.Sphere()) is None, "no functor for ours and a sphere")
+O.engines[2].geomDispatcher.functors = [getattr(yade, f"Ig2_{name}_ConicPP_ScGeom")() for name in ("Sphere", "Box", "Wall", "Facet")]
+find = O.engines[2].geomDispatcher.dispFunctor
+for other in yade.Sphere(), yade.Box(), yade.Wall(), yade.Facet():
+    name = f"Ig2_{type(other).__name__}_ConicPP_ScGeom"
+    for one in round_one, flat_one:
+        check.equal([type(find(*two)).__name__ for two in ((one, other), (other, one))], [name, name], "either order of the shapes")
+    check.equal(getattr(yade, name)().bases, [type(other).__name__, "PotentialParticle"], "its bases")
+    same(getattr(yade, name)(tolerance=1e-9, label="contacts"), pickle.loads(pickle.dumps(getattr(yade, name)(tolerance=1e-9, label="contacts"))), name)
+check.true(find(flat_one, flat_one) is None, "which do not serve two of ours")
+O.engines[2].geomDispatcher.functors = [yade.Ig2_PP_PP_ScGeom_Conic()]
 add(cube(), Vector3(0, 0, 0))
 potential_particles.prepare()
 entered = O.engines[1].boundDispatcher.dispMatrix()

@@ -16,6 +16,7 @@ DATA = Path(harness.__file__).resolve().parent / "data"
 NAMES = potential_particles._glue.class_names
 SETTINGS = dict(formulation="closest", tolerance=1e-11, carryTolerance=1e-8, areaTolerance=1e-5, twoDdir=Vector3(0.5, 0.25, 0.125),
                 unitWidth2D=3.0, flatRegularisation=1e-4, areaStep=7, accuracyTol=1e-6, measureTime=True, label="contacts")
+OTHERS = ("Sphere", "Box", "Wall", "Facet")
 
 
 def scene():
@@ -28,7 +29,8 @@ def scene():
         yade.InsertionSortCollider([yade.Bo1_ConicPP_Aabb(label="boxes"), yade.Bo1_PP_Aabb_Conic(label="plainBoxes")],
                                    verletDist=0.01),
         yade.ConicInteractionLoop(
-            [functor(), yade.Ig2_PP_PP_ScGeom_Conic(**{**SETTINGS, "label": "plain"})], loop.physDispatcher.functors,
+            [functor(), yade.Ig2_PP_PP_ScGeom_Conic(**{**SETTINGS, "label": "plain"})]
+            + [getattr(yade, f"Ig2_{other}_ConicPP_ScGeom")(**{**SETTINGS, "label": other}) for other in OTHERS], loop.physDispatcher.functors,
             loop.lawDispatcher.functors, label="loop"),
         integrator,
     ]
@@ -66,8 +68,10 @@ def file_of(found):
 def expected_of(found):
     """What a scene is that was saved when our classes had these versions: what they did not have then takes its default."""
     expected = dict(now)
+    if "Ig2_Facet_ConicPP_ScGeom" not in found:
+        expected["functors"] = expected["functors"][:-len(OTHERS)]
     if found["Ig2_ConicPP_ConicPP_ScGeom"] == 0:
-        expected["functors"] = [{**one, "carryTolerance": 1e-9} for one in now["functors"]]
+        expected["functors"] = [{**one, "carryTolerance": 1e-9} for one in expected["functors"]]
     if "ConicInteractionLoop" not in found:
         del expected["bounds"], expected["engines"]
     return expected

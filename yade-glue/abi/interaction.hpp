@@ -20,6 +20,9 @@ public:
     PP_ABI_SERIALIZABLE_OVERRIDES
     boost::python::dict pyDictCustom() const override;
 
+    // Throws std::logic_error when it has a geometry or physics.
+    void swapOrder();
+
     // In YADE's own words "real": it has been through geometry and physics functors.
     bool hasGeomAndPhys() const { return geom && phys; }
 

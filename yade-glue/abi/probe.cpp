@@ -8,6 +8,7 @@
 #include "functor.hpp"
 #include "interaction.hpp"
 #include "knksphys.hpp"
+#include "primitives.hpp"
 #include "scene.hpp"
 #include "scgeom.hpp"
 #include "serializable.hpp"
@@ -29,6 +30,10 @@ PROBE(Factorable)
 PROBE(Serializable)
 PROBE(Shape)
 PROBE(PotentialParticle)
+PROBE(Sphere)
+PROBE(Box)
+PROBE(Wall)
+PROBE(Facet)
 PROBE(State)
 PROBE(IGeom)
 PROBE(GenericSpheresContact)

@@ -14,6 +14,10 @@ class ConicPotentialParticle;
 class ScGeomConicPP;
 class Ig2_ConicPP_ConicPP_ScGeom;
 class Ig2_PP_PP_ScGeom_Conic;
+class Ig2_Sphere_ConicPP_ScGeom;
+class Ig2_Box_ConicPP_ScGeom;
+class Ig2_Wall_ConicPP_ScGeom;
+class Ig2_Facet_ConicPP_ScGeom;
 class Bo1_ConicPP_Aabb;
 class Bo1_PP_Aabb_Conic;
 class BoundWatch;
@@ -27,6 +31,10 @@ BOOST_CLASS_VERSION(potential_particles::ConicPotentialParticle, 0)
 BOOST_CLASS_VERSION(potential_particles::ScGeomConicPP, 1) // 0: a memory of 8 numbers
 BOOST_CLASS_VERSION(potential_particles::Ig2_ConicPP_ConicPP_ScGeom, 1) // 0: without carryTolerance
 BOOST_CLASS_VERSION(potential_particles::Ig2_PP_PP_ScGeom_Conic, 0)
+BOOST_CLASS_VERSION(potential_particles::Ig2_Sphere_ConicPP_ScGeom, 0)
+BOOST_CLASS_VERSION(potential_particles::Ig2_Box_ConicPP_ScGeom, 0)
+BOOST_CLASS_VERSION(potential_particles::Ig2_Wall_ConicPP_ScGeom, 0)
+BOOST_CLASS_VERSION(potential_particles::Ig2_Facet_ConicPP_ScGeom, 0)
 BOOST_CLASS_VERSION(potential_particles::Bo1_ConicPP_Aabb, 0)
 BOOST_CLASS_VERSION(potential_particles::Bo1_PP_Aabb_Conic, 0)
 BOOST_CLASS_VERSION(potential_particles::BoundWatch, 0)

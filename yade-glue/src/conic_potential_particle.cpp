@@ -234,12 +234,30 @@ void ConicPotentialParticle::pySetAutomaticBox(bool automatic)
 }
 
 namespace {
-    pp_mass_properties massProperties(const pp_particle* particle)
+    constexpr double usualTolerance = 1e-6;
+
+    pp_mass_properties massProperties(const pp_particle* particle, double tolerance = usualTolerance)
     {
+        if (!(tolerance >= 1e-12 && tolerance <= 1))
+            throw std::invalid_argument("tolerance=" + std::to_string(tolerance) + " must lie between 1e-12 and 1");
         pp_mass_properties properties;
-        requireOk(pp_particle_mass_properties(particle, &properties));
+        requireOk(pp_particle_mass_properties(particle, tolerance, &properties));
         return properties;
     }
+
+    Eigen::Matrix3d matrix(const double (&numbers)[6])
+    {
+        const auto [xx, yy, zz, xy, yz, zx] = numbers;
+        Eigen::Matrix3d inertia;
+        inertia << xx, xy, zx, xy, yy, yz, zx, yz, zz;
+        return inertia;
+    }
+}
+
+py::tuple ConicPotentialParticle::pyMassProperties(double tolerance) const
+{
+    const pp_mass_properties properties = massProperties(require(), tolerance);
+    return py::make_tuple(properties.volume, Vector3r(properties.centroid), matrix(properties.inertia), properties.error);
 }
 
 double ConicPotentialParticle::pyVolume() const { return massProperties(require()).volume; }
@@ -248,10 +266,7 @@ Vector3r ConicPotentialParticle::pyCentroid() const { return Vector3r(massProper
 
 Eigen::Matrix3d ConicPotentialParticle::pyInertia() const
 {
-    const auto [xx, yy, zz, xy, yz, zx] = massProperties(require()).inertia;
-    Eigen::Matrix3d inertia;
-    inertia << xx, xy, zx, xy, yy, yz, zx, yz, zz;
-    return inertia;
+    return matrix(massProperties(require()).inertia);
 }
 
 double ConicPotentialParticle::pyBoundingRadius() const
@@ -372,7 +387,10 @@ void ConicPotentialParticle::pyRegisterClass(py::object scope)
                       "All planes as a list of (a, b, c, d); sets the four lists at once.")
         .add_property("automaticBox", +[](const Shape& shape) { return shape.automaticBox; }, &Shape::pySetAutomaticBox,
                       "Whether the box attributes are computed. Turned off by setting one of them.")
-        .add_property("volume", &Shape::pyVolume, "Volume, by quadrature over the true surface.")
+        .def("massProperties", &Shape::pyMassProperties, py::arg("tolerance") = usualTolerance,
+             "Volume, centroid, inertia matrix (as the attributes of these names), and an estimated bound on their relative error; "
+             "tolerance: what this error should be, 1e-12 to 1.")
+        .add_property("volume", &Shape::pyVolume, "Volume, by quadrature over the true surface, to 1e-6.")
         .add_property("centroid", &Shape::pyCentroid, "Centroid in local axes; YADE wants it at the origin.")
         .add_property("inertia", &Shape::pyInertia,
                       "Inertia matrix about the local origin for density 1; State.inertia wants principal axes.")

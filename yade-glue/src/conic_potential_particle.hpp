@@ -53,6 +53,7 @@ private:
     boost::python::list pyPlanes() const;
     void pySetPlanes(const boost::python::object& rows);
     void pySetAutomaticBox(bool automatic);
+    boost::python::tuple pyMassProperties(double tolerance) const;
     double pyVolume() const;
     yade::Vector3r pyCentroid() const;
     Eigen::Matrix3d pyInertia() const;

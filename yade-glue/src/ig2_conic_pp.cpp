@@ -2,27 +2,20 @@
 //
 // What go() does. The attributes and their way to Python and archives: ig2_registration.cpp.
 #include "../abi/knksphys.hpp"
-#include "../abi/scgeom.hpp"
 
 #include "answer_path.hpp"
 #include "ig2_conic_pp.hpp"
+#include "pair_in_scene.hpp"
 #include "particle_of.hpp"
-#include "pose.hpp"
 #include "ray.hpp"
-#include "sc_geom_conic_pp.hpp"
 #include "step.hpp"
 
-#include <boost/make_shared.hpp>
-
 #include <algorithm>
-#include <limits>
-#include <typeinfo>
 #include <utility>
 
 namespace potential_particles {
 
 using yade::Interaction;
-using yade::PotentialParticle;
 using yade::ScGeom;
 using yade::Shape;
 using yade::State;
@@ -30,58 +23,36 @@ using yade::Vector3r;
 
 namespace {
 
-    // penetrationDepth of a pair that does not touch. Laws ask for its sign only: the width of the
-    // gap is not computed.
-    constexpr double apart = -1.0;
-
-    // dynamic_cast takes its time; nearly always the object is of one known class.
-    template <class Usual, class Wanted, class Object> Wanted* castTo(Object* object)
-    {
-        if (object && typeid(*object) == typeid(Usual))
-            return static_cast<Usual*>(object);
-        return dynamic_cast<Wanted*>(object);
-    }
-
-    bool isUnit(const Vector3r& vector) { return std::abs(vector.squaredNorm() - 1) < 1e-6; }
-
-    // Of a finite length, else the x axis.
-    Vector3r directionOf(const Vector3r& vector)
-    {
-        const double length = vector.norm();
-        return length > 0 && std::isfinite(length) ? Vector3r(vector / length) : Vector3r(Vector3r::UnitX());
-    }
-
     // A boundary may prescribe the normal (world axes); the second shape has the last word, as in
     // YADE's own functor. False when none does, or when what it prescribes has no direction.
-    bool prescribedNormal(const PotentialParticle& shape1, const PotentialParticle& shape2, Vector3r& normal)
+    bool prescribedNormal(const Shape& one, const Shape& other, Vector3r& normal)
     {
-        if (!shape1.fixedNormal && !shape2.fixedNormal)
+        const auto* const shape1 = potentialParticle(one);
+        const auto* const shape2 = potentialParticle(other);
+        const bool by2 = shape2 && shape2->fixedNormal;
+        if (!by2 && !(shape1 && shape1->fixedNormal))
             return false;
-        const Vector3r given = shape2.fixedNormal ? Vector3r(-shape2.boundaryNormal) : shape1.boundaryNormal;
+        const Vector3r given = by2 ? Vector3r(-shape2->boundaryNormal) : shape1->boundaryNormal;
         if (!(given.norm() > 0 && given.allFinite()))
             return false;
         normal = given.normalized();
         return true;
     }
 
+    bool areBoundaries(const Shape& one, const Shape& other)
+    {
+        const auto* const shape1 = potentialParticle(one);
+        const auto* const shape2 = potentialParticle(other);
+        return shape1 && shape2 && shape1->isBoundary && shape2->isBoundary;
+    }
+
     void copyTo(double (&array)[3], const Vector3r& vector) { std::copy_n(vector.data(), 3, array); }
 
 } // namespace
 
-struct Ig2_ConicPP_ConicPP_ScGeom::Pair {
+struct Ig2_ConicPP_ConicPP_ScGeom::Pair : PairInScene {
     const boost::shared_ptr<Shape>& cm1;
     const boost::shared_ptr<Shape>& cm2;
-    const PotentialParticle& shape1;
-    const PotentialParticle& shape2;
-    const State& state1;
-    const State& state2;
-    const Vector3r& shift2;
-    const bool force;
-    const boost::shared_ptr<Interaction>& interaction;
-    Counters::Row& counts;
-    const AcceptedSettings& settings;
-    // Both functors have run before: the pair has a history, which must not be dropped.
-    const bool real;
 
     // Where a ConicInteractionLoop runs: what it knows already.
     const BodyInStep* const body1;
@@ -92,33 +63,6 @@ struct Ig2_ConicPP_ConicPP_ScGeom::Pair {
     const Particle* particle2 = nullptr;
     std::shared_ptr<const Particle> keeper1 = nullptr;
     std::shared_ptr<const Particle> keeper2 = nullptr;
-    ScGeom* geom = nullptr;
-    ScGeomConicPP* own = nullptr; // geom, if it is one with memory
-
-    // Most pairs are answered without.
-    pp_pose pose1() const { return poseOf(state1, Vector3r::Zero()); }
-    pp_pose pose2() const { return poseOf(state2, shift2); }
-
-    Vector3r branch() const { return state2.se3.position + shift2 - state1.se3.position; }
-
-    // Finds or makes the geometry. False when another functor left one that is no ScGeom.
-    bool findGeom()
-    {
-        geom = castTo<ScGeomConicPP, ScGeom>(interaction->geom.get());
-        if (geom && typeid(*geom) == typeid(ScGeomConicPP)) {
-            own = static_cast<ScGeomConicPP*>(geom);
-            return true;
-        }
-        if (real)
-            return geom != nullptr; // of another functor or file: served without memory
-        const auto made = boost::make_shared<ScGeomConicPP>();
-        made->normal = directionOf(branch());
-        made->contactPoint = state1.se3.position + 0.5 * branch();
-        made->penetrationDepth = apart;
-        interaction->geom = made;
-        geom = own = made.get();
-        return true;
-    }
 
     void findParticles()
     {
@@ -126,8 +70,8 @@ struct Ig2_ConicPP_ConicPP_ScGeom::Pair {
             particle1 = body1->particle;
             particle2 = body2->particle;
         } else {
-            particle1 = particleOf(cm1, shape1, keeper1);
-            particle2 = particleOf(cm2, shape2, keeper2);
+            particle1 = particleOf(cm1, keeper1);
+            particle2 = particleOf(cm2, keeper2);
         }
     }
 
@@ -166,18 +110,6 @@ struct Ig2_ConicPP_ConicPP_ScGeom::Pair {
         known->carry = own ? own->carry.get() : nullptr;
         known->phys = interaction->phys.get();
     }
-
-    // Ends the step for this pair. The stored normal must still be that of the last step.
-    void precompute(const Vector3r& normal, const yade::Scene* scene)
-    {
-        geom->precompute(state1, state2, scene, interaction, normal, !real, shift2, false);
-    }
-
-    // The normal of the last step, or the line of centres (a law may have zeroed the former).
-    Vector3r lastNormal() const
-    {
-        return isUnit(geom->normal) ? geom->normal : directionOf(branch());
-    }
 };
 
 bool Ig2_ConicPP_ConicPP_ScGeom::go(const boost::shared_ptr<Shape>& cm1, const boost::shared_ptr<Shape>& cm2,
@@ -205,23 +137,8 @@ bool Ig2_ConicPP_ConicPP_ScGeom::go(const boost::shared_ptr<Shape>& cm1, const b
                 }
             }
         }
-        // The dispatcher calls with what get2DFunctorType1/2 say, or shapes derived from it.
-        Pair pair { cm1,
-                    cm2,
-                    static_cast<const PotentialParticle&>(*cm1),
-                    static_cast<const PotentialParticle&>(*cm2),
-                    state1,
-                    state2,
-                    shift2,
-                    force,
-                    interaction,
-                    counts,
-                    settings,
-                    real,
-                    body1,
-                    body2,
-                    known };
-        if (pair.shape1.isBoundary && pair.shape2.isBoundary)
+        Pair pair { { state1, state2, shift2, force, interaction, counts, settings, real }, cm1, cm2, body1, body2, known };
+        if (areBoundaries(*cm1, *cm2))
             return false;
         counts.add(Count::calls);
         pair.findParticles();
@@ -277,6 +194,11 @@ bool Ig2_ConicPP_ConicPP_ScGeom::contact(Pair& pair)
         }
         pair.noteApart(found.distance);
     }
+    return leaveApart(pair);
+}
+
+bool Ig2_ConicPP_ConicPP_ScGeom::leaveApart(PairInScene& pair)
+{
     if (!pair.real && !pair.force)
         return false;
     // The law ends the contact when it reads a negative overlap.
@@ -286,7 +208,7 @@ bool Ig2_ConicPP_ConicPP_ScGeom::contact(Pair& pair)
 }
 
 // Unknown is not separated: a contact keeps its last overlap, point and normal for this step.
-bool Ig2_ConicPP_ConicPP_ScGeom::keep(Pair& pair)
+bool Ig2_ConicPP_ConicPP_ScGeom::keep(PairInScene& pair)
 {
     if (pair.real)
         pair.precompute(pair.lastNormal(), scene);
@@ -326,7 +248,7 @@ void Ig2_ConicPP_ConicPP_ScGeom::fill(Pair& pair, pp_contact& found)
 {
     const Vector3r point(found.point);
     Vector3r normal(found.normal);
-    if (prescribedNormal(pair.shape1, pair.shape2, normal)) {
+    if (prescribedNormal(*pair.cm1, *pair.cm2, normal)) {
         // Overlap, and the points on both surfaces, along that normal through the contact point.
         const double depth1 = distanceToSurface(*pair.particle1, pair.pose1(), point, normal);
         const double depth2 = distanceToSurface(*pair.particle2, pair.pose2(), point, -normal);
@@ -345,10 +267,10 @@ void Ig2_ConicPP_ConicPP_ScGeom::fill(Pair& pair, pp_contact& found)
     geom.refR1 = pair.particle1->boundingRadius();
     geom.refR2 = pair.particle2->boundingRadius();
     pair.precompute(normal, scene);
-    fillPhysics(pair, found);
+    fillPhysics(pair, { pair.particle1, pair.pose1() }, { pair.particle2, pair.pose2() }, found);
 }
 
-void Ig2_ConicPP_ConicPP_ScGeom::fillPhysics(Pair& pair, const pp_contact& found)
+void Ig2_ConicPP_ConicPP_ScGeom::fillPhysics(PairInScene& pair, const Posed& body1, const Posed& body2, const pp_contact& found)
 {
     // In the first step of a contact YADE calls this functor before the one that makes the physics:
     // the area of that step stays 0, as with YADE's own functor. Physics of another kind have no
@@ -372,24 +294,22 @@ void Ig2_ConicPP_ConicPP_ScGeom::fillPhysics(Pair& pair, const pp_contact& found
         across.normalize();
         const Vector3r point(found.point);
         const auto reach = [&](const Vector3r& direction) {
-            return std::min(distanceToSurface(*pair.particle1, pair.pose1(), point, direction),
-                            distanceToSurface(*pair.particle2, pair.pose2(), point, direction));
+            return std::min(distanceToSurface(*body1.particle, body1.pose, point, direction),
+                            distanceToSurface(*body2.particle, body2.pose, point, direction));
         };
         phys->jointLength = reach(across) + reach(-across);
         phys->contactArea = settings.unitWidth2D * phys->jointLength;
         pair.counts.add(Count::areas);
     } else {
         double area;
-        const pp_pose pose1 = pair.pose1();
-        const pp_pose pose2 = pair.pose2();
-        requireOk(pp_contact_area(pair.particle1->handle(), &pose1, pair.particle2->handle(), &pose2, &found,
+        requireOk(pp_contact_area(body1.particle->handle(), &body1.pose, body2.particle->handle(), &body2.pose, &found,
                                   settings.areaTolerance, &area));
         phys->contactArea = area;
         pair.counts.add(Count::areas);
     }
 }
 
-void Ig2_ConicPP_ConicPP_ScGeom::fail(const Pair& pair, const std::string& why)
+void Ig2_ConicPP_ConicPP_ScGeom::fail(const PairInScene& pair, const std::string& why)
 {
     fail(*pair.interaction, pair.state1, pair.state2, pair.shift2, why.c_str());
 }

@@ -21,9 +21,10 @@ class ScGeom;
 namespace potential_particles {
 
 class Particle;
+struct PairInScene;
 
-// For two ConicPotentialParticle shapes. go() runs in many threads at once, without the lock of
-// Python: it calls no Python, and no exception leaves it.
+// For two ConicPotentialParticle shapes and, in the classes derived from it, for any two shapes that are particles. go()
+// runs in many threads at once, without the lock of Python: it calls no Python, and no exception leaves it.
 class Ig2_ConicPP_ConicPP_ScGeom : public yade::IGeomFunctor {
 public:
     Ig2_ConicPP_ConicPP_ScGeom();
@@ -41,19 +42,33 @@ public:
                    const yade::State& state1, const yade::State& state2, const yade::Vector3r& shift2,
                    const bool& force, const boost::shared_ptr<yade::Interaction>& interaction) noexcept override;
 
+protected:
+    struct Posed {
+        const Particle* particle;
+        pp_pose pose;
+    };
+
+    // Each ends the step for a pair; true if YADE is to go on with it. The first for one that does not touch, the second for
+    // one of which that is not known.
+    bool leaveApart(PairInScene& pair);
+    bool keep(PairInScene& pair);
+    // Area and points for KnKsPhys, if the pair has it.
+    void fillPhysics(PairInScene& pair, const Posed& body1, const Posed& body2, const pp_contact& found);
+    void fail(const PairInScene& pair, const std::string& why);
+    void fail(const yade::Interaction& interaction, const yade::State& state1, const yade::State& state2,
+              const yade::Vector3r& shift2, const char* why) noexcept;
+
+    Published<AcceptedSettings> accepted;
+    Counters counters;
+
 private:
     friend class boost::serialization::access;
     template <class Archive> void serialize(Archive& archive, unsigned);
 
     struct Pair; // the arguments of one call, put in order
     bool contact(Pair& pair);
-    bool keep(Pair& pair);
     pp_status detect(Pair& pair, pp_contact& found);
     void fill(Pair& pair, pp_contact& found);
-    void fillPhysics(Pair& pair, const pp_contact& found);
-    void fail(const Pair& pair, const std::string& why);
-    void fail(const yade::Interaction& interaction, const yade::State& state1, const yade::State& state2,
-              const yade::Vector3r& shift2, const char* why) noexcept;
 
     void settle();
     boost::python::list pyFailureReport() const;
@@ -68,8 +83,6 @@ private:
     // Python and archives write `written`, with Python's lock; settle() checks and publishes it. go() reads `accepted`
     // alone, once, so that settings may change at any time: each answer belongs to one whole value of them.
     ContactSettings written;
-    Published<AcceptedSettings> accepted;
-    Counters counters;
     FailureReport failures;
 };
 

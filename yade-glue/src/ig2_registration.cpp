@@ -233,6 +233,12 @@ template <class Archive> void Ig2_ConicPP_ConicPP_ScGeom::serialize(Archive& arc
         settle();
 }
 
+// For the classes derived from it elsewhere.
+template void Ig2_ConicPP_ConicPP_ScGeom::serialize(boost::archive::binary_iarchive&, unsigned);
+template void Ig2_ConicPP_ConicPP_ScGeom::serialize(boost::archive::binary_oarchive&, unsigned);
+template void Ig2_ConicPP_ConicPP_ScGeom::serialize(boost::archive::xml_iarchive&, unsigned);
+template void Ig2_ConicPP_ConicPP_ScGeom::serialize(boost::archive::xml_oarchive&, unsigned);
+
 template <class Archive> void Ig2_PP_PP_ScGeom_Conic::serialize(Archive& archive, unsigned version)
 {
     requireReadable<Ig2_PP_PP_ScGeom_Conic>(version);

@@ -8,6 +8,7 @@
 
 #include "../abi/functor.hpp"
 #include "../abi/knksphys.hpp"
+#include "../abi/primitives.hpp"
 #include "../abi/scene.hpp"
 #include "../abi/scgeom.hpp"
 #include "../abi/shape.hpp"
@@ -74,7 +75,7 @@ namespace {
         return matrix.colwise() + next<Vector3r>();
     }
     template <> std::vector<double> Values::next() { return { number(), number() }; }
-    template <> std::vector<Vector3r> Values::next() { return { next<Vector3r>(), next<Vector3r>() }; }
+    template <> std::vector<Vector3r> Values::next() { return { next<Vector3r>(), next<Vector3r>(), next<Vector3r>() }; }
 
     // One object, made by YADE's Python, seen through our declaration of its class.
     template <class Class> class Probe {
@@ -177,6 +178,20 @@ namespace {
             .field("b", &P::b)
             .field("c", &P::c)
             .field("d", &P::d);
+    }
+
+    void checkPrimitives(Differences& found)
+    {
+        Probe<yade::Sphere>(found, "Sphere").field("radius", &yade::Sphere::radius);
+        Probe<yade::Box>(found, "Box").field("extents", &yade::Box::extents);
+        Probe<yade::Wall>(found, "Wall").field("sense", &yade::Wall::sense).field("axis", &yade::Wall::axis);
+        Probe<yade::Facet> facet(found, "Facet");
+        facet.field("normal", &yade::Facet::normal).field("area", &yade::Facet::area);
+        // Python can set three vertices only, all of them at once.
+        if (facet.instance().vertices.size() != 3)
+            found.push_back("Facet.vertices: not found at its declared place");
+        else
+            facet.field("vertices", &yade::Facet::vertices);
     }
 
     void checkState(Differences& found)
@@ -435,8 +450,8 @@ namespace {
 std::vector<std::string> differencesOfLayout()
 {
     Differences found;
-    const std::array checks = { checkShape,   checkState, checkGeometry, checkPhysics, checkInteraction, checkFunctor,
-                                checkBound,   checkEngine, checkBody,    checkScene,   checkTables };
+    const std::array checks = { checkShape, checkPrimitives, checkState, checkGeometry, checkPhysics, checkInteraction, checkFunctor,
+                                checkBound, checkEngine, checkBody, checkScene, checkTables };
     for (const auto check : checks) {
         try {
             check(found);

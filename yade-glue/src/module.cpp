@@ -4,10 +4,12 @@
 #include "../abi/base.hpp"
 
 #include "load_check.hpp"
+#include "packing.hpp"
 #include "particle_store.hpp"
 #include "plane_lists.hpp"
 #include "registration.hpp"
 #include "retired.hpp"
+#include "surface_mesh.hpp"
 
 #include <boost/archive/basic_archive.hpp>
 #include <boost/python/def.hpp>
@@ -59,4 +61,7 @@ BOOST_PYTHON_MODULE(_glue)
     py::def("stored_particles", &storedParticles);
     py::def("retired_count", &pp::retiredCount);
     py::def("set_list", &setListOf);
+    py::def("surface_mesh", &pp::surfaceMesh);
+    py::def("pack", &pp::packContainer);
+    py::scope().attr("packing_choices") = pp::packingChoices();
 }

@@ -7,6 +7,7 @@
 #include "particle_store.hpp"
 
 #include <memory>
+#include <stdexcept>
 #include <typeinfo>
 
 namespace potential_particles {
@@ -19,6 +20,32 @@ inline const Particle* particleOf(const boost::shared_ptr<yade::Shape>& shape, c
         if (const Particle* particle = static_cast<const ConicPotentialParticle&>(pp).particle())
             return particle;
     keeper = ParticleStore::instance().find(shape, pp);
+    return keeper.get();
+}
+
+// Null for other shapes.
+inline const yade::PotentialParticle* potentialParticle(const yade::Shape& shape)
+{
+    if (typeid(shape) == typeid(ConicPotentialParticle) || typeid(shape) == typeid(yade::PotentialParticle))
+        return static_cast<const yade::PotentialParticle*>(&shape);
+    return dynamic_cast<const yade::PotentialParticle*>(&shape);
+}
+
+// The same for every shape that is a particle: a PotentialParticle, a Sphere or a Box. Throws std::invalid_argument for
+// others.
+inline const Particle* particleOf(const boost::shared_ptr<yade::Shape>& shape, std::shared_ptr<const Particle>& keeper)
+{
+    const yade::Shape& one = *shape;
+    if (typeid(one) == typeid(yade::Sphere))
+        keeper = ParticleStore::instance().find(shape, static_cast<const yade::Sphere&>(one));
+    else if (typeid(one) == typeid(yade::Box))
+        keeper = ParticleStore::instance().find(shape, static_cast<const yade::Box&>(one));
+    else if (const auto* pp = potentialParticle(one))
+        return particleOf(shape, *pp, keeper);
+    else if (const auto* sphere = dynamic_cast<const yade::Sphere*>(&one)) // a shape of YADE derived from it
+        keeper = ParticleStore::instance().find(shape, *sphere);
+    else
+        throw std::invalid_argument("a " + one.getClassName() + " is no particle");
     return keeper.get();
 }
 

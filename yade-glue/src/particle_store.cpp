@@ -6,6 +6,13 @@
 
 namespace potential_particles {
 
+namespace {
+
+    bool describes(const Definition& definition, const yade::PotentialParticle& shape) { return definition.describes(shape); }
+    Definition definitionOf(const yade::PotentialParticle& shape) { return Definition::of(shape); }
+
+} // namespace
+
 ParticleStore& ParticleStore::instance()
 {
     // Never destroyed: OpenMP threads may outlive the statics of this module.
@@ -16,14 +23,30 @@ ParticleStore& ParticleStore::instance()
 std::shared_ptr<const Particle> ParticleStore::find(const boost::shared_ptr<yade::Shape>& owner,
                                                     const yade::PotentialParticle& shape)
 {
+    return findOrMake(owner, shape);
+}
+
+std::shared_ptr<const Particle> ParticleStore::find(const boost::shared_ptr<yade::Shape>& owner, const yade::Sphere& shape)
+{
+    return findOrMake(owner, shape);
+}
+
+std::shared_ptr<const Particle> ParticleStore::find(const boost::shared_ptr<yade::Shape>& owner, const yade::Box& shape)
+{
+    return findOrMake(owner, shape);
+}
+
+template <class Shape>
+std::shared_ptr<const Particle> ParticleStore::findOrMake(const boost::shared_ptr<yade::Shape>& owner, const Shape& shape)
+{
     Shard& shard = shardOf(&shape);
     Definition definition;
     {
         const std::lock_guard<std::mutex> lock(shard.mutex);
         const auto found = shard.entries.find(&shape);
-        if (found != shard.entries.end() && found->second.particle->definition.describes(shape))
+        if (found != shard.entries.end() && describes(found->second.particle->definition, shape))
             return found->second.particle;
-        definition = Definition::of(shape);
+        definition = definitionOf(shape);
     }
     // Made outside the lock: two threads may both make it, which is waste and no error.
     auto made = Particle::make(std::move(definition));

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The library's particles of shapes that cannot carry one: YADE's own PotentialParticle.
+// The library's particles of shapes that cannot carry one: YADE's own PotentialParticle, Sphere and Box.
 #pragma once
 
 #include "particle.hpp"
+#include "stand_in.hpp"
 
 #include <array>
 #include <mutex>
@@ -23,6 +24,8 @@ public:
 
     std::shared_ptr<const Particle> find(const boost::shared_ptr<yade::Shape>& owner,
                                          const yade::PotentialParticle& shape);
+    std::shared_ptr<const Particle> find(const boost::shared_ptr<yade::Shape>& owner, const yade::Sphere& shape);
+    std::shared_ptr<const Particle> find(const boost::shared_ptr<yade::Shape>& owner, const yade::Box& shape);
     // Held while the lists of a shape are compared or copied here; who sets them while a step may be
     // going on holds it too (plane_lists.hpp). Nobody may ask for Python's lock while holding it.
     std::mutex& mutexOf(const yade::PotentialParticle& shape) { return shardOf(&shape).mutex; }
@@ -41,6 +44,8 @@ private:
         std::size_t sweepAt = 64;
     };
 
+    template <class Shape>
+    std::shared_ptr<const Particle> findOrMake(const boost::shared_ptr<yade::Shape>& owner, const Shape& shape);
     Shard& shardOf(const void* address);
     static void sweep(Shard& shard);
 

@@ -7,7 +7,8 @@
 #include "bound_watch.hpp"
 #include "conic_interaction_loop.hpp"
 #include "conic_potential_particle.hpp"
-#include "ig2_conic_pp.hpp"
+#include "ig2_flat_conic_pp.hpp"
+#include "ig2_other_conic_pp.hpp"
 #include "sc_geom_conic_pp.hpp"
 
 #include <boost/shared_ptr.hpp>
@@ -46,6 +47,10 @@ void registerClasses()
     registerWithFactory<Bo1_PP_Aabb_Conic>(classNames[5]);
     registerWithFactory<BoundWatch>(classNames[6]);
     registerWithFactory<ConicInteractionLoop>(classNames[7]);
+    registerWithFactory<Ig2_Sphere_ConicPP_ScGeom>(classNames[8]);
+    registerWithFactory<Ig2_Box_ConicPP_ScGeom>(classNames[9]);
+    registerWithFactory<Ig2_Wall_ConicPP_ScGeom>(classNames[10]);
+    registerWithFactory<Ig2_Facet_ConicPP_ScGeom>(classNames[11]);
 
     // The list of plugins is read once, when YADE starts; this enters classes later than that.
     Singleton<yade::Omega>::instance().buildDynlibDatabase({ std::begin(classNames), std::end(classNames) });

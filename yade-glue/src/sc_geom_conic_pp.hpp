@@ -6,6 +6,7 @@
 #include "../abi/archive.hpp"
 #include "../abi/scgeom.hpp"
 #include "kept_apart.hpp"
+#include "kept_off.hpp"
 
 #include <boost/serialization/access.hpp>
 
@@ -29,6 +30,8 @@ public:
     KeptApart apart;
     // Of a pair that touches; nor is this.
     std::unique_ptr<pp_carry> carry;
+    // Of a particle and a flat boundary, which use none of the above; nor is this.
+    std::unique_ptr<KeptOff> off;
 
 private:
     friend class boost::serialization::access;

@@ -37,8 +37,7 @@ void Step::look(BodyInStep& body, const boost::shared_ptr<yade::Shape>& shape, c
     if (seen == count)
         return;
     try {
-        const auto& potentialParticle = static_cast<const yade::PotentialParticle&>(*shape);
-        const Particle* particle = particleOf(shape, potentialParticle, body.keeper);
+        const Particle* particle = particleOf(shape, body.keeper);
         const yade::Vector3r& position = state.se3.position;
         const yade::Quaternionr& orientation = state.se3.orientation;
         const pp_pose pose = poseOf(state, yade::Vector3r::Zero());

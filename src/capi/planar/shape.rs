@@ -2,8 +2,9 @@
 
 use super::convert::{finite, pose_from};
 use super::particle::pp_particle_2d;
-use super::types::pp_pose_2d;
+use super::types::{pp_area_properties, pp_pose_2d};
 use crate::capi::fence::{borrow, fenced, output, write_rows};
+use crate::capi::shape::mass_tolerance;
 use crate::capi::status::*;
 use nalgebra::Vector2;
 
@@ -112,5 +113,55 @@ pub unsafe extern "C" fn pp_particle_surface_distance_2d(
         let unit = (direction / direction.amax()).try_normalize(0.5).ok_or(PP_BAD_POINT)?;
         distance.write(particle.surface_distance(&Vector2::zeros(), &unit).ok_or(PP_BAD_POINT)?);
         Ok(())
+    })
+}
+
+/// Area, centroid and second moments for unit density; tolerance as in pp_particle_mass_properties.
+///
+/// Errors: PP_NULL_POINTER, PP_BAD_SETTING.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn pp_particle_area_properties_2d(
+    particle: *const pp_particle_2d,
+    tolerance: f64,
+    properties: *mut pp_area_properties,
+) -> pp_status {
+    fenced(|| {
+        let particle = &unsafe { borrow(particle) }?.0;
+        let out = unsafe { output(properties) }?;
+        let found = particle.area_properties(mass_tolerance(tolerance)?);
+        let second = found.second_moment;
+        out.write(pp_area_properties {
+            area: found.area,
+            centroid: found.centroid.into(),
+            second_moment: [second.m11, second.m22, second.m12],
+            error: found.error,
+        });
+        Ok(())
+    })
+}
+
+/// Points of the boundary, local frame, in order: rows of x, y. No chord between two of them is farther than
+/// tolerance (length, above 0) from the boundary; there are about a million at most.
+///
+/// points: room for capacity rows; may be NULL when capacity is 0. count: receives the number of
+/// points, also when the buffer is too small (PP_BUFFER_TOO_SMALL), so that one call asks the size.
+/// Pointers: points is valid for writing 2*capacity doubles.
+/// Errors: PP_NULL_POINTER, PP_BAD_SETTING, PP_BUFFER_TOO_SMALL.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn pp_particle_outline_2d(
+    particle: *const pp_particle_2d,
+    tolerance: f64,
+    points: *mut f64,
+    capacity: usize,
+    count: *mut usize,
+) -> pp_status {
+    fenced(|| {
+        let particle = &unsafe { borrow(particle) }?.0;
+        if !(tolerance > 0.0 && tolerance.is_finite()) {
+            return Err(PP_BAD_SETTING);
+        }
+        let rows: Vec<[f64; 2]> = particle.outline(tolerance).into_iter().map(|point| point.into()).collect();
+        // SAFETY: the caller promised 2*capacity doubles.
+        unsafe { write_rows(rows.into_iter(), points, capacity, count) }
     })
 }

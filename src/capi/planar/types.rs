@@ -84,3 +84,18 @@ pub struct pp_closest_2d {
     /// The point minus position of B.
     pub branch_b: [f64; 2],
 }
+
+/// Area and second moments of a particle of the plane of unit density, in its local frame.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct pp_area_properties {
+    /// Area, length^2.
+    pub area: f64,
+    /// Centroid, local frame.
+    pub centroid: [f64; 2],
+    /// xx, yy, xy of the integral of x x^T dA about the local origin, length^4. xx + yy is the moment of inertia
+    /// of a body that turns in the plane.
+    pub second_moment: [f64; 3],
+    /// Estimated bound on the relative error, as in struct pp_mass_properties.
+    pub error: f64,
+}

@@ -11,25 +11,33 @@ Then these classes stand beside YADE's own:
     Ig2_ConicPP_ConicPP_ScGeom   its contact functor
     Ig2_PP_PP_ScGeom_Conic       the same for plain PotentialParticle shapes too: put it in the
                                  place of Ig2_PP_PP_ScGeom
+    Ig2_Sphere_ConicPP_ScGeom, Ig2_Box_ConicPP_ScGeom, Ig2_Wall_ConicPP_ScGeom, Ig2_Facet_ConicPP_ScGeom
+                                 contacts of either with YADE's own shapes
     ScGeomConicPP                the ScGeom that they fill
+
+potential_particles.shapes makes shapes from planes, points, files and names of solids, and body() a YADE body of one.
+pack() fills a container with many, add_packing() makes bodies of them; potential_particles.boundaries has walls and funnels.
 
 Before, the classes of the YADE that runs are compared with what the plugin was compiled for. One that
 differs is refused with AbiError, which lists the differences, and nothing is registered; one that fits
 and was never tested is taken, with a warning of one line.
 
 Of YADE's own classes the import replaces three functions, which do as before: O.run and O.step look our functors up
-when there are several threads (prepare), and O.load says what to do about a scene of another YADE. The lists of
+when there are several threads (prepare) and warn of shapes that no functor serves, and O.load says what to do about a scene of another YADE. The lists of
 PotentialParticle are set under a lock. protect_runs() replaces more, for those who ask for it.
 """
 import builtins
 import functools
 
 from . import builds
+from .bodies import body
 from .outside import protect_runs
+from .packing import add_packing, pack
 
 __version__ = "0.1.0"
 
-__all__ = ["AbiError", "library_version", "prepare", "protect_runs"]
+__all__ = ["AbiError", "Mesh", "Recorder", "add_packing", "body", "library_version", "mesh", "pack", "plot", "prepare",
+           "protect_runs", "save_mesh"]
 
 
 class AbiError(ImportError):
@@ -153,16 +161,27 @@ def _look_up(single, double, arguments):
 def _prepare_ours(yade):
     """prepare() for our shapes alone, which takes the same few microseconds in a scene of any size."""
     bounds, geometry, _ = _dispatchers(yade)
-    _look_up(bounds, geometry, [yade.wrapper.ConicPotentialParticle(), yade.wrapper.PotentialParticle()])
+    ours = [yade.wrapper.ConicPotentialParticle(), yade.wrapper.PotentialParticle()]
+    _look_up(bounds, geometry, ours)
+    for other in [getattr(yade.wrapper, name)() for name in ("Sphere", "Box", "Wall", "Facet")]:
+        for one in ours:
+            for dispatcher in geometry:
+                dispatcher.dispFunctor(one, other)
+                dispatcher.dispFunctor(other, one)
 
 
 def _prepare_before_steps(yade):
-    """O.run and O.step, as they are, but for the look-up of our functors before them."""
+    """O.run and O.step, as they are, but for what is looked at before them."""
+    from . import unserved
+    watch = unserved.Watch()
+
     def preparing(method):
         @functools.wraps(method)
         def prepared(self, *arguments, **keywords):
-            if self.numThreads > 1 and not self.running:
-                _prepare_ours(yade)
+            if not self.running:
+                if self.numThreads > 1:
+                    _prepare_ours(yade)
+                watch.look(self, _dispatchers(yade)[1])
             return method(self, *arguments, **keywords)
         return prepared
 
@@ -193,3 +212,6 @@ def _load():
 
 
 _glue = _load()
+
+# After the classes that they serve.
+from .output import Mesh, Recorder, mesh, plot, save_mesh  # noqa: E402, F401

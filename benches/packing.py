@@ -1,0 +1,138 @@
+# SPDX-License-Identifier: MIT OR Apache-2.0
+"""How long it takes to pack 10,000 rocks, how densely they lie, and whether any two overlap.
+
+    scripts/yade.sh -j2 benches/packing.py [BODIES]
+
+Results go to out/packing: summary.json with targets, packing.png. Leave the machine alone meanwhile: times are those of the clock
+on the wall; the processor's own seconds stand beside them.
+"""
+
+import resource
+import sys
+import time
+from pathlib import Path
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt
+import numpy as np
+
+TOP = Path(__file__).resolve().parents[1]
+sys.path.insert(0, str(TOP / "examples"))
+
+import machine
+import potential_particles
+import yade
+from picture import Bodies, Floor, framing_view, render
+from potential_particles import add_packing, pack, packing, shapes
+from potential_surface import PotentialSurface
+from summary import print_table, write_summary
+from yade import O
+
+OUT = TOP / "out" / "packing"
+THREADS = 2
+# By mass: sizes between 0.7 and 1.4, evenly spread.
+GRADING = [(0.7, 0.0), (1.4, 1.0)]
+
+
+def main():
+    count = int(sys.argv[1]) if len(sys.argv) > 1 else 10_000
+    OUT.mkdir(parents=True, exist_ok=True)
+    rocks = [shapes.random_rock(seed, elongation=0.8, flatness=0.75) for seed in range(20)]
+    # The mean volume of the rocks as they are, by which the container is chosen.
+    edge = (count / 10_000) ** (1 / 3) * 20.0
+    runs = {}
+    for name, dense, sizes, height in [
+        ("scattered", False, 1.0, 2.0 * edge), ("settled", True, 1.0, 2.0 * edge), ("settled, graded", True, GRADING, 2.0 * edge),
+    ]:
+        space = packing.Box((0, 0, 0), (edge, edge, height))
+        runs[name], placements = measured(space, rocks, sizes, count, dense)
+        print(f"  {name}: {runs[name]}", flush=True)
+        if name == "settled, graded":
+            draw(placements, edge)
+    targets = compare(runs, count)
+    write_summary(OUT / "summary.json", {
+        "targets": targets, "runs": runs, "bodies": count, "threads": THREADS,
+        "machine": machine.machine_line(), "date": machine.now(), "command": "scripts/yade.sh -j2 benches/packing.py",
+    })
+    rows = [(one["name"], f"{one['measured']:.3g} ({one['sense']} {one['target']}: {'met' if one['met'] else 'MISSED'})") for one in targets]
+    print_table([*rows, ("results", f"{OUT}: summary.json, packing.png")])
+
+
+def measured(space, rocks, sizes, count, dense):
+    clock, used = time.monotonic(), processor_seconds()
+    passing = "passing" if hasattr(sizes, "__len__") else "number"
+    placements = pack(space, rocks, sizes, count, dense=dense, seed=1, threads=THREADS, shares=passing)
+    seconds, used = time.monotonic() - clock, processor_seconds() - used
+    area = space.upper[0] * space.upper[1]
+    top = max(one.position[2] for one in placements)
+    # Free of the floor and of the rough surface.
+    low, high = 0.1 * top, 0.8 * top
+    return {
+        "bodies": len(placements), "seconds": seconds, "processor_seconds": used,
+        "solid_fraction_of_the_middle": packing.solid_volume(placements, low, high) / (area * (high - low)),
+        "overlapping": overlapping(placements),
+    }, placements
+
+
+def overlapping(placements):
+    """Contacts of the bodies in a scene of YADE, in its first step."""
+    O.reset()
+    O.materials.append(yade.FrictMat(density=2600))
+    contacts = yade.Ig2_ConicPP_ConicPP_ScGeom()
+    O.engines = [
+        yade.ForceResetter(), yade.InsertionSortCollider([yade.Bo1_ConicPP_Aabb()], verletDist=0),
+        yade.InteractionLoop([contacts], [yade.Ip2_FrictMat_FrictMat_KnKsPhys()], [yade.Law2_SCG_KnKsPhys_KnKsLaw()]),
+    ]
+    add_packing(placements)
+    O.step()
+    if contacts.failures:
+        raise SystemExit(f"packing.py: {contacts.failures} pairs were not solved")
+    return contacts.overlapping
+
+
+def processor_seconds():
+    used = resource.getrusage(resource.RUSAGE_SELF)
+    return used.ru_utime + used.ru_stime
+
+
+def compare(runs, count):
+    rows = [
+        (f"{count:,} rocks settled, seconds on {THREADS} cores", runs["settled"]["seconds"], "<=", 60.0),
+        (f"{count:,} rocks scattered, seconds on {THREADS} cores", runs["scattered"]["seconds"], "<=", 60.0),
+        ("solid fraction of the settled rocks, in the middle", runs["settled"]["solid_fraction_of_the_middle"], ">=", 0.5),
+        ("pairs that overlap", sum(run["overlapping"] for run in runs.values()), "<=", 0),
+        ("rocks without a place", sum(count - run["bodies"] for run in runs.values()), "<=", 0),
+    ]
+    return [{"name": name, "sense": sense, "target": target, "measured": found,
+             "met": bool(found <= target if sense == "<=" else found >= target)} for name, found, sense, target in rows]
+
+
+def draw(placements, edge):
+    """The packing from above and aside; of its inside, which nobody sees, nothing."""
+    states = [(body, body.state) for body in O.bodies]
+    top = max(state.pos[2] for _, state in states)
+    deep = 2.0
+    seen = [(body, state) for body, state in states
+            if state.pos[2] > top - 2 * deep or state.pos[0] > edge - deep or state.pos[1] < deep]
+    surfaces = []
+    for body, _ in seen:
+        planes = np.array(body.shape.planes)
+        surfaces.append(PotentialSurface(planes[:, :3], planes[:, 3], body.shape.r, body.shape.k, body.shape.R))
+    size = np.array([body.state.mass for body, _ in seen]) ** (1 / 3)
+    colours = plt.get_cmap("YlOrBr")(0.75 - 0.5 * (size - size.min()) / np.ptp(size))[:, :3]
+    bodies = Bodies(
+        surfaces, np.array([body.shape.boundingRadius for body, _ in seen]),
+        np.array([tuple(state.pos) for _, state in seen]) - (0.5 * edge, 0.5 * edge, 0.0),
+        np.array([np.array(state.ori.toRotationMatrix()).reshape(3, 3) for _, state in seen]), colours,
+    )
+    half = 0.5 * edge
+    corners = [(x, y, z) for x in (-half, half) for y in (-half, half) for z in (0.0, top)]
+    view = framing_view(corners, np.array([0.8, -1.0, 0.75]), 0.5, 1.3)
+    image = render(bodies, Floor(0.0, 3.0 * edge), view, 910, 700)
+    # Few colours are enough, and make a small file.
+    plt.imsave(OUT / "packing.png", np.round(image * 63) / 63)
+
+
+main()

@@ -1,0 +1,176 @@
+//! The contact of a particle with a flat boundary.
+
+use super::convert::{detect_status, kind_code, pose_from, settings_from};
+use super::fence::{Output, borrow, fenced, output};
+use super::particle::pp_particle;
+use super::status::*;
+use super::types::*;
+use crate::{BoundaryError, DetectError, Feature, FlatContact, Section, Triangle, Wall};
+use crate::{contact_with_plane, contact_with_triangle};
+
+/// The point on the boundary lies on the plane, or inside the triangle.
+pub const PP_ON_INTERIOR: u32 = 0;
+/// It lies on the edge from vertex 0 to 1; PP_ON_EDGE + 1: from 1 to 2; PP_ON_EDGE + 2: from 2 to 0.
+pub const PP_ON_EDGE: u32 = 1;
+/// It is vertex 0; PP_ON_VERTEX + i: vertex i.
+pub const PP_ON_VERTEX: u32 = 4;
+
+/// The contact of a particle A with a flat boundary T, a plane or a closed triangle of no thickness. World
+/// axes; lengths in the caller's unit; s and gap have no unit. Fields that do not apply are NaN.
+///
+/// x*, the point of T where the scale s of A is least, decides: A touches T where it is below 1.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct pp_flat_contact {
+    /// PP_SEPARATED or PP_OVERLAPPING. A failed solve has no kind: it returns a status.
+    pub kind: i32,
+    /// Where on T the point x* lies: PP_ON_INTERIOR, PP_ON_EDGE + i or PP_ON_VERTEX + i.
+    pub feature: u32,
+    /// Sum of PP_FLAG_... bits: REJECTED with BY_SPHERES or BY_FACE, ROUNDING_LIMITED,
+    /// DEFAULT_REGULARISATION, NORMAL_BY_BOUNDARY.
+    pub flags: u32,
+    /// Quadratics solved.
+    pub iterations: u32,
+    /// Scale of A at x*, the least on T. Rejected: a lower bound, >= 1. The same bits for the same particle,
+    /// pose and boundary, and on an edge or vertex for every triangle that has it: of the triangles of a mesh
+    /// the one with the least s (of equal ones, the first) owns the contact at a seam.
+    pub s: f64,
+    /// Bound on the error of s, with rounding to first order (as in struct pp_contact for doubles).
+    pub gap: f64,
+    /// Estimated bound on the distance of on_boundary to the exact x*, length.
+    pub point_bound: f64,
+    /// Distance from x* along the normal to the surface of A (YADE: penetrationDepth), length, > 0 when
+    /// overlapping; NaN when separated.
+    pub overlap: f64,
+    /// Separated: lower bound on the distance between A and T, length; 0 when none is known. NaN when
+    /// overlapping.
+    pub distance: f64,
+    /// Unit normal from A to T: the gradient of S_A at x*; inside T exactly the normal of T or its opposite.
+    pub normal: [f64; 3],
+    /// Contact point, halfway between on_boundary and on_particle, world frame; x* when separated.
+    pub point: [f64; 3],
+    /// Contact point minus position of A: exact lever arm even far from the world origin.
+    pub branch: [f64; 3],
+    /// x*, world frame.
+    pub on_boundary: [f64; 3],
+    /// The point of the surface of A beyond x* along the normal, world frame; NaN when separated.
+    pub on_particle: [f64; 3],
+}
+
+/// Finds the contact of particle A at pose_a with the plane through a point (world frame) with this normal
+/// (of any length). A may touch it from either side; where its centre lies on the plane to rounding, A counts
+/// as in front of it (PP_FLAG_NORMAL_BY_BOUNDARY).
+///
+/// settings: may be NULL (defaults); gap_tolerance, flat_regularisation and solve_separated count.
+/// Pointers: point and normal hold 3 numbers each.
+/// Errors: PP_NULL_POINTER, PP_BAD_POSITION, PP_BAD_ORIENTATION, PP_BAD_POINT, PP_UNKNOWN_FORMULATION,
+/// PP_UNKNOWN_BACK_END, PP_NO_CONIC, PP_BAD_SETTING, PP_SOLVER_FAILED.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn pp_contact_plane(
+    a: *const pp_particle,
+    pose_a: *const pp_pose,
+    point: *const f64,
+    normal: *const f64,
+    settings: *const pp_settings,
+    out: *mut pp_flat_contact,
+) -> pp_status {
+    fenced(|| {
+        let (a, pose) = unsafe { (&borrow(a)?.0, pose_from(borrow(pose_a)?)?) };
+        let (point, normal) = unsafe { (borrow(point.cast::<[f64; 3]>())?, borrow(normal.cast::<[f64; 3]>())?) };
+        let out = unsafe { output(out) }?;
+        let settings = settings_from(unsafe { settings.as_ref() })?;
+        let wall = Wall::new(*point, *normal).map_err(boundary_status)?;
+        write(contact_with_plane(a, &pose, &wall, &settings), &out)
+    })
+}
+
+/// Finds the contact of particle A at pose_a with a closed triangle, which A may touch from either side.
+///
+/// vertices: three points, world frame, one after the other; seen from the front they run
+/// counter-clockwise. Where the centre of A lies on the triangle to rounding, A counts as in front of it
+/// (PP_FLAG_NORMAL_BY_BOUNDARY).
+/// settings: may be NULL (defaults); gap_tolerance, flat_regularisation and solve_separated count.
+/// Pointers: vertices holds 9 numbers.
+/// Errors: those of pp_contact_plane, and PP_DEGENERATE_TRIANGLE.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn pp_contact_triangle(
+    a: *const pp_particle,
+    pose_a: *const pp_pose,
+    vertices: *const f64,
+    settings: *const pp_settings,
+    out: *mut pp_flat_contact,
+) -> pp_status {
+    fenced(|| {
+        let (a, pose) = unsafe { (&borrow(a)?.0, pose_from(borrow(pose_a)?)?) };
+        let [x0, y0, z0, x1, y1, z1, x2, y2, z2] = *unsafe { borrow(vertices.cast::<[f64; 9]>()) }?;
+        let out = unsafe { output(out) }?;
+        let settings = settings_from(unsafe { settings.as_ref() })?;
+        let triangle = Triangle::new([[x0, y0, z0], [x1, y1, z1], [x2, y2, z2]]).map_err(boundary_status)?;
+        write(contact_with_triangle(a, &pose, &triangle, &settings), &out)
+    })
+}
+
+/// Contact area with a flat boundary: the area of the cut that the plane through the contact point, normal to
+/// the contact normal, makes through the particle. (It is not cut off at the edges of a triangle.)
+///
+/// contact: an overlapping answer of pp_contact_plane or pp_contact_triangle for the same particle and pose.
+/// relative_tolerance: in [1e-12, 0.1], as for pp_contact_area. area: receives length^2; 0 when separated.
+/// Errors: PP_NULL_POINTER, PP_BAD_POSITION, PP_BAD_ORIENTATION, PP_BAD_POINT (the contact was not filled, or
+/// its point is outside the particle), PP_BAD_SETTING.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn pp_flat_contact_area(
+    a: *const pp_particle,
+    pose_a: *const pp_pose,
+    contact: *const pp_flat_contact,
+    relative_tolerance: f64,
+    area: *mut f64,
+) -> pp_status {
+    fenced(|| {
+        let (a, pose) = unsafe { (&borrow(a)?.0, pose_from(borrow(pose_a)?)?) };
+        let contact = unsafe { borrow(contact) }?;
+        let out = unsafe { output(area) }?;
+        if !(1e-12..=0.1).contains(&relative_tolerance) {
+            return Err(PP_BAD_SETTING);
+        }
+        let branch = contact.branch.into();
+        let section = Section { branch_a: branch, branch_b: branch, normal: contact.normal.into() };
+        out.write(match contact.kind {
+            PP_OVERLAPPING => section.area(a, &pose, a, &pose, relative_tolerance).ok_or(PP_BAD_POINT)?,
+            PP_SEPARATED => 0.0,
+            _ => return Err(PP_BAD_POINT),
+        });
+        Ok(())
+    })
+}
+
+fn boundary_status(error: BoundaryError) -> pp_status {
+    match error {
+        BoundaryError::Point(..) | BoundaryError::Normal(..) => PP_BAD_POINT,
+        BoundaryError::Area(_) => PP_DEGENERATE_TRIANGLE,
+    }
+}
+
+fn write(found: Result<FlatContact, DetectError>, out: &Output<pp_flat_contact>) -> Result<(), pp_status> {
+    let found = found.map_err(|error| detect_status(&error))?;
+    out.write(pp_flat_contact {
+        kind: kind_code(found.kind),
+        feature: match found.feature {
+            Feature::Interior => PP_ON_INTERIOR,
+            Feature::Edge(i) => PP_ON_EDGE + u32::from(i),
+            Feature::Vertex(i) => PP_ON_VERTEX + u32::from(i),
+        },
+        flags: found.flags.bits(),
+        iterations: found.iterations,
+        s: found.s,
+        gap: found.gap,
+        point_bound: found.point_bound,
+        overlap: found.overlap,
+        distance: found.distance,
+        normal: found.normal.into(),
+        point: found.point.into(),
+        branch: found.branch.into(),
+        on_boundary: found.on_boundary.into(),
+        on_particle: found.on_particle.into(),
+    });
+    Ok(())
+}

@@ -1,0 +1,186 @@
+//! Packings over the C boundary: bodies are handed over as they find their places.
+
+use super::fence::{array, borrow, fenced};
+use super::particle::{pp_particle, write_message};
+use super::status::*;
+use super::types::pp_pose;
+use crate::Particle;
+use crate::packing::{Arrangement, Container, PackError, Packing, Placement, Sizes, pack};
+use std::ffi::{c_char, c_void};
+
+/// A box, sides along the axes.
+pub const PP_BOX: u32 = 0;
+/// The upright cylinder that stands in a box, as wide as its smaller width.
+pub const PP_CYLINDER: u32 = 1;
+
+/// Bodies anywhere in the container, the largest first: random sequential addition.
+pub const PP_SCATTERED: u32 = 0;
+/// Each body as low as it gets, from the bottom upwards: a loose packing.
+pub const PP_SETTLED: u32 = 1;
+
+/// Rows of sizes: a size, and its share of the number of bodies; shares add up to 1.
+pub const PP_BY_NUMBER: u32 = 0;
+/// Rows of sizes: a size, and its share of the mass; shares add up to 1.
+pub const PP_BY_MASS: u32 = 1;
+/// Rows of sizes: a grading curve, linear between its rows: a size, and the share of the mass in bodies
+/// below it; both grow, the shares from 0 to 1.
+pub const PP_PASSING: u32 = 2;
+
+/// What pp_pack fills, and how.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct pp_packing {
+    /// PP_BOX or PP_CYLINDER.
+    pub container: u32,
+    /// PP_SCATTERED or PP_SETTLED.
+    pub arrangement: u32,
+    /// What the rows of sizes mean: PP_BY_NUMBER, PP_BY_MASS or PP_PASSING.
+    pub shares: u32,
+    /// Threads that work on it, the calling one among them: 0 and 1 mean the calling thread alone.
+    pub threads: u32,
+    /// Lowest corner of the box, or of that about the cylinder; world frame, z upwards, length.
+    pub lower: [f64; 3],
+    /// Highest corner of it.
+    pub upper: [f64; 3],
+    /// Least distance between two bodies, and twice that of a body to the container, length. Bodies are a
+    /// millionth of their size apart in any case.
+    pub margin: f64,
+    /// The same seed gives the same packing, whatever the number of threads.
+    pub seed: u64,
+    /// How many bodies; 0: as many as fit (PP_SETTLED only).
+    pub number: u64,
+}
+
+/// A body of a packing: a shape, scaled, at a pose.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct pp_placement {
+    /// Where it is.
+    pub pose: pp_pose,
+    /// Factor by which d, r and R of the shape are multiplied.
+    pub scale: f64,
+    /// Index into the shapes.
+    pub shape: u32,
+    /// Always 0.
+    pub reserved: u32,
+}
+
+/// Receives bodies that have found their places, in the calling thread, several times during pp_pack; also
+/// with a count of 0, when none has for a while. Returns 0 to go on; anything else ends the packing, and
+/// what was handed over is it. context: as given to pp_pack. No exception may leave it.
+pub type pp_placed =
+    Option<unsafe extern "C" fn(context: *mut c_void, placements: *const pp_placement, count: usize) -> i32>;
+
+/// Fills a box or an upright cylinder with bodies of random orientation that do not overlap, as
+/// pp_contact_detect decides.
+///
+/// shapes: shape_count particles, each as likely as the others. sizes: size_count rows of a size and a
+/// share, see struct pp_packing; a size is the diameter of a ball of the body's volume. May be NULL when
+/// size_count is 0: shapes as they are.
+/// placed: receives the bodies; see pp_placed. The packing ends with the number asked for, when placed ends
+/// it, or when no further body finds a place: then fewer have been handed over.
+/// message: receives, on failure, a sentence that names the value (may be NULL).
+/// Pointers: shapes points to shape_count particles, sizes to 2*size_count doubles, message to message_size
+/// bytes; placed is a function.
+/// Errors: PP_NULL_POINTER, PP_BAD_PACKING.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn pp_pack(
+    shapes: *const *const pp_particle,
+    shape_count: usize,
+    sizes: *const f64,
+    size_count: usize,
+    how: *const pp_packing,
+    placed: pp_placed,
+    context: *mut c_void,
+    message: *mut c_char,
+    message_size: usize,
+) -> pp_status {
+    let status = fenced(|| {
+        let handles = unsafe { array(shapes, shape_count) }?;
+        // SAFETY: each is NULL or a particle.
+        let shapes = handles.iter().map(|&shape| unsafe { borrow(shape) }.map(|particle| particle.0.clone()));
+        let shapes: Vec<Particle> = shapes.collect::<Result<_, _>>()?;
+        // SAFETY: the caller promised 2*size_count doubles.
+        let rows = unsafe { array(sizes.cast::<[f64; 2]>(), size_count) }?;
+        let how = unsafe { borrow(how) }?;
+        let placed = placed.ok_or(PP_NULL_POINTER)?;
+        let mut handed_over = 0;
+        let hand_over = |all: &[Placement]| {
+            let new: Vec<pp_placement> = all[handed_over..].iter().map(placement_to).collect();
+            handed_over = all.len();
+            // SAFETY: the caller's function, with what it asks for.
+            unsafe { placed(context, new.as_ptr(), new.len()) == 0 }
+        };
+        filled(&shapes, rows, how, hand_over).map_err(|why| {
+            // SAFETY: the caller promised message_size bytes.
+            unsafe { write_message(&why, message, message_size) };
+            PP_BAD_PACKING
+        })
+    });
+    if status == PP_NULL_POINTER {
+        // SAFETY: the caller promised message_size bytes.
+        unsafe { write_message("shapes, how and placed must not be NULL", message, message_size) };
+    }
+    status
+}
+
+/// Packs; an error is its sentence.
+fn filled(
+    shapes: &[Particle],
+    rows: &[[f64; 2]],
+    how: &pp_packing,
+    hand_over: impl FnMut(&[Placement]) -> bool,
+) -> Result<(), String> {
+    let say = |error: PackError| error.to_string();
+    let packing = packing_from(how)?;
+    let container = container_from(how)?.map_err(say)?;
+    let sizes = sizes_from(how.shares, rows)?.map_err(say)?;
+    pack(&container, shapes, &sizes, &packing, hand_over).map(|_| ()).map_err(say)
+}
+
+fn packing_from(how: &pp_packing) -> Result<Packing, String> {
+    Ok(Packing {
+        arrangement: match how.arrangement {
+            PP_SCATTERED => Arrangement::Scattered,
+            PP_SETTLED => Arrangement::Settled,
+            other => return Err(format!("arrangement {other} is unknown: use PP_SCATTERED or PP_SETTLED")),
+        },
+        number: usize::try_from(how.number).ok().filter(|&number| number > 0),
+        margin: how.margin,
+        seed: how.seed,
+        threads: how.threads as usize,
+    })
+}
+
+fn container_from(how: &pp_packing) -> Result<Result<Container, PackError>, String> {
+    let (lower, upper) = (how.lower, how.upper);
+    match how.container {
+        PP_BOX => Ok(Container::cuboid(lower, upper)),
+        PP_CYLINDER => {
+            let middle = |axis: usize| lower[axis] + 0.5 * (upper[axis] - lower[axis]);
+            let radius = 0.5 * (upper[0] - lower[0]).min(upper[1] - lower[1]);
+            Ok(Container::cylinder([middle(0), middle(1), lower[2]], radius, upper[2] - lower[2]))
+        }
+        other => Err(format!("container {other} is unknown: use PP_BOX or PP_CYLINDER")),
+    }
+}
+
+fn sizes_from(shares: u32, rows: &[[f64; 2]]) -> Result<Result<Sizes, PackError>, String> {
+    match shares {
+        _ if rows.is_empty() => Ok(Ok(Sizes::as_given())),
+        PP_BY_NUMBER => Ok(Sizes::by_number(rows)),
+        PP_BY_MASS => Ok(Sizes::by_mass(rows)),
+        PP_PASSING => Ok(Sizes::passing(rows)),
+        other => Err(format!("shares {other} is unknown: use PP_BY_NUMBER, PP_BY_MASS or PP_PASSING")),
+    }
+}
+
+fn placement_to(placement: &Placement) -> pp_placement {
+    pp_placement {
+        pose: pp_pose { position: (*placement.pose.position()).into(), orientation: placement.pose.orientation() },
+        scale: placement.scale,
+        // Fewer shapes than 2³² fit into memory.
+        shape: placement.shape as u32,
+        reserved: 0,
+    }
+}

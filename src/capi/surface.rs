@@ -1,0 +1,61 @@
+//! The surface of a particle as a mesh.
+
+use super::fence::{borrow, fenced, output, outputs};
+use super::particle::pp_particle;
+use super::status::*;
+use crate::{MeshError, SurfaceMesh};
+
+/// A closed mesh of triangles inside the particle, its corners on the surface, local frame.
+///
+/// tolerance: the largest distance from the surface to the mesh, over the bounding radius; in [1e-5, 1].
+/// vertices: room for vertex_capacity rows of x, y, z. normals: the same for the outward unit normals of
+/// the surface at the vertices; NULL when not wanted. triangles: room for triangle_capacity rows of
+/// three indices of vertices, from 0, counter-clockwise from outside. Buffers may be NULL when their
+/// capacity is 0.
+/// vertex_count, triangle_count: receive the numbers, also when a buffer is too small
+/// (PP_BUFFER_TOO_SMALL), so that one call asks the size; it takes as long as one that fills the buffers.
+/// error: receives the bound on the distance from any point of the surface to the mesh, length. May be
+/// NULL.
+/// Errors: PP_NULL_POINTER, PP_BAD_TOLERANCE, PP_BUFFER_TOO_SMALL, PP_SOLVER_FAILED (rounding leaves no
+/// surface: scale the particle to a size near 1).
+/// Pointers: Pointers are NULL or valid for writing what they have room for.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn pp_particle_mesh(
+    particle: *const pp_particle,
+    tolerance: f64,
+    vertices: *mut f64,
+    normals: *mut f64,
+    vertex_capacity: usize,
+    vertex_count: *mut usize,
+    triangles: *mut u32,
+    triangle_capacity: usize,
+    triangle_count: *mut usize,
+    error: *mut f64,
+) -> pp_status {
+    fenced(|| {
+        let particle = &unsafe { borrow(particle) }?.0;
+        let (vertex_count, triangle_count) = unsafe { (output(vertex_count)?, output(triangle_count)?) };
+        let mesh = SurfaceMesh::of(particle, tolerance).map_err(|error| match error {
+            MeshError::Tolerance(_) => PP_BAD_TOLERANCE,
+            MeshError::NoSurface => PP_SOLVER_FAILED,
+        })?;
+        let (points, faces) = (mesh.vertices.len(), mesh.triangles.len());
+        let fits = points <= vertex_capacity && faces <= triangle_capacity;
+        if fits {
+            // SAFETY: the caller promised 3*vertex_capacity doubles each and 3*triangle_capacity integers.
+            let vertices = unsafe { outputs(vertices.cast::<[f64; 3]>(), points) }?;
+            let triangles = unsafe { outputs(triangles.cast::<[u32; 3]>(), faces) }?;
+            let wanted = if normals.is_null() { 0 } else { points };
+            let normals = unsafe { outputs(normals.cast::<[f64; 3]>(), wanted) }?;
+            vertices.iter_mut().zip(&mesh.vertices).for_each(|(place, vertex)| _ = place.write((*vertex).into()));
+            normals.iter_mut().zip(&mesh.normals).for_each(|(place, normal)| _ = place.write((*normal).into()));
+            triangles.iter_mut().zip(&mesh.triangles).for_each(|(place, triangle)| _ = place.write(*triangle));
+        }
+        vertex_count.write(points);
+        triangle_count.write(faces);
+        if let Ok(error) = unsafe { output(error) } {
+            error.write(mesh.error);
+        }
+        if fits { Ok(()) } else { Err(PP_BUFFER_TOO_SMALL) }
+    })
+}

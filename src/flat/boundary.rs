@@ -1,0 +1,92 @@
+//! Planes and triangles as given, checked.
+
+use nalgebra::Vector3;
+use thiserror::Error;
+
+/// Why numbers do not make a flat boundary.
+#[derive(Clone, Copy, Debug, Error, PartialEq)]
+#[non_exhaustive]
+pub enum BoundaryError {
+    /// A point of the boundary is not finite.
+    #[error("point ({0:?}, {1:?}, {2:?}) of a boundary is not finite: leave out boundaries without a place")]
+    Point(f64, f64, f64),
+    /// The normal of a plane has no direction.
+    #[error("normal ({0:?}, {1:?}, {2:?}) of a plane has no direction: give a finite vector that is not zero")]
+    Normal(f64, f64, f64),
+    /// The corners of a triangle lie on a line, as far as doubles tell.
+    #[error("a triangle has the area {0:e}, which is zero to rounding: remove it from the mesh")]
+    Area(f64),
+}
+
+/// A plane, which a particle touches from either side.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Wall {
+    /// Any point of it, world frame.
+    pub(super) point: Vector3<f64>,
+    /// Unit normal, world frame.
+    pub(super) normal: Vector3<f64>,
+}
+
+impl Wall {
+    /// Through a point, with a normal of any length.
+    ///
+    /// # Errors
+    /// A point or normal that is not finite, or a normal of length zero.
+    pub fn new(point: [f64; 3], normal: [f64; 3]) -> Result<Self, BoundaryError> {
+        let [x, y, z] = normal;
+        let normal = direction(&normal.into()).ok_or(BoundaryError::Normal(x, y, z))?;
+        Ok(Self { point: finite(point)?, normal })
+    }
+}
+
+/// A closed triangle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Triangle {
+    /// World frame.
+    pub(super) vertices: [Vector3<f64>; 3],
+    /// Unit normal, world frame: from its front the vertices run counter-clockwise.
+    pub(super) normal: Vector3<f64>,
+    /// The vertex between the two shorter sides, from which the normal is known best.
+    pub(super) base: usize,
+    /// What the sides at `base` make of the rounding of the normal: 1/sin of their angle.
+    pub(super) condition: f64,
+}
+
+/// Sine of the angle between the two shorter sides, below which it is rounding: each side is off by a unit of rounding, and so
+/// is each product of their components.
+const FLAT: f64 = 16.0 * f64::EPSILON;
+
+impl Triangle {
+    /// With these vertices.
+    ///
+    /// # Errors
+    /// A vertex that is not finite, or vertices on one line (to rounding).
+    pub fn new(vertices: [[f64; 3]; 3]) -> Result<Self, BoundaryError> {
+        let [a, b, c] = vertices;
+        let vertices = [finite(a)?, finite(b)?, finite(c)?];
+        let opposite = |i: usize| vertices[(i + 2) % 3] - vertices[(i + 1) % 3];
+        let length = |i: usize| opposite(i).amax();
+        let base = (0..3).fold(0, |longest, i| if length(i) > length(longest) { i } else { longest });
+        // In units of the longest side no product leaves the range of doubles.
+        let unit = length(base);
+        let (next, last) = ((base + 1) % 3, (base + 2) % 3);
+        let sides = [next, last].map(|i| (vertices[i] - vertices[base]) / unit);
+        let cross = sides[0].cross(&sides[1]);
+        let (area, product) = (cross.norm(), sides[0].norm() * sides[1].norm());
+        if !(area > FLAT * product && product.is_finite()) {
+            return Err(BoundaryError::Area(0.5 * area * unit * unit));
+        }
+        Ok(Self { vertices, normal: cross / area, base, condition: product / area })
+    }
+}
+
+fn finite(point: [f64; 3]) -> Result<Vector3<f64>, BoundaryError> {
+    let [x, y, z] = point;
+    if point.iter().all(|c| c.is_finite()) { Ok(point.into()) } else { Err(BoundaryError::Point(x, y, z)) }
+}
+
+/// A vector at unit length, also where its square is lost or infinite; `None` if it has no direction.
+fn direction(v: &Vector3<f64>) -> Option<Vector3<f64>> {
+    let scaled = v / v.amax();
+    scaled.iter().all(|c| c.is_finite()).then(|| scaled.normalize())
+}

@@ -1,0 +1,135 @@
+//! The point of a boundary where S is least, and the bound on the error of s there.
+
+use super::contact::Feature;
+use super::minimum::Minimum;
+use super::placed::{Corners, Edge, Placed};
+use super::search::{Freedom, minimise};
+use crate::bounds::gap::Scale;
+use crate::linalg::number::larger;
+use crate::pair::placed_particle::Body;
+use crate::particle::particle::Particle;
+use nalgebra::Vector3;
+
+/// What is asked of every search of a call.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Goal<'a> {
+    pub particle: &'a Particle,
+    /// As in `Settings`.
+    pub least_sphericity: f64,
+    pub tolerance: f64,
+}
+
+/// The least S on a boundary.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Closest {
+    pub minimum: Minimum,
+    pub feature: Feature,
+    /// Lower bound of S on the whole boundary up to `minimum.rounding`.
+    pub lower: f64,
+    pub models: u32,
+}
+
+impl Goal<'_> {
+    /// The particle as it is solved for, with boundaries placed from points this far from its centre.
+    pub fn body(&self, farthest: f64) -> Body<'_> {
+        Body::alone(self.particle, self.least_sphericity, farthest)
+    }
+
+    /// The point of the boundary where S is least; `None` if a search does not settle.
+    pub fn closest(&self, boundary: &Placed) -> Option<Closest> {
+        let body = self.body(boundary.farthest);
+        let (minimum, models) = minimise(&body, &Freedom::Plane(boundary.normal), &boundary.nearest(), self.tolerance)?;
+        let in_plane = Closest::on(&body, boundary, minimum, Feature::Interior, models);
+        let Some(corners) = &boundary.corners else { return Some(in_plane) };
+        let outside = corners.outside(&minimum.x, &boundary.normal);
+        let mut least: Option<Closest> = None;
+        // The least S on a triangle is in its plane's, or on an edge beyond which that lies.
+        for i in (0..3).filter(|i| outside[*i]) {
+            let (minimum, feature, more) = self.on_edge(corners, i)?;
+            let found = Closest::on(&body, boundary, minimum, feature, models + more);
+            if least.is_none_or(|least| found.minimum.value < least.minimum.value) {
+                least = Some(found);
+            }
+        }
+        let found = least.unwrap_or(in_plane);
+        // No point of the triangle is below the least of its plane.
+        let lower = larger(found.lower, in_plane.lower - in_plane.minimum.rounding);
+        Some(Closest { lower, ..found })
+    }
+
+    /// The least S on edge i, from the edge alone: triangles that share it find the same.
+    fn on_edge(&self, corners: &Corners, i: usize) -> Option<(Minimum, Feature, u32)> {
+        let edge = corners.edge(i);
+        let body = self.body(edge.farthest(corners));
+        let (minimum, models) = minimise(&body, &Freedom::Line(edge.along), &edge.nearest(), self.tolerance)?;
+        Some(match beyond(&edge, &minimum.x) {
+            None => (minimum, Feature::Edge(i as u8), models),
+            Some(vertex) => {
+                let at = &corners.at[vertex];
+                (Minimum::at(&self.body(at.norm()), at), Feature::Vertex(vertex as u8), models + 1)
+            }
+        })
+    }
+}
+
+/// The vertex beyond which a point of the line of an edge lies.
+fn beyond(edge: &Edge, x: &Vector3<f64>) -> Option<usize> {
+    let way = (x - edge.from).dot(&edge.along);
+    if way < 0.0 {
+        Some(edge.ends[0])
+    } else if way > edge.length {
+        Some(edge.ends[1])
+    } else {
+        None
+    }
+}
+
+impl Closest {
+    /// A minimum on a part of the boundary, seen as that of the whole.
+    fn on(body: &Body, boundary: &Placed, minimum: Minimum, feature: Feature, models: u32) -> Self {
+        let level = larger(minimum.value, 1.0);
+        let within = minimum.farthest(body, level).min(boundary.extent(&minimum.x));
+        let lower = minimum.value - minimum.height(body, descent(boundary, &minimum.gradient, feature), within);
+        Self { minimum, feature, lower, models }
+    }
+
+    /// s with its bounds, the regularisation taken out again.
+    pub fn scale(&self, body: &Body) -> Scale {
+        let minimum = &self.minimum;
+        let most = body.most_surplus(larger(minimum.value, 1.0));
+        let estimate = larger(minimum.value - body.surplus(&minimum.x), 0.0);
+        Scale::between(estimate, self.lower - most - minimum.rounding, minimum.value + minimum.rounding)
+    }
+
+    /// Estimated bound on the distance of the point to the minimum: S, regularised, rises at least as the square of the way times
+    /// the least curvature.
+    pub fn point_bound(&self, body: &Body) -> f64 {
+        let open = larger(self.minimum.value - self.lower, 0.0) + 2.0 * self.minimum.rounding;
+        (2.0 * open / body.sphere_curvature()).sqrt() + self.minimum.shift
+    }
+}
+
+/// How steeply S descends at most into the boundary, away from a minimum on this part of it: 0 but for rounding if it is that
+/// of the whole.
+fn descent(boundary: &Placed, gradient: &Vector3<f64>, feature: Feature) -> f64 {
+    let across = gradient - gradient.dot(&boundary.normal) * boundary.normal;
+    let Some(corners) = &boundary.corners else { return across.norm() };
+    match feature {
+        Feature::Interior => across.norm(),
+        Feature::Edge(i) => {
+            let i = usize::from(i);
+            let along = gradient.dot(&corners.edge(i).along);
+            along.hypot(gradient.dot(&corners.inwards(i, &boundary.normal)).min(0.0))
+        }
+        Feature::Vertex(i) => into_corner(corners, usize::from(i), &across),
+    }
+}
+
+/// The same at a vertex: steepest along the negative gradient if that points into the triangle, else along one of its sides.
+fn into_corner(corners: &Corners, i: usize, across: &Vector3<f64>) -> f64 {
+    let [left, right] = [(i + 1) % 3, (i + 2) % 3].map(|j| corners.at[j] - corners.at[i]);
+    let along = |side: &Vector3<f64>| -across.dot(side) / side.norm();
+    let turn = left.cross(&right);
+    let inside = left.cross(across).dot(&turn) <= 0.0 && across.cross(&right).dot(&turn) <= 0.0;
+    if inside { across.norm() } else { along(&left).max(along(&right)).max(0.0) }
+}

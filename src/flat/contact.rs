@@ -1,0 +1,273 @@
+//! Point, normal and overlap of a particle and a flat boundary.
+
+use super::boundary::{Triangle, Wall};
+use super::closest::{Closest, Goal};
+use super::placed::Placed;
+use super::separation;
+use crate::bounds::gap::Scale;
+use crate::contact::contact::Kind;
+use crate::contact::detect::DetectError;
+use crate::flags::Flags;
+use crate::linalg::number::larger;
+use crate::pair::placed_particle::Body;
+use crate::pair::separation_tests::{Apart, MARGIN};
+use crate::particle::particle::Particle;
+use crate::particle::ray_cast;
+use crate::pose::Pose;
+use crate::settings::Settings;
+use nalgebra::Vector3;
+
+/// The part of a boundary on which a point lies.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Feature {
+    /// The plane, or the inside of the triangle.
+    Interior,
+    /// Edge i, between the vertices i and i + 1 (of edge 2: 2 and 0).
+    Edge(u8),
+    /// Vertex i.
+    Vertex(u8),
+}
+
+/// The answer for a particle A and a boundary T, world axes, lengths in the caller's unit. What does not apply is NaN.
+#[derive(Clone, Copy, Debug)]
+#[non_exhaustive]
+pub struct FlatContact {
+    /// Separated or overlapping.
+    pub kind: Kind,
+    /// Where on the boundary its point lies.
+    pub feature: Feature,
+    /// What else is to be known.
+    pub flags: Flags,
+    /// Quadratics solved.
+    pub iterations: u32,
+    /// √S_A at x*, the least on T. Rejected: a proved lower bound, ≥ 1.
+    ///
+    /// It depends on the particle, its pose and this boundary alone, and on an edge or a vertex on nothing else of the triangle:
+    /// of the triangles of a mesh, the one with the least s (of equal ones, the first) owns the contact at a seam.
+    pub s: f64,
+    /// |s − s*| ≤ gap: rounding to first order, as of [`crate::Contact::gap`] in doubles.
+    pub gap: f64,
+    /// Estimated bound on the distance of `on_boundary` to x*, length.
+    pub point_bound: f64,
+    /// Distance from x* along the normal to the surface of A, > 0 when overlapping; NaN when separated.
+    pub overlap: f64,
+    /// Separated: A and T are at least this far from each other, as far as the proof knows; NaN when overlapping.
+    pub distance: f64,
+    /// Unit normal from A to T, ∇S_A/|∇S_A| at x*; on the inside of T exactly ± its own normal.
+    pub normal: Vector3<f64>,
+    /// Contact point, halfway between `on_boundary` and `on_particle`, world frame; x* when separated.
+    pub point: Vector3<f64>,
+    /// Contact point minus position of A.
+    pub branch: Vector3<f64>,
+    /// x*, world frame.
+    pub on_boundary: Vector3<f64>,
+    /// The point of the surface of A beyond x* along the normal, world frame; NaN when separated.
+    pub on_particle: Vector3<f64>,
+}
+
+/// Contact of A at a pose with a plane, which it may touch from either side.
+///
+/// Of the settings, `gap_tolerance`, `flat_regularisation` and `solve_separated` count. Where the centre of A lies on the plane
+/// to rounding, A counts as in front of it: the normal is minus the plane's ([`Flags::NORMAL_BY_BOUNDARY`]).
+///
+/// ```
+/// use potential_particles::{Kind, Particle, Pose, Settings, Wall, contact_with_plane};
+/// let (ball, pose) = (Particle::sphere(1.0)?, Pose::at([3.0, 4.0, 0.75])?);
+/// let floor = Wall::new([0.0, 0.0, 0.0], [0.0, 0.0, 1.0])?;
+/// let contact = contact_with_plane(&ball, &pose, &floor, &Settings::default())?;
+/// assert_eq!(contact.kind, Kind::Overlapping);
+/// assert!((contact.overlap - 0.25).abs() < 1e-15 && contact.normal.z == -1.0);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// A setting out of range, or no answer from the solver.
+pub fn contact_with_plane(
+    a: &Particle,
+    pose: &Pose,
+    wall: &Wall,
+    settings: &Settings,
+) -> Result<FlatContact, DetectError> {
+    settings.validate()?;
+    Call { particle: a, pose, normal: wall.normal, settings }.contact(&Placed::wall(wall, pose))
+}
+
+/// Contact of A at a pose with a closed triangle, which it may touch from either side; otherwise as [`contact_with_plane`].
+///
+/// # Errors
+/// A setting out of range, or no answer from the solver.
+pub fn contact_with_triangle(
+    a: &Particle,
+    pose: &Pose,
+    triangle: &Triangle,
+    settings: &Settings,
+) -> Result<FlatContact, DetectError> {
+    settings.validate()?;
+    Call { particle: a, pose, normal: triangle.normal, settings }.contact(&Placed::triangle(triangle, pose))
+}
+
+/// What a call is about, beside the boundary in the particle's frame.
+#[derive(Clone, Copy)]
+struct Call<'a> {
+    particle: &'a Particle,
+    pose: &'a Pose,
+    /// Of the boundary, world frame.
+    normal: Vector3<f64>,
+    settings: &'a Settings,
+}
+
+/// A unit normal, world and local, and whether the gradient tells none.
+struct Normal {
+    world: Vector3<f64>,
+    local: Vector3<f64>,
+    by_boundary: bool,
+}
+
+impl Call<'_> {
+    fn contact(&self, boundary: &Placed) -> Result<FlatContact, DetectError> {
+        if !self.settings.solve_separated {
+            if let Some(apart) = separation::proof_of_separation(self.particle, boundary) {
+                return Ok(FlatContact::apart(&apart));
+            }
+        }
+        let goal = Goal {
+            particle: self.particle,
+            least_sphericity: self.settings.least_sphericity(),
+            tolerance: self.settings.gap_tolerance,
+        };
+        let body = goal.body(boundary.farthest);
+        let Some(closest) = goal.closest(boundary) else {
+            return Err(DetectError::Failed { reason: "the search on the boundary did not settle".into() });
+        };
+        let scale = closest.scale(&body);
+        let least = Settings::default().flat_regularisation;
+        if scale.s >= 1.0 && scale.low < 1.0 && self.settings.flat_regularisation > least {
+            // Where the bulge of a raised regularisation may hide an overlap, the particle as it is decides.
+            let settings = Settings { flat_regularisation: least, ..*self.settings };
+            let contact = Call { settings: &settings, ..*self }.contact(boundary)?;
+            return Ok(FlatContact { flags: contact.flags.with(Flags::DEFAULT_REGULARISATION), ..contact });
+        }
+        self.described(boundary, &body, &closest, scale)
+    }
+
+    fn described(
+        &self,
+        boundary: &Placed,
+        body: &Body,
+        closest: &Closest,
+        scale: Scale,
+    ) -> Result<FlatContact, DetectError> {
+        let minimum = &closest.minimum;
+        let normal = self.normal(boundary, body, closest);
+        let mut flags = if normal.by_boundary { Flags::NORMAL_BY_BOUNDARY } else { Flags::NONE };
+        let open = minimum.value - closest.lower + 2.0 * minimum.rounding;
+        if open > self.settings.gap_tolerance * minimum.value {
+            flags.insert(Flags::ROUNDING_LIMITED);
+        }
+        let to_boundary = self.pose.rotate(&minimum.x);
+        let position = self.pose.position();
+        let contact = FlatContact {
+            kind: Kind::Separated,
+            feature: closest.feature,
+            flags,
+            iterations: closest.models,
+            s: scale.s,
+            gap: scale.gap,
+            point_bound: closest.point_bound(body),
+            normal: normal.world,
+            point: position + to_boundary,
+            branch: to_boundary,
+            on_boundary: position + to_boundary,
+            ..FlatContact::UNKNOWN
+        };
+        if scale.s >= 1.0 {
+            return Ok(FlatContact { distance: distance(closest, scale), ..contact });
+        }
+        let overlap = self
+            .overlap(closest, &normal.local)
+            .ok_or_else(|| DetectError::Failed { reason: "the surface was not found along the normal".into() })?;
+        let branch = to_boundary + 0.5 * overlap * normal.world;
+        Ok(FlatContact {
+            kind: Kind::Overlapping,
+            overlap,
+            distance: f64::NAN,
+            point: position + branch,
+            branch,
+            on_particle: position + (to_boundary + overlap * normal.world),
+            ..contact
+        })
+    }
+
+    /// Along the gradient; inside the boundary along its normal, at an edge at right angles to that.
+    fn normal(&self, boundary: &Placed, body: &Body, closest: &Closest) -> Normal {
+        let Closest { minimum, feature, .. } = closest;
+        let doubt = minimum.slope + body.sphere_curvature() * minimum.shift;
+        let by_boundary = Normal { world: -self.normal, local: -boundary.normal, by_boundary: true };
+        let gradient = match (feature, &boundary.corners) {
+            (Feature::Interior, _) | (_, None) => {
+                let slope = minimum.gradient.dot(&boundary.normal);
+                let (world, local) = (self.normal, boundary.normal);
+                return match () {
+                    _ if slope > doubt => Normal { world, local, by_boundary: false },
+                    _ if slope < -doubt => Normal { by_boundary: false, ..by_boundary },
+                    _ => by_boundary,
+                };
+            }
+            (Feature::Edge(i), Some(corners)) => {
+                let along = corners.edge(usize::from(*i)).along;
+                minimum.gradient - minimum.gradient.dot(&along) * along
+            }
+            (Feature::Vertex(_), Some(_)) => minimum.gradient,
+        };
+        match gradient.try_normalize(doubt) {
+            Some(local) => Normal { world: self.pose.rotate(&local).normalize(), local, by_boundary: false },
+            None => by_boundary,
+        }
+    }
+
+    /// The way along the normal from the boundary to the surface of A.
+    fn overlap(&self, closest: &Closest, normal: &Vector3<f64>) -> Option<f64> {
+        let minimum = &closest.minimum;
+        let guess =
+            ray_cast::root_of_piece(minimum.value - 1.0, minimum.gradient.dot(normal), minimum.curvature(normal));
+        let way = ray_cast::distance_near(self.particle, &minimum.x, normal, guess)
+            .or_else(|| ray_cast::distance_beside(self.particle, &minimum.x, normal, minimum.shift))?;
+        // Where s < 1 by rounding alone, it may be behind.
+        Some(larger(way, 0.0))
+    }
+}
+
+/// Lower bound of the distance of A and T, from the tangent of s at x*, which lies below s everywhere: it is at most 1 in A,
+/// at least the lower bound of s on T, and it rises by no more than its slope.
+fn distance(closest: &Closest, scale: Scale) -> f64 {
+    let slope = closest.minimum.gradient.norm() + closest.minimum.slope;
+    larger((scale.low - 1.0) * 2.0 * scale.low / slope * (1.0 - MARGIN), 0.0)
+}
+
+impl FlatContact {
+    /// Of which nothing is known yet.
+    const UNKNOWN: Self = {
+        let nan = Vector3::new(f64::NAN, f64::NAN, f64::NAN);
+        Self {
+            kind: Kind::Separated,
+            feature: Feature::Interior,
+            flags: Flags::NONE,
+            iterations: 0,
+            s: f64::NAN,
+            gap: f64::NAN,
+            point_bound: f64::NAN,
+            overlap: f64::NAN,
+            distance: 0.0,
+            normal: nan,
+            point: nan,
+            branch: nan,
+            on_boundary: nan,
+            on_particle: nan,
+        }
+    };
+
+    fn apart(proof: &Apart) -> Self {
+        let flags = proof.by.with(Flags::REJECTED);
+        Self { flags, s: 1.0, distance: proof.distance, ..Self::UNKNOWN }
+    }
+}

@@ -1,0 +1,161 @@
+//! Newton's method for the least S on a plane or a line.
+//!
+//! At a point the active planes are frozen, and S is a quadratic whose minimum on the plane or line is a step away. If the
+//! active planes still push there and no other has become active, that is the minimum of S. If not, the step is taken when S
+//! falls, and is shortened to the least S along it when it does not.
+
+use super::minimum::{Minimum, Model};
+use crate::linalg::graded_basis;
+use crate::linalg::root::{self, Bracket};
+use crate::linalg::symmetric::{Factor, Symmetric};
+use crate::model::kkt_check::{Change, KktCheck};
+use crate::pair::active_set::LocalPoint;
+use crate::pair::placed_particle::Body;
+use nalgebra::{Matrix3, Vector3};
+
+/// Where a point may move, by unit vectors of the local frame.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Freedom {
+    /// In the plane with this normal.
+    Plane(Vector3<f64>),
+    /// Along a line.
+    Line(Vector3<f64>),
+}
+
+/// Most models of one search; a handful is usual.
+const MOST_MODELS: u32 = 60;
+
+/// Models granted to sharpen a minimum that is known already.
+const MOST_SHARPENING: u32 = 3;
+
+/// Relative to the particle, a step too short for the next one to be more precise.
+const SHORT: f64 = 1e-9;
+
+/// Factor of the least possible rounding that is as good as any.
+const AS_SHARP: f64 = 8.0;
+
+/// Relative accuracy of the minimum along a step: the step is itself an approximation.
+const CLOSE: f64 = 1e-3;
+
+/// Ratio of plane to sphere curvature above which axes in the plane are aligned with the stiffest active normal, as for pairs.
+const GRADED_FROM: f64 = 1e7;
+
+/// The least S that is reached from `start`, with the number of models on the way; `None` if the search does not settle.
+///
+/// `tolerance` is the relative rounding at which a minimum is sharp enough.
+pub(super) fn minimise(body: &Body, freedom: &Freedom, start: &Vector3<f64>, tolerance: f64) -> Option<(Minimum, u32)> {
+    let mut model = Model::at(body, freedom, body.locate(start));
+    let mut best: Option<Minimum> = None;
+    let (mut sharpened, mut last) = (0, None);
+    for models in 1..=MOST_MODELS {
+        if let Some(shortened) = shorten(body, last.take(), &model) {
+            model = Model::at(body, freedom, body.locate(&shortened));
+        }
+        let step = model.step(freedom, body)?;
+        let v = model.axes * step;
+        let length = v.norm();
+        let check = KktCheck::after(body, &model.point, &model.q, &v, length);
+        if let (Change::Leaving, Some(place)) = (check.change, check.drop) {
+            let mut point = model.point;
+            point.drop(place);
+            model = Model::at(body, freedom, point);
+            continue;
+        }
+        if check.change == Change::None {
+            let minimum = Minimum::after(body, &model, &step, &v, &check);
+            let sharp = minimum.rounding <= tolerance * minimum.value
+                || minimum.rounding <= AS_SHARP * model.point.blur * minimum.gradient.norm();
+            if best.is_none_or(|best| minimum.rounding < best.rounding) {
+                best = Some(minimum);
+            }
+            if sharp || length <= SHORT * body.particle.bounding_radius() || sharpened == MOST_SHARPENING {
+                return best.map(|best| (best, models));
+            }
+            sharpened += 1;
+        }
+        last = Some(Attempt {
+            from: model.point.y,
+            v,
+            value: model.q.value,
+            rounding: body.rounding(&model.point, &model.q),
+        });
+        model = Model::at(body, freedom, body.locate(&(model.point.y + v)));
+    }
+    best.map(|best| (best, MOST_MODELS))
+}
+
+/// A step that was taken.
+struct Attempt {
+    from: Vector3<f64>,
+    v: Vector3<f64>,
+    value: f64,
+    rounding: f64,
+}
+
+/// The least S along the last step, if S has not fallen by all of it.
+fn shorten(body: &Body, last: Option<Attempt>, model: &Model) -> Option<Vector3<f64>> {
+    let Attempt { from, v, value, rounding } = last?;
+    if model.q.value <= value + rounding {
+        return None;
+    }
+    let slope = |share: f64| {
+        let line = body.on_line(&(from + share * v), &v);
+        (line.slope, line.curvature)
+    };
+    let share = root::newton(Bracket { low: 0.0, high: 1.0 }, 0.5, CLOSE, slope);
+    Some(from + share * v)
+}
+
+impl Model {
+    fn at(body: &Body, freedom: &Freedom, point: LocalPoint) -> Self {
+        let axes = freedom.axes(body, &point);
+        Self { point, axes, q: body.at(&point, Some(&axes)) }
+    }
+
+    /// To the minimum of the quadratic where the point may move, in its axes; `None` if something is not finite.
+    fn step(&self, freedom: &Freedom, body: &Body) -> Option<Vector3<f64>> {
+        let (h, g, least) = (&self.q.hessian, &self.q.gradient, body.sphere_curvature());
+        let fixed = Symmetric { zx: 0.0, zy: 0.0, zz: least, ..*h };
+        let (h, slope) = match freedom {
+            Freedom::Plane(_) => (fixed, Vector3::new(-g.x, -g.y, 0.0)),
+            Freedom::Line(_) => (Symmetric { yx: 0.0, yy: least, ..fixed }, Vector3::new(-g.x, 0.0, 0.0)),
+        };
+        let step = Factor::of(&h, least)?.solve(&slope);
+        step.iter().all(|c| c.is_finite()).then_some(step)
+    }
+}
+
+impl Freedom {
+    /// Orthonormal axes (columns), those in which the point may move first, and of these the stiffest.
+    fn axes(&self, body: &Body, point: &LocalPoint) -> Matrix3<f64> {
+        let first = match self {
+            Self::Line(along) => *along,
+            Self::Plane(normal) => {
+                let graded = body.plane_curvature() > GRADED_FROM * body.sphere_curvature();
+                let stiffest = if graded { stiffest_in_plane(normal, body, point) } else { None };
+                stiffest.unwrap_or_else(|| graded_basis::any_across(normal))
+            }
+        };
+        let third = match self {
+            Self::Line(along) => graded_basis::any_across(along),
+            Self::Plane(normal) => *normal,
+        };
+        Matrix3::from_columns(&[first, third.cross(&first), third])
+    }
+}
+
+/// The direction in the plane in which one active plane alone is stiffest.
+fn stiffest_in_plane(normal: &Vector3<f64>, body: &Body, point: &LocalPoint) -> Option<Vector3<f64>> {
+    let across = |n: Vector3<f64>| n - n.dot(normal) * normal;
+    let (mut stiffest, mut most) = (Vector3::zeros(), 0.0);
+    body.active_normals(point, |n| {
+        let rest = across(n);
+        let stiffness = rest.norm_squared();
+        // What is left of a normal to the plane is rounding.
+        if stiffness > most && stiffness > graded_basis::PARALLEL * n.norm_squared() {
+            (stiffest, most) = (rest, stiffness);
+        }
+    });
+    // Twice is enough (Kahan).
+    stiffest.try_normalize(0.0).and_then(|v| across(v).try_normalize(0.5))
+}

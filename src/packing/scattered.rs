@@ -1,0 +1,25 @@
+//! A place anywhere in the container: random sequential addition.
+
+use crate::packing::pile::{Pile, Trial};
+use crate::packing::random::Random;
+use crate::particle::particle::Particle;
+use crate::pose::Pose;
+use nalgebra::{UnitQuaternion, Vector3};
+
+/// Poses that are tried. At the densities at which most of them fail, ten times as many would place few bodies more.
+const TRIES: usize = 5_000;
+
+/// The first of many random poses at which the body fits.
+pub(crate) fn find(pile: &Pile, particle: &Particle, random: &mut Random) -> Option<Pose> {
+    let mut trial = Trial::new(pile, particle);
+    (0..TRIES).find_map(|_| {
+        let position = pile.container.point(random);
+        let pose = placed(position, &random.orientation())?;
+        trial.fits(&pose).then_some(pose)
+    })
+}
+
+/// A pose of nalgebra's numbers.
+pub(crate) fn placed(position: Vector3<f64>, q: &UnitQuaternion<f64>) -> Option<Pose> {
+    Pose::new(position.into(), [q.w, q.i, q.j, q.k]).ok()
+}

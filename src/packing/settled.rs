@@ -1,0 +1,117 @@
+//! A place as low as it gets: a body falls from above the pile, and then walks downwards at random.
+//!
+//! The walk minimises the height of the centre subject to "fits": a move is a step of random direction, never upwards, half of
+//! them with a turn. A move that fits is made. Steps grow with success and shrink with failure, such that one move in
+//! five is made (Rechenberg's rule), and the walk ends when they have become short. Whether two bodies pass through each
+//! other on the way does not matter, but for where they come to rest.
+
+use crate::packing::pile::{Pile, Trial};
+use crate::packing::random::Random;
+use crate::packing::scattered::placed;
+use crate::particle::particle::Particle;
+use crate::pose::Pose;
+use nalgebra::{UnitQuaternion, Vector3};
+
+/// Falls of one body, of which the lowest place counts.
+const FALLS: usize = 4;
+
+/// Poses above the pile that are tried for the start of a fall.
+const STARTS: usize = 30;
+
+/// Moves of a walk, at most.
+const MOVES: usize = 300;
+
+/// Steps in bounding radii: the first of a walk, and one so short that the walk ends.
+const FIRST: f64 = 0.5;
+const LAST: f64 = 2e-3;
+
+/// What a move that fits does to the steps, and one that does not: one of the first balances four of the second.
+const GROWTH: f64 = 1.5;
+const SHRINKAGE: f64 = 0.903_602; // 1.5^(-1/4)
+
+/// The lowest place that a few falls have found.
+pub(crate) fn find(pile: &Pile, particle: &Particle, random: &mut Random) -> Option<Pose> {
+    let mut trial = Trial::new(pile, particle);
+    let falls = (0..FALLS).filter_map(|_| {
+        let start = start(pile, &mut trial, random)?;
+        let landed = fall(&mut trial, start);
+        Some(walk(&mut trial, landed, random))
+    });
+    falls.min_by(|a, b| a.height().total_cmp(&b.height())).and_then(|found| found.pose())
+}
+
+/// A pose, as it is moved and turned.
+#[derive(Clone, Copy)]
+struct Place {
+    position: Vector3<f64>,
+    turn: UnitQuaternion<f64>,
+}
+
+impl Place {
+    fn pose(&self) -> Option<Pose> {
+        placed(self.position, &self.turn)
+    }
+
+    fn height(&self) -> f64 {
+        self.position.z
+    }
+
+    fn moved(&self, step: Vector3<f64>) -> Self {
+        Self { position: self.position + step, ..*self }
+    }
+
+    fn fits(&self, trial: &mut Trial) -> bool {
+        self.pose().is_some_and(|pose| trial.fits(&pose))
+    }
+}
+
+/// A random place clear of the pile, or as high as the container allows.
+fn start(pile: &Pile, trial: &mut Trial, random: &mut Random) -> Option<Place> {
+    let radius = trial.particle.bounding_radius();
+    (0..STARTS).find_map(|_| {
+        let mut place = Place { position: pile.container.point(random), turn: random.orientation() };
+        let (_, upper) = trial.particle.bounding_box(&place.pose()?);
+        let highest = pile.container.upper().z - (upper.z - place.position.z);
+        // Of the two roundings one would let the body reach out of the container.
+        place.position.z = (pile.top() + 2.0 * radius).min(highest - f64::EPSILON * highest.abs());
+        place.fits(trial).then_some(place)
+    })
+}
+
+/// Straight down in steps that double while they fit and else are quartered.
+fn fall(trial: &mut Trial, from: Place) -> Place {
+    let radius = trial.particle.bounding_radius();
+    let (mut place, mut step) = (from, radius);
+    while step > FIRST * radius / 4.0 {
+        let below = place.moved(-step * Vector3::z());
+        if below.fits(trial) {
+            (place, step) = (below, 2.0 * step);
+        } else {
+            step /= 4.0;
+        }
+    }
+    place
+}
+
+fn walk(trial: &mut Trial, from: Place, random: &mut Random) -> Place {
+    let radius = trial.particle.bounding_radius();
+    let (mut place, mut step) = (from, FIRST);
+    for _ in 0..MOVES {
+        let mut direction = random.direction();
+        direction.z = -direction.z.abs();
+        let mut next = place.moved(step * radius * direction);
+        if random.uniform() < 0.5 {
+            next.turn = UnitQuaternion::new(step * random.direction()) * next.turn;
+        }
+        if next.fits(trial) {
+            place = next;
+            step *= GROWTH;
+        } else {
+            step *= SHRINKAGE;
+        }
+        if step < LAST {
+            break;
+        }
+    }
+    place
+}

@@ -1,0 +1,11 @@
+//! A closed mesh of triangles on the surface of a particle, with a proved distance to it. Each file uses only those above it:
+//!
+//! | file | holds |
+//! |---|---|
+//! | `triangulation` | which triangle lies beside which; split and flip |
+//! | `tangent_bound` | how far a convex surface can rise above a triangle, from the tangent planes at its corners |
+//! | `surface_mesh` | points are added where that is most, until it is below a tolerance |
+
+pub mod surface_mesh;
+mod tangent_bound;
+mod triangulation;

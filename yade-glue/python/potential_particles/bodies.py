@@ -1,0 +1,74 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""YADE bodies made of shapes."""
+from .arguments import number, unit_quaternion, vector
+
+
+def body(shape, material=None, position=(0.0, 0.0, 0.0), orientation=(1.0, 0.0, 0.0, 0.0), fixed=False, color=None, mask=None,
+         velocity=None, angular_velocity=None, **attributes):
+    """A yade Body of a Shape, with mass, inertia and box, ready for O.bodies.append.
+
+    material: a Material, the number or label of one in O.materials, or None for the last one there. position (length) and
+    orientation (a Quaternion, or w, x, y, z) place the frame in which the shape was built: for a shape about its centroid, as sphere(), cuboid() or
+    platonic_solid() make them, that is the centre; one from a file stands as in the file, for the default values. The state of the
+    body is that of its centroid and principal axes. velocity (of the centroid) and angular_velocity: world frame.
+    fixed: no force moves it. attributes: further ones of ConicPotentialParticle (isBoundary, wire, ...).
+    ValueError for what makes no body; the scene is never touched.
+    """
+    import yade
+    from .shape import Shape
+    if not isinstance(shape, Shape):
+        raise ValueError(f"shape is {type(shape).__name__}, not a Shape: make one by potential_particles.shapes")
+    material = _material(material)
+    to_frame, from_principal = _quaternion(orientation, "orientation"), _quaternion(shape.orientation, "shape.orientation")
+    place = yade.Vector3(*vector(position, "position")) + to_frame * yade.Vector3(*shape.centroid)
+    if color is not None:
+        attributes["color"] = yade.Vector3(*vector(color, "color"))
+
+    made = yade.Body()
+    made.shape = shape.particle(**attributes)
+    made.mat = material
+    made.state = material.newAssocState()
+    made.state.mass = shape.volume * material.density
+    made.state.inertia = yade.Vector3(*shape.inertia) * material.density
+    made.state.pos = made.state.refPos = place
+    made.state.ori = made.state.refOri = to_frame * from_principal
+    if velocity is not None:
+        made.state.vel = yade.Vector3(*vector(velocity, "velocity"))
+    if angular_velocity is not None:
+        made.state.angVel = yade.Vector3(*vector(angular_velocity, "angular_velocity"))
+        # What YADE's integrator of bodies that are no spheres goes on from.
+        made.state.angMom = _angular_momentum(made.state)
+    made.aspherical = True
+    if mask is not None:
+        made.mask = int(mask)
+    if fixed:
+        made.state.blockedDOFs = "xyzXYZ"
+    return made
+
+
+def _material(material):
+    import yade
+    known = yade.O.materials
+    if material is None:
+        if len(known) == 0:
+            raise ValueError("there is no material: append one to O.materials, or give material=FrictMat(...)")
+        material = len(known) - 1
+    if not isinstance(material, yade.Material):
+        try:
+            material = known[material]
+        except (IndexError, KeyError, TypeError, RuntimeError) as error:
+            raise ValueError(f"material={material!r} is neither a Material nor the number or label of one in O.materials") from error
+    if not number(material.density, "density") > 0.0:
+        raise ValueError(f"density={material.density:g} of the material must be above 0")
+    return material
+
+
+def _quaternion(value, name):
+    import yade
+    w, x, y, z = map(float, unit_quaternion(value, name))
+    return yade.Quaternion(w, x, y, z)
+
+
+def _angular_momentum(state):
+    local = state.ori.conjugate() * state.angVel
+    return state.ori * type(local)(*(i * w for i, w in zip(state.inertia, local)))

@@ -1,0 +1,132 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The shape of a surface from a file: its convex hull, if the surface is that hull or the script accepts it."""
+import os
+
+import numpy as np
+from scipy.spatial import ConvexHull
+
+from .polyhedron import COPLANAR, refuse_flat
+from .rounding import ROUNDING, SPHERICITY
+from .solids import rounded_hull
+
+READABLE = ".stl (binary or text), .obj, .gts"
+
+
+def from_mesh(file, r=ROUNDING, k=SPHERICITY, R=None, hull=False, scale=1.0, name=None):
+    """Of a closed convex surface in a file (.stl, .obj, .gts), in the file's frame, all lengths multiplied by `scale`.
+
+    A surface that is open, not convex or crosses itself is a ValueError that says where, in the file's numbers;
+    hull=True takes its convex hull instead. A flat one is an error in any case.
+    """
+    points, triangles = read(file)
+    refuse_flat(points)
+    if not hull:
+        try:
+            refuse_open(points, triangles)
+            refuse_concave(points, triangles)
+        except ValueError as error:
+            raise ValueError(f"{file}: {error}; hull=True takes the convex hull of its {len(points)} points") from None
+    from .arguments import positive
+    return rounded_hull(points * positive(scale, "scale"), r, k, R, name or os.path.splitext(os.path.basename(file))[0])
+
+
+def read(file):
+    """Points (n, 3) and triangles (m, 3), numbers of points, of a file; equal points are one. ValueError if it holds none."""
+    file = os.fspath(file)
+    if not os.path.isfile(file):
+        raise ValueError(f"{file} is no file")
+    kind = os.path.splitext(file)[1].lower()
+    readers = {".stl": _by_vtk, ".obj": _by_vtk, ".gts": _by_gts}
+    if kind not in readers:
+        raise ValueError(f"{file}: files that can be read are {READABLE}")
+    points, triangles = readers[kind](file, kind)
+    if len(triangles) == 0:
+        raise ValueError(f"{file} holds no triangles: it is empty, or not what its ending says")
+    if not np.isfinite(points).all():
+        raise ValueError(f"{file}: point {int(np.argmin(np.isfinite(points).all(1)))} is not finite")
+    return points, triangles
+
+
+def refuse_open(points, triangles):
+    """ValueError if an edge does not join two triangles."""
+    edges = np.sort(triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
+    edges, counts = np.unique(edges, axis=0, return_counts=True)
+    for wrong, what in ((counts == 1, "open: {} edges belong to one triangle alone"),
+                        (counts > 2, "no single surface: {} edges belong to more than two triangles")):
+        if wrong.any():
+            raise ValueError(f"the surface is {what.format(np.count_nonzero(wrong))}, the first from {_place(points[edges[wrong][0, 0]])} "
+                             f"to {_place(points[edges[wrong][0, 1]])}")
+
+
+def refuse_concave(points, triangles):
+    """ValueError unless the triangles are the surface of the convex hull of the points, and cover it once."""
+    middle, size = 0.5 * (points.max(0) + points.min(0)), np.ptp(points, axis=0).max()
+    unit = (points - middle) / size
+    hull = ConvexHull(unit)
+    planes = np.unique(np.round(hull.equations, 12), axis=0)
+    centres = unit[triangles].mean(1)
+    for places, what in ((unit[np.unique(triangles)], "point"), (centres, "triangle")):
+        depths = _depths(planes, places)
+        deepest = int(np.argmax(depths))
+        if depths[deepest] > COPLANAR:
+            raise ValueError(f"the surface is not convex, or crosses itself: the {what} at {_place(places[deepest] * size + middle)} lies "
+                             f"{depths[deepest] * size:.3g} inside the convex hull")
+    a, b, c = (unit[triangles[:, i]] for i in range(3))
+    covered = 0.5 * np.linalg.norm(np.cross(b - a, c - a), axis=1).sum() / hull.area
+    if abs(covered - 1.0) > 1e-3:
+        raise ValueError(f"the surface crosses itself: its triangles cover its convex hull {covered:.4g} times")
+
+
+def _depths(planes, places):
+    """How far points lie below the nearest of the planes (n, 4) of a hull; in parts, for memory."""
+    step = max(1, 10_000_000 // len(planes))
+    parts = [places[i:i + step] for i in range(0, len(places), step)]
+    return np.concatenate([-(part @ planes[:, :3].T + planes[:, 3]).max(1) for part in parts])
+
+
+def _place(point):
+    return "(" + ", ".join(f"{one:.6g}" for one in point) + ")"
+
+
+def _by_vtk(file, kind):
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+    from vtkmodules.vtkCommonCore import vtkObject
+    from vtkmodules.vtkFiltersCore import vtkCleanPolyData, vtkTriangleFilter
+    from vtkmodules.vtkIOGeometry import vtkOBJReader, vtkSTLReader
+    reader = {".stl": vtkSTLReader, ".obj": vtkOBJReader}[kind]()
+    said = []
+
+    # VTK's sign for an observer that wants the message.
+    def hear(_caller, _event, text):
+        said.append(text)
+    hear.CallDataType = "string0"
+    reader.AddObserver("ErrorEvent", hear)
+    reader.SetFileName(file)
+    once = vtkCleanPolyData(PointMerging=True, ToleranceIsAbsolute=False, Tolerance=1e-7)
+    triangles = vtkTriangleFilter(PassVerts=False, PassLines=False)
+    once.SetInputConnection(reader.GetOutputPort())
+    triangles.SetInputConnection(once.GetOutputPort())
+    warnings = vtkObject.GetGlobalWarningDisplay()
+    vtkObject.GlobalWarningDisplayOff()
+    try:
+        triangles.Update()
+    finally:
+        vtkObject.SetGlobalWarningDisplay(warnings)
+    found = triangles.GetOutput()
+    if said or found.GetNumberOfPolys() == 0:
+        reason = " ".join(said[0].split("\n")[-1].split()) if said else "no triangles were found"
+        raise ValueError(f"{file} cannot be read as {kind}: {reason}")
+    return (vtk_to_numpy(found.GetPoints().GetData()).astype(float),
+            vtk_to_numpy(found.GetPolys().GetConnectivityArray()).reshape(-1, 3).astype(int))
+
+
+def _by_gts(file, kind):
+    import gts
+    try:
+        with open(file) as opened:
+            surface = gts.read(opened)
+    except (RuntimeError, OSError, UnicodeDecodeError, SystemError) as error:
+        raise ValueError(f"{file} cannot be read as {kind}: {error}") from None
+    vertices = surface.vertices()
+    triangles = np.array(surface.face_indices(vertices), int).reshape(-1, 3)
+    return np.array([(one.x, one.y, one.z) for one in vertices], float).reshape(-1, 3), triangles

@@ -1,0 +1,17 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What comes out of a scene: meshes, pictures, and files for ParaView.
+
+    mesh.py        a closed mesh of a shape, and its file .stl or .vtp
+    vtk_files.py   files for ParaView, through VTK's Python modules
+    rasteriser.py  which triangle is nearest at each pixel
+    view.py        a pinhole camera
+    light.py       a sun and a sky with shadows
+    drawn.py       YADE's bodies as triangles
+    picture.py     the picture of a scene
+    recorder.py    frames for ParaView, while the scene runs
+"""
+from .mesh import Mesh, mesh, save_mesh
+from .picture import plot
+from .recorder import Recorder
+
+__all__ = ["Mesh", "Recorder", "mesh", "plot", "save_mesh"]

@@ -1,0 +1,105 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Frames of the scene for ParaView, while it runs."""
+import os
+import sys
+
+import numpy as np
+import yade
+
+from . import vtk_files
+from .drawn import ShapeMeshes, Triangles, drawn
+
+_BODY = {"id": 1, "material": 1, "mask": 1, "rank": 1, "velocity": 3, "angular_velocity": 3}
+_CONTACT = {"point": 3, "normal": 3, "overlap": 1, "normal_force": 3, "shear_force": 3, "id1": 1, "id2": 1}
+_WHOLE = {"id", "material", "mask", "rank", "id1", "id2"}
+
+
+class Recorder:
+    """Writes a frame each time it is called, of bodies of all shapes that `plot` draws, and of contacts.
+
+        record = Recorder("out/pile")
+        O.engines += [PyRunner(command="record()", iterPeriod=1000)]
+
+    name: path without an ending; its folder is made. Each frame is <name>.bodies.<step>.vtp and <name>.contacts.<step>.vtp,
+    and the series <name>.bodies.pvd and <name>.contacts.pvd, which ParaView opens, grow with it. Each file appears under its
+    name when it is whole, so that a run may be interrupted at any time.
+    Bodies are triangles, with id, material (its id, or -1), mask, rank, velocity and angular_velocity (world axes) of their body.
+    Contacts are the points of real interactions, with normal (from body id1 to id2), overlap, normal_force and shear_force
+    (world axes, on body id2), id1 and id2; forces are 0 for physics without them.
+    tolerance: of the meshes of particles (see `mesh`). ids: of the bodies that are wanted; without them, all.
+    On several ranks (potential_particles.mpi) it is to be called by all of them, between two calls of mpi.run; rank 0 writes.
+    """
+
+    def __init__(self, name, tolerance=0.02, ids=None):
+        self.name, self.ids = os.fspath(name), ids
+        self.meshes = ShapeMeshes(tolerance)
+        self.frames = {"bodies": [], "contacts": []}
+        os.makedirs(os.path.dirname(self.name) or ".", exist_ok=True)
+
+    def __call__(self):
+        rank, bodies, contacts, gather = _here()
+        if self.ids is not None:
+            wanted = set(self.ids)
+            bodies = [body for body in bodies if body.id in wanted]
+        parts = gather((Triangles.together(drawn(bodies, self.meshes)), _rows(bodies, rank, _body, _BODY),
+                        _rows(contacts, rank, _contact, _CONTACT)))
+        if rank:
+            return
+        triangles = Triangles.together([part[0] for part in parts])
+        of_bodies, of_contacts = (np.concatenate([part[i] for part in parts]) for i in (1, 2))
+        self._write("bodies", self._bodies(triangles, _columns(of_bodies, _BODY)))
+        columns = _columns(of_contacts, _CONTACT)
+        self._write("contacts", vtk_files.vertices(columns.pop("point"), columns))
+
+    @staticmethod
+    def _bodies(triangles, columns):
+        order = np.argsort(columns["id"])
+        row = order[np.searchsorted(columns["id"], triangles.bodies, sorter=order)]
+        count = len(triangles.bodies)
+        points = triangles.corners.reshape(-1, 3).astype(np.float32)
+        normals = triangles.normals.reshape(-1, 3).astype(np.float32)
+        cells = {name: column[row] for name, column in columns.items()}
+        return vtk_files.triangles(points, np.arange(3 * count).reshape(-1, 3), {"normal": normals}, cells, normals="normal")
+
+    def _write(self, kind, data):
+        step = yade.O.iter
+        file = f"{self.name}.{kind}.{step:07d}.vtp"
+        vtk_files.write(file, data)
+        # A step that is written again, after O.load, takes the place of the first.
+        frames = [frame for frame in self.frames[kind] if frame[1] != os.path.basename(file)]
+        self.frames[kind] = frames + [(yade.O.time, os.path.basename(file))]
+        vtk_files.write_index(f"{self.name}.{kind}.pvd", self.frames[kind])
+
+
+def _here():
+    """Number of this rank, its bodies and contacts, and a function that brings what all ranks have to rank 0."""
+    mpi = sys.modules.get("potential_particles.mpi")
+    if mpi is not None and mpi.ranks() > 1:
+        return mpi.rank(), mpi.owned_bodies(), mpi.owned_contacts(), mpi.gather
+    contacts = [contact for contact in yade.O.interactions if contact.isReal]
+    return 0, [body for body in yade.O.bodies if body is not None], contacts, lambda value: [value]
+
+
+def _body(body, rank):
+    material = body.material.id if body.material is not None else -1
+    return (body.id, material, body.mask, rank, *body.state.vel, *body.state.angVel)
+
+
+def _contact(contact, rank):
+    geometry, physics = contact.geom, contact.phys
+    forces = [getattr(physics, name, (0.0, 0.0, 0.0)) for name in ("normalForce", "shearForce")]
+    return (*geometry.contactPoint, *geometry.normal, geometry.penetrationDepth, *forces[0], *forces[1], contact.id1, contact.id2)
+
+
+def _rows(things, rank, row, layout):
+    return np.array([row(thing, rank) for thing in things], float).reshape(-1, sum(layout.values()))
+
+
+def _columns(rows, layout):
+    """Columns of rows by name, (n,) or (n, 3)."""
+    columns, first = {}, 0
+    for name, width in layout.items():
+        column = rows[:, first] if width == 1 else rows[:, first:first + width]
+        columns[name] = column.astype(np.int32 if name in _WHOLE else float)
+        first += width
+    return columns

@@ -1,0 +1,211 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Packings: many bodies without overlap in a box or a cylinder, as the start of a scene.
+
+    from potential_particles import add_packing, pack, packing, shapes
+    rocks = [shapes.random_rock(seed) for seed in range(20)]
+    bodies = pack(packing.Box((0, 0, 0), (2, 2, 4)), rocks, sizes=[(0.1, 0.0), (0.2, 0.4), (0.4, 1.0)], shares="passing", dense=True)
+    add_packing(bodies, material)
+
+The library decides what overlaps (docs/packing.md).
+"""
+import os
+import signal
+import sys
+import threading
+import time
+import typing
+
+from .arguments import number as finite
+from .arguments import positive, rows, vector, whole
+
+
+class Box(typing.NamedTuple):
+    """A box with sides along the axes, between two corners."""
+
+    lower: tuple
+    upper: tuple
+
+
+class Cylinder(typing.NamedTuple):
+    """An upright cylinder on a disc about `base`."""
+
+    base: tuple
+    radius: float
+    height: float
+
+
+class Placement(typing.NamedTuple):
+    """One body of a packing: body(shape.scaled(scale), material, position, orientation) makes it."""
+
+    shape: object
+    scale: float
+    position: tuple
+    orientation: tuple  #: w, x, y, z
+
+
+def pack(container, shapes, sizes=None, number=None, dense=False, seed=0, margin=0.0, shares="number", threads=None, progress=True):
+    """Places bodies of random orientation in a container, none of which overlap; a list of Placement.
+
+    container: a Box or a Cylinder. shapes: one Shape or several, each as likely as the others.
+    sizes: None for the shapes as they are; one size for all; or rows (size, share). A size is the diameter of a ball of the
+    body's volume. shares says what a share is: "number" or "mass", of bodies of that size, with a sum of 1; or "passing", a grading
+    curve: of the mass, in bodies below that size, growing from 0 to 1 and linear between rows.
+    dense: False scatters `number` bodies in the container, the largest first; True lays each as low as it gets, from the bottom
+    upwards, `number` of them or, with None, as many as fit.
+    margin: least distance between two bodies, and twice that to the container, length.
+    seed: the same one gives the same packing, whatever `threads` (by default the number of cores) is.
+    progress: a bar on the terminal; where standard error is none, a line at the end.
+
+    Fewer than `number` come back where no more fit, which is said; Ctrl-C ends the packing and keeps what has its place.
+    ValueError for what cannot be packed.
+    """
+    shapes = _shapes(shapes)
+    choices = _choices()
+    if shares not in ("number", "mass", "passing"):
+        raise ValueError(f"shares={shares!r} must be 'number', 'mass' or 'passing'")
+    if number is None and not dense:
+        raise ValueError("say how many: number=..., or dense=True for as many as fit")
+    wanted = None if number is None else whole(number, 1, "number")
+    kind, lower, upper = _space(container)
+    how = {
+        "container": choices[kind], "arrangement": choices["settled" if dense else "scattered"], "shares": choices[shares],
+        "threads": len(os.sched_getaffinity(0)) if threads is None else whole(threads, 1, "threads"),
+        "lower": lower, "upper": upper, "margin": finite(margin, "margin"), "seed": whole(seed, 0, "seed"), "number": wanted or 0,
+    }
+    report = _Report(wanted, progress)
+    placements = []
+
+    def placed(new):
+        placements.extend(_placement(shapes[index], *where) for index, *where in new)
+        report.update(len(placements))
+        return not interrupted
+
+    with _Interrupts() as interrupted:
+        try:
+            _glue().pack([shape.particle() for shape in shapes], _size_rows(sizes), how, placed)
+        finally:
+            report.close(len(placements), interrupted, solid_volume(placements), _volume(kind, lower, upper))
+    return placements
+
+
+def add_packing(placements, material=None, **more):
+    """Appends the bodies of a packing to O.bodies; their ids. `more` goes to body() (fixed, color, mask, ...)."""
+    import yade
+    from .bodies import body
+    scaled = {}
+    made = []
+    for placement in placements:
+        key = id(placement.shape), placement.scale
+        if key not in scaled:
+            scaled[key] = placement.shape.scaled(placement.scale)
+        made.append(body(scaled[key], material, placement.position, placement.orientation, **more))
+    return yade.O.bodies.append(made)
+
+
+def solid_volume(placements, lower=-float("inf"), upper=float("inf")):
+    """Volume of the bodies whose centroids lie between two heights, length^3."""
+    return sum(one.shape.volume * one.scale**3 for one in placements if lower <= _centroid(one)[2] <= upper)
+
+
+def _shapes(shapes):
+    from .shape import Shape
+    given = [shapes] if isinstance(shapes, Shape) else list(shapes)
+    for one in given:
+        if not isinstance(one, Shape):
+            raise ValueError(f"a shape is {type(one).__name__}, not a Shape: make one by potential_particles.shapes")
+    if not given:
+        raise ValueError("shapes is empty: give at least one")
+    return given
+
+
+def _space(container):
+    """(kind, lower corner, upper corner)."""
+    if isinstance(container, Box):
+        return "box", tuple(vector(container.lower, "lower")), tuple(vector(container.upper, "upper"))
+    if isinstance(container, Cylinder):
+        x, y, z = vector(container.base, "base")
+        radius, height = positive(container.radius, "radius"), positive(container.height, "height")
+        return "cylinder", (x - radius, y - radius, z), (x + radius, y + radius, z + height)
+    raise ValueError(f"container is {type(container).__name__}, not a packing.Box or packing.Cylinder")
+
+
+def _volume(kind, lower, upper):
+    x, y, z = (high - low for low, high in zip(lower, upper))
+    # pi/4 of the box about it.
+    return x * y * z * (0.7853981633974483 if kind == "cylinder" else 1.0)
+
+
+def _size_rows(sizes):
+    if sizes is None:
+        return []
+    if not hasattr(sizes, "__len__"):
+        sizes = [(positive(sizes, "sizes"), 1.0)]
+    found = [tuple(map(float, row)) for row in rows(sizes, 2, "sizes", "the two numbers size, share")]
+    if not found:
+        raise ValueError("sizes is empty: give rows (size, share), or None for the shapes as they are")
+    return found
+
+
+def _placement(shape, scale, position, orientation):
+    """In the frame in which body() places a shape, from the pose of its centroid and principal axes."""
+    from yade import Quaternion, Vector3
+    w, x, y, z = shape.orientation
+    to_frame = Quaternion(*orientation) * Quaternion(w, x, y, z).conjugate()
+    origin = Vector3(*position) - to_frame * (Vector3(*shape.centroid) * scale)
+    return Placement(shape, scale, tuple(origin), (to_frame[3], to_frame[0], to_frame[1], to_frame[2]))
+
+
+def _centroid(placement):
+    from yade import Quaternion, Vector3
+    return Vector3(*placement.position) + Quaternion(*placement.orientation) * (Vector3(*placement.shape.centroid) * placement.scale)
+
+
+def _glue():
+    from . import _glue
+    return _glue
+
+
+def _choices():
+    return _glue().packing_choices
+
+
+class _Interrupts:
+    """While it is entered, Ctrl-C is noted in a list instead of raised."""
+
+    def __enter__(self):
+        self.noted = []
+        self.before = None
+        if threading.current_thread() is threading.main_thread():
+            self.before = signal.signal(signal.SIGINT, lambda *_: self.noted.append("Ctrl-C"))
+        return self.noted
+
+    def __exit__(self, *_):
+        if self.before is not None:
+            signal.signal(signal.SIGINT, self.before)
+
+
+class _Report:
+    """A bar on a terminal, and a line at the end."""
+
+    def __init__(self, wanted, shown):
+        self.wanted, self.shown, self.begin, self.bar = wanted, shown, time.monotonic(), None
+        if shown and sys.stderr.isatty():
+            from tqdm import tqdm
+            self.bar = tqdm(total=wanted, unit=" bodies", desc="packing", leave=False)
+
+    def update(self, count):
+        if self.bar is not None:
+            self.bar.update(count - self.bar.n)
+
+    def close(self, count, interrupted, solid, volume):
+        if self.bar is not None:
+            self.bar.close()
+        if self.shown and count:
+            of, why = "", ""
+            if self.wanted is not None and count < self.wanted:
+                of = f" of {self.wanted:,}"
+                why = "; stopped by Ctrl-C" if interrupted else "; no more fit"
+            elif interrupted:
+                why = "; stopped by Ctrl-C"
+            seconds = time.monotonic() - self.begin
+            print(f"packed {count:,}{of} bodies in {seconds:.1f} s, {100 * solid / volume:.1f} % of the container{why}", file=sys.stderr)

@@ -1,0 +1,49 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A potential particle that waits to become bodies: its definition, its mass properties, and how it stands in its builder's frame."""
+import dataclasses
+import math
+import typing
+
+
+@dataclasses.dataclass(frozen=True)
+class Shape:
+    """One particle, validated by the library. Immutable; one shape serves any number of bodies.
+
+    With <t> = max(t, 0) its surface is (1-k)/r^2 sum <a x + b y + c z - d>^2 + k/R^2 |x|^2 = 1 in its principal frame: the origin is the
+    centroid and the axes are principal axes of inertia, as YADE wants the frame of a body. `centroid` and
+    `orientation` say where this frame lies in that of the builder (the planes, points or file that a script gave):
+    x_builder = centroid + orientation x. Lengths are in the script's unit.
+    """
+
+    planes: typing.Tuple[typing.Tuple[float, float, float, float], ...]  #: a, b, c, d of each plane, principal frame
+    r: float  #: rounding radius, length
+    k: float  #: sphericity, 0 to 1
+    R: float  #: radius of the shadow sphere, length
+    volume: float  #: length^3
+    inertia: typing.Tuple[float, float, float]  #: about the centroid along the principal axes for density 1, length^5
+    error: float  #: estimated bound on the relative error of volume and inertia
+    centroid: typing.Tuple[float, float, float]  #: in the builder's frame
+    orientation: typing.Tuple[float, float, float, float]  #: w, x, y, z, from the principal to the builder's frame
+    bounding_radius: float  #: of a ball about the centroid that holds the particle, length
+    name: str = "particle"
+
+    @property
+    def equivalent_diameter(self):
+        """Diameter of the ball of the same volume, length."""
+        return (6.0 * self.volume / math.pi) ** (1.0 / 3.0)
+
+    def scaled(self, factor):
+        """The same shape with all lengths multiplied by `factor`."""
+        from .arguments import positive
+        factor = positive(factor, "factor")
+        return dataclasses.replace(
+            self,
+            planes=tuple((a, b, c, d * factor) for a, b, c, d in self.planes),
+            r=self.r * factor, R=self.R * factor,
+            volume=self.volume * factor**3, inertia=tuple(one * factor**5 for one in self.inertia),
+            centroid=tuple(one * factor for one in self.centroid), bounding_radius=self.bounding_radius * factor)
+
+    def particle(self, **attributes):
+        """A new ConicPotentialParticle of this shape; `attributes` are further ones of it (isBoundary, color, ...)."""
+        from yade.wrapper import ConicPotentialParticle
+        return ConicPotentialParticle(planes=list(self.planes), r=self.r, k=self.k, R=self.R, **attributes)

@@ -1,0 +1,85 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""One warning, at the first step, where potential particles would pass through other bodies in silence.
+
+YADE leaves alone a pair of bodies for whose shapes its contact loop has no functor. That is right for two facets, and
+mostly a mistake for a particle and its floor.
+"""
+import warnings
+
+from yade.wrapper import PotentialParticle
+
+# Which functor serves potential particles and this shape; others have none.
+_REMEDIES = {"Sphere": "Ig2_Sphere_ConicPP_ScGeom", "Box": "Ig2_Box_ConicPP_ScGeom", "Wall": "Ig2_Wall_ConicPP_ScGeom",
+             "Facet": "Ig2_Facet_ConicPP_ScGeom"}
+
+
+class UnservedShapes(UserWarning):
+    """The scene has bodies that no functor of its contact loop lets touch the potential particles."""
+
+
+class _Group:
+    """The bodies with one class of shape."""
+
+    def __init__(self, shape):
+        self.shape = shape
+        self.name = type(shape).__name__
+        self.count = self.mask = 0
+        self.moves = False
+
+    def add(self, body):
+        self.count += 1
+        self.mask |= body.mask
+        self.moves = self.moves or body.dynamic
+
+
+def _groups(bodies):
+    groups = {}
+    for body in bodies:
+        if body.shape is not None and not body.isClump:
+            kind = type(body.shape)
+            if kind not in groups:
+                groups[kind] = _Group(body.shape)
+            groups[kind].add(body)
+    return list(groups.values())
+
+
+def _remedy(other):
+    if isinstance(other.shape, PotentialParticle):
+        return "add Ig2_PP_PP_ScGeom_Conic()"
+    return f"add {_REMEDIES[other.name]}()" if other.name in _REMEDIES else "there is no functor for them"
+
+
+def sentence(bodies, dispatchers):
+    """What is to be said of these bodies and the dispatchers of geometry, or None."""
+    groups = _groups(bodies)
+    parts = []
+    for i, later in enumerate(groups):
+        for earlier in groups[:i + 1]:
+            # The particles first, if only one of the two groups has them.
+            one, other = sorted((earlier, later), key=lambda group: not isinstance(group.shape, PotentialParticle))
+            may_touch = one.mask & other.mask and (one.moves or other.moves) and (one is not other or one.count > 1)
+            if not isinstance(one.shape, PotentialParticle) or not may_touch:
+                continue
+            if not any(dispatcher.dispFunctor(one.shape, other.shape) for dispatcher in dispatchers):
+                parts.append(f"{one.name} ({one.count}) and {other.name} ({other.count}): {_remedy(other)}")
+    if not parts:
+        return None
+    return ("bodies pass through each other because the contact loop has no functor for their shapes (number of bodies): "
+            + "; ".join(parts))
+
+
+class Watch:
+    """Looks at a scene when it begins, and when its bodies or functors have become others."""
+
+    def __init__(self):
+        self.seen = None
+
+    def look(self, scene, dispatchers):
+        now = (len(scene.bodies), [type(functor).__name__ for dispatcher in dispatchers for functor in dispatcher.functors])
+        if not dispatchers or (scene.iter > 0 and now == self.seen):
+            return
+        self.seen = now
+        text = sentence(scene.bodies, dispatchers)
+        if text is not None:
+            # Without a place in a source file: the line is about the scene, and stays one line.
+            warnings.warn_explicit("potential_particles: " + text, UnservedShapes, "potential_particles", 0)

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Which of two facets that share an edge or a vertex has the contact with a particle there.
+//
+// The scale s of a particle is convex, and so is each facet. The point of a facet where s is least is therefore one of the
+// mesh around it exactly if no facet that shares its edge or vertex has a lower s: a facet whose point lies inside it keeps
+// its contact, one whose point lies on a seam yields to a neighbour with less. Where both may have their least point on
+// the seam for all that is known of it, in one place, they have one contact: that of the lower s, or, in the very same
+// place, of the lower number of the body.
+#pragma once
+
+#include "kept_off.hpp"
+
+#include <potential_particles.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace potential_particles {
+
+// The contact of a facet, alone. Positions from the particle's centre.
+struct FacetContact {
+    const BoundaryPoints& vertices;
+    const pp_flat_contact& found;
+    int id;
+    double least; // to which points are told apart at all: rounding
+    double doubt; // how far this one may be from where it says
+
+    yade::Vector3r point() const { return yade::Vector3r(found.on_boundary); }
+};
+
+// In the particle's size.
+constexpr double leastDoubt = 1e-9, mostDoubt = 0.1;
+
+inline FacetContact facetContact(const BoundaryPoints& vertices, const pp_flat_contact& found, int id, double radius)
+{
+    const double bound = found.point_bound >= 0 ? found.point_bound : mostDoubt * radius;
+    const double least = leastDoubt * radius;
+    return { vertices, found, id, least, least + std::min(bound, mostDoubt * radius) };
+}
+
+inline double distanceToSegment(const yade::Vector3r& x, const yade::Vector3r& from, const yade::Vector3r& to)
+{
+    const yade::Vector3r along = to - from;
+    const double way = std::clamp((x - from).dot(along) / along.squaredNorm(), 0.0, 1.0);
+    return (x - from - way * along).norm();
+}
+
+// Edges and vertices of a facet, a bit each: edge i from vertex i to the next one.
+struct Parts {
+    unsigned edges = 0, vertices = 0;
+
+    bool any() const { return edges || vertices; }
+};
+
+// Those on which the point of its contact lies, or may lie for all that is known.
+inline Parts partsAt(const FacetContact& facet)
+{
+    Parts parts;
+    const yade::Vector3r x = facet.point();
+    for (unsigned i = 0; i < 3; ++i) {
+        const yade::Vector3r& from = facet.vertices[i];
+        const yade::Vector3r& to = facet.vertices[(i + 1) % 3];
+        if (facet.found.feature == PP_ON_EDGE + i || distanceToSegment(x, from, to) <= facet.doubt)
+            parts.edges |= 1u << i;
+        if (facet.found.feature == PP_ON_VERTEX + i || (x - from).norm() <= facet.doubt)
+            parts.vertices |= 1u << i;
+    }
+    return parts;
+}
+
+// Vertices of the first that the second has as well, and the edges between them.
+inline Parts sharedParts(const BoundaryPoints& vertices, const BoundaryPoints& others, double weld)
+{
+    Parts parts;
+    for (unsigned i = 0; i < 3; ++i)
+        for (const yade::Vector3r& other : others)
+            if ((vertices[i] - other).norm() <= weld)
+                parts.vertices |= 1u << i;
+    for (unsigned i = 0; i < 3; ++i)
+        if ((parts.vertices >> i & 1) && (parts.vertices >> (i + 1) % 3 & 1))
+            parts.edges |= 1u << i;
+    return parts;
+}
+
+// Where s is the same to within its error, as on facets in one plane under a flat face of a particle with k = 0, the point
+// nearest to the particle's centre is the least: there s is that of k -> 0.
+inline bool isLower(const FacetContact& one, const FacetContact& other)
+{
+    if (!(std::abs(one.found.s - other.found.s) <= one.found.gap + other.found.gap))
+        return one.found.s < other.found.s;
+    const double way = one.point().squaredNorm(), otherWay = other.point().squaredNorm();
+    return way != otherWay ? way < otherWay : one.id < other.id;
+}
+
+// `common`: what the two share, of that on which the first one's point lies.
+inline bool yieldsTo(const FacetContact& other, const FacetContact& own, const Parts& common)
+{
+    bool onCommon = false, inOnePlace = false;
+    const yade::Vector3r x = own.point(), y = other.point();
+    const bool close = (x - y).norm() <= own.doubt + other.doubt;
+    for (unsigned i = 0; i < 3; ++i) {
+        const yade::Vector3r& from = own.vertices[i];
+        if (common.edges >> i & 1) {
+            const yade::Vector3r& to = own.vertices[(i + 1) % 3];
+            onCommon = onCommon || own.found.feature == PP_ON_EDGE + i;
+            inOnePlace = inOnePlace
+                || (close && distanceToSegment(x, from, to) <= own.doubt && distanceToSegment(y, from, to) <= other.doubt);
+        }
+        if (common.vertices >> i & 1) {
+            onCommon = onCommon || own.found.feature == PP_ON_VERTEX + i;
+            inOnePlace = inOnePlace || (close && (x - from).norm() <= own.doubt && (y - from).norm() <= other.doubt);
+        }
+    }
+    if (inOnePlace && (x - y).norm() <= own.least + other.least)
+        return other.id < own.id;
+    return (inOnePlace || onCommon) && isLower(other, own);
+}
+
+} // namespace potential_particles
