@@ -9,7 +9,7 @@ use crate::contact::contact::Kind;
 use crate::contact::detect::DetectError;
 use crate::flags::Flags;
 use crate::linalg::number::larger;
-use crate::pair::placed_particle::Body;
+use crate::pair::placed_particle::{Body, shift_in_a};
 use crate::pair::separation_tests::{Apart, MARGIN};
 use crate::particle::particle::Particle;
 use crate::particle::ray_cast;
@@ -135,7 +135,7 @@ impl Call<'_> {
             least_sphericity: self.settings.least_sphericity(),
             tolerance: self.settings.gap_tolerance,
         };
-        let body = goal.body(boundary.farthest);
+        let body = goal.body();
         let Some(closest) = goal.closest(boundary) else {
             return Err(DetectError::Failed { reason: "the search on the boundary did not settle".into() });
         };
@@ -173,7 +173,7 @@ impl Call<'_> {
             iterations: closest.models,
             s: scale.s,
             gap: scale.gap,
-            point_bound: closest.point_bound(body),
+            point_bound: closest.point_bound(body, boundary),
             normal: normal.world,
             point: position + to_boundary,
             branch: to_boundary,
@@ -184,7 +184,7 @@ impl Call<'_> {
             return Ok(FlatContact { distance: distance(closest, scale), ..contact });
         }
         let overlap = self
-            .overlap(closest, &normal.local)
+            .overlap(closest, &normal.local, shift_in_a(minimum.x.norm(), boundary.farthest))
             .ok_or_else(|| DetectError::Failed { reason: "the surface was not found along the normal".into() })?;
         let branch = to_boundary + 0.5 * overlap * normal.world;
         Ok(FlatContact {
@@ -201,7 +201,8 @@ impl Call<'_> {
     /// Along the gradient; inside the boundary along its normal, at an edge at right angles to that.
     fn normal(&self, boundary: &Placed, body: &Body, closest: &Closest) -> Normal {
         let Closest { minimum, feature, .. } = closest;
-        let doubt = minimum.slope + body.sphere_curvature() * minimum.shift;
+        let shift = shift_in_a(minimum.x.norm(), boundary.farthest);
+        let doubt = minimum.slope + body.sphere_curvature() * shift;
         let by_boundary = Normal { world: -self.normal, local: -boundary.normal, by_boundary: true };
         let gradient = match (feature, &boundary.corners) {
             (Feature::Interior, _) | (_, None) => {
@@ -226,12 +227,12 @@ impl Call<'_> {
     }
 
     /// The way along the normal from the boundary to the surface of A.
-    fn overlap(&self, closest: &Closest, normal: &Vector3<f64>) -> Option<f64> {
+    fn overlap(&self, closest: &Closest, normal: &Vector3<f64>, shift: f64) -> Option<f64> {
         let minimum = &closest.minimum;
         let guess =
             ray_cast::root_of_piece(minimum.value - 1.0, minimum.gradient.dot(normal), minimum.curvature(normal));
         let way = ray_cast::distance_near(self.particle, &minimum.x, normal, guess)
-            .or_else(|| ray_cast::distance_beside(self.particle, &minimum.x, normal, minimum.shift))?;
+            .or_else(|| ray_cast::distance_beside(self.particle, &minimum.x, normal, shift))?;
         // Where s < 1 by rounding alone, it may be behind.
         Some(larger(way, 0.0))
     }

@@ -4,7 +4,7 @@
 //! active planes still push there and no other has become active, that is the minimum of S. If not, the step is taken when S
 //! falls, and is shortened to the least S along it when it does not.
 
-use super::minimum::{Minimum, Model};
+use super::minimum::{Minimum, Model, Step};
 use crate::linalg::graded_basis;
 use crate::linalg::root::{self, Bracket};
 use crate::linalg::symmetric::{Factor, Symmetric};
@@ -52,7 +52,7 @@ pub(super) fn minimise(body: &Body, freedom: &Freedom, start: &Vector3<f64>, tol
             model = Model::at(body, freedom, body.locate(&shortened));
         }
         let step = model.step(freedom, body)?;
-        let v = model.axes * step;
+        let v = model.axes * step.v;
         let length = v.norm();
         let check = KktCheck::after(body, &model.point, &model.q, &v, length);
         if let (Change::Leaving, Some(place)) = (check.change, check.drop) {
@@ -112,16 +112,19 @@ impl Model {
         Self { point, axes, q: body.at(&point, Some(&axes)) }
     }
 
-    /// To the minimum of the quadratic where the point may move, in its axes; `None` if something is not finite.
-    fn step(&self, freedom: &Freedom, body: &Body) -> Option<Vector3<f64>> {
+    /// `None` if something is not finite.
+    fn step(&self, freedom: &Freedom, body: &Body) -> Option<Step> {
         let (h, g, least) = (&self.q.hessian, &self.q.gradient, body.sphere_curvature());
         let fixed = Symmetric { zx: 0.0, zy: 0.0, zz: least, ..*h };
-        let (h, slope) = match freedom {
-            Freedom::Plane(_) => (fixed, Vector3::new(-g.x, -g.y, 0.0)),
-            Freedom::Line(_) => (Symmetric { yx: 0.0, yy: least, ..fixed }, Vector3::new(-g.x, 0.0, 0.0)),
+        let (h, slope, dimensions) = match freedom {
+            Freedom::Plane(_) => (fixed, Vector3::new(-g.x, -g.y, 0.0), 2),
+            Freedom::Line(_) => (Symmetric { yx: 0.0, yy: least, ..fixed }, Vector3::new(-g.x, 0.0, 0.0), 1),
         };
-        let step = Factor::of(&h, least)?.solve(&slope);
-        step.iter().all(|c| c.is_finite()).then_some(step)
+        let factor = Factor::of(&h, least)?;
+        let inverse = factor.inverse();
+        let yy = if dimensions == 2 { inverse.yy } else { 0.0 };
+        let (v, answer) = (factor.solve(&slope), Symmetric { yy, zz: 0.0, ..inverse });
+        v.iter().all(|c| c.is_finite()).then_some(Step { v, answer, dimensions })
     }
 }
 
