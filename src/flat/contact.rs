@@ -14,6 +14,7 @@ use crate::pair::separation_tests::{Apart, MARGIN};
 use crate::particle::particle::Particle;
 use crate::particle::ray_cast;
 use crate::pose::Pose;
+use crate::section::Section;
 use crate::settings::Settings;
 use nalgebra::Vector3;
 
@@ -40,10 +41,12 @@ pub struct FlatContact {
     pub flags: Flags,
     /// Quadratics solved.
     pub iterations: u32,
-    /// √S_A at x*, the least on T. Rejected: a proved lower bound, ≥ 1.
+    /// √S_A at x*, the least on T, with S_A as regularised ([`Settings::flat_regularisation`]). Rejected: a proved lower bound, ≥ 1.
     ///
     /// It depends on the particle, its pose and this boundary alone, and on an edge or a vertex on nothing else of the triangle:
-    /// of the triangles of a mesh, the one with the least s (of equal ones, the first) owns the contact at a seam.
+    /// of the triangles of a mesh, the one with the least s (of equal ones, the first) owns the contact at a seam. With k = 0 and a
+    /// flat face on several triangles the regularisation alone tells them apart: at its default to some percent of the size, at 1e-4
+    /// to 1e-6 of it.
     pub s: f64,
     /// |s − s*| ≤ gap: rounding to first order, as of [`crate::Contact::gap`] in doubles.
     pub gap: f64,
@@ -137,9 +140,12 @@ impl Call<'_> {
         };
         let body = goal.body();
         let Some(closest) = goal.closest(boundary) else {
-            return Err(DetectError::Failed { reason: "the search on the boundary did not settle".into() });
+            return Err(DetectError::Failed { reason: "the scale on the boundary is not finite".into() });
         };
         let scale = closest.scale(&body);
+        if !(closest.settled || scale.low >= 1.0 || scale.s + scale.gap < 1.0) {
+            return Err(DetectError::Failed { reason: "the search on the boundary did not settle".into() });
+        }
         let least = Settings::default().flat_regularisation;
         if scale.s >= 1.0 && scale.low < 1.0 && self.settings.flat_regularisation > least {
             // Where the bulge of a raised regularisation may hide an overlap, the particle as it is decides.
@@ -243,6 +249,13 @@ impl Call<'_> {
 fn distance(closest: &Closest, scale: Scale) -> f64 {
     let slope = closest.minimum.gradient.norm() + closest.minimum.slope;
     larger((scale.low - 1.0) * 2.0 * scale.low / slope * (1.0 - MARGIN), 0.0)
+}
+
+impl From<&FlatContact> for Section {
+    /// Of an overlapping contact: with A in place of both particles its area is that of the cut of A alone.
+    fn from(contact: &FlatContact) -> Self {
+        Self { branch_a: contact.branch, branch_b: contact.branch, normal: contact.normal }
+    }
 }
 
 impl FlatContact {

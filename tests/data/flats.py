@@ -1,12 +1,14 @@
-#!/usr/bin/python3
-"""Writes flats.jsonl: contacts of potential particles with planes and triangles, solved to 40 digits with mpmath.
+#!/usr/bin/env python3
+"""Contacts of potential particles with planes and triangles to 40 digits, by another way than the library's.
+
+    python3 tests/data/flats.py > tests/data/flats.jsonl
 
 Independent of the library: S is minimised in barycentric coordinates (of a plane: along two vectors at right angles to its
 normal), in arithmetic of 120 digits, by Newton's method whose line search walks from one plane's switch to the next; on a triangle
 also along each edge. Every minimum is checked against the condition g.(v - x) >= 0 for the vertices v.
 
 One object a line: the particle {n, d, r, k, R}, its pose {pos, q}, "vertices" or "point" and "normal", all as exact doubles, and
-the truth as decimal strings: s, and x, the point of the boundary minus pos (for k = 0 null where it is not unique).
+the truth as decimal strings: s, and x, the point of the boundary minus pos (null for k = 0, where it may not be unique). Needs mpmath.
 """
 import json
 import random
@@ -14,7 +16,6 @@ import random
 from mpmath import mp, mpf, sqrt
 
 mp.dps = 120
-OUTPUT = "flats.jsonl"
 SEED = 20261122
 # Stands in for k = 0 where a minimum may not be unique; s is known to its root.
 LEAST_WEIGHT = mpf(10) ** -90
@@ -255,13 +256,11 @@ def cases(rng):
 
 def main():
     rng = random.Random(SEED)
-    with open(OUTPUT, "w", encoding="ascii") as output:
-        for case in cases(rng):
-            s, x = solve(case)
-            unique = case["A"]["k"] > 0
-            case["s"] = mp.nstr(s, 40)
-            case["x"] = [mp.nstr(c, 40) for c in x] if unique else None
-            output.write(json.dumps(case) + "\n")
+    for case in cases(rng):
+        s, x = solve(case)
+        case["s"] = mp.nstr(s, 40)
+        case["x"] = [mp.nstr(c, 40) for c in x] if case["A"]["k"] > 0 else None
+        print(json.dumps(case))
 
 
 if __name__ == "__main__":
