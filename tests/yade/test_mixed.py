@@ -36,7 +36,7 @@ def energy(number):
 
 
 begun, seen, flying = [energy(n) for n in bouncing], set(), [[] for _ in bouncing]
-for _ in range(150):
+for _ in range(120):
     run(400)
     touched = {i.id1 if i.id1 in bouncing else i.id2 for i in touching()}
     seen |= touched
@@ -114,7 +114,7 @@ def one_thread():
 
 for loop in yade.InteractionLoop, yade.ConicInteractionLoop:
     moving = heap(loop)
-    run(6000)
+    run(4000)
     name = loop.__name__
     kinds = {tuple(sorted(type(O.bodies[n].shape).__name__ for n in (i.id1, i.id2))) for i in touching()}
     for other in "Sphere", "Facet":
