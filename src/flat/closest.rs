@@ -3,10 +3,10 @@
 use super::contact::Feature;
 use super::minimum::Minimum;
 use super::placed::{Corners, Edge, Placed};
-use super::search::{Freedom, minimise};
+use super::search::{Found, Freedom, minimise};
 use crate::bounds::gap::Scale;
-use crate::linalg::number::larger;
-use crate::pair::placed_particle::Body;
+use crate::linalg::number::{larger, smaller};
+use crate::pair::placed_particle::{Body, shift_in_a};
 use crate::particle::particle::Particle;
 use nalgebra::Vector3;
 
@@ -26,49 +26,60 @@ pub(super) struct Closest {
     pub feature: Feature,
     /// Lower bound of S on the whole boundary up to `minimum.rounding`.
     pub lower: f64,
+    /// Whether the search settled; if not, the bounds say how much is known.
+    pub settled: bool,
     pub models: u32,
 }
 
 impl Goal<'_> {
-    /// The particle as it is solved for, with boundaries placed from points this far from its centre.
-    pub fn body(&self, farthest: f64) -> Body<'_> {
-        Body::alone(self.particle, self.least_sphericity, farthest)
+    /// The particle as it is solved for.
+    pub fn body(&self) -> Body<'_> {
+        Body::alone(self.particle, self.least_sphericity)
     }
 
-    /// The point of the boundary where S is least; `None` if a search does not settle.
+    /// The point of the boundary where S is least; `None` if something is not finite.
     pub fn closest(&self, boundary: &Placed) -> Option<Closest> {
-        let body = self.body(boundary.farthest);
-        let (minimum, models) = minimise(&body, &Freedom::Plane(boundary.normal), &boundary.nearest(), self.tolerance)?;
-        let in_plane = Closest::on(&body, boundary, minimum, Feature::Interior, models);
+        let body = self.body();
+        let freedom = Freedom::Plane(boundary.normal);
+        let found = minimise(&body, &freedom, &boundary.nearest(), self.tolerance)?.displaced(boundary.farthest);
+        let in_plane = Closest::on(&body, boundary, &found, Feature::Interior);
         let Some(corners) = &boundary.corners else { return Some(in_plane) };
-        let outside = corners.outside(&minimum.x, &boundary.normal);
-        let mut least: Option<Closest> = None;
+        let outside = corners.outside(&found.minimum.x, &boundary.normal);
+        let (mut least, mut models): (Option<Closest>, _) = (None, found.models);
         // The least S on a triangle is in its plane's, or on an edge beyond which that lies.
         for i in (0..3).filter(|i| outside[*i]) {
-            let (minimum, feature, more) = self.on_edge(corners, i)?;
-            let found = Closest::on(&body, boundary, minimum, feature, models + more);
+            let (found, feature) = self.on_edge(&body, corners, i)?;
+            models += found.models;
             if least.is_none_or(|least| found.minimum.value < least.minimum.value) {
-                least = Some(found);
+                least = Some(Closest::on(&body, boundary, &found, feature));
             }
         }
         let found = least.unwrap_or(in_plane);
         // No point of the triangle is below the least of its plane.
         let lower = larger(found.lower, in_plane.lower - in_plane.minimum.rounding);
-        Some(Closest { lower, ..found })
+        Some(Closest { lower, models, ..found })
     }
 
     /// The least S on edge i, from the edge alone: triangles that share it find the same.
-    fn on_edge(&self, corners: &Corners, i: usize) -> Option<(Minimum, Feature, u32)> {
+    fn on_edge(&self, body: &Body, corners: &Corners, i: usize) -> Option<(Found, Feature)> {
         let edge = corners.edge(i);
-        let body = self.body(edge.farthest(corners));
-        let (minimum, models) = minimise(&body, &Freedom::Line(edge.along), &edge.nearest(), self.tolerance)?;
-        Some(match beyond(&edge, &minimum.x) {
-            None => (minimum, Feature::Edge(i as u8), models),
+        let found = minimise(body, &Freedom::Line(edge.along), &edge.nearest(), self.tolerance)?;
+        Some(match beyond(&edge, &found.minimum.x) {
+            None => (found.displaced(edge.farthest(corners)), Feature::Edge(i as u8)),
             Some(vertex) => {
                 let at = &corners.at[vertex];
-                (Minimum::at(&self.body(at.norm()), at), Feature::Vertex(vertex as u8), models + 1)
+                let found = Found { minimum: Minimum::at(body, at), models: found.models + 1, ..found };
+                (found.displaced(at.norm()), Feature::Vertex(vertex as u8))
             }
         })
+    }
+}
+
+impl Found {
+    /// With the rounding of a place that is given by points so far from the centre.
+    fn displaced(self, farthest: f64) -> Self {
+        let by = shift_in_a(self.minimum.x.norm(), farthest);
+        Self { minimum: self.minimum.displaced(by), ..self }
     }
 }
 
@@ -86,26 +97,36 @@ fn beyond(edge: &Edge, x: &Vector3<f64>) -> Option<usize> {
 
 impl Closest {
     /// A minimum on a part of the boundary, seen as that of the whole.
-    fn on(body: &Body, boundary: &Placed, minimum: Minimum, feature: Feature, models: u32) -> Self {
-        let level = larger(minimum.value, 1.0);
-        let within = minimum.farthest(body, level).min(boundary.extent(&minimum.x));
-        let lower = minimum.value - minimum.height(body, descent(boundary, &minimum.gradient, feature), within);
-        Self { minimum, feature, lower, models }
+    fn on(body: &Body, boundary: &Placed, found: &Found, feature: Feature) -> Self {
+        let Found { minimum, settled, models } = *found;
+        let found = Self { minimum, feature, lower: f64::NEG_INFINITY, settled, models };
+        let descent = descent(boundary, &minimum.gradient, feature);
+        Self { lower: minimum.value - minimum.height(body, descent, found.within(body, boundary)), ..found }
     }
 
-    /// s with its bounds, the regularisation taken out again.
+    /// s of the regularised particle, with bounds of that of the given one.
+    ///
+    /// Where a flat face lies on several triangles, or a core of k = 0 reaches through them, the regularisation alone tells which of
+    /// them is nearest to the centre: it stays part of s, and of the gap.
     pub fn scale(&self, body: &Body) -> Scale {
         let minimum = &self.minimum;
         let most = body.most_surplus(larger(minimum.value, 1.0));
-        let estimate = larger(minimum.value - body.surplus(&minimum.x), 0.0);
-        Scale::between(estimate, self.lower - most - minimum.rounding, minimum.value + minimum.rounding)
+        Scale::between(minimum.value, self.lower - most - minimum.rounding, minimum.value + minimum.rounding)
     }
 
-    /// Estimated bound on the distance of the point to the minimum: S, regularised, rises at least as the square of the way times
-    /// the least curvature.
-    pub fn point_bound(&self, body: &Body) -> f64 {
-        let open = larger(self.minimum.value - self.lower, 0.0) + 2.0 * self.minimum.rounding;
-        (2.0 * open / body.sphere_curvature()).sqrt() + self.minimum.shift
+    /// Estimated bound on the distance of the point to the minimum: from the answer of that to its data, or since S, regularised,
+    /// rises at least as the square of the way times the least curvature, or from where it can be at all.
+    pub fn point_bound(&self, body: &Body, boundary: &Placed) -> f64 {
+        let minimum = &self.minimum;
+        let open = larger(minimum.value - self.lower, 0.0) + 2.0 * minimum.rounding;
+        let by_convexity = 2.0 * (2.0 * open / body.sphere_curvature()).sqrt();
+        smaller(smaller(minimum.way, by_convexity), self.within(body, boundary))
+    }
+
+    /// Bound on the way to any point of the boundary where S is no larger.
+    fn within(&self, body: &Body, boundary: &Placed) -> f64 {
+        let level = larger(self.minimum.value, 1.0);
+        smaller(self.minimum.farthest(body, level), boundary.extent(&self.minimum.x))
     }
 }
 

@@ -9,11 +9,12 @@ use crate::contact::contact::Kind;
 use crate::contact::detect::DetectError;
 use crate::flags::Flags;
 use crate::linalg::number::larger;
-use crate::pair::placed_particle::Body;
+use crate::pair::placed_particle::{Body, shift_in_a};
 use crate::pair::separation_tests::{Apart, MARGIN};
 use crate::particle::particle::Particle;
 use crate::particle::ray_cast;
 use crate::pose::Pose;
+use crate::section::Section;
 use crate::settings::Settings;
 use nalgebra::Vector3;
 
@@ -40,10 +41,12 @@ pub struct FlatContact {
     pub flags: Flags,
     /// Quadratics solved.
     pub iterations: u32,
-    /// √S_A at x*, the least on T. Rejected: a proved lower bound, ≥ 1.
+    /// √S_A at x*, the least on T, with S_A as regularised ([`Settings::flat_regularisation`]). Rejected: a proved lower bound, ≥ 1.
     ///
     /// It depends on the particle, its pose and this boundary alone, and on an edge or a vertex on nothing else of the triangle:
-    /// of the triangles of a mesh, the one with the least s (of equal ones, the first) owns the contact at a seam.
+    /// of the triangles of a mesh, the one with the least s (of equal ones, the first) owns the contact at a seam. With k = 0 and a
+    /// flat face on several triangles the regularisation alone tells them apart: at its default to some percent of the size, at 1e-4
+    /// to 1e-6 of it.
     pub s: f64,
     /// |s − s*| ≤ gap: rounding to first order, as of [`crate::Contact::gap`] in doubles.
     pub gap: f64,
@@ -135,11 +138,14 @@ impl Call<'_> {
             least_sphericity: self.settings.least_sphericity(),
             tolerance: self.settings.gap_tolerance,
         };
-        let body = goal.body(boundary.farthest);
+        let body = goal.body();
         let Some(closest) = goal.closest(boundary) else {
-            return Err(DetectError::Failed { reason: "the search on the boundary did not settle".into() });
+            return Err(DetectError::Failed { reason: "the scale on the boundary is not finite".into() });
         };
         let scale = closest.scale(&body);
+        if !(closest.settled || scale.low >= 1.0 || scale.s + scale.gap < 1.0) {
+            return Err(DetectError::Failed { reason: "the search on the boundary did not settle".into() });
+        }
         let least = Settings::default().flat_regularisation;
         if scale.s >= 1.0 && scale.low < 1.0 && self.settings.flat_regularisation > least {
             // Where the bulge of a raised regularisation may hide an overlap, the particle as it is decides.
@@ -173,7 +179,7 @@ impl Call<'_> {
             iterations: closest.models,
             s: scale.s,
             gap: scale.gap,
-            point_bound: closest.point_bound(body),
+            point_bound: closest.point_bound(body, boundary),
             normal: normal.world,
             point: position + to_boundary,
             branch: to_boundary,
@@ -184,7 +190,7 @@ impl Call<'_> {
             return Ok(FlatContact { distance: distance(closest, scale), ..contact });
         }
         let overlap = self
-            .overlap(closest, &normal.local)
+            .overlap(closest, &normal.local, shift_in_a(minimum.x.norm(), boundary.farthest))
             .ok_or_else(|| DetectError::Failed { reason: "the surface was not found along the normal".into() })?;
         let branch = to_boundary + 0.5 * overlap * normal.world;
         Ok(FlatContact {
@@ -201,7 +207,8 @@ impl Call<'_> {
     /// Along the gradient; inside the boundary along its normal, at an edge at right angles to that.
     fn normal(&self, boundary: &Placed, body: &Body, closest: &Closest) -> Normal {
         let Closest { minimum, feature, .. } = closest;
-        let doubt = minimum.slope + body.sphere_curvature() * minimum.shift;
+        let shift = shift_in_a(minimum.x.norm(), boundary.farthest);
+        let doubt = minimum.slope + body.sphere_curvature() * shift;
         let by_boundary = Normal { world: -self.normal, local: -boundary.normal, by_boundary: true };
         let gradient = match (feature, &boundary.corners) {
             (Feature::Interior, _) | (_, None) => {
@@ -226,12 +233,12 @@ impl Call<'_> {
     }
 
     /// The way along the normal from the boundary to the surface of A.
-    fn overlap(&self, closest: &Closest, normal: &Vector3<f64>) -> Option<f64> {
+    fn overlap(&self, closest: &Closest, normal: &Vector3<f64>, shift: f64) -> Option<f64> {
         let minimum = &closest.minimum;
         let guess =
             ray_cast::root_of_piece(minimum.value - 1.0, minimum.gradient.dot(normal), minimum.curvature(normal));
         let way = ray_cast::distance_near(self.particle, &minimum.x, normal, guess)
-            .or_else(|| ray_cast::distance_beside(self.particle, &minimum.x, normal, minimum.shift))?;
+            .or_else(|| ray_cast::distance_beside(self.particle, &minimum.x, normal, shift))?;
         // Where s < 1 by rounding alone, it may be behind.
         Some(larger(way, 0.0))
     }
@@ -242,6 +249,13 @@ impl Call<'_> {
 fn distance(closest: &Closest, scale: Scale) -> f64 {
     let slope = closest.minimum.gradient.norm() + closest.minimum.slope;
     larger((scale.low - 1.0) * 2.0 * scale.low / slope * (1.0 - MARGIN), 0.0)
+}
+
+impl From<&FlatContact> for Section {
+    /// Of an overlapping contact: with A in place of both particles its area is that of the cut of A alone.
+    fn from(contact: &FlatContact) -> Self {
+        Self { branch_a: contact.branch, branch_b: contact.branch, normal: contact.normal }
+    }
 }
 
 impl FlatContact {

@@ -59,18 +59,15 @@ impl<'a> Body<'a> {
         (body(pair.a, pair.rotation, true, pair.centre), body(pair.b, Matrix3::identity(), false, Vector3::zeros()))
     }
 
-    /// One body alone in its own frame, beside something that is placed there from points so far from its centre; k below
-    /// `least_sphericity` is raised to it.
-    ///
-    /// What is placed is turned into this frame, and rounded, as A is into that of B.
-    pub fn alone(particle: &'a Particle, least_sphericity: f64, farthest: f64) -> Self {
+    /// One body alone, in its own frame as B is; k below `least_sphericity` is raised to it.
+    pub fn alone(particle: &'a Particle, least_sphericity: f64) -> Self {
         Self {
             particle,
             rotation: Matrix3::identity(),
             turned: false,
             centre: Vector3::zeros(),
-            share_of_centre: OF_CENTRE * farthest,
-            rounding: f64::EPSILON * IN_A,
+            share_of_centre: 0.0,
+            rounding: f64::EPSILON * IN_B,
             sphere_weight: larger(particle.sphere_weight, least_sphericity / particle.bounding_radius().powi(2)),
         }
     }

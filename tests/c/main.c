@@ -30,6 +30,7 @@ int main(int count, char **arguments) {
     test_closest();
     test_memory();
     test_carried();
+    test_flat();
     test_hostile();
     test_symmetry();
     test_threads();

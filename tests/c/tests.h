@@ -15,6 +15,7 @@ void test_area(void);
 void test_closest(void);
 void test_memory(void);
 void test_carried(void);
+void test_flat(void);
 void test_hostile(void);
 void test_symmetry(void);
 void test_threads(void);

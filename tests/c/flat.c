@@ -1,0 +1,137 @@
+/* Contacts with planes and triangles: closed forms of a sphere, and what is refused. */
+#include "bodies.h"
+#include "check.h"
+#include "tests.h"
+
+#include <math.h>
+#include <string.h>
+
+static const double origin[3] = {0, 0, 0}, up[3] = {0, 0, 2};
+static const double vertices[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+
+static void a_sphere_on_a_plane(void) {
+    pp_particle *ball = new_sphere(1.0);
+    const double heights[] = {0.75, -0.75, 1.5};
+    for (int i = 0; i < 3; i++) {
+        double height = heights[i];
+        pp_pose pose = pose_turned(3, -4, height, 0.8, 0.4, 0.4, 0.2);
+        pp_flat_contact contact;
+        double area;
+        check_case("height %g", height);
+        if (!CHECK_STATUS(pp_contact_plane(ball, &pose, origin, up, NULL, &contact), PP_OK)) continue;
+        CHECK_STATUS(pp_flat_contact_area(ball, &pose, &contact, 1e-6, &area), PP_OK);
+        if (height > 1) {
+            CHECK(contact.kind == PP_SEPARATED && area == 0);
+            CHECK(contact.flags == (PP_FLAG_REJECTED | PP_FLAG_BY_SPHERES));
+            CHECK_NEAR(contact.distance, height - 1, 1e-4);
+            CHECK(isnan(contact.overlap));
+            continue;
+        }
+        const double down[3] = {0, 0, height > 0 ? -1 : 1}, on[3] = {3, -4, 0};
+        const double point[3] = {3, -4, -0.125 * height / 0.75}, branch[3] = {0, 0, point[2] - height};
+        const double surface[3] = {3, -4, 2 * point[2]};
+        CHECK(contact.kind == PP_OVERLAPPING && contact.feature == PP_ON_INTERIOR && contact.flags == 0);
+        CHECK_NEAR(contact.s, 0.75, contact.gap);
+        CHECK_NEAR(contact.overlap, 0.25, 1e-15);
+        CHECK(isnan(contact.distance));
+        CHECK_NEAR3(contact.normal, down, 0);
+        CHECK_NEAR3(contact.on_boundary, on, 1e-15);
+        CHECK_NEAR3(contact.point, point, 1e-15);
+        CHECK_NEAR3(contact.branch, branch, 1e-15);
+        CHECK_NEAR3(contact.on_particle, surface, 1e-15);
+        CHECK_NEAR(area, PI * (1 - 0.875 * 0.875), 1e-13);
+    }
+    check_case(NULL);
+    pp_particle_free(ball);
+}
+
+static void a_sphere_at_each_part_of_a_triangle(void) {
+    pp_particle *ball = new_sphere(1.0);
+    static const struct {
+        double position[3];
+        uint32_t feature;
+        double nearest[3];
+    } places[] = {
+        {{0.25, 0.25, 0.5}, PP_ON_INTERIOR, {0.25, 0.25, 0}}, {{0.5, -0.5, 0.25}, PP_ON_EDGE, {0.5, 0, 0}},
+        {{0.75, 0.75, 0.25}, PP_ON_EDGE + 1, {0.5, 0.5, 0}},  {{-0.5, 0.25, 0.25}, PP_ON_EDGE + 2, {0, 0.25, 0}},
+        {{-0.25, -0.5, 0.5}, PP_ON_VERTEX, {0, 0, 0}},        {{1.5, -0.25, 0.25}, PP_ON_VERTEX + 1, {1, 0, 0}},
+        {{-0.5, 1.25, 0.25}, PP_ON_VERTEX + 2, {0, 1, 0}},
+    };
+    for (size_t i = 0; i < sizeof places / sizeof places[0]; i++) {
+        const double *p = places[i].position, *q = places[i].nearest;
+        pp_pose pose = pose_at(p[0], p[1], p[2]);
+        double distance = sqrt(pow(p[0] - q[0], 2) + pow(p[1] - q[1], 2) + pow(p[2] - q[2], 2)), normal[3];
+        for (int j = 0; j < 3; j++) normal[j] = (q[j] - p[j]) / distance;
+        pp_flat_contact contact;
+        check_case("place %d", (int)i);
+        if (!CHECK_STATUS(pp_contact_triangle(ball, &pose, vertices, NULL, &contact), PP_OK)) continue;
+        CHECK(contact.feature == places[i].feature && contact.kind == PP_OVERLAPPING);
+        CHECK_NEAR(contact.s, distance, contact.gap);
+        CHECK_NEAR(contact.overlap, 1 - distance, 1e-15);
+        CHECK_NEAR3(contact.normal, normal, 1e-15);
+        CHECK_NEAR3(contact.on_boundary, q, 1e-15);
+    }
+    check_case(NULL);
+    pp_particle_free(ball);
+}
+
+static void a_centre_on_the_plane_is_flagged(void) {
+    pp_particle *ball = new_sphere(1.0);
+    pp_pose pose = pose_at(2, 3, 0);
+    const double down[3] = {0, 0, -1};
+    pp_flat_contact contact;
+    CHECK_STATUS(pp_contact_plane(ball, &pose, origin, up, NULL, &contact), PP_OK);
+    CHECK((contact.flags & PP_FLAG_NORMAL_BY_BOUNDARY) != 0);
+    CHECK_NEAR3(contact.normal, down, 0);
+    pp_particle_free(ball);
+}
+
+static void bad_input_is_refused_and_nothing_written(void) {
+    pp_particle *ball = new_sphere(1.0);
+    pp_pose pose = pose_at(0, 0, 0.5), bad_pose = pose_at(0, NAN, 0), no_turn = pose_turned(0, 0, 0, 0, 0, 0, 0);
+    pp_settings settings;
+    pp_settings_default(&settings);
+    settings.gap_tolerance = 0;
+    pp_flat_contact out, unfilled;
+    FILL(out);
+    FILL(unfilled);
+    const double not_a_point[3] = {0, INFINITY, 0}, on_a_line[9] = {0, 0, 0, 1, 1, 1, 3, 3, 3};
+    double with_nan[9], area = 7;
+    memcpy(with_nan, vertices, sizeof with_nan);
+    with_nan[5] = NAN;
+    CHECK_STATUS(pp_contact_plane(NULL, &pose, origin, up, NULL, &out), PP_NULL_POINTER);
+    CHECK_STATUS(pp_contact_plane(ball, NULL, origin, up, NULL, &out), PP_NULL_POINTER);
+    CHECK_STATUS(pp_contact_plane(ball, &pose, NULL, up, NULL, &out), PP_NULL_POINTER);
+    CHECK_STATUS(pp_contact_plane(ball, &pose, origin, NULL, NULL, &out), PP_NULL_POINTER);
+    CHECK_STATUS(pp_contact_plane(ball, &pose, origin, up, NULL, NULL), PP_NULL_POINTER);
+    CHECK_STATUS(pp_contact_plane(ball, &bad_pose, origin, up, NULL, &out), PP_BAD_POSITION);
+    CHECK_STATUS(pp_contact_plane(ball, &no_turn, origin, up, NULL, &out), PP_BAD_ORIENTATION);
+    CHECK_STATUS(pp_contact_plane(ball, &pose, not_a_point, up, NULL, &out), PP_BAD_POINT);
+    CHECK_STATUS(pp_contact_plane(ball, &pose, origin, origin, NULL, &out), PP_BAD_POINT);
+    CHECK_STATUS(pp_contact_plane(ball, &pose, origin, up, &settings, &out), PP_BAD_SETTING);
+    CHECK_STATUS(pp_contact_triangle(NULL, &pose, vertices, NULL, &out), PP_NULL_POINTER);
+    CHECK_STATUS(pp_contact_triangle(ball, NULL, vertices, NULL, &out), PP_NULL_POINTER);
+    CHECK_STATUS(pp_contact_triangle(ball, &pose, NULL, NULL, &out), PP_NULL_POINTER);
+    CHECK_STATUS(pp_contact_triangle(ball, &pose, vertices, NULL, NULL), PP_NULL_POINTER);
+    CHECK_STATUS(pp_contact_triangle(ball, &pose, with_nan, NULL, &out), PP_BAD_POINT);
+    CHECK_STATUS(pp_contact_triangle(ball, &pose, on_a_line, NULL, &out), PP_DEGENERATE_TRIANGLE);
+    CHECK_STATUS(pp_contact_triangle(ball, &bad_pose, vertices, NULL, &out), PP_BAD_POSITION);
+    CHECK_STATUS(pp_contact_triangle(ball, &pose, vertices, &settings, &out), PP_BAD_SETTING);
+    CHECK_UNTOUCHED(out);
+    CHECK_STATUS(pp_contact_plane(ball, &pose, origin, up, NULL, &out), PP_OK);
+    CHECK_STATUS(pp_flat_contact_area(NULL, &pose, &out, 1e-6, &area), PP_NULL_POINTER);
+    CHECK_STATUS(pp_flat_contact_area(ball, NULL, &out, 1e-6, &area), PP_NULL_POINTER);
+    CHECK_STATUS(pp_flat_contact_area(ball, &pose, NULL, 1e-6, &area), PP_NULL_POINTER);
+    CHECK_STATUS(pp_flat_contact_area(ball, &pose, &out, 1e-6, NULL), PP_NULL_POINTER);
+    CHECK_STATUS(pp_flat_contact_area(ball, &pose, &out, NAN, &area), PP_BAD_SETTING);
+    CHECK_STATUS(pp_flat_contact_area(ball, &pose, &unfilled, 1e-6, &area), PP_BAD_POINT);
+    CHECK(area == 7);
+    pp_particle_free(ball);
+}
+
+void test_flat(void) {
+    a_sphere_on_a_plane();
+    a_sphere_at_each_part_of_a_triangle();
+    a_centre_on_the_plane_is_flagged();
+    bad_input_is_refused_and_nothing_written();
+}
