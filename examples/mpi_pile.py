@@ -87,7 +87,7 @@ def start(pile, out, resume):
     if resume:
         if not (out / SCENE).exists():
             raise SystemExit(f"There is no {out / SCENE} to resume: run once without RESUME.")
-        O.load(str(out / SCENE))
+        mpi.load(out / SCENE)
         if len(O.bodies) < pile.ids[-1] + 1 or O.bodies[pile.ids[-1]] is None:
             raise SystemExit(f"{out / SCENE} holds another number of pyramids than {pile.count:,}: set BODIES as in that run.")
     else:

@@ -126,17 +126,23 @@ def build_scene(contact, pyramid, grid, box):
     material = yade.FrictMat(young=-1, poisson=-1, frictionAngle=np.radians(FRICTION_ANGLE), density=DENSITY)
     O.materials.append(material)
     O.bodies.append(box.slabs(contact.shape_class, material))
-    ids = []
-    for position, orientation in zip(grid.positions, grid.orientations):
-        body = potential_body(contact.shape_class, pyramid.surface, material, position, orientation)
-        give_mass(body, pyramid.volume, pyramid.principal_inertia)
-        body.mask = BODY_MASK
-        ids.append(O.bodies.append(body))
+    ids = [
+        append_pyramid(contact, pyramid, material, position, orientation)
+        for position, orientation in zip(grid.positions, grid.orientations)
+    ]
     O.engines = engines(contact)
     contact.prepare()
     O.dt = TIME_STEP
     O.timingEnabled = True
     return ids
+
+
+def append_pyramid(contact, pyramid, material, position, orientation):
+    """Puts a pyramid at `position`, m, with `orientation` w, x, y, z into YADE's scene; returns its id."""
+    body = potential_body(contact.shape_class, pyramid.surface, material, position, orientation)
+    give_mass(body, pyramid.volume, pyramid.principal_inertia)
+    body.mask = BODY_MASK
+    return O.bodies.append(body)
 
 
 def engines(contact, loop=None):

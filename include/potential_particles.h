@@ -25,8 +25,8 @@
  *   Units     Any consistent length unit. Angles by quaternion w, x, y, z, local to world.
  *   Threads   Particles never change after creation: any number of threads may share them. A
  *             pp_memory or an output belongs to one call at a time. No state is shared between calls.
- *             Only pp_contact_detect_batch (and _2d) and pp_pack start threads, and end them before
- *             they return.
+ *             Only pp_contact_detect_batch (and _carried, _2d) and pp_pack start threads, and end
+ *             them before they return.
  *   Errors    No panic, exception or signal leaves the library, and nothing is printed.
  *   Layout    Structs have the same layout on every platform with 8-byte doubles; reserved fields
  *             must be 0. pp_abi_version and pp_struct_size tell whether a loaded library fits.
@@ -317,14 +317,6 @@ typedef struct pp_contact {
     double distance;
 } pp_contact;
 
-// A pose, prepared: its rotation as a matrix. For callers that look at each body in many pairs.
-//
-// Made by pp_frame_from_pose, and by nothing else.
-typedef struct pp_frame {
-    // Library's own; not for reading.
-    double state[16];
-} pp_frame;
-
 // What the last contact of one ordered pair (A, B) says about poses near by, for
 // pp_contact_detect_carried.
 //
@@ -335,6 +327,14 @@ typedef struct pp_carry {
     // Library's own; not for reading.
     double state[40];
 } pp_carry;
+
+// A pose, prepared: its rotation as a matrix. For callers that look at each body in many pairs.
+//
+// Made by pp_frame_from_pose, and by nothing else.
+typedef struct pp_frame {
+    // Library's own; not for reading.
+    double state[16];
+} pp_frame;
 
 // One closest point alone; frames and units as in struct pp_contact.
 typedef struct pp_closest {
@@ -660,6 +660,26 @@ pp_status pp_contact_detect_batch(const struct pp_particle *const *particles,
                                   struct pp_memory *memories,
                                   struct pp_contact *contacts,
                                   pp_status *statuses);
+
+// pp_contact_detect_batch for contacts that are followed from pose to pose: each contact, memory and carry
+// is, to the last bit, that of pp_contact_detect_carried for the pair alone.
+//
+// carry_tolerance: as of pp_contact_detect_carried. carries: one for each pair, read and updated; may be
+// NULL, and then every contact is solved. All else as of pp_contact_detect_batch.
+// Pointers: as of pp_contact_detect_batch; carries is an array like memories.
+// Errors: those of pp_contact_detect_batch.
+pp_status pp_contact_detect_batch_carried(const struct pp_particle *const *particles,
+                                          const struct pp_pose *poses,
+                                          size_t body_count,
+                                          const uint32_t *pairs,
+                                          size_t pair_count,
+                                          const struct pp_settings *settings,
+                                          double carry_tolerance,
+                                          uint32_t threads,
+                                          struct pp_memory *memories,
+                                          struct pp_carry *carries,
+                                          struct pp_contact *contacts,
+                                          pp_status *statuses);
 
 // Fills settings with the defaults.
 //

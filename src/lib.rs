@@ -81,7 +81,7 @@ mod settings;
 mod solver;
 mod surface;
 
-pub use contact::batch::detect_batch;
+pub use contact::batch::{detect_batch, detect_batch_carried};
 pub use contact::carried::Carried;
 pub use contact::closest_point::{ClosestPoint, closest_point};
 pub use contact::contact::{Contact, Kind};

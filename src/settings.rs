@@ -122,13 +122,6 @@ pub enum SettingsError {
     NoConic,
 }
 
-impl SettingsError {
-    /// Of the tolerance of [`crate::detect_carried()`].
-    pub(crate) fn check_carry_tolerance(tolerance: f64) -> Result<(), Self> {
-        if (0.0..=0.1).contains(&tolerance) { Ok(()) } else { Err(Self::CarryTolerance(tolerance)) }
-    }
-}
-
 impl Settings {
     /// Sphericity that replaces smaller ones: the regularisation of flat faces, or less where it would add more to the gap
     /// than is asked for. A raised one is a choice that stays.

@@ -1,6 +1,10 @@
-//! `detect_batch` against `detect`: the same bits for any number of threads, and what it refuses.
+//! `detect_batch` against `detect`, `detect_batch_carried` against `detect_carried`: the same bits for any number of threads, and
+//! what they refuse.
 
-use potential_particles::{DetectError, Memory, Particle, Plane, Pose, Settings, detect, detect_batch};
+use potential_particles::{
+    Carried, DetectError, Flags, Memory, Particle, Plane, Pose, Settings, detect, detect_batch, detect_batch_carried,
+    detect_carried,
+};
 
 fn cube() -> Particle {
     let mut planes = Vec::new();
@@ -58,6 +62,58 @@ fn answers_are_those_of_single_calls_for_any_number_of_threads() {
             assert_eq!(memories, own);
         }
     }
+}
+
+/// All bodies moved a little, each its own way.
+fn moved(poses: &[Pose]) -> Vec<Pose> {
+    let moved = poses.iter().enumerate().map(|(i, pose)| {
+        let [w, x, y, z] = pose.orientation();
+        let (sin, cos) = (i as f64).sin_cos();
+        let position = pose.position() + 1e-6 * nalgebra::Vector3::new(sin, cos, -sin);
+        Pose::new(position.into(), [w, x + 1e-6 * cos, y, z - 1e-6 * sin]).unwrap()
+    });
+    moved.collect()
+}
+
+#[test]
+fn contacts_that_are_followed_are_those_of_single_calls() {
+    let particles = [cube(), Particle::sphere(0.5).unwrap()];
+    let (all, first, pairs) = block(&particles);
+    let (settings, tolerance) = (Settings::default(), 1e-9);
+    for threads in [1, 2, 7] {
+        let mut poses = first.clone();
+        let (mut memories, mut carried) = (vec![Memory::default(); pairs.len()], vec![Carried::default(); pairs.len()]);
+        let (mut own, mut own_carried) = (memories.clone(), carried.clone());
+        for step in 0..3 {
+            let (kept, carry) = (&mut memories, &mut carried);
+            let answers =
+                detect_batch_carried(&all, &poses, &pairs, &settings, tolerance, threads, kept, carry).unwrap();
+            let mut count = 0;
+            for (n, answer) in answers.iter().enumerate() {
+                let [i, j] = pairs[n].map(|body| body as usize);
+                let (memory, carry) = (Some(&mut own[n]), &mut own_carried[n]);
+                let (a, b) = ((all[i], &poses[i]), (all[j], &poses[j]));
+                let alone = detect_carried(a.0, a.1, b.0, b.1, &settings, tolerance, memory, carry).unwrap();
+                let answer = answer.as_ref().unwrap();
+                assert_eq!(format!("{answer:?}"), format!("{alone:?}"), "{threads} threads, step {step}, pair {n}");
+                count += usize::from(answer.flags.contains(Flags::CARRIED));
+            }
+            assert!(if step == 0 { count == 0 } else { count > pairs.len() / 4 }, "{count} carried on in step {step}");
+            assert_eq!(memories, own);
+            poses = moved(&poses);
+        }
+    }
+    // With nothing to carry on all are solved.
+    let solved = detect_batch(&all, &first, &pairs, &settings, 1, &mut []).unwrap();
+    let nothing = detect_batch_carried(&all, &first, &pairs, &settings, tolerance, 1, &mut [], &mut []).unwrap();
+    assert_eq!(format!("{solved:?}"), format!("{nothing:?}"));
+    for bad in [-1e-9, 0.2, f64::NAN] {
+        let refused = detect_batch_carried(&all, &first, &pairs, &settings, bad, 1, &mut [], &mut []);
+        assert!(matches!(refused, Err(DetectError::Settings(_))), "{bad}: {refused:?}");
+    }
+    let mut few = [Carried::default(); 3];
+    let short = detect_batch_carried(&all, &first, &pairs, &settings, tolerance, 1, &mut [], &mut few);
+    assert!(matches!(short, Err(DetectError::Length { what: "carried", given: 3, .. })), "{short:?}");
 }
 
 #[test]

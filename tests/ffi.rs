@@ -168,6 +168,37 @@ fn a_batch_reads_and_writes_its_arrays() {
     }
 }
 
+/// The same with what is carried on, which is bytes taken for another type.
+#[test]
+fn a_batch_carries_contacts_on() {
+    let body = cube(0.1);
+    let (particles, pairs) = ([body.cast_const(), body], [0_u32, 1]);
+    let mut carry = pp_carry { state: [0.0; 40] };
+    for step in 0..3 {
+        let poses = [pose(0.0, 0.0, 0.0), pose(0.2, 0.1, 0.93 - 1e-7 * f64::from(step))];
+        let (mut contact, mut status) = (MaybeUninit::<pp_contact>::uninit(), MaybeUninit::<pp_status>::uninit());
+        let called = unsafe {
+            pp_contact_detect_batch_carried(
+                particles.as_ptr(),
+                poses.as_ptr(),
+                2,
+                pairs.as_ptr(),
+                1,
+                ptr::null(),
+                1e-9,
+                1,
+                ptr::null_mut(),
+                &mut carry,
+                contact.as_mut_ptr(),
+                status.as_mut_ptr(),
+            )
+        };
+        assert_eq!((called, unsafe { status.assume_init() }), (PP_OK, PP_OK));
+        assert_eq!(unsafe { contact.assume_init() }.flags & PP_FLAG_CARRIED != 0, step > 0);
+    }
+    unsafe { pp_particle_free(body) };
+}
+
 #[test]
 fn a_closest_point_is_written() {
     let body = cube(0.1);

@@ -18,7 +18,6 @@ from yade import O, utils
 
 import loose_grid
 import pyramids
-from bodies import fix, give_mass, potential_body
 from box import BODY_MASK, SLAB_ONLY, Box
 from contact_functor import LIBRARY, ContactFunctor
 from pyramid import Pyramid
@@ -116,19 +115,16 @@ class Pile:
 
     def _append(self, position, orientation):
         if self.kind == PYRAMIDS:
-            body = potential_body(
-                self.contact.shape_class, self.pyramid.surface, self.material, position, orientation
-            )
-            give_mass(body, self.pyramid.volume, self.pyramid.principal_inertia)
+            number = pyramids.append_pyramid(self.contact, self.pyramid, self.material, position, orientation)
         else:
-            body = utils.sphere(tuple(map(float, position)), SPHERE_RADIUS, material=self.material)
-        body.mask = BODY_MASK
-        self.ids.append(O.bodies.append(body))
-        return body
+            ball = utils.sphere(tuple(map(float, position)), SPHERE_RADIUS, material=self.material, mask=BODY_MASK)
+            number = O.bodies.append(ball)
+        self.ids.append(number)
+        return O.bodies[number]
 
     def _finish(self):
         if self.kind == PYRAMIDS:
-            O.engines = pyramids.engines(self.contact, **({"loop": self.loop} if self.loop else {}))
+            O.engines = pyramids.engines(self.contact, self.loop)
             if self.watched:
                 self._watch_boxes()
             self.contact.prepare()

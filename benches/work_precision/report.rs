@@ -4,7 +4,7 @@ use crate::falls::{Counts, Falls};
 use crate::machine::Machine;
 use crate::scene::pyramids;
 use crate::solvers::{self, BUILT_IN, BUILT_IN_AREA, FAST};
-use crate::speed::{AREA, AREA_BY_QUADRATURE, AREA_TOLERANCE, Speed, planes_name, rounded_name};
+use crate::speed::{AREA, AREA_BY_QUADRATURE, AREA_TOLERANCE, BATCH, Speed, planes_name, rounded_name};
 use crate::sweep::{self, Record, Row};
 use potential_particles::Formulation;
 use serde::Serialize;
@@ -172,6 +172,7 @@ fn speed_targets(speed: &Speed) -> Vec<Target> {
         at_most("midway with geometry, cold (evaluations)", 50.0, all("midway, cold", &rounded)),
         at_most("midway with geometry, warm (evaluations)", 15.0, all("midway, warm", &rounded)),
         at_most("midway carried to a pose 1e-4 away (evaluations)", 8.0, all("midway, carried", &rounded)),
+        at_most("the same in a batch, one thread (evaluations)", 8.0, all(BATCH, &rounded)),
         at_most("closest / midway, cold", 1.6, quotient("closest, cold", "midway, cold", f64::max)),
         at_most("closest / midway, warm", 1.6, quotient("closest, warm", "midway, warm", f64::max)),
         at_most("midway at r/size = k = 1e-6, cold (evaluations)", 150.0, all("midway, cold", &sharp)),

@@ -10,8 +10,9 @@ use crate::scene::random::Random;
 use crate::scene::touching::{self, Touching};
 use indicatif::ProgressBar;
 use potential_particles::Section;
-use potential_particles::{Formulation, Memory, Settings, detect, detect_carried};
+use potential_particles::{Formulation, Memory, Settings, detect, detect_batch_carried, detect_carried};
 use serde::Serialize;
+use std::cell::RefCell;
 use std::hint::black_box;
 
 /// Cost of one kind of call.
@@ -76,6 +77,12 @@ impl Speed {
 /// Names of two costs.
 pub const AREA: &str = "contact area";
 pub const AREA_BY_QUADRATURE: &str = "contact area by quadrature";
+
+/// Name of the cost of a contact in a batch of contacts that are carried on.
+pub const BATCH: &str = "midway, carried in a batch";
+
+/// Turns of a batch and as many evaluations.
+const ROUNDS_OF_BATCHES: usize = 50;
 
 /// Relative tolerance of the contact area where one is needed.
 pub const AREA_TOLERANCE: f64 = 1e-6;
@@ -156,7 +163,32 @@ fn pyramid_costs(
         (AREA, &|i| contact_area(&pairs[i], &sections[i])),
         (AREA_BY_QUADRATURE, &|i| quadrature(&pairs[i], &sections[i])),
     ];
-    group(name, pairs.len(), &contestants, effort, progress)
+    let mut group = group(name, pairs.len(), &contestants, effort, progress);
+    group.costs.push(batch(pairs, effort, progress));
+    group
+}
+
+/// A contact of a batch on one thread, in which the poses of all B go to and fro between two, beside as many evaluations.
+fn batch(pairs: &[Touching], effort: &Effort, progress: &ProgressBar) -> Cost {
+    let particles: Vec<_> = pairs.iter().flat_map(|pair| [&pair.a, &pair.b]).collect();
+    let poses = [true, false].map(|moved| -> Vec<_> {
+        pairs.iter().flat_map(|pair| [pair.pose_a, if moved { pair.moved_b } else { pair.pose_b }]).collect()
+    });
+    let bodies: Vec<_> = (0..pairs.len() as u32).map(|i| [2 * i, 2 * i + 1]).collect();
+    let memories: Vec<_> = pairs.iter().map(|pair| pair.memory(Formulation::Midway)).collect();
+    let carried: Vec<_> = pairs.iter().map(|pair| pair.carried).collect();
+    let state = RefCell::new((memories, carried, 0));
+    let step = |_| {
+        let (memories, carried, count) = &mut *state.borrow_mut();
+        let (poses, settings, tolerance) = (&poses[*count % 2], Settings::default(), touching::CARRY_TOLERANCE);
+        *count += 1;
+        let _ =
+            black_box(&detect_batch_carried(&particles, poses, &bodies, &settings, tolerance, 1, memories, carried));
+    };
+    let evaluate = |_| pairs.iter().for_each(Touching::evaluate);
+    let seconds = clock::race(1, &[&evaluate, &step], ROUNDS_OF_BATCHES.max(effort.rounds), progress);
+    let (nanoseconds, units) = (1e9 * seconds[1][0] / pairs.len() as f64, seconds[1][0] / seconds[0][0]);
+    Cost { name: BATCH.into(), nanoseconds, units, in_turn_units: units }
 }
 
 /// Measures all contestants; the first is the evaluation, and the unit.

@@ -23,8 +23,7 @@ from potential_particles.mpi.ranks import mpy
 from yade import O
 
 import pyramids
-from bodies import give_mass, potential_body
-from box import BODY_MASK, Box
+from box import Box
 from contact_functor import LIBRARY, ContactFunctor
 from pyramid import Pyramid
 
@@ -93,12 +92,7 @@ def fill(positions, orientations, half_x, half_y, height):
     material = yade.FrictMat(young=-1, poisson=-1, frictionAngle=np.radians(pyramids.FRICTION_ANGLE), density=pyramids.DENSITY)
     O.materials.append(material)
     O.bodies.append(Box(half_x, half_y, height, thickness=pyramids.SIZE).slabs(contact.shape_class, material))
-    ids = []
-    for position, orientation in zip(positions, orientations):
-        body = potential_body(contact.shape_class, pyramid.surface, material, position, orientation)
-        give_mass(body, pyramid.volume, pyramid.principal_inertia)
-        body.mask = BODY_MASK
-        ids.append(O.bodies.append(body))
+    ids = [pyramids.append_pyramid(contact, pyramid, material, *pose) for pose in zip(positions, orientations)]
     O.engines = pyramids.engines(contact)
     contact.prepare()
     O.dt = pyramids.TIME_STEP

@@ -6,8 +6,8 @@ use super::particle::pp_particle;
 use super::status::*;
 use super::types::*;
 use crate::contact::closest_point::closest_point;
-use crate::contact::detect::{carried_on, detect_as, detect_to_carry};
-use crate::{Contact, DetectError, Flags, Memory, Particle, Pose, Section, Settings};
+use crate::contact::detect::{Carrying, detect_as};
+use crate::{Carried, Contact, DetectError, Flags, Memory, Particle, Pose, Section, Settings};
 
 /// Fills settings with the defaults.
 ///
@@ -94,23 +94,31 @@ pub unsafe extern "C" fn pp_contact_detect_carried(
         let out = unsafe { output(out) }?;
         let settings = settings_from(unsafe { settings.as_ref() })?;
         let (a, b) = ((a, pose_a), (b, pose_b));
-        let carried_contact = carried_on(a, b, &settings, carry_tolerance, carried);
-        if let Some(contact) = carried_contact.map_err(|error| detect_status(&error))? {
-            out.write(contact_to(&contact));
-            return Ok(());
-        }
         // SAFETY: NULL or exclusively ours for the call.
-        let memory = unsafe { memory.as_mut() };
-        let write = |contact: Contact| {
-            out.write(contact_to(&contact));
-            contact.flags
-        };
-        remembering(memory, |memory| detect_to_carry(a, b, &settings, carry_tolerance, (memory, carried), write))
+        contact_carried(a, b, (&settings, carry_tolerance), unsafe { memory.as_mut() }, carried, out)
     })
 }
 
 /// Flags of a separated pair that the solver never saw.
 const CHEAP_PROOF: Flags = Flags::BY_SPHERES.with(Flags::BY_FACE).with(Flags::BY_MEMORY);
+
+/// Finds one contact, carried on where it can be, and writes it.
+#[inline(always)]
+pub(super) fn contact_carried(
+    a: (&Particle, &Pose),
+    b: (&Particle, &Pose),
+    (settings, tolerance): (&Settings, f64),
+    memory: Option<&mut pp_memory>,
+    carried: &mut Carried,
+    out: Output<pp_contact>,
+) -> Result<(), pp_status> {
+    let carrying = Carrying::new(settings, tolerance).map_err(|error| settings_status(&error))?;
+    let write = writing(out);
+    if carrying.carry_on(a, b, carried, &write).is_some() {
+        return Ok(());
+    }
+    remembering(memory, |memory| carrying.solve(a, b, (memory, carried), write))
+}
 
 /// Finds one contact and writes it.
 #[inline(always)]
@@ -121,11 +129,16 @@ pub(super) fn contact(
     memory: Option<&mut pp_memory>,
     out: Output<pp_contact>,
 ) -> Result<(), pp_status> {
-    let write = |contact: Contact| {
+    remembering(memory, |memory| detect_as(a, b, settings, (memory, None), writing(out)))
+}
+
+/// Writes the contact that it is given, and says by its flags how it was found.
+#[inline(always)]
+fn writing(out: Output<pp_contact>) -> impl Fn(Contact) -> Flags {
+    move |contact| {
         out.write(contact_to(&contact));
         contact.flags
-    };
-    remembering(memory, |memory| detect_as(a, b, settings, (memory, None), write))
+    }
 }
 
 /// Finds a contact, in space or in the plane, by `detect`, which writes it and gives its flags; with the memory of the pair.

@@ -3,8 +3,8 @@
 //! At a contact that is solved, S_A and S_B are known as quadratics, each in the frame of its own body, and so is how far a
 //! point may move there before a plane switches. While the contact point stays within, midway at new poses is the problem of
 //! the same two quadratics: (1−u)∇S_A + u∇S_B = 0 and S_A = S_B (paper eq. 4). Newton's method from the last point solves
-//! it, a step or two of one 3×3 factorisation each; what a further step would change, from the slope and the mismatch that are
-//! left, bounds the error (docs/theory.md, "Carrying a contact on").
+//! it, with one 3×3 factorisation for all its rounds; what a further round would change, from the slope and the mismatch that
+//! are left, bounds the error (docs/theory.md, "Carrying a contact on").
 
 use crate::bounds::gap::Scale;
 use crate::bounds::solution::Solution;
@@ -42,7 +42,7 @@ pub struct Carried {
     precision: [f64; 2],
 }
 
-/// S about a point in the frame of its body.
+/// S about a point, in the frame of its body or in that of B.
 #[derive(Clone, Copy, Debug, Default)]
 #[repr(C)]
 struct KnownPiece {
@@ -58,15 +58,16 @@ struct KnownPiece {
 struct Here {
     value: f64,
     gradient: Vector3<f64>,
-    /// Distance to where the piece is known from.
-    moved: f64,
 }
 
-/// Newton steps, of which nearly every contact takes one; a contact that wants more is solved from its planes.
-const MOST_STEPS: usize = 3;
+/// Most rounds: each takes a fiftieth of the instructions of a solve from the planes.
+const MOST_STEPS: u32 = 8;
 
-/// Each step is at most this share of the last: Newton's method converges then (Kantorovich's theorem asks for the half).
+/// Each change is at most this share of the last: the method converges then (Kantorovich's theorem asks for the half).
 const CONVERGING: f64 = 0.25;
+
+/// Share of the tolerance that the next change may be, as far as the last two tell: the first two tell up to ten times too little.
+const ENOUGH: f64 = 0.02;
 
 /// Bound on how many times that of the solved contact the rounding of places is within reach (derived: 3.1).
 const MORE_ROUNDING: f64 = 4.0;
@@ -75,7 +76,7 @@ const MORE_ROUNDING: f64 = 4.0;
 const SLOPE_ROUNDING: f64 = 16.0 * f64::EPSILON;
 
 impl KnownPiece {
-    /// Of the potential of a body whose quadratic at this point has its axes turned into the body's own by `turn`.
+    /// Of the potential of a body, in its own frame, from the quadratic of the model.
     fn of(model: &LocalModel, body: &Body, i: usize) -> Self {
         let q = if i == 0 { &model.q_a } else { &model.q_b };
         let point = &model.points[i];
@@ -89,16 +90,109 @@ impl KnownPiece {
         }
     }
 
+    /// That of A in the frame of B.
     #[inline(always)]
-    fn at(&self, y: &Vector3<f64>) -> Here {
-        let way = y - self.from;
-        let change = self.hessian.times(&way);
-        Here {
-            value: self.value + (self.gradient + 0.5 * change).dot(&way),
-            gradient: self.gradient + change,
-            moved: way.norm(),
+    fn seen_from_b(&self, pair: &Pair) -> Self {
+        Self {
+            from: pair.rotation * self.from + pair.centre,
+            gradient: pair.rotation * self.gradient,
+            hessian: self.hessian.turned(&pair.rotation),
+            ..*self
         }
     }
+
+    #[inline(always)]
+    fn at(&self, x: &Vector3<f64>) -> Here {
+        let way = x - self.from;
+        let change = self.hessian.times(&way);
+        Here { value: self.value + (self.gradient + 0.5 * change).dot(&way), gradient: self.gradient + change }
+    }
+}
+
+/// The equations of midway about a point x and weight u, for a way v and a change δ of the weight.
+///
+/// With slope σ, d = ∇S_B − ∇S_A and E = H_B − H_A they are H v + d·δ = −σ − δ·E v and d·v = S_A − S_B − ½ v·E v, exactly.
+struct Equations {
+    slope: Vector3<f64>,
+    mismatch: f64,
+    apart: Vector3<f64>,
+    bend: Symmetric,
+    factor: Factor,
+    /// H⁻¹ d.
+    along: Vector3<f64>,
+    /// 1/(d·H⁻¹d).
+    inverse_rate: f64,
+    /// Ratio of the sum of the curvatures of H to the least one.
+    stiffness: f64,
+}
+
+/// A solution of the equations.
+struct Step {
+    way: Vector3<f64>,
+    /// Of the weight u.
+    weight: f64,
+    /// σ·H⁻¹σ: twice what the slope alone leaves of the weighted sum.
+    open: f64,
+}
+
+impl Equations {
+    /// `soft` are the least curvatures of A and B.
+    #[inline(always)]
+    fn of([a, b]: &[KnownPiece; 2], x: &Vector3<f64>, u: f64, soft: [f64; 2]) -> Option<Self> {
+        let here = [a.at(x), b.at(x)];
+        let apart = here[1].gradient - here[0].gradient;
+        let h = a.hessian.weighted(1.0 - u, &b.hessian, u);
+        let least = (1.0 - u) * soft[0] + u * soft[1];
+        let factor = Factor::of(&h, least)?;
+        let along = factor.solve(&apart);
+        Some(Self {
+            slope: slope(&here, u),
+            mismatch: here[0].value - here[1].value,
+            apart,
+            bend: b.hessian.weighted(1.0, &a.hessian, -1.0),
+            factor,
+            along,
+            inverse_rate: 1.0 / apart.dot(&along),
+            stiffness: h.trace() / least,
+        })
+    }
+
+    /// The step that these right-hand sides, σ and S_A − S_B, call for.
+    #[inline(always)]
+    fn step(&self, slope: &Vector3<f64>, mismatch: f64) -> Step {
+        let first = self.factor.solve(slope);
+        let weight = -(mismatch + self.apart.dot(&first)) * self.inverse_rate;
+        Step { way: -(first + weight * self.along), weight, open: slope.dot(&first) }
+    }
+
+    /// Their solution to within `room`, the square of the last change, and the number of rounds; `None` where they do not
+    /// converge.
+    #[inline(always)]
+    fn solve(&self, room: f64) -> Option<(Step, f64, u32)> {
+        let mut step = self.step(&self.slope, self.mismatch);
+        let mut last = step.way.norm_squared();
+        for steps in 2..=MOST_STEPS {
+            let bent = self.bend.times(&step.way);
+            let next = self.step(&(self.slope + step.weight * bent), self.mismatch - 0.5 * step.way.dot(&bent));
+            let change = (next.way - step.way).norm_squared();
+            // Written so that what is not a number fails.
+            if !(change <= CONVERGING * CONVERGING * last) {
+                return None;
+            }
+            step = next;
+            if change * change <= (ENOUGH * room) * (ENOUGH * room) * last {
+                return Some((step, change, steps));
+            }
+            last = change;
+        }
+        None
+    }
+}
+
+/// The weighted sum (1−u)·a + u·b of gradients.
+#[inline(always)]
+fn slope([a, b]: &[Here; 2], u: f64) -> Vector3<f64> {
+    (1.0 - u) * a.gradient + u * b.gradient
 }
 
 fn precision_of(settings: &Settings) -> [f64; 2] {
@@ -142,114 +236,96 @@ impl Carried {
         (self.of == [a.serial(), b.serial()]).then(|| (self.x, self.weight / (1.0 - self.weight)))
     }
 
-    /// The contact at these poses, if the particles surely overlap there and the contact point is known to within
+    /// `answer` of the contact at these poses, if the particles surely overlap there and the contact point is known to within
     /// `tolerance` times the smaller bounding radius.
-    #[inline]
-    pub(crate) fn contact(&mut self, a: (&Particle, &Pose), b: (&Particle, &Pose), tolerance: f64) -> Option<Contact> {
+    #[inline(always)]
+    pub(crate) fn contact<T>(
+        &mut self,
+        a: (&Particle, &Pose),
+        b: (&Particle, &Pose),
+        tolerance: f64,
+        answer: impl FnOnce(Contact) -> T,
+    ) -> Option<T> {
         if self.of != [a.0.serial(), b.0.serial()] {
             return None;
         }
         let pair = Pair::new(a.0, a.1, b.0, b.1);
-        let room = tolerance * smaller(pair.a.bounding_radius(), pair.b.bounding_radius());
-        let [known_a, known_b] = &self.pieces;
-        let (h_a, h_b) = (known_a.hessian.turned(&pair.rotation), known_b.hessian);
-        let (mut x, mut u, mut last) = (self.x, self.weight, f64::INFINITY);
-        for step in 1..=MOST_STEPS {
-            let (here_a, here_b) = (known_a.at(&pair.in_a(&x)), known_b.at(&x));
-            let (g_a, g_b) = (pair.rotation * here_a.gradient, here_b.gradient);
-            let h = h_a.weighted(1.0 - u, &h_b, u);
-            let soft = 2.0 * ((1.0 - u) * pair.a.sphere_weight + u * pair.b.sphere_weight);
-            let factor = Factor::of(&h, soft)?;
-            // H v + d·du = −slope and d·v = S_A − S_B, with d = ∇S_B − ∇S_A.
-            let apart = g_b - g_a;
-            let along = factor.solve(&apart);
-            let rate = apart.dot(&along);
-            // With it, twice what the slope alone leaves of the weighted sum.
-            let newton = |slope: &Vector3<f64>, behind: f64| {
-                let first = factor.solve(slope);
-                let du = -(behind + apart.dot(&first)) / rate;
-                (-(first + du * along), du, slope.dot(&first))
-            };
-            let (v, du, _) = newton(&((1.0 - u) * g_a + u * g_b), here_a.value - here_b.value);
-            // What the quadratics leave after it, exactly, and what that would change.
-            let bend = h_b.times(&v) - h_a.times(&v);
-            let (rest, behind) = (du * bend, -0.5 * v.dot(&bend));
-            let (more, du_more, _) = newton(&rest, behind);
-            let (length, off) = (v.norm(), more.norm());
-            // Written so that what is not a number fails.
-            if !(off <= CONVERGING * length || off <= f64::MIN_POSITIVE) || !(length <= CONVERGING * last) {
-                return None;
-            }
-            let way = v + more;
-            (x, u, last) = (x + way, u + du + du_more, length);
-            if off <= room {
-                let changes = [h_a.times(&way), h_b.times(&way)];
-                let gradients = [g_a + changes[0], g_b + changes[1]];
-                let values = [
-                    here_a.value + (g_a + 0.5 * changes[0]).dot(&way),
-                    here_b.value + (g_b + 0.5 * changes[1]).dot(&way),
-                ];
-                let (next, _, open) = newton(&((1.0 - u) * gradients[0] + u * gradients[1]), values[0] - values[1]);
-                let next = next.norm();
-                // Where it is no shorter by far, it must be rounding.
-                if !(next <= larger(CONVERGING * off, self.point_bound)) {
-                    return None;
-                }
-                let moved = [here_a.moved + way.norm(), here_b.moved + way.norm()];
-                let steep = SLOPE_ROUNDING * h.trace() / soft * (moved[0] + moved[1]);
-                let left = ((values[0] - values[1]).abs() + open, 2.0 * next + steep);
-                let optimum = Optimum { x, u, gradients, values, moved, left };
-                return self.placed(&pair, b.1, &optimum, [&h_a, &h_b], step as u32);
-            }
-        }
-        None
+        let pieces = [self.pieces[0].seen_from_b(&pair), self.pieces[1]];
+        let room = tolerance * smaller(a.0.bounding_radius(), b.0.bounding_radius());
+        let optimum = self.optimum(&pair, &pieces, room)?;
+        let (local, steps) = (self.local(&pair, &pieces, &optimum)?, optimum.steps);
+        (self.x, self.weight) = (optimum.x, optimum.u);
+        let call = Contact { flags: Flags::WARM.with(Flags::CARRIED), iterations: steps, ..Contact::UNKNOWN };
+        let contact = local.placed(&pair, b.1, call);
+        debug_assert!(contact.kind == Kind::Overlapping && contact.overlap >= 0.0);
+        Some(answer(contact))
     }
 
+    /// The optimum near the last one, if it can be known to within `room`.
     #[inline(always)]
-    fn placed(
-        &mut self,
-        pair: &Pair,
-        pose_b: &Pose,
-        optimum: &Optimum,
-        hessians: [&Symmetric; 2],
-        steps: u32,
-    ) -> Option<Contact> {
-        let &Optimum { x, u, gradients, values, moved, left } = optimum;
-        let square = (1.0 - u) * values[0] + u * values[1];
-        let s = square.sqrt();
-        let share = |i: usize| moved[i] / self.pieces[i].reach;
-        let share = larger(share(0), share(1));
-        // Depths and distances from the centres change by that share at most, places are rounded as much more.
-        let grown = (1.0 + 3.0 * share) * (1.0 + 3.0 * share) / (1.0 - share);
-        let gap = grown * self.gap + left.0 / s;
-        let rest = [self.pieces[0].reach - moved[0], self.pieces[1].reach - moved[1]];
-        if !(u > 0.0 && u < 1.0 && rest[0] > 0.0 && rest[1] > 0.0 && s + gap < 1.0) {
+    fn optimum(&self, pair: &Pair, pieces: &[KnownPiece; 2], room: f64) -> Option<Optimum> {
+        let soft = [2.0 * pair.a.sphere_weight, 2.0 * pair.b.sphere_weight];
+        let equations = Equations::of(pieces, &self.x, self.weight, soft)?;
+        let (step, change, steps) = equations.solve(room)?;
+        let (x, u) = (self.x + step.way, self.weight + step.weight);
+        let here = [pieces[0].at(&x), pieces[1].at(&x)];
+        // What is left there, rounding included.
+        let mismatch = here[0].value - here[1].value;
+        let next = equations.step(&slope(&here, u), mismatch);
+        let way = next.way.norm();
+        let converges = way * way <= CONVERGING * CONVERGING * change && 2.0 * way <= room;
+        // Where it is no shorter by far, it must be rounding.
+        if !(converges || way <= self.point_bound) {
             return None;
         }
-        let lambda = u / (1.0 - u);
+        let left = Left { square: mismatch.abs() + next.open, way, stiffness: equations.stiffness };
+        Some(Optimum { x, u, here, left, steps })
+    }
+
+    /// Its contact, frame of B; `None` where it is not certain.
+    #[inline(always)]
+    fn local(&self, pair: &Pair, pieces: &[KnownPiece; 2], optimum: &Optimum) -> Option<LocalContact> {
+        let Optimum { x, u, here: [a, b], left, steps } = optimum;
+        let (values, gradients) = ([a.value, b.value], [a.gradient, b.gradient]);
+        let s = ((1.0 - u) * values[0] + u * values[1]).sqrt();
+        let moved = [(x - pieces[0].from).norm(), (x - pieces[1].from).norm()];
+        let share = larger(moved[0] / pieces[0].reach, moved[1] / pieces[1].reach);
+        // Depths and distances from the centres change by that share at most, places are rounded as much more.
+        let grown = (1.0 + 3.0 * share) * (1.0 + 3.0 * share) / (1.0 - share);
+        let gap = grown * self.gap + left.square / s;
+        if !(*u > 0.0 && *u < 1.0 && share < 1.0 && s + gap < 1.0) {
+            return None;
+        }
         let gradient_norms = [gradients[0].norm(), gradients[1].norm()];
-        let solution = Solution { gradients, gradient_norms, values, ..Solution::unsettled(x, lambda, steps) };
-        let pieces =
-            |n: &Vector3<f64>| [0, 1].map(|i| Piece { curvature: hessians[i].times(n).dot(n), reach: rest[i] });
+        let lambda = u / (1.0 - u);
+        let solution = Solution { gradients, gradient_norms, values, ..Solution::unsettled(*x, lambda, *steps) };
+        let along = |n: &Vector3<f64>| {
+            let piece =
+                |i: usize| Piece { curvature: pieces[i].hessian.times(n).dot(n), reach: pieces[i].reach - moved[i] };
+            [piece(0), piece(1)]
+        };
+        let steep = SLOPE_ROUNDING * left.stiffness * (moved[0] + moved[1]);
         // That of the pieces, which are turned back and forth, and that of this place.
-        let bound = (1.0 + grown) * self.point_bound + left.1;
-        let local = LocalContact::midway(pair, &solution, Scale { s, gap, low: s - gap }, || bound, pieces, true)?;
-        (self.x, self.weight) = (x, u);
-        let call = Contact { flags: Flags::WARM.with(Flags::CARRIED), iterations: steps, ..Contact::UNKNOWN };
-        let contact = local.placed(pair, pose_b, call);
-        debug_assert!(contact.kind == Kind::Overlapping && larger(contact.overlap, 0.0) == contact.overlap);
-        Some(contact)
+        let bound = (1.0 + grown) * self.point_bound + 2.0 * left.way + steep;
+        LocalContact::midway(pair, &solution, Scale { s, gap, low: s - gap }, || bound, along, true)
     }
 }
 
-/// Where Newton's method ended, frame of B.
+/// Where the rounds ended, frame of B.
 struct Optimum {
     x: Vector3<f64>,
     u: f64,
-    gradients: [Vector3<f64>; 2],
-    values: [f64; 2],
-    /// From where each piece is known.
-    moved: [f64; 2],
-    /// What is left of S, and of the point.
-    left: (f64, f64),
+    here: [Here; 2],
+    left: Left,
+    steps: u32,
+}
+
+/// What is left there.
+struct Left {
+    /// Of S.
+    square: f64,
+    /// Length of the next step.
+    way: f64,
+    /// Ratio of the sum of the curvatures to the least one.
+    stiffness: f64,
 }

@@ -120,47 +120,69 @@ pub fn detect_carried(
     memory: Option<&mut Memory>,
     carried: &mut Carried,
 ) -> Result<Contact, DetectError> {
-    let (a, b) = ((a, pose_a), (b, pose_b));
-    match carried_on(a, b, settings, tolerance, carried)? {
-        Some(contact) => Ok(contact),
-        None => detect_to_carry(a, b, settings, tolerance, (memory, carried), |contact| contact),
-    }
+    Carrying::new(settings, tolerance)?.detect((a, pose_a), (b, pose_b), memory, carried)
 }
 
-/// The contact that is carried on, if it can be.
-#[inline]
-pub(crate) fn carried_on(
-    a: (&Particle, &Pose),
-    b: (&Particle, &Pose),
-    settings: &Settings,
+/// How contacts are carried on: checked once, for all pairs of a batch.
+#[derive(Clone, Copy)]
+pub(crate) struct Carrying<'a> {
+    settings: &'a Settings,
+    /// 0 where these settings always solve.
     tolerance: f64,
-    carried: &mut Carried,
-) -> Result<Option<Contact>, DetectError> {
-    settings.validate()?;
-    SettingsError::check_carry_tolerance(tolerance)?;
-    let carries = carries(settings, tolerance) && carried.is_for(settings);
-    Ok(if carries { carried.contact(a, b, tolerance) } else { None })
 }
 
-/// The contact from the planes, to be carried on from here.
-pub(crate) fn detect_to_carry<T>(
-    a: (&Particle, &Pose),
-    b: (&Particle, &Pose),
-    settings: &Settings,
-    tolerance: f64,
-    (mut memory, carried): (Option<&mut Memory>, &mut Carried),
-    answer: impl Fn(Contact) -> T,
-) -> Result<T, DetectError> {
-    if let (Some(memory), Some((x, lambda))) = (memory.as_deref_mut(), carried.last(a.0, b.0)) {
-        memory.follow(x, lambda);
+impl<'a> Carrying<'a> {
+    pub fn new(settings: &'a Settings, tolerance: f64) -> Result<Self, SettingsError> {
+        settings.validate()?;
+        if !(0.0..=0.1).contains(&tolerance) {
+            return Err(SettingsError::CarryTolerance(tolerance));
+        }
+        let carries = settings.formulation == Formulation::Midway && settings.back_end == BackEnd::Fast;
+        Ok(Self { settings, tolerance: if carries { tolerance } else { 0.0 } })
     }
-    *carried = Carried::default();
-    let carried = carries(settings, tolerance).then_some(carried);
-    detect_as(a, b, settings, (memory, carried), answer)
-}
 
-fn carries(settings: &Settings, tolerance: f64) -> bool {
-    tolerance > 0.0 && settings.formulation == Formulation::Midway && settings.back_end == BackEnd::Fast
+    /// The contact of one pair, carried on or from the planes.
+    pub fn detect(
+        &self,
+        a: (&Particle, &Pose),
+        b: (&Particle, &Pose),
+        memory: Option<&mut Memory>,
+        carried: &mut Carried,
+    ) -> Result<Contact, DetectError> {
+        match self.carry_on(a, b, carried, |contact| contact) {
+            Some(contact) => Ok(contact),
+            None => self.solve(a, b, (memory, carried), |contact| contact),
+        }
+    }
+
+    /// `answer` of the contact that is carried on, if it can be.
+    #[inline(always)]
+    pub fn carry_on<T>(
+        &self,
+        a: (&Particle, &Pose),
+        b: (&Particle, &Pose),
+        carried: &mut Carried,
+        answer: impl FnOnce(Contact) -> T,
+    ) -> Option<T> {
+        let carries = self.tolerance > 0.0 && carried.is_for(self.settings);
+        if carries { carried.contact(a, b, self.tolerance, answer) } else { None }
+    }
+
+    /// `answer` of the contact from the planes, to be carried on from here.
+    pub fn solve<T>(
+        &self,
+        a: (&Particle, &Pose),
+        b: (&Particle, &Pose),
+        (mut memory, carried): (Option<&mut Memory>, &mut Carried),
+        answer: impl Fn(Contact) -> T,
+    ) -> Result<T, DetectError> {
+        if let (Some(memory), Some((x, lambda))) = (memory.as_deref_mut(), carried.last(a.0, b.0)) {
+            memory.follow(x, lambda);
+        }
+        *carried = Carried::default();
+        let carried = (self.tolerance > 0.0).then_some(carried);
+        detect_as(a, b, self.settings, (memory, carried), answer)
+    }
 }
 
 /// The whole of [`detect()`], for every entry that gives a contact another form. `answer` makes that form where the contact
@@ -248,8 +270,7 @@ fn solved(
             let local = LocalContact::midway(pair, &midway, scale, bound, pieces, overlapping)
                 .ok_or_else(|| DetectError::Failed { reason: "the surface was not found along the normal".into() })?;
             if let Some(carried) = carried.filter(|_| overlapping && !call.flags.contains(Flags::EXTENDED)) {
-                *carried =
-                    Carried::of(pair, call.solved_bodies(), &model, &midway, settings, scale, local.point_bound());
+                *carried = Carried::of(pair, call.bodies(), &model, &midway, settings, scale, local.point_bound());
             }
             local
         }

@@ -3,7 +3,7 @@
 use super::contact::{Contact, detect};
 use super::particle::Particle;
 use super::pose::Pose;
-use crate::contact::batch;
+use crate::contact::batch::{self, Placed};
 use crate::contact::detect::DetectError;
 use crate::pair::warm_start::Memory;
 use crate::settings::Settings;
@@ -37,5 +37,13 @@ pub fn detect_batch(
     threads: usize,
     memories: &mut [Memory],
 ) -> Result<Vec<Result<Contact, DetectError>>, DetectError> {
-    batch::detect_batch_by(detect, particles, poses, pairs, settings, threads, memories)
+    settings.validate()?;
+    let one = |a: Placed<Particle, Pose>,
+               b: Placed<Particle, Pose>,
+               memory: Option<&mut Memory>,
+               _: Option<&mut ()>,
+               answer: &mut _| {
+        *answer = detect(a.0, a.1, b.0, b.1, settings, memory);
+    };
+    batch::detect_batch_by(one, particles, poses, pairs, threads, (memories, &mut []))
 }

@@ -69,7 +69,8 @@ impl<'a> Call<'a> {
         Self { pair, body_a, body_b, settings, iterations: 0, flags: Flags::default(), answered }
     }
 
-    fn bodies(&self) -> [&Body<'a>; 2] {
+    /// Both bodies, as the solver sees them.
+    pub fn bodies(&self) -> [&Body<'a>; 2] {
         [&self.body_a, &self.body_b]
     }
 
@@ -280,11 +281,6 @@ impl<'a> Call<'a> {
     #[inline]
     pub fn point_bound(&self, solution: &Solution, model: &LocalModel, problem: Problem) -> f64 {
         point_bound(solution, model, self.bodies(), problem)
-    }
-
-    /// Both bodies, as the solver sees them.
-    pub fn solved_bodies(&self) -> [&Body<'a>; 2] {
-        self.bodies()
     }
 
     /// S_A and S_B along a direction from the point of a solution.

@@ -149,7 +149,7 @@ impl Search<'_> {
         if answer.is_some() {
             return Break(answer);
         }
-        if self.is_sharpened() {
+        if self.count_sharpening() > MOST_SHARPENING {
             return Break(None);
         }
         self.take(&step);
@@ -194,11 +194,11 @@ impl Search<'_> {
         None
     }
 
-    /// Whether the best solution has been sharpened as often as is granted.
-    fn is_sharpened(&mut self) -> bool {
-        self.best.as_mut().is_some_and(|best| {
+    /// Counts this iteration if an optimum is known already, and gives how many there have been since.
+    fn count_sharpening(&mut self) -> u32 {
+        self.best.as_mut().map_or(0, |best| {
             best.age += 1;
-            best.age > MOST_SHARPENING
+            best.age
         })
     }
 

@@ -103,6 +103,62 @@ static void same_bits_as_one_by_one(results *alone, results *got) {
     pairs_free(&s.set);
 }
 
+/* Followed from pose to pose: contact, memory and carry have the bits of pp_contact_detect_carried for the pair alone. */
+static void carried_as_one_by_one(results *alone, results *got) {
+    const double tolerance = 1e-9;
+    pp_carry *carries = calloc(2 * MANY, sizeof *carries), *own = carries + MANY;
+    for (uint32_t threads = 1; threads <= 2; threads++) {
+        scene s;
+        scene_new(&s);
+        memset(alone, 0, sizeof *alone);
+        memset(got, 0, sizeof *got);
+        memset(carries, 0, 2 * MANY * sizeof *carries);
+        int carried = 0;
+        for (int step = 0; step < STEPS; step++) {
+            check_case("carried, %u threads, step %d", (unsigned)threads, step);
+            for (int n = 0; n < MANY; n++) {
+                const uint32_t a = s.pairs[2 * n], b = s.pairs[2 * n + 1];
+                pp_frame frames[2];
+                CHECK_STATUS(pp_frame_from_pose(&s.poses[a], &frames[0]), PP_OK);
+                CHECK_STATUS(pp_frame_from_pose(&s.poses[b], &frames[1]), PP_OK);
+                alone->statuses[n] =
+                    pp_contact_detect_carried(s.particles[a], &frames[0], s.particles[b], &frames[1], NULL, tolerance,
+                                              &alone->memories[n], &own[n], &alone->contacts[n]);
+                carried += (alone->contacts[n].flags & PP_FLAG_CARRIED) != 0;
+            }
+            CHECK_STATUS(pp_contact_detect_batch_carried(s.particles, s.poses, BODIES, s.pairs, MANY, NULL, tolerance,
+                                                         threads, got->memories, carries, got->contacts,
+                                                         got->statuses),
+                         PP_OK);
+            check_same(got, alone);
+            CHECK_SAME_BYTES(carries, own, MANY * sizeof *carries);
+            for (int i = 0; i < BODIES; i++) s.poses[i].position[i % 3] += 1e-7;
+        }
+        CHECK(carried > PAIRS / 4);
+        check_case("nothing to be carried on: solved, as by pp_contact_detect_batch");
+        memset(alone, 0, sizeof *alone);
+        memset(got, 0, sizeof *got);
+        CHECK_STATUS(batch(&s, NULL, threads, alone->memories, alone), PP_OK);
+        CHECK_STATUS(pp_contact_detect_batch_carried(s.particles, s.poses, BODIES, s.pairs, MANY, NULL, tolerance,
+                                                     threads, got->memories, NULL, got->contacts, got->statuses),
+                     PP_OK);
+        check_same(got, alone);
+        const double out_of_range[] = {-1e-9, 0.11, NAN, INFINITY};
+        FILL(*got);
+        for (int i = 0; i < 4; i++) {
+            check_case("tolerance %g", out_of_range[i]);
+            CHECK_STATUS(pp_contact_detect_batch_carried(s.particles, s.poses, BODIES, s.pairs, MANY, NULL,
+                                                         out_of_range[i], threads, got->memories, carries,
+                                                         got->contacts, got->statuses),
+                         PP_BAD_SETTING);
+        }
+        CHECK_UNTOUCHED(*got);
+        check_case(NULL);
+        pairs_free(&s.set);
+    }
+    free(carries);
+}
+
 /* A body that is not there, one without a particle, one with a bad pose: told by the pairs that name it. */
 static void faults_stay_with_their_pairs(results *alone, results *got) {
     scene s;
@@ -187,6 +243,7 @@ void test_batch(void) {
     CHECK(alone != NULL && got != NULL);
     if (alone == NULL || got == NULL) exit(2);
     same_bits_as_one_by_one(alone, got);
+    carried_as_one_by_one(alone, got);
     faults_stay_with_their_pairs(alone, got);
     bad_arguments_write_nothing(got);
     free(alone);

@@ -94,7 +94,7 @@ def contacts_across():
 def resumed():
     """The second half, from the file that a run with as many ranks as the third argument says has saved."""
     if mpi.rank() == 0:
-        O.load(str(FOLDER / f"half{sys.argv[3]}.yade.gz"))
+        mpi.load(FOLDER / f"half{sys.argv[3]}.yade.gz")
         mpi.divide(ids())
     mpi.run(STEPS - STEPS // 2)
     result(f"resumed{mpi.ranks()}_of_{sys.argv[3]}")

@@ -12,7 +12,7 @@ namespace potential_particles {
 struct AnswerPath {
     Count count;
     const char* name; // in Python
-    bool withoutSolve; // no solver was started
+    bool withoutSolve; // answered apart and no solver was started
 };
 
 constexpr AnswerPath answerPaths[] = {
@@ -21,7 +21,7 @@ constexpr AnswerPath answerPaths[] = {
     { Count::face, "face", true }, // apart: one lies beyond a face of the other
     { Count::memory, "memory", true }, // apart: what separated them in the last step still does
     { Count::proof, "proof", false }, // apart: the solver met a proof on its way
-    { Count::carried, "carried", true }, // touching: the contact of the last step, carried on
+    { Count::carried, "carried", false }, // touching: the contact of the last step, carried on
     { Count::warm, "warm", false }, // solved from the remembered point
     { Count::cold, "cold", false }, // solved from nothing
     { Count::conic, "conic", false }, // solved as a cone program

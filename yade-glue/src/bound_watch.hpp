@@ -8,8 +8,9 @@
 // or, which is faster, knows that it has moved and turned by less than it would take.
 //
 // Why no pair is missed: the pairs whose boxes met when the collider ran last are all among the interactions, and stay
-// there until it runs again. As long as each body lies in the box that it had then, bodies that touch are such a pair. Where one does not, or the periodic cell has changed, the collider runs in this step, before any contact is
-// computed. Velocities do not enter, so nothing depends on how a body came to be where it is.
+// there until it runs again. As long as each body lies in the box that it had then, bodies that touch are such a pair.
+// Where one does not, or the periodic cell has changed, the collider runs in this step, before any contact is computed.
+// Velocities do not enter, so nothing depends on how a body came to be where it is.
 #pragma once
 
 #include "../abi/archive.hpp"

@@ -2,7 +2,7 @@
 #include "bounding_box.hpp"
 
 #include "conic_potential_particle.hpp"
-#include "particle_store.hpp"
+#include "particle_of.hpp"
 
 #include <algorithm>
 #include <typeinfo>
@@ -22,15 +22,10 @@ namespace {
             : shape(static_cast<const PotentialParticle&>(*owner))
         {
             bool computed = !shape.AabbMinMax; // YADE's cube of half size R need not hold the particle
-            if (typeid(shape) == typeid(ConicPotentialParticle)) {
-                const auto& conic = static_cast<const ConicPotentialParticle&>(shape);
-                computed = computed || conic.automaticBox;
-                particle = computed ? conic.particle() : nullptr;
-            }
-            if (computed && !particle) {
-                keeper = ParticleStore::instance().find(owner, shape);
-                particle = keeper.get();
-            }
+            if (typeid(shape) == typeid(ConicPotentialParticle))
+                computed = computed || static_cast<const ConicPotentialParticle&>(shape).automaticBox;
+            if (computed)
+                particle = particleOf(owner, shape, keeper);
             if (particle && !particle->handle())
                 particle = nullptr;
         }

@@ -18,17 +18,10 @@ ConicInteractionLoop::ConicInteractionLoop() = default;
 ConicInteractionLoop::~ConicInteractionLoop() = default;
 
 std::string ConicInteractionLoop::getClassName() const { return "ConicInteractionLoop"; }
-int ConicInteractionLoop::getBaseClassNumber() const { return 1; }
 std::string ConicInteractionLoop::getBaseClassName(unsigned int index) const
 {
     return index == 0 ? "InteractionLoop" : "";
 }
-void ConicInteractionLoop::callPostLoad() { InteractionLoop::callPostLoad(); }
-void ConicInteractionLoop::pySetAttr(const std::string& key, const py::object& value)
-{
-    InteractionLoop::pySetAttr(key, value);
-}
-py::dict ConicInteractionLoop::pyDict() const { return InteractionLoop::pyDict(); }
 
 void ConicInteractionLoop::pyRegisterClass(py::object scope)
 {

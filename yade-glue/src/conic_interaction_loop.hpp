@@ -18,7 +18,10 @@ class ConicInteractionLoop final : public yade::InteractionLoop {
 public:
     ConicInteractionLoop();
     ~ConicInteractionLoop() override;
-    PP_ABI_SERIALIZABLE_OVERRIDES
+    std::string getBaseClassName(unsigned int index = 0) const override;
+    std::string getClassName() const override;
+    void pyRegisterClass(boost::python::object scope) override;
+
     void action() override;
 
 private:

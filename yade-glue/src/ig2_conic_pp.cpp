@@ -11,7 +11,6 @@
 #include "step.hpp"
 
 #include <algorithm>
-#include <utility>
 
 namespace potential_particles {
 
@@ -91,8 +90,7 @@ struct Ig2_ConicPP_ConicPP_ScGeom::Pair : PairInScene {
         if (!own)
             return;
         own->carry.reset();
-        own->apart.note(*particle1, *particle2, state1.se3.orientation, state2.se3.orientation, branch(), distance);
-        noteRoom(own->apart.left(*particle1, *particle2, state1.se3.orientation, state2.se3.orientation, branch()));
+        noteRoom(own->apart.note(*particle1, *particle2, state1.se3.orientation, state2.se3.orientation, branch(), distance));
     }
 
     void noteRoom(double room)
@@ -219,11 +217,10 @@ pp_status Ig2_ConicPP_ConicPP_ScGeom::detect(Pair& pair, pp_contact& found)
 {
     pp_frame made1, made2;
     if (!pair.known) {
-        const pp_pose pose1 = pair.pose1();
-        const pp_pose pose2 = pair.pose2();
-        for (const auto& [pose, made] : { std::pair { &pose1, &made1 }, std::pair { &pose2, &made2 } })
-            if (const pp_status status = pp_frame_from_pose(pose, made); status != PP_OK)
-                return status;
+        if (const pp_status status = frameOf(pair.state1, Vector3r::Zero(), made1); status != PP_OK)
+            return status;
+        if (const pp_status status = frameOf(pair.state2, pair.shift2, made2); status != PP_OK)
+            return status;
     }
     const pp_frame* const frame1 = pair.known ? &pair.body1->frame : &made1;
     const pp_frame* const frame2 = pair.known ? &pair.body2->frame : &made2;

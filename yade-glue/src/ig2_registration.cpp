@@ -198,7 +198,7 @@ double Ig2_ConicPP_ConicPP_ScGeom::pySkippedShare() const
     for (const AnswerPath& path : answerPaths) {
         const std::uint64_t number = counters.total(path.count);
         answered += number;
-        skipped += path.withoutSolve && path.count != Count::carried ? number : 0;
+        skipped += path.withoutSolve ? number : 0;
     }
     const std::uint64_t apart = answered - counters.total(Count::overlapping);
     return apart > 0 ? static_cast<double>(skipped) / static_cast<double>(apart)

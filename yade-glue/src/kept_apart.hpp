@@ -14,22 +14,23 @@ namespace potential_particles {
 // Nothing here comes from a file or a script: it is no hint, the answer rests on it.
 class KeptApart {
 public:
-    // The particles are `distance` or more apart where they are now. `branch`: from body 1 to body 2.
-    void note(const Particle& particle1, const Particle& particle2, const yade::Quaternionr& turn1,
-              const yade::Quaternionr& turn2, const yade::Vector3r& branch, double distance)
+    // The particles are `distance` or more apart where they are now. `branch`: from body 1 to body 2. By how much they are
+    // so for sure; 0 when that cannot be known.
+    double note(const Particle& particle1, const Particle& particle2, const yade::Quaternionr& turn1,
+                const yade::Quaternionr& turn2, const yade::Vector3r& branch, double distance)
     {
         forget();
         // The rounding of poses, over ten times of it; lengths of quaternions are taken for 1 below.
         const double lengths = particle1.boundingRadius() + particle2.boundingRadius() + branch.norm();
         const double room = distance - 1e-14 * lengths;
         if (!(room > 0) || !isUnit(turn1) || !isUnit(turn2))
-            return;
+            return 0;
         serial1 = particle1.serial;
         serial2 = particle2.serial;
         from1 = turn1;
         from2 = turn2;
         fromBranch = branch;
-        limit = room * (1 - 1e-9);
+        return limit = room * (1 - 1e-9);
     }
 
     void forget() { limit = 0; }

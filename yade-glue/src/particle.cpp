@@ -22,6 +22,13 @@ namespace {
 
     bool sameBits(double left, double right) { return std::memcmp(&left, &right, sizeof left) == 0; }
 
+    // All seven attributes, of a Definition or a shape.
+    template <class Other> bool sameAttributes(const Definition& one, const Other& other)
+    {
+        return sameBits(one.r, other.r) && sameBits(one.k, other.k) && sameBits(one.R, other.R) && sameBits(one.a, other.a)
+            && sameBits(one.b, other.b) && sameBits(one.c, other.c) && sameBits(one.d, other.d);
+    }
+
     std::uint64_t nextSerial()
     {
         static std::atomic<std::uint64_t> last { 0 };
@@ -43,22 +50,14 @@ Definition Definition::of(const yade::PotentialParticle& shape)
     return { shape.a, shape.b, shape.c, shape.d, shape.r, shape.k, shape.R };
 }
 
-bool Definition::describes(const yade::PotentialParticle& shape) const
-{
-    return roughlyDescribes(shape) && sameBits(a, shape.a)
-        && sameBits(b, shape.b) && sameBits(c, shape.c) && sameBits(d, shape.d);
-}
+bool Definition::describes(const yade::PotentialParticle& shape) const { return sameAttributes(*this, shape); }
 
 bool Definition::roughlyDescribes(const yade::PotentialParticle& shape) const
 {
     return sameBits(r, shape.r) && sameBits(k, shape.k) && sameBits(R, shape.R);
 }
 
-bool Definition::sameAs(const Definition& other) const
-{
-    return sameBits(r, other.r) && sameBits(k, other.k) && sameBits(R, other.R) && sameBits(a, other.a)
-        && sameBits(b, other.b) && sameBits(c, other.c) && sameBits(d, other.d);
-}
+bool Definition::sameAs(const Definition& other) const { return sameAttributes(*this, other); }
 
 std::size_t Definition::hash() const
 {

@@ -40,15 +40,15 @@ void Step::look(BodyInStep& body, const boost::shared_ptr<yade::Shape>& shape, c
         const Particle* particle = particleOf(shape, body.keeper);
         const yade::Vector3r& position = state.se3.position;
         const yade::Quaternionr& orientation = state.se3.orientation;
-        const pp_pose pose = poseOf(state, yade::Vector3r::Zero());
-        if (!particle->handle() || pp_frame_from_pose(&pose, &body.frame) != PP_OK)
+        if (!particle->handle() || frameOf(state, yade::Vector3r::Zero(), body.frame) != PP_OK)
             particle = nullptr;
         const double radius = particle ? particle->boundingRadius() : 0;
         const double way = (position - body.position).norm() + radius * wayOfTurn(body.orientation, orientation);
         const double sum = body.travelled + way * (1 + 1e-12);
-        const bool reachesBack
+        // Whether the way since the last look is known, so that it can be added to the sum.
+        const bool continues
             = particle && particle->serial == body.serial && isUnit(body.orientation) && std::isfinite(sum);
-        if (!reachesBack) {
+        if (!continues) {
             body.generation = nextGeneration();
             body.travelled = 0;
         } else if (way > 0) {

@@ -14,7 +14,8 @@
 
 namespace potential_particles {
 
-// Read by other threads than the one that writes it, which take it for a guess: it may be of another step than its neighbours.
+// A value that one thread writes while others read it. Readers get some value that it has had, perhaps of another step than
+// the values beside it: enough to fetch memory ahead of its use, which does no harm where it turns out wrong.
 template <class Value> class Guess {
 public:
     Guess(Value value) : held(value) { }
@@ -32,7 +33,8 @@ public:
     const Particle* particle = nullptr;
     // A bound on the way that any point of the body has come since the loop met it; never less, whatever is rounded.
     double travelled = 0;
-    // Another one whenever that bound does not reach back: a new particle, or a motion without a bound. Never 0.
+    // Number of the period over which `travelled` has been summed. A new one begins, at 0, when the body gets another
+    // particle or moves by what has no bound (not a number, say); ways of two periods cannot be compared. Never 0.
     std::uint64_t generation = 0;
     Guess<const yade::State*> state = nullptr; // to be fetched, never followed
 
@@ -143,7 +145,8 @@ public:
     }
 
 private:
-    // Contacts are some hundred nanoseconds apart, and memory as far away.
+    // A contact takes some hundred nanoseconds, and so does a load from memory: six contacts are time enough for the loads
+    // of one.
     static constexpr std::size_t ahead = 6;
     static constexpr std::size_t lineSize = 64;
     // What a contact touches of ScGeom, KnKsPhys and State.

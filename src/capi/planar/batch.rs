@@ -5,10 +5,11 @@ use super::convert::pose_from;
 use super::particle::pp_particle_2d;
 use super::types::{pp_contact_2d, pp_pose_2d};
 use crate::Settings;
-use crate::capi::batch::detect_batch;
+use crate::capi::batch::{Kept, detect_batch};
 use crate::capi::status::*;
 use crate::capi::types::{pp_memory, pp_settings};
 use crate::planar::{Particle, Pose};
+use std::ptr;
 
 /// Finds the contacts of many pairs of bodies of the plane: pp_contact_detect_batch with two coordinates,
 /// where every argument, status and error is explained.
@@ -31,12 +32,11 @@ pub unsafe extern "C" fn pp_contact_detect_batch_2d(
     statuses: *mut pp_status,
 ) -> pp_status {
     let (bodies, pairs, outputs) = ((particles, poses, body_count), (pairs, pair_count), (contacts, statuses));
-    let one =
-        |a: &(&Particle, Pose), b: &(&Particle, Pose), settings: &Settings, memory: Option<&mut pp_memory>, out| {
-            contact((a.0, &a.1), (b.0, &b.1), settings, memory, out)
-        };
+    let one = |a: &(&Particle, Pose), b: &(&Particle, Pose), settings: &Settings, (memory, _): Kept, out| {
+        contact((a.0, &a.1), (b.0, &b.1), settings, memory, out)
+    };
     // SAFETY: as the caller promised.
-    unsafe { detect_batch(bodies, pairs, settings, threads, memories, outputs, (body, one)) }
+    unsafe { detect_batch(bodies, pairs, settings, threads, (memories, ptr::null_mut()), outputs, (body, one)) }
 }
 
 fn body<'a>(particle: &'a pp_particle_2d, pose: &pp_pose_2d) -> Result<(&'a Particle, Pose), pp_status> {

@@ -33,10 +33,10 @@ from .boxes import safe_boxes
 from .division import divide
 from .ranks import gather, interrupted, launch, rank, ranks
 from .results import counters, failures, owned_bodies, owned_contacts, states
-from .saving import save
+from .saving import load, save
 from .stepping import run
 
 __all__ = [
-    "counters", "divide", "failures", "gather", "interrupted", "launch", "owned_bodies", "owned_contacts",
-    "rank", "ranks", "run", "safe_boxes", "save", "states",
+    "counters", "divide", "failures", "gather", "interrupted", "launch", "load", "owned_bodies",
+    "owned_contacts", "rank", "ranks", "run", "safe_boxes", "save", "states",
 ]

@@ -1,12 +1,17 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """One file with the whole scene, as if one process had computed it."""
 import os
+import time
 
 import yade
 
 from .ranks import mpy, rank, ranks
 
 O = yade.O
+
+# From these on, saving or loading takes more than some four seconds. YADE reports no progress and lets no other Python run
+# meanwhile, so that a line before and one after is all that can be said.
+MANY_BODIES, LARGE_FILE = 20_000, 50e6
 
 
 def save(path):
@@ -25,12 +30,29 @@ def save(path):
     mpy.comm.Barrier()
 
 
+def load(path):
+    """O.load(path), with a line before and one after where it takes long. On rank 0, before `divide`."""
+    path = os.fspath(path)
+    size = os.path.getsize(path)
+    begin = time.perf_counter()
+    if size >= LARGE_FILE:
+        print(f"loading {path}, {1e-6 * size:.0f} MB", flush=True)
+    O.load(path)
+    if size >= LARGE_FILE:
+        print(f"loaded {len(O.bodies):,} bodies in {time.perf_counter() - begin:.0f} s", flush=True)
+
+
 def _save(path):
     folder, file = os.path.split(path)
     # In front: YADE tells the format by the end of the name.
     unfinished = os.path.join(folder, "unfinished." + file)
+    many, begin = len(O.bodies) >= MANY_BODIES, time.perf_counter()
+    if many:
+        print(f"saving {len(O.bodies):,} bodies to {path}", flush=True)
     O.save(unfinished)
     os.replace(unfinished, path)
+    if many:
+        print(f"saved in {time.perf_counter() - begin:.0f} s, {1e-6 * os.path.getsize(path):.0f} MB", flush=True)
 
 
 def _save_merged(path):
