@@ -28,11 +28,14 @@ import functools
 
 from . import builds
 from .bodies import body
+from .measures import extrema, porosity, solid_volume
 from .outside import protect_runs
+from .time_step import critical_time_step
 
 __version__ = "0.1.0"
 
-__all__ = ["AbiError", "body", "library_version", "prepare", "protect_runs"]
+__all__ = ["AbiError", "body", "critical_time_step", "extrema", "library_version", "porosity", "prepare", "protect_runs",
+           "solid_volume"]
 
 
 class AbiError(ImportError):
