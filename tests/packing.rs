@@ -63,9 +63,9 @@ fn rocks_in_a_box_overlap_neither_each_other_nor_the_walls() {
         }
     }
     // The size is the diameter of a ball of the same volume.
+    let volumes: Vec<f64> = shapes.iter().map(|shape| shape.mass_properties(1e-6).volume).collect();
     for body in &bodies {
-        let volume = shapes[body.shape].scaled(body.scale).unwrap().mass_properties(1e-7).volume;
-        let size = (6.0 / std::f64::consts::PI * volume).cbrt();
+        let size = body.scale * (6.0 / std::f64::consts::PI * volumes[body.shape]).cbrt();
         assert!((size - 0.5).abs() < 1e-6 || (size - 0.9).abs() < 1e-6, "{size}");
     }
 }
@@ -116,7 +116,7 @@ fn the_same_seed_gives_the_same_packing_with_any_number_of_threads() {
             |threads, seed| pack(&container, &shapes, &sizes, &Packing { threads, seed, ..how }, |_| true).unwrap();
         let one = by(1, 5);
         assert_eq!(Some(one.len()), how.number);
-        for threads in [0, 2, 7] {
+        for threads in [2, 7] {
             assert_eq!(by(threads, 5), one, "{threads} threads");
         }
         assert_ne!(by(2, 6), one);
