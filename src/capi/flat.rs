@@ -31,9 +31,9 @@ pub struct pp_flat_contact {
     pub flags: u32,
     /// Quadratics solved.
     pub iterations: u32,
-    /// Scale of A at x*, the least on T, of A as regularised (flat_regularisation). Rejected: a lower bound,
-    /// >= 1. The same bits for the same particle, pose and boundary, and on an edge or vertex for every triangle
-    /// that has it: of the triangles of a mesh the one with the least s (of equal ones, the first) owns the
+    /// Scale of A at x*, the least on T, of A as regularised (flat_regularisation). Rejected: a lower bound, 1
+    /// or more. The same bits for the same particle, pose and boundary, and on an edge or vertex for every
+    /// triangle that has it: of the triangles of a mesh the one with the least s (of equal ones, the first) owns the
     /// contact at a seam. With k = 0 and a flat face on several triangles, flat_regularisation alone tells them
     /// apart: at the default to some percent of the size, at 1e-4 to 1e-6 of it.
     pub s: f64,

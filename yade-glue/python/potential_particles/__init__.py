@@ -23,8 +23,9 @@ differs is refused with AbiError, which lists the differences, and nothing is re
 and was never tested is taken, with a warning of one line.
 
 Of YADE's own classes the import replaces three functions, which do as before: O.run and O.step look our functors up
-when there are several threads (prepare) and warn of shapes that no functor serves, and O.load says what to do about a scene of another YADE. The lists of
-PotentialParticle are set under a lock. protect_runs() replaces more, for those who ask for it.
+when there are several threads (prepare) and warn of shapes that no functor serves, and O.load says what to do about a
+scene of another YADE. The lists of PotentialParticle are set under a lock. protect_runs() replaces more, for those who
+ask for it.
 """
 import builtins
 import functools
