@@ -72,7 +72,7 @@ def measured(space, rocks, sizes, count, dense):
     low, high = 0.1 * top, 0.8 * top
     return {
         "bodies": len(placements), "seconds": seconds, "processor_seconds": used,
-        "solid_fraction_of_the_middle": packing.solid_volume(placements, low, high) / (area * (high - low)),
+        "solid_fraction_of_the_middle": packing.volume_between(placements, low, high) / (area * (high - low)),
         "overlapping": overlapping(placements),
     }, placements
 

@@ -29,12 +29,15 @@ import functools
 
 from . import builds
 from .bodies import body
+from .measures import extrema, porosity, solid_volume
 from .outside import protect_runs
 from .packing import add_packing, pack
+from .time_step import critical_time_step
 
 __version__ = "0.1.0"
 
-__all__ = ["AbiError", "add_packing", "body", "library_version", "pack", "prepare", "protect_runs"]
+__all__ = ["AbiError", "add_packing", "body", "critical_time_step", "extrema", "library_version", "pack", "porosity", "prepare",
+           "protect_runs", "solid_volume"]
 
 
 class AbiError(ImportError):
