@@ -134,7 +134,7 @@ def draw(placements, edge):
     image = render(bodies, Floor(0.0, 3.0 * edge), view, 910, 700)
     # A table of colours makes a small file.
     whole = Image.fromarray((255 * image).round().astype(np.uint8))
-    whole.quantize(256, dither=Image.Dither.NONE).save(OUT / "packing.png", optimize=True)
+    whole.quantize(128, dither=Image.Dither.NONE).save(OUT / "packing.png", optimize=True)
 
 
 main()
