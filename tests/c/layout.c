@@ -16,7 +16,7 @@ static void sizes_are_those_of_the_library(void) {
     CHECK(pp_struct_size(PP_STRUCT_CLOSEST_2D) == sizeof(pp_closest_2d));
     CHECK(pp_struct_size(PP_STRUCT_FRAME) == sizeof(pp_frame));
     CHECK(pp_struct_size(PP_STRUCT_CARRY) == sizeof(pp_carry));
-    CHECK(pp_struct_size(0) == 0 && pp_struct_size(12) == 0 && pp_struct_size(UINT32_MAX) == 0);
+    CHECK(pp_struct_size(0) == 0 && pp_struct_size(13) == 0 && pp_struct_size(UINT32_MAX) == 0);
 }
 
 void test_layout(void) {
