@@ -17,6 +17,8 @@ readonly PACKAGES=(
     binutils valgrind libc6-dbg
     # pictures and summaries
     python3-matplotlib python3-numpy
+    # shapes: convex hulls, and files of surfaces
+    python3-scipy python3-vtk9
     # progress bars
     python3-tqdm
 )
