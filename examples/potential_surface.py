@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""The surface of one potential particle, in numpy, for pictures, meshes and masses.
+"""The surface of one potential particle, in numpy, for pictures and meshes; its mass by the library.
 
 Local frame, lengths in the caller's unit:
 
@@ -42,6 +42,15 @@ class PotentialSurface:
         unit = directions / np.linalg.norm(directions, axis=-1, keepdims=True)
         reach = self._beyond_everything(unit)
         return reach - self.first_hit(unit * reach[..., None], -unit)
+
+    def mass_properties(self):
+        """Volume, centroid (3,) and inertia (3, 3) about the origin, for density 1, local frame; to 1e-8."""
+        from potential_particles import ConicPotentialParticle
+
+        planes = np.column_stack([self.normals, self.offsets]).tolist()
+        particle = ConicPotentialParticle(planes=planes, r=self.r, k=self.k, R=self.R)
+        volume, centroid, inertia, _ = particle.massProperties(1e-8)
+        return volume, np.array(centroid), np.array([[inertia[i, j] for j in range(3)] for i in range(3)])
 
     def first_hit(self, origins, directions, tolerance=1e-13):
         """Way along rays to the surface, in units of |direction|; NaN for rays that miss.

@@ -7,7 +7,6 @@ shape, which YADE wants there; x, y, z are principal axes of inertia by symmetry
 
 import numpy as np
 
-from mass_properties import mass_properties
 from potential_surface import PotentialSurface
 from surface_mesh import surface_mesh
 
@@ -26,8 +25,8 @@ class Pyramid:
         below = 0.25 * height  # centroid of the sharp pyramid above its base
         while True:
             unit = _unit_surface(height, below, rounding, sphericity)
-            volume, centroid, inertia = mass_properties(unit)
-            if abs(centroid[2]) < 1e-12:
+            volume, centroid, inertia = unit.mass_properties()
+            if abs(centroid[2]) < 1e-8:
                 break
             below += centroid[2]
         self.surface = PotentialSurface(

@@ -17,8 +17,8 @@ readonly PACKAGES=(
     binutils valgrind libc6-dbg
     # pictures and summaries
     python3-matplotlib python3-numpy
-    # files for ParaView
-    python3-vtk9
+    # shapes: convex hulls, and files of surfaces; files for ParaView
+    python3-scipy python3-vtk9
     # progress bars
     python3-tqdm
 )

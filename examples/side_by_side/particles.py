@@ -10,7 +10,6 @@ from yade import O
 
 from bodies import fix, give_mass, potential_body
 from box import BODY_MASK, SLAB_NORMALS
-from mass_properties import mass_properties
 from potential_surface import PotentialSurface
 from pyramid import Pyramid
 from surface_mesh import surface_mesh
@@ -28,7 +27,7 @@ class Kind:
 
     def __post_init__(self):
         if self.volume is None:
-            self.volume, _, inertia = mass_properties(self.surface)
+            self.volume, _, inertia = self.surface.mass_properties()
             self.principal_inertia = np.diag(inertia)
 
     @cached_property

@@ -20,7 +20,6 @@
 mod container;
 mod error;
 mod grid;
-#[allow(clippy::module_inception)]
 mod pack;
 mod pile;
 mod random;

@@ -37,7 +37,8 @@ pub struct Packing {
     pub margin: f64,
     /// The same seed gives the same packing, whatever the number of threads.
     pub seed: u64,
-    /// Threads that work on it, the calling one among them; 0 and 1 mean the calling thread alone.
+    /// Threads that work on it, the calling one among them; 0 and 1 mean the calling thread alone. Of use where the
+    /// container is many bodies wide.
     pub threads: usize,
 }
 
@@ -107,6 +108,7 @@ pub fn pack(
         if looking.is_empty() {
             break;
         }
+        // Each body is work enough for a chunk of its own.
         in_parallel(how.threads, CHUNK * looking.len(), looking.iter_mut(), |seeker| {
             seeker.look(&supply, &rounds.pile, how);
         });

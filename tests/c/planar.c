@@ -361,7 +361,46 @@ static void memory_and_rejection(void) {
     pp_particle_free_2d(square);
 }
 
+/* A square with its sides at 1 and corners rounded by r: rectangle, four slabs and a circle. */
+static void area_and_outline_of_a_square(void) {
+    const double core = 0.75, r = 0.25;
+    pp_particle_2d *square = new_square_2d(core, r, 0.0, 0.0);
+    const double area = 4 * core * core + 8 * core * r + PI * r * r;
+    pp_area_properties found;
+    CHECK_STATUS(pp_particle_area_properties_2d(square, 1e-9, &found), PP_OK);
+    CHECK_NEAR(found.area, area, 1e-9 * area);
+    CHECK_NEAR2(found.centroid, 0.0, 0.0, 1e-9);
+    CHECK_NEAR(found.second_moment[0], found.second_moment[1], 1e-8);
+    CHECK_NEAR(found.second_moment[2], 0.0, 1e-8);
+    CHECK(found.error >= 0.0 && found.error <= 1e-9);
+
+    double points[2000];
+    size_t count = 0;
+    CHECK_STATUS(pp_particle_outline_2d(square, 1e-3, NULL, 0, &count), PP_BUFFER_TOO_SMALL);
+    CHECK(count > 8 && count <= 1000);
+    CHECK_STATUS(pp_particle_outline_2d(square, 1e-3, points, 1000, &count), PP_OK);
+    double enclosed = 0.0;
+    for (size_t i = 0; i < count; i++) {
+        const double *here = points + 2 * i, *next = points + 2 * ((i + 1) % count);
+        enclosed += 0.5 * (here[0] * next[1] - here[1] * next[0]);
+    }
+    CHECK(enclosed < area && enclosed > area - 8e-3);
+
+    FILL(found);
+    const double refused[4] = {0.0, -1.0, INFINITY, NAN};
+    for (int j = 0; j < 4; j++) {
+        CHECK_STATUS(pp_particle_area_properties_2d(square, refused[j], &found), PP_BAD_SETTING);
+        CHECK_STATUS(pp_particle_outline_2d(square, refused[j], points, 1000, &count), PP_BAD_SETTING);
+    }
+    CHECK_STATUS(pp_particle_area_properties_2d(NULL, 1e-6, &found), PP_NULL_POINTER);
+    CHECK_STATUS(pp_particle_area_properties_2d(square, 1e-6, NULL), PP_NULL_POINTER);
+    CHECK_STATUS(pp_particle_outline_2d(square, 1e-3, points, 1000, NULL), PP_NULL_POINTER);
+    CHECK_UNTOUCHED(found);
+    pp_particle_free_2d(square);
+}
+
 void test_planar(void) {
+    area_and_outline_of_a_square();
     layout_is_as_written_down();
     lines_are_checked();
     lines_are_limited_and_null_refused();

@@ -162,7 +162,8 @@ wedge = mesh(boundaries.funnel((0.0, 1.0), (2.0, 1.0), 1.0, facets=50, material=
 check.close(sum(n.norm() for n in area_normals(wedge)), 2 * math.sqrt(2) + 2 * 1.0, 1e-9, "area of a wedge that is closed below")
 sheet = mesh(boundaries.plate((0, 0, 1), (2, 0, 0), (1, 3, 0), facets=20, material=utils.defaultMaterial()))
 check.close(sum(area_normals(sheet), Vector3.Zero), Vector3(0, 0, 6), 1e-9, "area and normal of a plate")
-check.true(all(body.state.blockedDOFs == "xyzXYZ" and not body.dynamic for body in boundaries.plate((0, 0, 0), (1, 0, 0), (0, 1, 0), material=utils.defaultMaterial())), "facets are fixed")
+fixed = boundaries.plate((0, 0, 0), (1, 0, 0), (0, 1, 0), material=utils.defaultMaterial())
+check.true(all(body.state.blockedDOFs == "xyzXYZ" and not body.dynamic for body in fixed), "facets are fixed")
 for action, says in [
     (lambda: boundaries.box_walls((0, 0, 0), (1, 0, 1)), "must lie below"),
     (lambda: boundaries.plate((0, 0, 0), (1, 0, 0), (2, 0, 0)), "span no plate"),

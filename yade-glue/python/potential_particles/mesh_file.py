@@ -5,6 +5,7 @@ import os
 import numpy as np
 from scipy.spatial import ConvexHull
 
+from .arguments import positive
 from .polyhedron import COPLANAR, refuse_flat
 from .rounding import ROUNDING, SPHERICITY
 from .solids import rounded_hull
@@ -18,16 +19,18 @@ def from_mesh(file, r=ROUNDING, k=SPHERICITY, R=None, hull=False, scale=1.0, nam
     A surface that is open, not convex or crosses itself is a ValueError that says where, in the file's numbers;
     hull=True takes its convex hull instead. A flat one is an error in any case.
     """
+    scale = positive(scale, "scale")
     points, triangles = read(file)
-    refuse_flat(points)
-    if not hull:
-        try:
+    remedy = ""
+    try:
+        refuse_flat(points)
+        remedy = f"; hull=True takes the convex hull of its {len(points)} points"
+        if not hull:
             refuse_open(points, triangles)
             refuse_concave(points, triangles)
-        except ValueError as error:
-            raise ValueError(f"{file}: {error}; hull=True takes the convex hull of its {len(points)} points") from None
-    from .arguments import positive
-    return rounded_hull(points * positive(scale, "scale"), r, k, R, name or os.path.splitext(os.path.basename(file))[0])
+    except ValueError as error:
+        raise ValueError(f"{file}: {error}{remedy}") from None
+    return rounded_hull(points * scale, r, k, R, name or os.path.splitext(os.path.basename(file))[0])
 
 
 def read(file):

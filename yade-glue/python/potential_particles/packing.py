@@ -84,7 +84,7 @@ def pack(container, shapes, sizes=None, number=None, dense=False, seed=0, margin
         try:
             _glue().pack([shape.particle() for shape in shapes], _size_rows(sizes), how, placed)
         finally:
-            report.close(len(placements), interrupted, solid_volume(placements), _volume(kind, lower, upper))
+            report.close(len(placements), interrupted, volume_between(placements), _volume(kind, lower, upper))
     return placements
 
 
@@ -102,7 +102,7 @@ def add_packing(placements, material=None, **more):
     return yade.O.bodies.append(made)
 
 
-def solid_volume(placements, lower=-float("inf"), upper=float("inf")):
+def volume_between(placements, lower=-float("inf"), upper=float("inf")):
     """Volume of the bodies whose centroids lie between two heights, length^3."""
     return sum(one.shape.volume * one.scale**3 for one in placements if lower <= _centroid(one)[2] <= upper)
 

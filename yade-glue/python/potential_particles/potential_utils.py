@@ -13,18 +13,21 @@ import random as _random
 import numpy as np
 
 from . import shapes
-from .arguments import positive, vector, whole
+from .arguments import positive, rows, vector, whole
 from .bodies import body
 from .polyhedron import Polyhedron
-from .rounding import of_definition
+from .rounding import rounded
 
 
 def potentialblock(material, a=[], b=[], c=[], d=[], r=0.0, R=0.0, mask=1, isBoundary=False, fixed=False, color=[-1, -1, -1]):
     """A body of the planes a x + b y + c z = d of its core: its faces lie at d + r."""
     if not len(a) == len(b) == len(c) == len(d):
         raise ValueError(f"a, b, c, d have {len(a)}, {len(b)}, {len(c)} and {len(d)} entries: all must be of one length")
-    shape = of_definition(list(zip(a, b, c, d)), positive(r, "r"), 0.0, R, "potential block")
-    return _body(shape, material, (0, 0, 0), mask, isBoundary, fixed, color)
+    r = positive(r, "r")
+    core = rows(zip(a, b, c, d), 4, "planes", "the four numbers a, b, c, d")
+    lengths = np.linalg.norm(core[:, :3], axis=1)
+    return _faced(np.column_stack([core[:, :3], core[:, 3] + r * lengths]), r, material, (0, 0, 0), mask, isBoundary, fixed, color,
+                  "potential block")
 
 
 def cuboid(material, edges=(1, 1, 1), r=0.0, R=0.0, center=[0, 0, 0], mask=1, isBoundary=False, fixed=False, color=[-1, -1, -1]):
@@ -113,14 +116,10 @@ def platonic_solid(material, numFaces, edge=0.0, ri=0.0, rm=0.0, rc=0.0, volume=
 
 def _faced(faces, r, material, center, mask, isBoundary, fixed, color, name):
     """A body whose faces are the planes (a, b, c, h), with the rounding radius r, a length; 0: half of the least h."""
-    lengths = [math.sqrt(a * a + b * b + c * c) for a, b, c, _ in faces]
-    heights = [h / length for (*_, h), length in zip(faces, lengths)]
-    r = positive(r or 0.5 * min(heights), "r")
-    core = [(a / length, b / length, c / length, h - r) for (a, b, c, _), length, h in zip(faces, lengths, heights)]
-    return _body(of_definition(core, r, 0.0, 0.0, name), material, center, mask, isBoundary, fixed, color)
-
-
-def _body(shape, material, center, mask, isBoundary, fixed, color):
+    faces = np.array(faces, float)
+    polyhedron = Polyhedron.of_planes(faces[:, :3], faces[:, 3])
+    r = positive(r or 0.5 * polyhedron.offsets.min(), "r")
+    shape = rounded(polyhedron, r, 0.0, None, name)
     if color is None or color[0] == -1:
         color = [_random.random() for _ in range(3)]
     return body(shape, material, center, fixed=fixed, color=color, mask=mask, isBoundary=isBoundary)

@@ -38,16 +38,6 @@ def ball(radius, name):
     return _settled(lambda centre: ([], 0.0, 1.0, radius), np.zeros(3), 2.0 * radius, name)
 
 
-def of_definition(planes, r, k, R, name):
-    """The Shape of a particle as it is defined, planes (a, b, c, d) about its own centre.
-
-    For k > 0 its centre must be its centroid, since a shadow sphere cannot be moved: rounded() finds such a centre.
-    """
-    def about(centre):
-        return [(a, b, c, d - np.dot((a, b, c), centre)) for a, b, c, d in planes], r, k, R
-    return _settled(about, np.zeros(3), None, name)
-
-
 def _planes(polyhedron, r, k, R, centre):
     if R is None:
         R = np.linalg.norm(polyhedron.corners - centre, axis=1).max()
@@ -74,7 +64,7 @@ def _settled(definition_about, centre, size, name):
         particle = ConicPotentialParticle(planes=planes, r=r, k=k, R=R)
         volume, shift, inertia, error = particle.massProperties(tolerance)
         shift = np.array(shift)
-        away = np.abs(shift).max() / (size or particle.boundingRadius)
+        away = np.abs(shift).max() / size
         if tolerance == TOLERANCE and away <= CENTRED:
             break
         if away <= 100.0 * CENTRED:
