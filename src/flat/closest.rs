@@ -44,10 +44,10 @@ impl Goal<'_> {
         let found = minimise(&body, &freedom, &boundary.nearest(), self.tolerance)?.displaced(boundary.farthest);
         let in_plane = Closest::on(&body, boundary, &found, Feature::Interior);
         let Some(corners) = &boundary.corners else { return Some(in_plane) };
-        let outside = corners.outside(&found.minimum.x, &boundary.normal);
+        let x = found.minimum.x;
         let (mut least, mut models): (Option<Closest>, _) = (None, found.models);
         // The least S on a triangle is in its plane's, or on an edge beyond which that lies.
-        for i in (0..3).filter(|i| outside[*i]) {
+        for i in (0..3).filter(|i| corners.edges[*i].is_passed_by(&x)) {
             let (found, feature) = self.on_edge(&body, corners, i)?;
             models += found.models;
             if least.is_none_or(|least| found.minimum.value < least.minimum.value) {
@@ -62,9 +62,9 @@ impl Goal<'_> {
 
     /// The least S on edge i, from the edge alone: triangles that share it find the same.
     fn on_edge(&self, body: &Body, corners: &Corners, i: usize) -> Option<(Found, Feature)> {
-        let edge = corners.edge(i);
+        let edge = &corners.edges[i];
         let found = minimise(body, &Freedom::Line(edge.along), &edge.nearest(), self.tolerance)?;
-        Some(match beyond(&edge, &found.minimum.x) {
+        Some(match beyond(edge, &found.minimum.x) {
             None => (found.displaced(edge.farthest(corners)), Feature::Edge(i as u8)),
             Some(vertex) => {
                 let at = &corners.at[vertex];
@@ -138,9 +138,8 @@ fn descent(boundary: &Placed, gradient: &Vector3<f64>, feature: Feature) -> f64 
     match feature {
         Feature::Interior => across.norm(),
         Feature::Edge(i) => {
-            let i = usize::from(i);
-            let along = gradient.dot(&corners.edge(i).along);
-            along.hypot(gradient.dot(&corners.inwards(i, &boundary.normal)).min(0.0))
+            let edge = &corners.edges[usize::from(i)];
+            gradient.dot(&edge.along).hypot(gradient.dot(&edge.inwards).min(0.0))
         }
         Feature::Vertex(i) => into_corner(corners, usize::from(i), &across),
     }

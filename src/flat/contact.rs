@@ -37,7 +37,7 @@ pub struct FlatContact {
     pub kind: Kind,
     /// Where on the boundary its point lies.
     pub feature: Feature,
-    /// What else is to be known.
+    /// What else is to be known; [`Flags::BY_FACE`] where A lies beyond the plane of T, or T beyond a face of A.
     pub flags: Flags,
     /// Quadratics solved.
     pub iterations: u32,
@@ -70,7 +70,8 @@ pub struct FlatContact {
 
 /// Contact of A at a pose with a plane, which it may touch from either side.
 ///
-/// Of the settings, `gap_tolerance`, `flat_regularisation` and `solve_separated` count. Where the centre of A lies on the plane
+/// Of the settings, `gap_tolerance`, `flat_regularisation` (values below the default count as the default) and `solve_separated`
+/// count; the answer is always in doubles. Where the centre of A lies on the plane
 /// to rounding, A counts as in front of it: the normal is minus the plane's ([`Flags::NORMAL_BY_BOUNDARY`]).
 ///
 /// ```
@@ -133,9 +134,11 @@ impl Call<'_> {
                 return Ok(FlatContact::apart(&apart));
             }
         }
+        let least = Settings::default().flat_regularisation;
         let goal = Goal {
             particle: self.particle,
-            least_sphericity: self.settings.least_sphericity(),
+            // Less is lost in doubles.
+            least_sphericity: larger(self.settings.flat_regularisation, least),
             tolerance: self.settings.gap_tolerance,
         };
         let body = goal.body();
@@ -146,7 +149,6 @@ impl Call<'_> {
         if !(closest.settled || scale.low >= 1.0 || scale.s + scale.gap < 1.0) {
             return Err(DetectError::Failed { reason: "the search on the boundary did not settle".into() });
         }
-        let least = Settings::default().flat_regularisation;
         if scale.s >= 1.0 && scale.low < 1.0 && self.settings.flat_regularisation > least {
             // Where the bulge of a raised regularisation may hide an overlap, the particle as it is decides.
             let settings = Settings { flat_regularisation: least, ..*self.settings };
@@ -221,7 +223,7 @@ impl Call<'_> {
                 };
             }
             (Feature::Edge(i), Some(corners)) => {
-                let along = corners.edge(usize::from(*i)).along;
+                let along = corners.edges[usize::from(*i)].along;
                 minimum.gradient - minimum.gradient.dot(&along) * along
             }
             (Feature::Vertex(_), Some(_)) => minimum.gradient,
