@@ -1,6 +1,6 @@
 //! The point of a boundary where S is least, and the bound on the error of s there.
 
-use super::contact::Feature;
+use super::boundary::Feature;
 use super::minimum::Minimum;
 use super::placed::{Corners, Edge, Placed};
 use super::search::{Found, Freedom, minimise};

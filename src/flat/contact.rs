@@ -1,6 +1,6 @@
 //! Point, normal and overlap of a particle and a flat boundary.
 
-use super::boundary::{Triangle, Wall};
+use super::boundary::{Feature, Triangle, Wall};
 use super::closest::{Closest, Goal};
 use super::placed::Placed;
 use super::separation;
@@ -17,17 +17,6 @@ use crate::pose::Pose;
 use crate::section::Section;
 use crate::settings::Settings;
 use nalgebra::Vector3;
-
-/// The part of a boundary on which a point lies.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Feature {
-    /// The plane, or the inside of the triangle.
-    Interior,
-    /// Edge i, between the vertices i and i + 1 (of edge 2: 2 and 0).
-    Edge(u8),
-    /// Vertex i.
-    Vertex(u8),
-}
 
 /// The answer for a particle A and a boundary T, world axes, lengths in the caller's unit. What does not apply is NaN.
 #[derive(Clone, Copy, Debug)]
