@@ -7,6 +7,7 @@ use super::search::{Found, Freedom, minimise};
 use crate::bounds::gap::Scale;
 use crate::linalg::number::{larger, smaller};
 use crate::pair::placed_particle::{Body, shift_in_a};
+use crate::pair::separation_tests::MARGIN;
 use crate::particle::particle::Particle;
 use nalgebra::Vector3;
 
@@ -24,6 +25,8 @@ pub(super) struct Goal<'a> {
 pub(super) struct Closest {
     pub minimum: Minimum,
     pub feature: Feature,
+    /// How steeply S may descend into the boundary from there, in doubt.
+    descent: f64,
     /// Lower bound of S on the whole boundary up to `minimum.rounding`.
     pub lower: f64,
     /// Whether the search settled; if not, the bounds say how much is known.
@@ -99,8 +102,8 @@ impl Closest {
     /// A minimum on a part of the boundary, seen as that of the whole.
     fn on(body: &Body, boundary: &Placed, found: &Found, feature: Feature) -> Self {
         let Found { minimum, settled, models } = *found;
-        let found = Self { minimum, feature, lower: f64::NEG_INFINITY, settled, models };
-        let descent = descent(boundary, &minimum.gradient, feature);
+        let descent = descent(boundary, &minimum.gradient, feature) + minimum.slope;
+        let found = Self { minimum, feature, descent, lower: f64::NEG_INFINITY, settled, models };
         Self { lower: minimum.value - minimum.height(body, descent, found.within(body, boundary)), ..found }
     }
 
@@ -121,6 +124,19 @@ impl Closest {
         let open = larger(minimum.value - self.lower, 0.0) + 2.0 * minimum.rounding;
         let by_convexity = 2.0 * (2.0 * open / body.sphere_curvature()).sqrt();
         smaller(smaller(minimum.way, by_convexity), self.within(body, boundary))
+    }
+
+    /// Lower bound of the distance of particle and boundary, from the tangent of s at the point, which lies below s everywhere.
+    ///
+    /// In the particle the tangent is at most 1, or what the regularisation makes of that; on the boundary it is at least s but for
+    /// what is in doubt; and it rises by no more than its slope. The point of the boundary nearest to the particle is no farther
+    /// from the centre than this one and the radius of the particle together.
+    pub fn distance(&self, body: &Body, boundary: &Placed) -> f64 {
+        let Minimum { x, value, gradient, rounding, .. } = &self.minimum;
+        let within = smaller(2.0 * (body.particle.bounding_radius() + x.norm()), boundary.extent(x));
+        let most = (*value * (1.0 + body.most_surplus(1.0))).sqrt();
+        let above = 2.0 * (value - most) - self.descent * within - rounding;
+        larger(above / (gradient.norm() + self.descent) * (1.0 - MARGIN), 0.0)
     }
 
     /// Bound on the way to any point of the boundary where S is no larger.

@@ -10,7 +10,7 @@ use crate::contact::detect::DetectError;
 use crate::flags::Flags;
 use crate::linalg::number::larger;
 use crate::pair::placed_particle::{Body, shift_in_a};
-use crate::pair::separation_tests::{Apart, MARGIN};
+use crate::pair::separation_tests::Apart;
 use crate::particle::particle::Particle;
 use crate::particle::ray_cast;
 use crate::pose::Pose;
@@ -178,7 +178,7 @@ impl Call<'_> {
             ..FlatContact::UNKNOWN
         };
         if scale.s >= 1.0 {
-            return Ok(FlatContact { distance: distance(closest, scale), ..contact });
+            return Ok(FlatContact { distance: closest.distance(body, boundary), ..contact });
         }
         let overlap = self
             .overlap(closest, &normal.local, shift_in_a(minimum.x.norm(), boundary.farthest))
@@ -233,13 +233,6 @@ impl Call<'_> {
         // Where s < 1 by rounding alone, it may be behind.
         Some(larger(way, 0.0))
     }
-}
-
-/// Lower bound of the distance of A and T, from the tangent of s at x*, which lies below s everywhere: it is at most 1 in A,
-/// at least the lower bound of s on T, and it rises by no more than its slope.
-fn distance(closest: &Closest, scale: Scale) -> f64 {
-    let slope = closest.minimum.gradient.norm() + closest.minimum.slope;
-    larger((scale.low - 1.0) * 2.0 * scale.low / slope * (1.0 - MARGIN), 0.0)
 }
 
 impl From<&FlatContact> for Section {
