@@ -101,6 +101,11 @@ impl Minimum {
         }
     }
 
+    /// At a point where a search has ended without a minimum.
+    pub fn unsettled(body: &Body, y: &Vector3<f64>) -> Self {
+        Self { way: f64::INFINITY, ..Self::at(body, y) }
+    }
+
     /// The same where what it lies on may be off by so much.
     pub fn displaced(self, by: f64) -> Self {
         let rounding = self.rounding + self.gradient.norm() * by + 0.5 * self.hessian.trace() * by * by;
