@@ -101,6 +101,11 @@ impl Minimum {
         }
     }
 
+    /// At a point where a search has ended without a minimum.
+    pub fn unsettled(body: &Body, y: &Vector3<f64>) -> Self {
+        Self { way: f64::INFINITY, ..Self::at(body, y) }
+    }
+
     /// The same where what it lies on may be off by so much.
     pub fn displaced(self, by: f64) -> Self {
         let rounding = self.rounding + self.gradient.norm() * by + 0.5 * self.hessian.trace() * by * by;
@@ -118,10 +123,9 @@ impl Minimum {
         self.x.norm() + body.particle.reach(upper)
     }
 
-    /// How far S may fall below its value within a distance, if it descends by no more than this slope beside what is in doubt:
-    /// what is below it has the curvature of the shadow sphere at least.
-    pub fn height(&self, body: &Body, descent: f64, within: f64) -> f64 {
-        let slope = descent + self.slope;
+    /// How far S may fall below its value within a distance, if it descends by no more than this slope: what is below it has the
+    /// curvature of the shadow sphere at least.
+    pub fn height(&self, body: &Body, slope: f64, within: f64) -> f64 {
         smaller(slope * within, 0.5 * slope * slope / body.sphere_curvature())
     }
 }

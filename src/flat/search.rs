@@ -83,7 +83,7 @@ pub(super) fn minimise(body: &Body, freedom: &Freedom, start: &Vector3<f64>, tol
         last = Some(Attempt::from(body, &model, v));
         model = Model::at(body, freedom, body.locate(&(model.point.y + v)));
     }
-    let minimum = best.unwrap_or_else(|| Minimum::at(body, &model.point.y));
+    let minimum = best.unwrap_or_else(|| Minimum::unsettled(body, &model.point.y));
     Some(Found { minimum, settled: best.is_some(), models: MOST_MODELS })
 }
 

@@ -2,25 +2,24 @@
 
 use super::placed::Placed;
 use crate::flags::Flags;
+use crate::linalg::number::larger;
 use crate::pair::placed_particle::shift_in_a;
 use crate::pair::separation_tests::{Apart, MARGIN};
 use crate::particle::particle::Particle;
 use nalgebra::Vector3;
 
-/// By the bounding ball, by the plane of the boundary and the corners of the particle's bounding polyhedron, or by a face of the
-/// particle.
+/// By the bounding ball, or by the plane of the boundary and the corners of the particle's bounding polyhedron, with the larger
+/// distance of both; else by a face of the particle.
 pub(super) fn proof_of_separation(particle: &Particle, boundary: &Placed) -> Option<Apart> {
     let nearest = boundary.nearest();
     let slack = shift_in_a(nearest.norm(), boundary.farthest);
-    let distance = nearest.norm() * (1.0 - MARGIN) - slack - particle.bounding_radius();
-    let by_ball = (distance > 0.0).then(|| Apart::new(Flags::BY_SPHERES, distance));
-    if by_ball.is_some() {
-        return by_ball;
-    }
+    let by_ball = nearest.norm() * (1.0 - MARGIN) - slack - particle.bounding_radius();
     let towards = boundary.normal * boundary.offset.signum();
-    let distance = boundary.offset.abs() * (1.0 - MARGIN) - slack - particle.support(&towards);
+    let by_plane = boundary.offset.abs() * (1.0 - MARGIN) - slack - particle.support(&towards);
+    let distance = larger(by_ball, by_plane);
     if distance > 0.0 {
-        return Some(Apart::new(Flags::BY_FACE, distance));
+        let by = if by_ball > 0.0 { Flags::BY_SPHERES } else { Flags::BY_FACE };
+        return Some(Apart::new(by, distance));
     }
     let corners = boundary.corners.as_ref()?;
     beyond_a_face(particle, &corners.at, &nearest, slack).map(|distance| Apart::new(Flags::BY_FACE, distance))

@@ -184,9 +184,9 @@ def cube(r, k):
     return {"n": n, "d": [0.5 - r] * 6, "r": r, "k": k, "R": 1.0}
 
 
-def moved(case, direction, wanted, size):
+def moved(case, direction, wanted):
     """Moves the particle by bisection to where s is about as wanted."""
-    low, high = 0.0, 4.0 * size
+    low, high = 0.0, 4.0
     start = case["pos"]
     for _ in range(24):
         middle = (low + high) / 2
@@ -243,7 +243,7 @@ def cases(rng):
             away = random_direction(rng)
             case["pos"] = [float(t + 3 * a) for t, a in zip(target, away)]
             wanted = [rng.uniform(0.2, 0.99), rng.uniform(0.9, 1.1), 1 + 1e-6 * rng.uniform(-1, 1), 1.5][number % 4]
-            yield moved(case, [-a for a in away], wanted, 1.0)
+            yield moved(case, [-a for a in away], wanted)
             if number % 4 == 0:
                 normal = [c * 10 ** rng.uniform(-2, 2) for c in random_direction(rng)]
                 of_plane = {key: value for key, value in case.items() if key != "vertices"}
@@ -251,7 +251,7 @@ def cases(rng):
                 side = 1 if sum(a * n for a, n in zip(away, normal)) > 0 else -1
                 length = sum(c * c for c in normal) ** 0.5
                 of_plane["pos"] = [float(v + 3 * side * n / length + rng.uniform(-1, 1)) for v, n in zip(vertices[0], normal)]
-                yield moved(of_plane, [-side * n / length for n in normal], wanted, 1.0)
+                yield moved(of_plane, [-side * n / length for n in normal], wanted)
 
 
 def main():
