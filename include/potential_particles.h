@@ -277,7 +277,8 @@ typedef struct pp_contact {
     uint32_t back_end;
     // Sum of PP_FLAG_... bits.
     uint32_t flags;
-    // Pairs of quadratics solved; interior-point iterations of the conic back end.
+    // Pairs of quadratics solved; rounds of a contact carried on; interior-point iterations of the conic
+    // back end.
     uint32_t iterations;
     // Always 0.
     uint32_t reserved;

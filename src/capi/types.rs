@@ -136,7 +136,8 @@ pub struct pp_contact {
     pub back_end: u32,
     /// Sum of PP_FLAG_... bits.
     pub flags: u32,
-    /// Pairs of quadratics solved; interior-point iterations of the conic back end.
+    /// Pairs of quadratics solved; rounds of a contact carried on; interior-point iterations of the conic
+    /// back end.
     pub iterations: u32,
     /// Always 0.
     pub reserved: u32,

@@ -61,7 +61,7 @@ struct Here {
 }
 
 /// Most rounds: each takes a fiftieth of the instructions of a solve from the planes.
-const MOST_STEPS: u32 = 8;
+const MOST_ROUNDS: u32 = 8;
 
 /// Each change is at most this share of the last: the method converges then (Kantorovich's theorem asks for the half).
 const CONVERGING: f64 = 0.25;
@@ -171,7 +171,7 @@ impl Equations {
     fn solve(&self, room: f64) -> Option<(Step, f64, u32)> {
         let mut step = self.step(&self.slope, self.mismatch);
         let mut last = step.way.norm_squared();
-        for steps in 2..=MOST_STEPS {
+        for rounds in 2..=MOST_ROUNDS {
             let bent = self.bend.times(&step.way);
             let next = self.step(&(self.slope + step.weight * bent), self.mismatch - 0.5 * step.way.dot(&bent));
             let change = (next.way - step.way).norm_squared();
@@ -181,7 +181,7 @@ impl Equations {
             }
             step = next;
             if change * change <= (ENOUGH * room) * (ENOUGH * room) * last {
-                return Some((step, change, steps));
+                return Some((step, change, rounds));
             }
             last = change;
         }
@@ -253,9 +253,9 @@ impl Carried {
         let pieces = [self.pieces[0].seen_from_b(&pair), self.pieces[1]];
         let room = tolerance * smaller(a.0.bounding_radius(), b.0.bounding_radius());
         let optimum = self.optimum(&pair, &pieces, room)?;
-        let (local, steps) = (self.local(&pair, &pieces, &optimum)?, optimum.steps);
+        let (local, rounds) = (self.local(&pair, &pieces, &optimum)?, optimum.rounds);
         (self.x, self.weight) = (optimum.x, optimum.u);
-        let call = Contact { flags: Flags::WARM.with(Flags::CARRIED), iterations: steps, ..Contact::UNKNOWN };
+        let call = Contact { flags: Flags::WARM.with(Flags::CARRIED), iterations: rounds, ..Contact::UNKNOWN };
         let contact = local.placed(&pair, b.1, call);
         debug_assert!(contact.kind == Kind::Overlapping && contact.overlap >= 0.0);
         Some(answer(contact))
@@ -266,7 +266,7 @@ impl Carried {
     fn optimum(&self, pair: &Pair, pieces: &[KnownPiece; 2], room: f64) -> Option<Optimum> {
         let soft = [2.0 * pair.a.sphere_weight, 2.0 * pair.b.sphere_weight];
         let equations = Equations::of(pieces, &self.x, self.weight, soft)?;
-        let (step, change, steps) = equations.solve(room)?;
+        let (step, change, rounds) = equations.solve(room)?;
         let (x, u) = (self.x + step.way, self.weight + step.weight);
         let here = [pieces[0].at(&x), pieces[1].at(&x)];
         // What is left there, rounding included.
@@ -279,13 +279,13 @@ impl Carried {
             return None;
         }
         let left = Left { square: mismatch.abs() + next.open, way, stiffness: equations.stiffness };
-        Some(Optimum { x, u, here, left, steps })
+        Some(Optimum { x, u, here, left, rounds })
     }
 
     /// Its contact, frame of B; `None` where it is not certain.
     #[inline(always)]
     fn local(&self, pair: &Pair, pieces: &[KnownPiece; 2], optimum: &Optimum) -> Option<LocalContact> {
-        let Optimum { x, u, here: [a, b], left, steps } = optimum;
+        let Optimum { x, u, here: [a, b], left, rounds } = optimum;
         let (values, gradients) = ([a.value, b.value], [a.gradient, b.gradient]);
         let s = ((1.0 - u) * values[0] + u * values[1]).sqrt();
         let moved = [(x - pieces[0].from).norm(), (x - pieces[1].from).norm()];
@@ -298,7 +298,7 @@ impl Carried {
         }
         let gradient_norms = [gradients[0].norm(), gradients[1].norm()];
         let lambda = u / (1.0 - u);
-        let solution = Solution { gradients, gradient_norms, values, ..Solution::unsettled(*x, lambda, *steps) };
+        let solution = Solution { gradients, gradient_norms, values, ..Solution::unsettled(*x, lambda, *rounds) };
         let along = |n: &Vector3<f64>| {
             let piece =
                 |i: usize| Piece { curvature: pieces[i].hessian.times(n).dot(n), reach: pieces[i].reach - moved[i] };
@@ -317,7 +317,7 @@ struct Optimum {
     u: f64,
     here: [Here; 2],
     left: Left,
-    steps: u32,
+    rounds: u32,
 }
 
 /// What is left there.
