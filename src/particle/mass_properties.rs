@@ -37,7 +37,7 @@ pub const MASS_TOLERANCE: f64 = 1e-6;
 pub(crate) const LEAST_TOLERANCE: f64 = 1e-12;
 
 /// Most cells: some seconds of work.
-const MOST_CELLS: usize = 300_000;
+const MOST_CELLS: usize = 200_000;
 
 /// Share of the tolerance that overlaps and gaps of the mesh may take.
 const OF_MESH: f64 = 0.1;
@@ -54,8 +54,8 @@ pub(crate) const RULE: [(f64, f64, f64); 7] = [
     (0.282_878_125_326_598_72, 0.200_698_707_387_981_11, 0.0),
     (0.5, 0.225_458_269_329_237_07, 4.0 / 9.0),
     (0.717_121_874_673_401_3, 0.200_698_707_387_981_11, 0.0),
-    (0.887_298_334_620_741_69, 0.134_244_044_934_166_72, 5.0 / 18.0),
-    (0.980_245_634_354_010_14, 0.052_328_113_013_233_63, 0.0),
+    (0.887_298_334_620_741_7, 0.134_244_044_934_166_72, 5.0 / 18.0),
+    (0.980_245_634_354_010_1, 0.052_328_113_013_233_63, 0.0),
 ];
 
 /// V, ∫x dV (3), and xx, yy, zz, xy, yz, zx of ∫x xᵀ dV.
