@@ -57,11 +57,15 @@ def rocks():
 O.materials.append(yade.FrictMat(young=1e7, poisson=0.3, frictionAngle=0.5, density=2000))
 O.bodies.append([utils.facet(vertices, fixed=True, material=-1) for vertices in box()])
 facets = len(O.bodies)
+for body in O.bodies:
+    body.mask = 3
 O.bodies.append(list(rocks()))
 O.engines = [
     yade.ForceResetter(),
     potential_particles.BoundWatch(),
-    yade.InsertionSortCollider([potential_particles.Bo1_ConicPP_Aabb(), yade.Bo1_Facet_Aabb()], verletDist=0.05 * SIZE),
+    # Facets are not paired with facets: bit 2 of their masks.
+    yade.InsertionSortCollider([potential_particles.Bo1_ConicPP_Aabb(), yade.Bo1_Facet_Aabb()], verletDist=0.05 * SIZE,
+                               avoidSelfInteractionMask=2),
     potential_particles.ConicInteractionLoop(
         [potential_particles.Ig2_ConicPP_ConicPP_ScGeom(), potential_particles.Ig2_Facet_ConicPP_ScGeom()],
         [yade.Ip2_FrictMat_FrictMat_FrictPhys()], [yade.Law2_ScGeom_FrictPhys_CundallStrack(sphericalBodies=False)]),
