@@ -200,6 +200,28 @@ fn a_batch_carries_contacts_on() {
 }
 
 #[test]
+fn a_contact_with_a_wall_is_written() {
+    let body = cube(0.1);
+    let at = pose(0.0, 0.0, 0.45);
+    let (point, normal) = ([0.0; 3], [0.0, 0.0, 1.0]);
+    let vertices: [f64; 9] = [-1.0, -1.0, 0.0, 2.0, -1.0, 0.0, -1.0, 2.0, 0.0];
+    unsafe {
+        let mut wall = MaybeUninit::<pp_flat_contact>::uninit();
+        let status = pp_contact_plane(body, &at, point.as_ptr(), normal.as_ptr(), ptr::null(), wall.as_mut_ptr());
+        assert_eq!(status, PP_OK);
+        let mut facet = MaybeUninit::<pp_flat_contact>::uninit();
+        assert_eq!(pp_contact_triangle(body, &at, vertices.as_ptr(), ptr::null(), facet.as_mut_ptr()), PP_OK);
+        let (wall, facet) = (wall.assume_init(), facet.assume_init());
+        assert!(wall.kind == PP_OVERLAPPING && facet.kind == PP_OVERLAPPING);
+        assert!((wall.s - facet.s).abs() <= wall.gap + facet.gap);
+        let mut area = MaybeUninit::uninit();
+        assert_eq!(pp_flat_contact_area(body, &at, &facet, 1e-6, area.as_mut_ptr()), PP_OK);
+        assert!(area.assume_init() > 0.0);
+        pp_particle_free(body);
+    }
+}
+
+#[test]
 fn a_closest_point_is_written() {
     let body = cube(0.1);
     let (at_a, at_b) = (pose(0.0, 0.0, 0.0), pose(0.2, 0.1, 0.93));

@@ -17,14 +17,9 @@ use serde::Deserialize;
 use std::collections::BTreeMap;
 
 /// Solved to the end, also where it is apart.
-pub const SOLVED: Settings = Settings {
-    formulation: potential_particles::Formulation::Midway,
-    back_end: potential_particles::BackEnd::Fast,
-    solve_separated: true,
-    gap_tolerance: 1e-12,
-    weight_on_a: 0.5,
-    flat_regularisation: 1e-13,
-};
+pub fn solved() -> Settings {
+    Settings { solve_separated: true, ..Settings::default() }
+}
 
 /// A cube of edge 1 with edges and corners rounded by r.
 pub fn cube(r: f64, k: f64) -> Particle {
@@ -94,7 +89,7 @@ fn contacts_known_to_40_digits() {
     for line in text.lines() {
         let known: Known = serde_json::from_str(line).expect("a contact per line");
         let (particle, pose) = (known.shape.particle(), known.place.pose());
-        let contact = known.contact(&particle, &pose, &SOLVED);
+        let contact = known.contact(&particle, &pose, &solved());
         let (family, s) = (&known.family, support::number(&known.s));
         let error = support::minus(contact.s, &known.s).abs();
         assert!(error <= contact.gap, "{family}: s {s} off by {error:e}, {contact:?}");

@@ -2,6 +2,7 @@
 #![allow(dead_code)]
 
 pub mod evaluation;
+pub mod facets;
 pub mod polyhedra;
 pub mod pyramids;
 pub mod random;

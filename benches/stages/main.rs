@@ -13,6 +13,7 @@ use nalgebra::Vector3;
 use potential_particles::Section;
 use potential_particles::internals::{Pair, reject};
 use potential_particles::{Contact, Formulation, Memory, Settings, detect};
+use scene::facets::Facet;
 use scene::random::Random;
 use scene::touching::{self, Touching};
 use scene::{polyhedra, pyramids};
@@ -83,6 +84,26 @@ fn rejects(c: &mut Criterion, pairs: &[Touching], random: &mut Random) {
     walk(c, "reject", "call, by memory", &apart, |pair| warm(pair, Formulation::Midway));
 }
 
+/// A particle and a triangle of its size: a contact, a near miss that is solved to the end in most cases, and one far off.
+fn facets(c: &mut Criterion) {
+    for (r, k) in pyramids::ROUNDED.into_iter().chain([pyramids::SHARP]) {
+        let mut random = Random::seeded(20_090_103);
+        let pyramid = pyramids::pyramid(r, k);
+        let touching: Vec<Facet> = (0..PAIRS).map(|_| Facet::touching(&pyramid, &mut random)).collect();
+        for (name, way) in [("touching", 0.0), ("near", 2.0 * touching::OVERLAP), ("far", 3.0)] {
+            let facets: Vec<Facet> = touching.iter().map(|facet| facet.pushed(way)).collect();
+            let mut next = 0;
+            let group = format!("particle against triangle r={r} k={k}");
+            c.benchmark_group(group).bench_function(name, |bencher| {
+                bencher.iter(|| {
+                    next = (next + 1) % facets.len();
+                    black_box(&facets[next]).contact()
+                });
+            });
+        }
+    }
+}
+
 /// What follows the solution: surface points along the normal, and the area.
 fn describe(c: &mut Criterion, pairs: &[Touching]) {
     let contacts: Vec<Contact> = pairs.iter().map(|pair| contact(pair, Formulation::Midway)).collect();
@@ -143,6 +164,6 @@ criterion_group! {
         .warm_up_time(Duration::from_millis(200))
         .measurement_time(Duration::from_millis(1000))
         .sample_size(50);
-    targets = solve, plane_counts
+    targets = solve, facets, plane_counts
 }
 criterion_main!(stages);

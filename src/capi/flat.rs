@@ -26,16 +26,17 @@ pub struct pp_flat_contact {
     pub kind: i32,
     /// Where on T the point x* lies: PP_ON_INTERIOR, PP_ON_EDGE + i or PP_ON_VERTEX + i.
     pub feature: u32,
-    /// Sum of PP_FLAG_... bits: REJECTED with BY_SPHERES or BY_FACE, ROUNDING_LIMITED,
-    /// DEFAULT_REGULARISATION, NORMAL_BY_BOUNDARY.
+    /// Sum of PP_FLAG_... bits: REJECTED with BY_SPHERES, or with BY_FACE (of A, or T itself);
+    /// ROUNDING_LIMITED, DEFAULT_REGULARISATION, NORMAL_BY_BOUNDARY.
     pub flags: u32,
     /// Quadratics solved.
     pub iterations: u32,
     /// Scale of A at x*, the least on T, of A as regularised (flat_regularisation). Rejected: a lower bound,
-    /// >= 1. The same bits for the same particle, pose and boundary, and on an edge or vertex for every triangle
-    /// that has it: of the triangles of a mesh the one with the least s (of equal ones, the first) owns the
-    /// contact at a seam. With k = 0 and a flat face on several triangles, flat_regularisation alone tells them
-    /// apart: at the default to some percent of the size, at 1e-4 to 1e-6 of it.
+    /// no less than 1. The same bits for the same particle, pose and boundary, and on an edge or vertex for
+    /// every triangle that has it: of the triangles of a mesh the one with the least s (of equal ones, the
+    /// first) owns the contact at a seam. With k = 0 and a flat face on several triangles,
+    /// flat_regularisation alone tells them apart: at the default to some percent of the size, at 1e-4 to
+    /// 1e-6 of it.
     pub s: f64,
     /// Bound on the error of s, with rounding to first order (as in struct pp_contact for doubles).
     pub gap: f64,

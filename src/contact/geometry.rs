@@ -263,7 +263,7 @@ fn normal_of_extremes(pair: &Pair, gradients: &[Vector3<f64>; 2]) -> (Vector3<f6
 const OPPOSED: f64 = 1e-6;
 
 /// A vector at unit length, also where its square is lost or infinite; `None` if it has no direction.
-fn direction(v: &Vector3<f64>) -> Option<Vector3<f64>> {
+pub(crate) fn direction(v: &Vector3<f64>) -> Option<Vector3<f64>> {
     let scaled = v / v.amax();
     scaled.iter().all(|c| c.is_finite()).then(|| scaled.normalize())
 }

@@ -1,5 +1,6 @@
 //! Planes and triangles as given, checked.
 
+use crate::contact::geometry::direction;
 use nalgebra::Vector3;
 use thiserror::Error;
 
@@ -16,6 +17,17 @@ pub enum BoundaryError {
     /// The corners of a triangle lie on a line, as far as doubles tell.
     #[error("a triangle has the area {0:e}, which is zero to rounding: remove it from the mesh")]
     Area(f64),
+}
+
+/// The part of a boundary on which a point lies.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Feature {
+    /// The plane, or the inside of the triangle.
+    Interior,
+    /// Edge i, between the vertices i and i + 1 (of edge 2: 2 and 0).
+    Edge(u8),
+    /// Vertex i.
+    Vertex(u8),
 }
 
 /// A plane, which a particle touches from either side.
@@ -83,10 +95,4 @@ impl Triangle {
 fn finite(point: [f64; 3]) -> Result<Vector3<f64>, BoundaryError> {
     let [x, y, z] = point;
     if point.iter().all(|c| c.is_finite()) { Ok(point.into()) } else { Err(BoundaryError::Point(x, y, z)) }
-}
-
-/// A vector at unit length, also where its square is lost or infinite; `None` if it has no direction.
-fn direction(v: &Vector3<f64>) -> Option<Vector3<f64>> {
-    let scaled = v / v.amax();
-    scaled.iter().all(|c| c.is_finite()).then(|| scaled.normalize())
 }

@@ -1,12 +1,13 @@
 //! The point of a boundary where S is least, and the bound on the error of s there.
 
-use super::contact::Feature;
+use super::boundary::Feature;
 use super::minimum::Minimum;
 use super::placed::{Corners, Edge, Placed};
 use super::search::{Found, Freedom, minimise};
 use crate::bounds::gap::Scale;
 use crate::linalg::number::{larger, smaller};
 use crate::pair::placed_particle::{Body, shift_in_a};
+use crate::pair::separation_tests::MARGIN;
 use crate::particle::particle::Particle;
 use nalgebra::Vector3;
 
@@ -24,6 +25,8 @@ pub(super) struct Goal<'a> {
 pub(super) struct Closest {
     pub minimum: Minimum,
     pub feature: Feature,
+    /// How steeply S may descend into the boundary from there, in doubt.
+    descent: f64,
     /// Lower bound of S on the whole boundary up to `minimum.rounding`.
     pub lower: f64,
     /// Whether the search settled; if not, the bounds say how much is known.
@@ -44,10 +47,10 @@ impl Goal<'_> {
         let found = minimise(&body, &freedom, &boundary.nearest(), self.tolerance)?.displaced(boundary.farthest);
         let in_plane = Closest::on(&body, boundary, &found, Feature::Interior);
         let Some(corners) = &boundary.corners else { return Some(in_plane) };
-        let outside = corners.outside(&found.minimum.x, &boundary.normal);
+        let x = found.minimum.x;
         let (mut least, mut models): (Option<Closest>, _) = (None, found.models);
         // The least S on a triangle is in its plane's, or on an edge beyond which that lies.
-        for i in (0..3).filter(|i| outside[*i]) {
+        for i in (0..3).filter(|i| corners.edges[*i].is_passed_by(&x)) {
             let (found, feature) = self.on_edge(&body, corners, i)?;
             models += found.models;
             if least.is_none_or(|least| found.minimum.value < least.minimum.value) {
@@ -62,9 +65,9 @@ impl Goal<'_> {
 
     /// The least S on edge i, from the edge alone: triangles that share it find the same.
     fn on_edge(&self, body: &Body, corners: &Corners, i: usize) -> Option<(Found, Feature)> {
-        let edge = corners.edge(i);
+        let edge = &corners.edges[i];
         let found = minimise(body, &Freedom::Line(edge.along), &edge.nearest(), self.tolerance)?;
-        Some(match beyond(&edge, &found.minimum.x) {
+        Some(match beyond(edge, &found.minimum.x) {
             None => (found.displaced(edge.farthest(corners)), Feature::Edge(i as u8)),
             Some(vertex) => {
                 let at = &corners.at[vertex];
@@ -99,8 +102,8 @@ impl Closest {
     /// A minimum on a part of the boundary, seen as that of the whole.
     fn on(body: &Body, boundary: &Placed, found: &Found, feature: Feature) -> Self {
         let Found { minimum, settled, models } = *found;
-        let found = Self { minimum, feature, lower: f64::NEG_INFINITY, settled, models };
-        let descent = descent(boundary, &minimum.gradient, feature);
+        let descent = descent(boundary, &minimum.gradient, feature) + minimum.slope;
+        let found = Self { minimum, feature, descent, lower: f64::NEG_INFINITY, settled, models };
         Self { lower: minimum.value - minimum.height(body, descent, found.within(body, boundary)), ..found }
     }
 
@@ -123,6 +126,19 @@ impl Closest {
         smaller(smaller(minimum.way, by_convexity), self.within(body, boundary))
     }
 
+    /// Lower bound of the distance of particle and boundary, from the tangent of s at the point, which lies below s everywhere.
+    ///
+    /// In the particle the tangent is at most 1, or what the regularisation makes of that; on the boundary it is at least s but for
+    /// what is in doubt; and it rises by no more than its slope. The point of the boundary nearest to the particle is no farther
+    /// from the centre than this one and the radius of the particle together.
+    pub fn distance(&self, body: &Body, boundary: &Placed) -> f64 {
+        let Minimum { x, value, gradient, rounding, .. } = &self.minimum;
+        let within = smaller(2.0 * (body.particle.bounding_radius() + x.norm()), boundary.extent(x));
+        let most = (*value * (1.0 + body.most_surplus(1.0))).sqrt();
+        let above = 2.0 * (value - most) - self.descent * within - rounding;
+        larger(above / (gradient.norm() + self.descent) * (1.0 - MARGIN), 0.0)
+    }
+
     /// Bound on the way to any point of the boundary where S is no larger.
     fn within(&self, body: &Body, boundary: &Placed) -> f64 {
         let level = larger(self.minimum.value, 1.0);
@@ -138,9 +154,8 @@ fn descent(boundary: &Placed, gradient: &Vector3<f64>, feature: Feature) -> f64 
     match feature {
         Feature::Interior => across.norm(),
         Feature::Edge(i) => {
-            let i = usize::from(i);
-            let along = gradient.dot(&corners.edge(i).along);
-            along.hypot(gradient.dot(&corners.inwards(i, &boundary.normal)).min(0.0))
+            let edge = &corners.edges[usize::from(i)];
+            gradient.dot(&edge.along).hypot(gradient.dot(&edge.inwards).min(0.0))
         }
         Feature::Vertex(i) => into_corner(corners, usize::from(i), &across),
     }

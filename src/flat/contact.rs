@@ -1,6 +1,6 @@
 //! Point, normal and overlap of a particle and a flat boundary.
 
-use super::boundary::{Triangle, Wall};
+use super::boundary::{Feature, Triangle, Wall};
 use super::closest::{Closest, Goal};
 use super::placed::Placed;
 use super::separation;
@@ -10,24 +10,13 @@ use crate::contact::detect::DetectError;
 use crate::flags::Flags;
 use crate::linalg::number::larger;
 use crate::pair::placed_particle::{Body, shift_in_a};
-use crate::pair::separation_tests::{Apart, MARGIN};
+use crate::pair::separation_tests::Apart;
 use crate::particle::particle::Particle;
 use crate::particle::ray_cast;
 use crate::pose::Pose;
 use crate::section::Section;
 use crate::settings::Settings;
 use nalgebra::Vector3;
-
-/// The part of a boundary on which a point lies.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Feature {
-    /// The plane, or the inside of the triangle.
-    Interior,
-    /// Edge i, between the vertices i and i + 1 (of edge 2: 2 and 0).
-    Edge(u8),
-    /// Vertex i.
-    Vertex(u8),
-}
 
 /// The answer for a particle A and a boundary T, world axes, lengths in the caller's unit. What does not apply is NaN.
 #[derive(Clone, Copy, Debug)]
@@ -37,7 +26,7 @@ pub struct FlatContact {
     pub kind: Kind,
     /// Where on the boundary its point lies.
     pub feature: Feature,
-    /// What else is to be known.
+    /// What else is to be known; [`Flags::BY_FACE`] where A lies beyond the plane of T, or T beyond a face of A.
     pub flags: Flags,
     /// Quadratics solved.
     pub iterations: u32,
@@ -70,7 +59,8 @@ pub struct FlatContact {
 
 /// Contact of A at a pose with a plane, which it may touch from either side.
 ///
-/// Of the settings, `gap_tolerance`, `flat_regularisation` and `solve_separated` count. Where the centre of A lies on the plane
+/// Of the settings, `gap_tolerance`, `flat_regularisation` (values below the default count as the default) and `solve_separated`
+/// count; the answer is always in doubles. Where the centre of A lies on the plane
 /// to rounding, A counts as in front of it: the normal is minus the plane's ([`Flags::NORMAL_BY_BOUNDARY`]).
 ///
 /// ```
@@ -133,9 +123,11 @@ impl Call<'_> {
                 return Ok(FlatContact::apart(&apart));
             }
         }
+        let least = Settings::default().flat_regularisation;
         let goal = Goal {
             particle: self.particle,
-            least_sphericity: self.settings.least_sphericity(),
+            // Less is lost in doubles.
+            least_sphericity: larger(self.settings.flat_regularisation, least),
             tolerance: self.settings.gap_tolerance,
         };
         let body = goal.body();
@@ -146,7 +138,6 @@ impl Call<'_> {
         if !(closest.settled || scale.low >= 1.0 || scale.s + scale.gap < 1.0) {
             return Err(DetectError::Failed { reason: "the search on the boundary did not settle".into() });
         }
-        let least = Settings::default().flat_regularisation;
         if scale.s >= 1.0 && scale.low < 1.0 && self.settings.flat_regularisation > least {
             // Where the bulge of a raised regularisation may hide an overlap, the particle as it is decides.
             let settings = Settings { flat_regularisation: least, ..*self.settings };
@@ -187,7 +178,7 @@ impl Call<'_> {
             ..FlatContact::UNKNOWN
         };
         if scale.s >= 1.0 {
-            return Ok(FlatContact { distance: distance(closest, scale), ..contact });
+            return Ok(FlatContact { distance: closest.distance(body, boundary), ..contact });
         }
         let overlap = self
             .overlap(closest, &normal.local, shift_in_a(minimum.x.norm(), boundary.farthest))
@@ -221,7 +212,7 @@ impl Call<'_> {
                 };
             }
             (Feature::Edge(i), Some(corners)) => {
-                let along = corners.edge(usize::from(*i)).along;
+                let along = corners.edges[usize::from(*i)].along;
                 minimum.gradient - minimum.gradient.dot(&along) * along
             }
             (Feature::Vertex(_), Some(_)) => minimum.gradient,
@@ -242,13 +233,6 @@ impl Call<'_> {
         // Where s < 1 by rounding alone, it may be behind.
         Some(larger(way, 0.0))
     }
-}
-
-/// Lower bound of the distance of A and T, from the tangent of s at x*, which lies below s everywhere: it is at most 1 in A,
-/// at least the lower bound of s on T, and it rises by no more than its slope.
-fn distance(closest: &Closest, scale: Scale) -> f64 {
-    let slope = closest.minimum.gradient.norm() + closest.minimum.slope;
-    larger((scale.low - 1.0) * 2.0 * scale.low / slope * (1.0 - MARGIN), 0.0)
 }
 
 impl From<&FlatContact> for Section {

@@ -118,10 +118,9 @@ impl Minimum {
         self.x.norm() + body.particle.reach(upper)
     }
 
-    /// How far S may fall below its value within a distance, if it descends by no more than this slope beside what is in doubt:
-    /// what is below it has the curvature of the shadow sphere at least.
-    pub fn height(&self, body: &Body, descent: f64, within: f64) -> f64 {
-        let slope = descent + self.slope;
+    /// How far S may fall below its value within a distance, if it descends by no more than this slope: what is below it has the
+    /// curvature of the shadow sphere at least.
+    pub fn height(&self, body: &Body, slope: f64, within: f64) -> f64 {
         smaller(slope * within, 0.5 * slope * slope / body.sphere_curvature())
     }
 }

@@ -29,5 +29,5 @@ mod placed;
 mod search;
 mod separation;
 
-pub use boundary::{BoundaryError, Triangle, Wall};
-pub use contact::{Feature, FlatContact, contact_with_plane, contact_with_triangle};
+pub use boundary::{BoundaryError, Feature, Triangle, Wall};
+pub use contact::{FlatContact, contact_with_plane, contact_with_triangle};

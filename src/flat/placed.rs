@@ -23,16 +23,15 @@ pub(super) struct Placed {
     pub corners: Option<Corners>,
 }
 
-/// The vertices of a triangle.
+/// The vertices and edges of a triangle.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Corners {
     pub at: [Vector3<f64>; 3],
-    /// Whether edge i runs from vertex i + 1 to vertex i when it is solved: an edge has one direction, whatever triangle it is
-    /// seen as part of, so that all find the same numbers on it.
-    reversed: [bool; 3],
+    /// Edge i lies between the vertices i and i + 1.
+    pub edges: [Edge; 3],
 }
 
-/// An edge in its own direction.
+/// An edge. It is solved in one direction, whatever triangle it is seen as part of, so that all find the same numbers on it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Edge {
     /// The vertices at its beginning and end.
@@ -42,6 +41,8 @@ pub(super) struct Edge {
     /// Unit vector.
     pub along: Vector3<f64>,
     pub length: f64,
+    /// Unit vector in the plane to the inside of the triangle, at right angles to the edge.
+    pub inwards: Vector3<f64>,
 }
 
 impl Placed {
@@ -55,9 +56,12 @@ impl Placed {
         let from_centre = vertices.map(|vertex| vertex - pose.position());
         let at = from_centre.map(|vertex| pose.rotation().tr_mul(&vertex));
         let farthest = at.iter().map(|y| y.norm()).fold(0.0, f64::max);
-        let reversed = [0, 1, 2].map(|i| comes_before(&vertices[(i + 1) % 3], &vertices[i]));
         let plane = Self::plane(&triangle.normal, &from_centre[triangle.base], farthest * triangle.condition, pose);
-        Self { corners: Some(Corners { at, reversed }), ..plane }
+        let edges = [0, 1, 2].map(|i| {
+            let j = (i + 1) % 3;
+            Edge::new(&at, [i, j], comes_before(&vertices[j], &vertices[i]), &plane.normal)
+        });
+        Self { corners: Some(Corners { at, edges }), ..plane }
     }
 
     fn plane(normal: &Vector3<f64>, to_point: &Vector3<f64>, farthest: f64, pose: &Pose) -> Self {
@@ -69,12 +73,15 @@ impl Placed {
     /// The point nearest to the centre.
     pub fn nearest(&self) -> Vector3<f64> {
         let Some(corners) = &self.corners else { return self.foot };
-        if corners.outside(&self.foot, &self.normal) == [false; 3] {
-            return self.foot;
+        let (mut nearest, mut least) = (self.foot, f64::INFINITY);
+        for edge in corners.edges.iter().filter(|edge| edge.is_passed_by(&self.foot)) {
+            let on_edge = edge.nearest();
+            let square = on_edge.norm_squared();
+            if square < least {
+                (nearest, least) = (on_edge, square);
+            }
         }
-        let on_edges = [0, 1, 2].map(|i| corners.edge(i).nearest());
-        let nearer = |p: Vector3<f64>, q: Vector3<f64>| if q.norm_squared() < p.norm_squared() { q } else { p };
-        nearer(nearer(on_edges[0], on_edges[1]), on_edges[2])
+        nearest
     }
 
     /// Bound on the distance from a point of the boundary to any other.
@@ -86,32 +93,23 @@ impl Placed {
     }
 }
 
-impl Corners {
-    /// Edge i, between the vertices i and i + 1.
-    pub fn edge(&self, i: usize) -> Edge {
-        let ends = if self.reversed[i] { [(i + 1) % 3, i] } else { [i, (i + 1) % 3] };
-        let from = self.at[ends[0]];
-        let whole = self.at[ends[1]] - from;
+impl Edge {
+    fn new(at: &[Vector3<f64>; 3], [i, j]: [usize; 2], reversed: bool, normal: &Vector3<f64>) -> Self {
+        let ends = if reversed { [j, i] } else { [i, j] };
+        let from = at[ends[0]];
+        let whole = at[ends[1]] - from;
         let length = whole.norm();
         // Of an edge that is lost beside its distance, any direction is as good.
         let along = if length > 0.0 { whole / length } else { Vector3::x() };
-        Edge { ends, from, along, length }
+        let across = normal.cross(&along);
+        Self { ends, from, along, length, inwards: if reversed { -across } else { across } }
     }
 
-    /// Unit vector in the plane from edge i to the inside of the triangle, at right angles to it.
-    pub fn inwards(&self, i: usize, normal: &Vector3<f64>) -> Vector3<f64> {
-        let edge = self.edge(i);
-        let across = normal.cross(&edge.along);
-        if self.reversed[i] { -across } else { across }
+    /// Whether a point of the plane lies beyond it, outside the triangle.
+    pub fn is_passed_by(&self, x: &Vector3<f64>) -> bool {
+        (x - self.from).dot(&self.inwards) < 0.0
     }
 
-    /// Whether a point of the plane lies beyond each edge.
-    pub fn outside(&self, x: &Vector3<f64>, normal: &Vector3<f64>) -> [bool; 3] {
-        [0, 1, 2].map(|i| (x - self.edge(i).from).dot(&self.inwards(i, normal)) < 0.0)
-    }
-}
-
-impl Edge {
     /// The point nearest to the centre.
     pub fn nearest(&self) -> Vector3<f64> {
         self.from + (-self.from.dot(&self.along)).clamp(0.0, self.length) * self.along
@@ -119,8 +117,7 @@ impl Edge {
 
     /// Length that the rounding of its place is proportional to.
     pub fn farthest(&self, corners: &Corners) -> f64 {
-        let [begin, end] = self.ends.map(|i| corners.at[i].norm());
-        begin.max(end)
+        self.ends.iter().map(|i| corners.at[*i].norm()).fold(0.0, f64::max)
     }
 }
 

@@ -1,6 +1,6 @@
 //! Spheres and cubes, of which everything is known.
 
-use crate::{SOLVED, boundary_point, cube, touch};
+use crate::{boundary_point, cube, solved, touch};
 use nalgebra::Vector3;
 use potential_particles::{Feature, Flags, Kind, Particle, Pose, Section, Settings, Wall, contact_with_plane};
 use std::f64::consts::PI;
@@ -25,7 +25,7 @@ fn a_sphere_and_each_part_of_a_triangle() {
         for (position, feature, nearest) in PLACES {
             let way = Vector3::from(nearest) - Vector3::from(position);
             let distance = way.norm();
-            let contact = touch(&ball, &Pose::new(position, [0.3, -0.2, 0.7, 0.4]).unwrap(), VERTICES, &SOLVED);
+            let contact = touch(&ball, &Pose::new(position, [0.3, -0.2, 0.7, 0.4]).unwrap(), VERTICES, &solved());
             assert_eq!(contact.feature, feature, "{position:?}");
             assert!((contact.s - distance / radius).abs() <= contact.gap && contact.gap < 1e-13 * contact.s.max(1.0));
             assert!((contact.normal - way / distance).norm() < 1e-15, "{contact:?}");
@@ -73,14 +73,14 @@ fn a_centre_on_the_boundary_counts_as_in_front_of_it() {
     let wall = Wall::new([3.0, 2.0, 0.0], [0.0, 0.0, 5.0]).unwrap();
     let on_plane = contact_with_plane(&ball, &at_origin, &wall, &Settings::default()).unwrap();
     for contact in
-        [on_plane, touch(&ball, &at_origin, [[-1.0, -1.0, 0.0], [3.0, -1.0, 0.0], [-1.0, 3.0, 0.0]], &SOLVED)]
+        [on_plane, touch(&ball, &at_origin, [[-1.0, -1.0, 0.0], [3.0, -1.0, 0.0], [-1.0, 3.0, 0.0]], &solved())]
     {
         assert!(contact.flags.contains(Flags::NORMAL_BY_BOUNDARY));
         assert!(contact.normal == -Vector3::z() && (contact.overlap - 1.0).abs() < 1e-15, "{contact:?}");
     }
     // On an edge and a vertex, too.
-    let on_edge = touch(&ball, &Pose::at([0.5, 0.0, 0.0]).unwrap(), VERTICES, &SOLVED);
-    let at_vertex = touch(&ball, &at_origin, VERTICES, &SOLVED);
+    let on_edge = touch(&ball, &Pose::at([0.5, 0.0, 0.0]).unwrap(), VERTICES, &solved());
+    let at_vertex = touch(&ball, &at_origin, VERTICES, &solved());
     assert!(on_edge.normal == -Vector3::z() && at_vertex.normal == -Vector3::z(), "{on_edge:?}, {at_vertex:?}");
 }
 
@@ -101,7 +101,7 @@ fn a_rounded_cube_lies_flat_on_a_plane() {
             assert!(contact.normal == -Vector3::z() && (contact.branch.xy()).norm() < 1e-12, "{contact:?}");
         }
         let pose = Pose::at([1.0, -5.0, 2.0 + 0.5 + 1e-9]).unwrap();
-        let contact = contact_with_plane(&cube, &pose, &floor, &SOLVED).unwrap();
+        let contact = contact_with_plane(&cube, &pose, &floor, &solved()).unwrap();
         assert!(contact.kind == Kind::Separated && (contact.distance - 1e-9).abs() < 1e-12, "{contact:?}");
     }
 }
@@ -119,7 +119,7 @@ fn a_cube_stands_on_a_corner_and_an_edge() {
     .unwrap();
     let height = 0.375 * 3f64.sqrt() + 0.5 * r;
     let floor = Wall::new([0.0, 0.0, -height], [0.0, 0.0, 1.0]).unwrap();
-    let contact = contact_with_plane(&cube, &upright, &floor, &SOLVED).unwrap();
+    let contact = contact_with_plane(&cube, &upright, &floor, &solved()).unwrap();
     assert!((contact.s - 0.5).abs() <= contact.gap, "{contact:?}");
     assert!((contact.overlap - 0.5 * r).abs() < 1e-15 && contact.branch.xy().norm() < 1e-12, "{contact:?}");
 }

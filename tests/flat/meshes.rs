@@ -1,6 +1,6 @@
 //! Triangles that share an edge are parts of one surface.
 
-use crate::{SOLVED, cube, touch};
+use crate::{cube, solved, touch};
 use nalgebra::Vector3;
 use potential_particles::{
     Feature, FlatContact, Kind, Particle, Pose, Settings, Wall, contact_with_plane, contact_with_triangle,
@@ -31,7 +31,7 @@ fn of_a_flat_floor_the_owner_is_what_the_plane_is() {
     let particles = [cube(0.1, 0.0), cube(1e-6, 1e-6), cube(0.05, 0.2), Particle::sphere(0.55).unwrap()];
     for (number, particle) in particles.iter().enumerate() {
         // Under a flat face, s is the same but for the regularisation.
-        let settings = if number == 0 { Settings { flat_regularisation: 1e-4, ..SOLVED } } else { SOLVED };
+        let settings = if number == 0 { Settings { flat_regularisation: 1e-4, ..solved() } } else { solved() };
         for step in 0..41 {
             // Along a seam, across seams, and over vertices.
             let way = 0.02 * f64::from(step) - 0.4;
@@ -73,7 +73,7 @@ fn on_a_ridge_both_sides_find_the_same_numbers() {
             let ridge = Vector3::from(b).lerp(&Vector3::from(c), along);
             let pose = Pose::new([ridge.x + 0.03, ridge.y, ridge.z + 0.4], [1.0, 0.2, -0.3, 0.1]).unwrap();
             let sides = [[b, c, left], [c, b, right], [left, b, c], [right, c, b]];
-            let contacts = sides.map(|vertices| touch(&particle, &pose, vertices, &SOLVED));
+            let contacts = sides.map(|vertices| touch(&particle, &pose, vertices, &solved()));
             assert!(contacts.iter().all(|contact| contact.feature != Feature::Interior), "{contacts:?}");
             for other in &contacts[1..] {
                 assert_eq!(other.s.to_bits(), contacts[0].s.to_bits());
@@ -93,8 +93,8 @@ fn an_answer_is_the_same_wherever_the_scene_lies() {
     for position in [[0.25, 0.125, 0.5], [0.5, 1.25, 0.25], [-0.75, 0.5, 0.375]] {
         let turn = [0.5, 0.3, -0.2, 0.9];
         let far = |p: [f64; 3]| (Vector3::from(p) + shift).into();
-        let here = touch(&particle, &Pose::new(position, turn).unwrap(), vertices, &SOLVED);
-        let there = touch(&particle, &Pose::new(far(position), turn).unwrap(), vertices.map(far), &SOLVED);
+        let here = touch(&particle, &Pose::new(position, turn).unwrap(), vertices, &solved());
+        let there = touch(&particle, &Pose::new(far(position), turn).unwrap(), vertices.map(far), &solved());
         assert_eq!((here.s, here.gap, here.branch, here.normal), (there.s, there.gap, there.branch, there.normal));
     }
 }

@@ -1,6 +1,6 @@
 //! What holds for every particle and every triangle.
 
-use crate::{SOLVED, boundary_point, touch};
+use crate::{boundary_point, solved, touch};
 use nalgebra::{Rotation3, Vector3};
 use potential_particles::{Feature, Kind, Particle, Plane, Pose, Settings};
 use proptest::prelude::*;
@@ -73,7 +73,7 @@ proptest! {
         samples in prop::collection::vec(prop::array::uniform3(1e-3..1.0), 20),
         near in exponent(-8.0, -1.0),
     ) {
-        let contact = touch(&particle, &pose, vertices, &SOLVED);
+        let contact = touch(&particle, &pose, vertices, &solved());
         let x = pose.position() + boundary_point(&contact);
         let (at_x, noise_at_x) = scale_at(&particle, &pose, &x);
         prop_assert!((at_x - contact.s).abs() <= contact.gap + noise_at_x, "{at_x} at x, {contact:?}");
@@ -110,10 +110,10 @@ proptest! {
         vertices in triangles(),
         share in 0.05..0.95,
     ) {
-        let whole = touch(&particle, &pose, vertices, &SOLVED);
+        let whole = touch(&particle, &pose, vertices, &solved());
         let [a, b, c] = vertices;
         let middle = Vector3::from(b).lerp(&Vector3::from(c), share).into();
-        let parts = [[a, b, middle], [middle, c, a]].map(|part| touch(&particle, &pose, part, &SOLVED));
+        let parts = [[a, b, middle], [middle, c, a]].map(|part| touch(&particle, &pose, part, &solved()));
         let least = if parts[1].s < parts[0].s { parts[1] } else { parts[0] };
         // The point in the middle is rounded.
         let (_, noise) = scale_at(&particle, &pose, &whole.on_boundary);
@@ -133,17 +133,17 @@ proptest! {
         let position = pose.position() + far * away;
         let turn = Rotation3::from_matrix_unchecked(*pose.rotation());
         let at = |position: Vector3<f64>| Pose::from_rotation(position.into(), turn.matrix()).unwrap();
-        for settings in [Settings::default(), SOLVED] {
+        for settings in [Settings::default(), solved()] {
             let contact = touch(&particle, &at(position), vertices, &settings);
             if contact.kind == Kind::Overlapping {
                 prop_assert!(contact.distance.is_nan());
                 continue;
             }
-            let solved = touch(&particle, &at(position), vertices, &SOLVED);
-            prop_assert!(solved.kind == Kind::Separated && contact.s <= solved.s + solved.gap);
-            for way in [towards, solved.normal, (solved.on_boundary - position).normalize()] {
+            let whole = touch(&particle, &at(position), vertices, &solved());
+            prop_assert!(whole.kind == Kind::Separated && contact.s <= whole.s + whole.gap);
+            for way in [towards, whole.normal, (whole.on_boundary - position).normalize()] {
                 let moved = position + 0.999_999 * contact.distance * way;
-                prop_assert_eq!(touch(&particle, &at(moved), vertices, &SOLVED).kind, Kind::Separated);
+                prop_assert_eq!(touch(&particle, &at(moved), vertices, &solved()).kind, Kind::Separated);
             }
         }
     }
