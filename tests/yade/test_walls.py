@@ -121,6 +121,28 @@ for turn in Quaternion.Identity, TURN:
 both_orders(lambda: facets([[(0, -5, 0), (0, 5, 0), (9, 0, 0)]]), rock(lambda: sharp_cube(half, r), Vector3(-0.495, 0, 0.1)), 0.005,
             Vector3(-1, 0, 0), "an edge in a face", tolerance=1e-9)
 
+# Walls that turn in the place where they stand: with BoundWatch the collider sees them.
+def first_contact(paddle, verlet, watch):
+    """The step in which a paddle that turns about its centre meets a ball, of 1,000 at most."""
+    mixed_scene(dt=1e-3, verlet=verlet)
+    body = O.bodies[paddle()]
+    body.state.angVel = Vector3(0, 0, 2)
+    add(ball(0.1), body.state.pos + turned((0, 0, 1), 1.2) * Vector3(1.5, 0, 0), fixed=True)
+    # A body that moves a little: the collider of a scene at rest runs in each step.
+    O.bodies[add(ball(0.1), Vector3(50, 0, 0))].state.vel = Vector3(1e-6, 0, 0)
+    if watch:
+        O.engines = O.engines[:1] + [yade.BoundWatch()] + O.engines[1:]
+    while O.iter < 1000 and not touching():
+        run(1)
+    return O.iter
+
+
+for paddle, text in (lambda: facets([[(-2, -0.1, -1), (2, 0, -1), (-2, 0.1, 2)]])[0], "facet"), \
+        (lambda: place(yade.Box(extents=Vector3(2, 0.05, 0.5)), Vector3.Zero), "box"):
+    expected = first_contact(paddle, 0.0, False)
+    check.true(100 < expected < 900, f"a {text} that turns meets the ball in step {expected}")
+    check.equal(first_contact(paddle, 0.3, True), expected, f"a {text} that turns, with a collider that rests")
+
 # What cannot be solved is a failure, not an absence: a facet whose vertices lie on a line.
 mixed_scene(dt=1e-12)
 facets([corners])

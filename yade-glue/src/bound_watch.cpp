@@ -16,9 +16,10 @@ namespace potential_particles {
 namespace {
 
     constexpr char doc[]
-        = "Runs the collider when a potential particle has left its box, be it by turning about its centre, which YADE's\n"
-          "collider does not see. Put it before the collider and give that Bo1_ConicPP_Aabb (or Bo1_PP_Aabb_Conic for plain\n"
-          "shapes) and a verletDist > 0: no pair is missed, however bodies move, and the collider need not run in each step.";
+        = "Runs the collider when a potential particle, a facet or a box has left its bound, be it by turning about its centre,\n"
+          "which YADE's collider does not see. Put it before the collider and give that Bo1_ConicPP_Aabb (or Bo1_PP_Aabb_Conic\n"
+          "for plain shapes) and a verletDist > 0: no pair is missed, however bodies move, and the collider need not run in\n"
+          "each step.";
 
 } // namespace
 
@@ -68,6 +69,8 @@ bool BoundWatch::someBodyIsOutside()
 
 bool BoundWatch::isOutside(const yade::Body& body, Inside& known) const
 {
+    if (hasCorners(*body.shape))
+        return cornersAreOutside(body, known);
     const yade::Se3r& at = body.state->se3;
     const Particle* particle = nullptr;
     if (typeid(*body.shape) == typeid(ConicPotentialParticle)) {
@@ -84,6 +87,43 @@ bool BoundWatch::isOutside(const yade::Body& body, Inside& known) const
     if (particle && particle->handle() && room >= 0 && !(scene->isPeriodic && scene->cell->hasShear))
         known.note(*particle, at, *body.bound, room);
     return !(room >= 0);
+}
+
+// Walls mostly stand still, and their corners are few.
+bool BoundWatch::cornersAreOutside(const yade::Body& body, Inside& known) const
+{
+    const yade::Se3r& at = body.state->se3;
+    if (known.isUnmoved(at, *body.bound))
+        return false;
+    Box box = boxOfCorners(*body.shape, at, *scene);
+    // YADE's bound of a body that never moves is not widened, and was rounded in its own way.
+    const double rounding = 1e-14 * std::max(box.lower.cwiseAbs().maxCoeff(), box.upper.cwiseAbs().maxCoeff());
+    box.lower.array() += rounding;
+    box.upper.array() -= rounding;
+    if (!(box.roomIn(*body.bound) >= 0))
+        return true;
+    if (!(scene->isPeriodic && scene->cell->hasShear))
+        known.noteUnmoved(at, *body.bound);
+    return false;
+}
+
+namespace {
+    constexpr std::uint64_t noParticle = ~std::uint64_t(0);
+}
+
+bool BoundWatch::Inside::isUnmoved(const yade::Se3r& at, const yade::Bound& bound) const
+{
+    return serial == noParticle && position == at.position && turn.coeffs() == at.orientation.coeffs() && min == bound.min
+        && max == bound.max;
+}
+
+void BoundWatch::Inside::noteUnmoved(const yade::Se3r& at, const yade::Bound& bound)
+{
+    serial = noParticle;
+    position = at.position;
+    turn = at.orientation;
+    min = bound.min;
+    max = bound.max;
 }
 
 // No point of a particle moves further than its centre does, and by its turn on the ball around it.

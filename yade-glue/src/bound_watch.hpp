@@ -4,7 +4,7 @@
 //
 // YADE's collider need not run in each step when verletDist > 0: it widens boxes by a length and runs again when some
 // centre has moved by it. A body that turns about its centre leaves its box unseen. This engine, before the collider in
-// each step, makes the box of each potential particle as it stands and compares it with the one that the collider has;
+// each step, makes the box of each potential particle, facet and box as it stands and compares it with the one that the collider has;
 // or, which is faster, knows that it has moved and turned by less than it would take.
 //
 // Why no pair is missed: the pairs whose boxes met when the collider ran last are all among the interactions, and stay
@@ -53,9 +53,13 @@ private:
         double room;
 
         bool stillHolds(const Particle& particle, const yade::Se3r& at, const yade::Bound& bound) const;
+        // The same for a body with corners, which has no particle: it stands where it stood.
+        bool isUnmoved(const yade::Se3r& at, const yade::Bound& bound) const;
+        void noteUnmoved(const yade::Se3r& at, const yade::Bound& bound);
         void note(const Particle& particle, const yade::Se3r& at, const yade::Bound& bound, double space);
     };
     bool isOutside(const yade::Body& body, Inside& known) const;
+    bool cornersAreOutside(const yade::Body& body, Inside& known) const;
 
     // Of this run only: after a file is loaded the collider starts anew.
     long lastStep = -1;

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "bounding_box.hpp"
 
+#include "../abi/primitives.hpp"
 #include "conic_potential_particle.hpp"
 #include "particle_of.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <typeinfo>
 
 namespace potential_particles {
@@ -120,6 +122,33 @@ Box boxOfAnyTurn(const boost::shared_ptr<yade::Shape>& shape, const yade::Se3r& 
         return { at.position.array() - radius, at.position.array() + radius };
     const Vector3r centre = cell->unshearTrsf * at.position, reach = radius * cell->unshearTrsf.rowwise().norm();
     return { centre - reach, centre + reach };
+}
+
+bool hasCorners(const yade::Shape& shape)
+{
+    return typeid(shape) == typeid(yade::Facet) || typeid(shape) == typeid(yade::Box);
+}
+
+Box boxOfCorners(const yade::Shape& shape, const yade::Se3r& at, const yade::Scene& scene)
+{
+    const yade::Cell* cell = shearedCell(scene);
+    const Vector3r most = Vector3r::Constant(std::numeric_limits<double>::infinity());
+    Box box { most, -most };
+    const auto add = [&](const Vector3r& corner) {
+        const Vector3r world = at.position + at.orientation * corner;
+        const Vector3r place = cell ? Vector3r(cell->unshearTrsf * world) : world;
+        box.lower = box.lower.cwiseMin(place);
+        box.upper = box.upper.cwiseMax(place);
+    };
+    if (typeid(shape) == typeid(yade::Facet)) {
+        for (const Vector3r& vertex : static_cast<const yade::Facet&>(shape).vertices)
+            add(vertex);
+    } else {
+        const Vector3r& half = static_cast<const yade::Box&>(shape).extents;
+        for (int i = 0; i < 8; ++i)
+            add(half.cwiseProduct(Vector3r(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1)));
+    }
+    return box;
 }
 
 } // namespace potential_particles

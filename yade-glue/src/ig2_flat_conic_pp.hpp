@@ -7,6 +7,7 @@
 #include "facet_mesh.hpp"
 #include "ig2_other_conic_pp.hpp"
 #include "kept_off.hpp"
+#include "seam.hpp"
 
 namespace potential_particles {
 
@@ -59,10 +60,22 @@ private:
     friend class boost::serialization::access;
     template <class Archive> void serialize(Archive& archive, unsigned);
 
-    // Which neighbour has the contact; null: the facet itself.
-    const yade::Body* ownerOf(FlatPair& pair, const BoundaryPoints& points, const pp_flat_contact& found,
-                              pp_flat_contact& ofOwner);
-    bool takesOverNow(const FlatPair& pair, const yade::Body& owner) const;
+    bool mustHold(const FlatPair& pair) const;
+    bool hasForce(const yade::Interaction& pairOfOwner) const;
+    // The particle's pair with the neighbour that has the contact, and, if the facet may have to hold it, that contact; null:
+    // the facet itself has it.
+    const yade::Interaction* ownerOf(const FlatPair& pair, const BoundaryPoints& points, const pp_flat_contact& found,
+                                     pp_flat_contact& ofOwner);
+    struct Neighbour {
+        const yade::Interaction* theirs; // with the particle
+        int id;
+        BoundaryPoints vertices;
+        Parts common; // of those on which the facet's own point lies
+    };
+    template <class Visit>
+    void eachNeighbour(const FlatPair& pair, const FacetContact& own, const Parts& parts, Visit visit);
+    bool leavesTo(const Neighbour& neighbour, const FacetContact& own, const FlatPair& pair, bool solve,
+                  pp_flat_contact& other) const;
 
     FacetMesh mesh;
 };

@@ -83,6 +83,31 @@ inline Parts sharedParts(const BoundaryPoints& vertices, const BoundaryPoints& o
     return parts;
 }
 
+// Whether S falls from the least point of a facet, on a seam, into the neighbour that has that point as well. By convexity it
+// does if it falls towards a vertex, and if it falls the neighbour has a lower one; if it rises towards all, that point is
+// the neighbour's least too.
+enum class Slope { falls, rises, unclear };
+
+inline Slope slopeInto(const BoundaryPoints& neighbour, const FacetContact& own)
+{
+    // In directions that are steeper than this no rounding of point and normal matters.
+    constexpr double clear = 1e-6;
+    if (own.found.feature == PP_ON_INTERIOR || (own.found.flags & PP_FLAG_NORMAL_BY_BOUNDARY))
+        return Slope::unclear;
+    const yade::Vector3r gradient(own.found.normal);
+    bool rises = true;
+    for (const yade::Vector3r& vertex : neighbour) {
+        const yade::Vector3r way = vertex - own.point();
+        const double length = way.norm(), slope = gradient.dot(way);
+        if (length <= own.least)
+            continue;
+        if (slope < -clear * length)
+            return Slope::falls;
+        rises = rises && slope > clear * length;
+    }
+    return rises ? Slope::rises : Slope::unclear;
+}
+
 // Where s is the same to within its error, as on facets in one plane under a flat face of a particle with k = 0, the point
 // nearest to the particle's centre is the least: there s is that of k -> 0.
 inline bool isLower(const FacetContact& one, const FacetContact& other)
@@ -93,28 +118,35 @@ inline bool isLower(const FacetContact& one, const FacetContact& other)
     return way != otherWay ? way < otherWay : one.id < other.id;
 }
 
+// Whether the point lies on one of these parts for sure.
+inline bool isOn(const FacetContact& facet, const Parts& parts)
+{
+    for (unsigned i = 0; i < 3; ++i)
+        if ((facet.found.feature == PP_ON_EDGE + i && (parts.edges >> i & 1))
+            || (facet.found.feature == PP_ON_VERTEX + i && (parts.vertices >> i & 1)))
+            return true;
+    return false;
+}
+
 // `common`: what the two share, of that on which the first one's point lies.
 inline bool yieldsTo(const FacetContact& other, const FacetContact& own, const Parts& common)
 {
-    bool onCommon = false, inOnePlace = false;
+    bool inOnePlace = false;
     const yade::Vector3r x = own.point(), y = other.point();
     const bool close = (x - y).norm() <= own.doubt + other.doubt;
     for (unsigned i = 0; i < 3; ++i) {
         const yade::Vector3r& from = own.vertices[i];
         if (common.edges >> i & 1) {
             const yade::Vector3r& to = own.vertices[(i + 1) % 3];
-            onCommon = onCommon || own.found.feature == PP_ON_EDGE + i;
             inOnePlace = inOnePlace
                 || (close && distanceToSegment(x, from, to) <= own.doubt && distanceToSegment(y, from, to) <= other.doubt);
         }
-        if (common.vertices >> i & 1) {
-            onCommon = onCommon || own.found.feature == PP_ON_VERTEX + i;
+        if (common.vertices >> i & 1)
             inOnePlace = inOnePlace || (close && (x - from).norm() <= own.doubt && (y - from).norm() <= other.doubt);
-        }
     }
     if (inOnePlace && (x - y).norm() <= own.least + other.least)
         return other.id < own.id;
-    return (inOnePlace || onCommon) && isLower(other, own);
+    return (inOnePlace || isOn(own, common)) && isLower(other, own);
 }
 
 } // namespace potential_particles
