@@ -5,10 +5,10 @@
 //! h τ⁴/4 p and h τ⁵/5 p pᵀ over its area: polynomials on a flat face, where τ = 1.
 //!
 //! On each cell the product of Kronrod's rule of 7 points with itself is compared with those in which one factor is Gauss' rule of
-//! the 3 points among them. The cell with the largest difference is halved across the direction in which it is
-//! larger, until the differences of all cells add up to less than the tolerance. The rule with 7 points is of degree 11, the other of
-//! degree 5, and so the sum is an estimate that is mostly far too large. Where a second derivative jumps within a cell it need not be: a cell
-//! that was never halved counts [`UNSEEN`] times.
+//! the 3 points among them, once in u and once in v. The cell with the largest difference is halved in that direction, until
+//! the estimated errors of all cells add up to less than the tolerance. The error of the rule with 7 points, of degree 11, is
+//! mostly far less than its difference from the other, of degree 5: what halving a cell changes shows how far. Where a second
+//! derivative jumps within a cell it need not be less, and a direction in which a cell was never halved counts [`UNSEEN`] times.
 
 use crate::particle::direction_mesh::{self, Patch};
 use crate::particle::ray_cast;
@@ -42,8 +42,10 @@ const MOST_CELLS: usize = 300_000;
 /// Share of the tolerance that overlaps and gaps of the mesh may take.
 const OF_MESH: f64 = 0.1;
 
-/// What the difference of the rules on a cell of the mesh is multiplied by; chosen, over twice what closed forms ask for.
+/// Estimated error over difference of the rules: in a direction in which the cell was never halved, and the least elsewhere. Chosen: over
+/// twice what closed forms ask for.
 const UNSEEN: f64 = 8.0;
+const LEAST_SHARE: f64 = 0.05;
 
 /// Kronrod's rule of 7 points on [0, 1]: point, weight, and weight in Gauss' rule of 3 points.
 pub(crate) const RULE: [(f64, f64, f64); 7] = [
@@ -67,7 +69,9 @@ struct Cell {
     moments: Moments,
     /// Differences of the two rules in u, and in v.
     differences: [Moments; 2],
-    /// Norm of the larger of them, and which it is.
+    /// Estimated error over difference, in u and in v.
+    shares: [f64; 2],
+    /// Sum of both estimates, and which is larger.
     error: f64,
     largest: usize,
 }
@@ -89,14 +93,13 @@ pub(crate) fn of(shape: &Shape, tolerance: f64) -> MassProperties {
         (cells, norm) = first_pass(shape, &patches);
     }
     let of_mesh = norm.of_mesh(&patches);
-    cells.iter_mut().for_each(|cell| cell.judge(&norm, UNSEEN));
+    cells.iter_mut().for_each(|cell| cell.judge(&norm));
     let mut heap = BinaryHeap::from(cells);
     let mut error = heap.iter().map(|cell| cell.error).sum::<f64>() + of_mesh;
     while error > tolerance && heap.len() < MOST_CELLS {
         let Some(worst) = heap.pop() else { break };
         error -= worst.error;
-        for mut half in worst.halves(shape) {
-            half.judge(&norm, 1.0);
+        for half in worst.halves(shape, &norm) {
             error += half.error;
             heap.push(half);
         }
@@ -175,21 +178,31 @@ impl Cell {
                 differences[1] += kronrod_u * (kronrod_v - gauss_v) * at;
             }
         }
-        Self { patch, u, v, moments, differences, error: 0.0, largest: 0 }
+        Self { patch, u, v, moments, differences, shares: [UNSEEN; 2], error: 0.0, largest: 0 }
     }
 
-    fn judge(&mut self, norm: &Norm, factor: f64) {
-        let [in_u, in_v] = self.differences.map(|difference| norm.of_change(&difference));
-        self.error = factor * (in_u + in_v);
+    fn judge(&mut self, norm: &Norm) {
+        let [in_u, in_v] = [0, 1].map(|i| self.shares[i] * norm.of_change(&self.differences[i]));
+        self.error = in_u + in_v;
         self.largest = usize::from(in_v > in_u);
     }
 
-    fn halves(&self, shape: &Shape) -> [Self; 2] {
+    /// Two halves. By what they change of the whole, the error of the whole, they are judged: their own is less.
+    fn halves(&self, shape: &Shape, norm: &Norm) -> [Self; 2] {
         let halved = |(from, to): (f64, f64)| [(from, 0.5 * (from + to)), (0.5 * (from + to), to)];
-        match self.largest {
+        let mut halves = match self.largest {
             0 => halved(self.u).map(|u| Self::of(shape, self.patch, u, self.v)),
             _ => halved(self.v).map(|v| Self::of(shape, self.patch, self.u, v)),
+        };
+        let change = norm.of_change(&(halves[0].moments + halves[1].moments - self.moments));
+        let differences: f64 = halves.iter().map(|half| norm.of_change(&half.differences[self.largest])).sum();
+        for half in &mut halves {
+            half.shares = self.shares;
+            // Also for 0/0.
+            half.shares[self.largest] = (change / differences).clamp(LEAST_SHARE, 1.0).max(LEAST_SHARE);
+            half.judge(norm);
         }
+        halves
     }
 }
 

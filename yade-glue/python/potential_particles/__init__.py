@@ -31,13 +31,15 @@ import functools
 
 from . import builds
 from .bodies import body
+from .measures import extrema, porosity, solid_volume
 from .outside import protect_runs
 from .packing import add_packing, pack
+from .time_step import critical_time_step
 
 __version__ = "0.1.0"
 
-__all__ = ["AbiError", "Mesh", "Recorder", "add_packing", "body", "library_version", "mesh", "pack", "plot", "prepare",
-           "protect_runs", "save_mesh"]
+__all__ = ["AbiError", "Mesh", "Recorder", "add_packing", "body", "critical_time_step", "extrema", "library_version", "mesh", "pack",
+           "plot", "porosity", "prepare", "protect_runs", "save_mesh", "solid_volume"]
 
 
 class AbiError(ImportError):

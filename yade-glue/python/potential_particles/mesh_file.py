@@ -102,8 +102,11 @@ def _by_vtk(file, kind):
     hear.CallDataType = "string0"
     reader.AddObserver("ErrorEvent", hear)
     reader.SetFileName(file)
-    once = vtkCleanPolyData(PointMerging=True, ToleranceIsAbsolute=False, Tolerance=1e-7)
-    triangles = vtkTriangleFilter(PassVerts=False, PassLines=False)
+    once, triangles = vtkCleanPolyData(), vtkTriangleFilter()
+    # Of the diagonal of the body.
+    once.SetTolerance(1e-7)
+    triangles.PassVertsOff()
+    triangles.PassLinesOff()
     once.SetInputConnection(reader.GetOutputPort())
     triangles.SetInputConnection(once.GetOutputPort())
     warnings = vtkObject.GetGlobalWarningDisplay()

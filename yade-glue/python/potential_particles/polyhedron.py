@@ -56,6 +56,11 @@ class Polyhedron:
         return cls(normals[used], offsets[used], corners)
 
     @property
+    def volume(self):
+        """Of the sharp body."""
+        return ConvexHull(self.corners - self.ball_centre).volume
+
+    @property
     def centroid(self):
         """Of the volume."""
         hull = ConvexHull(self.corners - self.ball_centre)

@@ -67,14 +67,20 @@ def _about(normals, heights, r, k, R):
 def _settled(definition_about, centre, size, name):
     """The Shape with its centroid as its centre, in principal axes. `definition_about(centre)`: planes, r, k, R."""
     from yade.wrapper import ConicPotentialParticle
+    # Most steps need fewer digits, which take far less time.
+    tolerance = 100.0 * TOLERANCE
     for _ in range(MOST_STEPS):
         planes, r, k, R = definition_about(centre)
         particle = ConicPotentialParticle(planes=planes, r=r, k=k, R=R)
-        volume, shift, inertia, error = particle.massProperties(TOLERANCE)
+        volume, shift, inertia, error = particle.massProperties(tolerance)
         shift = np.array(shift)
-        if np.abs(shift).max() <= CENTRED * (size or particle.boundingRadius):
+        away = np.abs(shift).max() / (size or particle.boundingRadius)
+        if tolerance == TOLERANCE and away <= CENTRED:
             break
-        centre = centre + shift
+        if away <= 100.0 * CENTRED:
+            tolerance = TOLERANCE
+        if away > CENTRED:
+            centre = centre + shift
     else:
         raise ValueError(f"{name}: no centre is its own centroid, to which k={k:g} with R={R:g} leads: take a smaller k, or a larger R")
     axes, moments = principal_axes(np.array([[inertia[i, j] for j in range(3)] for i in range(3)]))

@@ -101,8 +101,14 @@ _PLATONIC = {
 
 def platonic_solid(faces, edge=1.0, r=ROUNDING, k=SPHERICITY, R=None, name=None):
     """The regular solid of 4, 6, 8, 12 or 20 faces with this edge length, about the origin."""
+    points, length = regular_solid(faces)
+    return from_vertices(positive(edge, "edge") / length * points, r, k, R, name or f"platonic solid of {faces} faces")
+
+
+def regular_solid(faces):
+    """Corners (n, 3) of the regular solid of so many faces, about the origin, and the length of its edges."""
     if faces not in _PLATONIC:
         raise ValueError(f"faces={faces!r}: regular solids have 4, 6, 8, 12 or 20")
     points, length = _PLATONIC[faces]
-    return from_vertices(positive(edge, "edge") / length * np.array(points), r, k, R, name or f"platonic solid of {faces} faces")
+    return np.array(points, float), length
 

@@ -1,0 +1,119 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Shapes from files: .stl in both forms, .obj and .gts give the same body; what is no convex surface is refused with its place.
+import os
+import struct
+import tempfile
+
+import numpy as np
+from scipy.spatial import ConvexHull
+
+import potential_particles
+from harness import *
+from potential_particles import shapes
+
+check = Checks()
+folder = tempfile.mkdtemp()
+
+
+def outward(points, triangles):
+    """Triangles of a convex surface, turned so that their normals point outwards."""
+    middle = points.mean(0)
+    return [(a, b, c) if np.dot(np.cross(points[b] - points[a], points[c] - points[a]), points[a] - middle) > 0 else (a, c, b)
+            for a, b, c in triangles]
+
+
+def write(kind, points, triangles, name="mesh"):
+    path = os.path.join(folder, name + "." + kind.split()[0])
+    if kind == "stl binary":
+        with open(path, "wb") as file:
+            file.write(b"\0" * 80 + struct.pack("<I", len(triangles)))
+            for triangle in triangles:
+                file.write(struct.pack("<12fH", 0, 0, 0, *points[list(triangle)].ravel(), 0))
+    elif kind == "stl":
+        with open(path, "w") as file:
+            file.write("solid mesh\n")
+            for triangle in triangles:
+                file.write("facet normal 0 0 0\nouter loop\n")
+                file.writelines("vertex %.9g %.9g %.9g\n" % tuple(points[i]) for i in triangle)
+                file.write("endloop\nendfacet\n")
+            file.write("endsolid mesh\n")
+    elif kind == "obj":
+        with open(path, "w") as file:
+            file.writelines("v %.9g %.9g %.9g\n" % tuple(p) for p in points)
+            file.writelines("f %d %d %d\n" % tuple(i + 1 for i in t) for t in triangles)
+    else:
+        edges = sorted({tuple(sorted(e)) for a, b, c in triangles for e in ((a, b), (b, c), (c, a))})
+        number = {edge: i + 1 for i, edge in enumerate(edges)}
+        with open(path, "w") as file:
+            file.write(f"{len(points)} {len(edges)} {len(triangles)} GtsSurface GtsFace GtsEdge GtsVertex\n")
+            file.writelines("%.9g %.9g %.9g\n" % tuple(p) for p in points)
+            file.writelines("%d %d\n" % (a + 1, b + 1) for a, b in edges)
+            file.writelines("%d %d %d\n" % tuple(number[tuple(sorted(e))] for e in ((a, b), (b, c), (c, a))) for a, b, c in triangles)
+    return path
+
+
+def text(name, content, mode="w"):
+    path = os.path.join(folder, name)
+    with open(path, mode) as file:
+        file.write(content)
+    return path
+
+
+# A hexagonal prism far from the origin, its sides as triangles.
+angles = np.arange(6) * np.pi / 3
+ring = np.column_stack([np.cos(angles), np.sin(angles)])
+points = np.array([(x, y, z) for z in (0, 2) for x, y in ring]) + (40, 30, 20)
+hull = ConvexHull(points)
+triangles = outward(points, hull.simplices)
+area = 1.5 * 3**0.5
+for kind in ("stl binary", "stl", "obj", "gts"):
+    shape = shapes.from_mesh(write(kind, points, triangles), r=1e-4, k=0.0)
+    check.close(shape.volume / (2 * area), 1.0, 1e-4, f".{kind}: volume")
+    check.equal(len(shape.planes), 8, f".{kind}: coplanar triangles are one face")
+    check.close(Vector3(*shape.centroid), Vector3(40, 30, 21), 1e-4, f".{kind}: stands as in the file")
+check.equal(shape.name, "mesh", "named by its file")
+large = shapes.from_mesh(write("stl", points, triangles), r=1e-4, k=0.0, scale=0.001)
+check.close(large.volume * 1e9 / shape.volume, 1.0, 1e-5, "scaled")
+
+# A fine sphere: many faces.
+random = np.random.default_rng(0)
+ball = random.normal(size=(300, 3))
+ball /= np.linalg.norm(ball, axis=1)[:, None]
+fine = ConvexHull(ball)
+shape = shapes.from_mesh(write("stl binary", ball, outward(ball, fine.simplices), "ball"), r=0.2, k=0.0)
+check.true(len(shape.planes) > 500 and 0.9 < shape.volume / fine.volume < 1.0, f"a ball of {len(shape.planes)} faces")
+
+# What is no convex closed surface: what and where.
+opened = write("stl", points, triangles[1:], "open")
+check.raises(ValueError, lambda: shapes.from_mesh(opened), "open", "open: 3 edges belong to one triangle alone, the first from (")
+check.close(shapes.from_mesh(opened, r=1e-4, k=0.0, hull=True).volume / (2 * area), 1.0, 1e-4, "hull=True takes the hull")
+dented = np.vstack([points, [(40, 30, 21.5)]])
+top = [t for t in triangles if all(points[i][2] == 22 for i in t)]
+sides = [t for t in triangles if t not in top]
+rim = [6 + i for i in range(6)]
+cone = [(rim[i], rim[(i + 1) % 6], 12) for i in range(6)]
+check.raises(ValueError, lambda: shapes.from_mesh(write("obj", dented, sides + cone, "dented")), "a dent",
+             "not convex, or crosses itself: the point at (40, 30, 21.5) lies 0.5 inside")
+check.close(shapes.from_mesh(write("obj", dented, sides + cone, "dented"), r=1e-4, k=0.0, hull=True).volume / (2 * area), 1.0, 1e-4, "its hull")
+# Every point on the hull, but two triangles inside it: an edge that is turned.
+cube = np.array([(x, y, z) for x in (0, 1) for y in (0, 1) for z in (0, 1)], float)
+bent = np.vstack([cube, cube + (3, 0, 0)])
+two = [tuple(int(i) for i in t) for t in ConvexHull(cube).simplices]
+apart = outward(cube, two) + [tuple(i + 8 for i in t) for t in outward(cube, two)]
+check.raises(ValueError, lambda: shapes.from_mesh(write("stl", bent, apart, "apart")), "two bodies", "not convex, or crosses itself: the triangle at (")
+doubled = write("gts", np.vstack([cube, cube * (1, 1, 1)]), outward(cube, two) + [tuple(i + 8 for i in t) for t in outward(cube, two)], "doubled")
+check.raises(ValueError, lambda: shapes.from_mesh(doubled), "a surface given twice", "cover its convex hull 2 times")
+flat = write("stl", points * (1, 1, 0), triangles, "flat")
+for hull_too in (False, True):
+    check.raises(ValueError, lambda: shapes.from_mesh(flat, hull=hull_too), "flat", "flat: all lie in the plane through (40, 30, 0)")
+
+# What cannot be read.
+for path, words in [(os.path.join(folder, "none.stl"), "is no file"), (folder, "is no file"), (text("mesh.step", "x"), "files that can be read"),
+                    (text("empty.stl", ""), "empty.stl"), (text("empty.obj", ""), "empty.obj"), (text("empty.gts", ""), "empty.gts"),
+                    (text("words.stl", "these are no triangles"), "words.stl"), (text("words.gts", "these are no triangles"), "words.gts"),
+                    (text("short.stl", b"\0" * 80 + struct.pack("<I", 100) + b"\0" * 60, "wb"), "short.stl"),
+                    (text("huge.stl", b"\0" * 80 + struct.pack("<I", 2**32 - 1), "wb"), "huge.stl"),
+                    (text("nan.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv nan nan 1\nf 1 2 3\nf 1 2 4\nf 2 3 4\nf 1 3 4\n"), "nan.obj")]:
+    check.raises(ValueError, lambda: shapes.from_mesh(path), f"unreadable: {words}", words)
+check.raises(ValueError, lambda: shapes.from_mesh(write("stl", points, triangles), scale=0), "scale", "scale=0")
+check.finish()

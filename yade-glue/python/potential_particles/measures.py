@@ -1,0 +1,87 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Extrema, volume and porosity of scenes with potential particles.
+
+YADE's own count spheres alone: utils.aabbExtrema() and porosity() are NaN for these bodies, porosity(volume) and voxelPorosity() 1,
+getSpheresVolume() 0 and RayleighWaveTimeStep() infinite. kineticEnergy(), momentum(), angularMomentum() and unbalancedForce() are right (the last is
+NaN as long as there is no contact).
+"""
+import math
+
+from .arguments import positive, vector
+
+
+def extrema(bodies=None):
+    """Lower and upper corner (two Vector3) of a box, world axes, that holds all potential particles and spheres of the scene, or those
+    with these ids. It is that of their bounding polyhedra: around a corner or an edge it reaches out beyond the surface
+    by what the rounding takes off. ValueError where there is none.
+    """
+    import yade
+    lower, upper = [math.inf] * 3, [-math.inf] * 3
+    for body in _counted(bodies):
+        for axis, (low, high) in enumerate(_extent(body)):
+            lower[axis], upper[axis] = min(lower[axis], low), max(upper[axis], high)
+    if not all(low <= high for low, high in zip(lower, upper)):
+        raise ValueError("there is no potential particle and no sphere, and so no box that holds them")
+    return yade.Vector3(*lower), yade.Vector3(*upper)
+
+
+def solid_volume(bodies=None):
+    """Volume of all potential particles and spheres that are no boundaries and not fixed, or of those with these ids, length^3."""
+    return sum(_volume(body) for body in _counted(bodies) if bodies is not None or _is_grain(body))
+
+
+def porosity(lower=None, upper=None, bodies=None):
+    """1 - solid volume / volume of the box between two corners; default: the periodic cell, else extrema() of the bodies that move.
+
+    All of a body counts, whether or not it lies within the box; overlaps count twice.
+    """
+    import yade
+    ids = [body.id for body in _counted(bodies) if bodies is not None or _is_grain(body)]
+    if not ids:
+        raise ValueError("there is no potential particle and no sphere that moves, and so no porosity")
+    if lower is not None or upper is not None:
+        sides = vector(upper, "upper") - vector(lower, "lower")
+        volume = positive(sides.prod() if (sides > 0.0).all() else 0.0, "volume of the box")
+    elif yade.O.periodic:
+        volume = yade.O.cell.volume
+    else:
+        low, high = extrema(ids)
+        volume = (high[0] - low[0]) * (high[1] - low[1]) * (high[2] - low[2])
+    return 1.0 - solid_volume(ids) / volume
+
+
+def _counted(bodies):
+    import yade
+    chosen = yade.O.bodies if bodies is None else [yade.O.bodies[int(one)] for one in bodies]
+    return [body for body in chosen if isinstance(body.shape, (yade.PotentialParticle, yade.Sphere))]
+
+
+def _is_grain(body):
+    return set(body.state.blockedDOFs) != set("xyzXYZ") and not getattr(body.shape, "isBoundary", False)
+
+
+def _extent(body):
+    """(low, high) along each axis."""
+    import yade
+    shape, place = body.shape, body.state.pos
+    if isinstance(shape, yade.Sphere):
+        return [(place[axis] - shape.radius, place[axis] + shape.radius) for axis in range(3)]
+    if not shape.vertices:
+        raise ValueError(f"body {body.id} is a plain PotentialParticle without vertices: its extent is not known")
+    corners = [body.state.ori * corner for corner in shape.vertices]
+    radius = getattr(shape, "boundingRadius", math.inf)
+    along = [[corner[axis] for corner in corners] for axis in range(3)]
+    return [(place[axis] + max(min(along[axis]), -radius), place[axis] + min(max(along[axis]), radius)) for axis in range(3)]
+
+
+def _volume(body):
+    import yade
+    if isinstance(body.shape, yade.Sphere):
+        return 4.0 / 3.0 * math.pi * body.shape.radius**3
+    density = body.mat.density if body.mat else 0.0
+    # Bodies of body() carry their volume as a mass, which takes no time; others are measured.
+    if body.state.mass > 0.0 and density > 0.0:
+        return body.state.mass / density
+    if isinstance(body.shape, yade.ConicPotentialParticle):
+        return body.shape.volume
+    raise ValueError(f"body {body.id} is a plain PotentialParticle without mass: its volume is not known")
