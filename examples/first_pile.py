@@ -16,6 +16,6 @@ O.engines = [
                     [Law2_ScGeom_FrictPhys_CundallStrack(sphericalBodies=False)]),
     NewtonIntegrator(damping=0.3, gravity=(0, 0, -9.81), exactAsphericalRot=True),
 ]
-O.dt = 5e-5
-O.run(20_000, wait=True)
+O.dt = potential_particles.critical_time_step()
+O.run(int(1.0 / O.dt), wait=True)
 potential_particles.plot("first_pile.png")

@@ -16,6 +16,7 @@ import numpy as np
 import potential_particles
 from potential_particles import packing, shapes
 from yade import *
+from yade import ymport
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
@@ -24,16 +25,16 @@ HERE = os.path.dirname(os.path.abspath(sys.argv[0]))
 COUNT, STEPS = int(os.environ.get("BODIES", 500)), int(os.environ.get("STEPS", 25_000))
 OUT = os.environ.get("OUTPUT", "out/hopper")
 ROCK, HOPPER = (os.environ.get(name) or os.path.join(HERE, "data", f"{name.lower()}.stl") for name in ("ROCK", "HOPPER"))
-DIAMETER, YOUNG = 0.06, 2e7  # of a ball of a rock's volume, m; Pa
+DIAMETER = 0.06  # of a ball of a rock's volume, m
 GONE = -0.6  # height below which a rock has left the scene, m
 
 os.makedirs(OUT, exist_ok=True)
-O.materials.append(FrictMat(young=YOUNG, poisson=0.3, frictionAngle=np.radians(25), density=2650))
+O.materials.append(FrictMat(young=2e7, poisson=0.3, frictionAngle=np.radians(25), density=2650))
 walls = O.bodies.append(ymport.stl(HOPPER, wire=False))
 # Vertices of a facet are given from its centre.
 corners = np.array([O.bodies[i].state.pos + vertex for i in walls for vertex in O.bodies[i].shape.vertices])
 top, radius = corners[:, 2].max(), np.hypot(corners[:, 0], corners[:, 1]).max()
-above = packing.Cylinder((0, 0, 0.4 * top), 0.95 * radius, max(0.6 * top, 0.004 * COUNT))
+above = packing.Cylinder((0, 0, 0.4 * top), 0.95 * radius, max(0.6 * top, 0.0014 * COUNT))
 rocks = potential_particles.pack(above, shapes.from_mesh(ROCK), sizes=DIAMETER, number=COUNT)
 ids = set(potential_particles.add_packing(rocks, color=(0.75, 0.55, 0.35)))
 
@@ -45,7 +46,7 @@ O.engines = [
     NewtonIntegrator(damping=0.1, gravity=(0, 0, -9.81), exactAsphericalRot=True),
 ]
 mass = O.bodies[next(iter(ids))].state.mass
-O.dt = 0.2 * np.sqrt(mass / (YOUNG * DIAMETER))
+O.dt = potential_particles.critical_time_step()
 
 flow, through, beside = [], 0, 0
 looks = 50

@@ -14,17 +14,18 @@ import potential_particles
 from matplotlib import colormaps
 from potential_particles import boundaries, packing, shapes
 from yade import *
+from yade import utils
 
 COUNT, STEPS = int(os.environ.get("BODIES", 500)), int(os.environ.get("STEPS", 30_000))
 OUT = os.environ.get("OUTPUT", "out/rocks")
 # Of the mass, the part in rocks below each diameter: a grading curve.
 GRADING = [(0.04, 0.0), (0.06, 0.3), (0.09, 0.7), (0.13, 1.0)]  # m
-WIDTH, HEIGHT = 0.8, 0.012 * COUNT  # of the box, m: rocks fill about a sixth of it before they fall
+WIDTH, HEIGHT = 0.8, max(0.25, 0.0014 * COUNT)  # of the box, m: many rocks fill a tenth of it before they fall
 
 os.makedirs(OUT, exist_ok=True)
-O.materials.append(FrictMat(young=5e7, poisson=0.3, frictionAngle=np.radians(35), density=2650))
+O.materials.append(FrictMat(young=1e7, poisson=0.3, frictionAngle=np.radians(35), density=2650))
 kinds = [shapes.random_rock(seed, elongation=0.75, flatness=0.7) for seed in range(12)]
-inside = packing.Box((0, 0, 0), (WIDTH, WIDTH, max(HEIGHT, 1.0)))
+inside = packing.Box((0, 0, 0), (WIDTH, WIDTH, HEIGHT))
 rocks = potential_particles.pack(inside, kinds, sizes=GRADING, shares="passing", number=COUNT)
 diameters = np.array([rock.shape.equivalent_diameter * rock.scale for rock in rocks])
 colours = colormaps["cividis"]((diameters - GRADING[0][0]) / (GRADING[-1][0] - GRADING[0][0]))[:, :3]
@@ -38,8 +39,7 @@ O.engines = [
     InteractionLoop(contacts, [Ip2_FrictMat_FrictMat_FrictPhys()], [Law2_ScGeom_FrictPhys_CundallStrack(sphericalBodies=False)]),
     NewtonIntegrator(damping=0.3, gravity=(0, 0, -9.81), exactAsphericalRot=True),
 ]
-# A fifth of sqrt(m/k) of the smallest rock, whose springs are about young times its radius.
-O.dt = 0.2 * np.sqrt(min(O.bodies[i].state.mass for i in ids) / (5e7 * GRADING[0][0]))
+O.dt = potential_particles.critical_time_step()
 record = potential_particles.Recorder(os.path.join(OUT, "rocks"))
 for _ in range(5):
     record()

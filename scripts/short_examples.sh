@@ -7,8 +7,8 @@ root=$PWD
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 (cd "$folder" && "$root"/scripts/yade.sh -j1 "$root"/examples/first_pile.py)
-BODIES=40 STEPS=4000 OUTPUT=$folder/rocks scripts/yade.sh -j1 examples/rocks.py
-BODIES=60 STEPS=3000 OUTPUT=$folder/hopper scripts/yade.sh -j1 examples/hopper.py
+BODIES=40 STEPS=5000 OUTPUT=$folder/rocks scripts/yade.sh -j1 examples/rocks.py
+BODIES=60 STEPS=7000 OUTPUT=$folder/hopper scripts/yade.sh -j1 examples/hopper.py
 
 /usr/bin/python3 - "$folder" <<'PYTHON'
 import json, pathlib, sys
