@@ -107,6 +107,18 @@
 // struct pp_placement, for pp_struct_size.
 #define PP_STRUCT_PLACEMENT 15
 
+// struct pp_flat_contact, for pp_struct_size.
+#define PP_STRUCT_FLAT_CONTACT 13
+
+// The point on the boundary lies on the plane, or inside the triangle.
+#define PP_ON_INTERIOR 0
+
+// It lies on the edge from vertex 0 to 1; PP_ON_EDGE + 1: from 1 to 2; PP_ON_EDGE + 2: from 2 to 0.
+#define PP_ON_EDGE 1
+
+// It is vertex 0; PP_ON_VERTEX + i: vertex i.
+#define PP_ON_VERTEX 4
+
 // A box, sides along the axes.
 #define PP_BOX 0
 
@@ -128,17 +140,6 @@
 // Rows of sizes: a grading curve, linear between its rows: a size, and the share of the mass in bodies
 // below it; both grow, the shares from 0 to 1.
 #define PP_PASSING 2
-// struct pp_flat_contact, for pp_struct_size.
-#define PP_STRUCT_FLAT_CONTACT 12
-
-// The point on the boundary lies on the plane, or inside the triangle.
-#define PP_ON_INTERIOR 0
-
-// It lies on the edge from vertex 0 to 1; PP_ON_EDGE + 1: from 1 to 2; PP_ON_EDGE + 2: from 2 to 0.
-#define PP_ON_EDGE 1
-
-// It is vertex 0; PP_ON_VERTEX + i: vertex i.
-#define PP_ON_VERTEX 4
 
 // Most planes that a particle may have.
 #define PP_MAX_PLANES 65536
@@ -358,45 +359,6 @@ typedef struct pp_closest {
     double branch_b[3];
 } pp_closest;
 
-// What pp_pack fills, and how.
-typedef struct pp_packing {
-    // PP_BOX or PP_CYLINDER.
-    uint32_t container;
-    // PP_SCATTERED or PP_SETTLED.
-    uint32_t arrangement;
-    // What the rows of sizes mean: PP_BY_NUMBER, PP_BY_MASS or PP_PASSING.
-    uint32_t shares;
-    // Threads that work on it, the calling one among them: 0 and 1 mean the calling thread alone.
-    uint32_t threads;
-    // Lowest corner of the box, or of that about the cylinder; world frame, z upwards, length.
-    double lower[3];
-    // Highest corner of it.
-    double upper[3];
-    // Least distance between two bodies, and twice that of a body to the container, length. Bodies are a
-    // millionth of their size apart in any case.
-    double margin;
-    // The same seed gives the same packing, whatever the number of threads.
-    uint64_t seed;
-    // How many bodies; 0: as many as fit (PP_SETTLED only).
-    uint64_t number;
-} pp_packing;
-
-// A body of a packing: a shape, scaled, at a pose.
-typedef struct pp_placement {
-    // Where it is.
-    struct pp_pose pose;
-    // Factor by which d, r and R of the shape are multiplied.
-    double scale;
-    // Index into the shapes.
-    uint32_t shape;
-    // Always 0.
-    uint32_t reserved;
-} pp_placement;
-
-// Receives bodies that have found their places, in the calling thread, several times during pp_pack; also
-// with a count of 0, when none has for a while. Returns 0 to go on; anything else ends the packing, and
-// what was handed over is it. context: as given to pp_pack. No exception may leave it.
-typedef int32_t (*pp_placed)(void *context, const struct pp_placement *placements, size_t count);
 // The contact of a particle A with a flat boundary T, a plane or a closed triangle of no thickness. World
 // axes; lengths in the caller's unit; s and gap have no unit. Fields that do not apply are NaN.
 //
@@ -439,6 +401,46 @@ typedef struct pp_flat_contact {
     // The point of the surface of A beyond x* along the normal, world frame; NaN when separated.
     double on_particle[3];
 } pp_flat_contact;
+
+// What pp_pack fills, and how.
+typedef struct pp_packing {
+    // PP_BOX or PP_CYLINDER.
+    uint32_t container;
+    // PP_SCATTERED or PP_SETTLED.
+    uint32_t arrangement;
+    // What the rows of sizes mean: PP_BY_NUMBER, PP_BY_MASS or PP_PASSING.
+    uint32_t shares;
+    // Threads that work on it, the calling one among them: 0 and 1 mean the calling thread alone.
+    uint32_t threads;
+    // Lowest corner of the box, or of that about the cylinder; world frame, z upwards, length.
+    double lower[3];
+    // Highest corner of it.
+    double upper[3];
+    // Least distance between two bodies, and twice that of a body to the container, length. Bodies are a
+    // millionth of their size apart in any case.
+    double margin;
+    // The same seed gives the same packing, whatever the number of threads.
+    uint64_t seed;
+    // How many bodies; 0: as many as fit (PP_SETTLED only).
+    uint64_t number;
+} pp_packing;
+
+// A body of a packing: a shape, scaled, at a pose.
+typedef struct pp_placement {
+    // Where it is.
+    struct pp_pose pose;
+    // Factor by which d, r and R of the shape are multiplied.
+    double scale;
+    // Index into the shapes.
+    uint32_t shape;
+    // Always 0.
+    uint32_t reserved;
+} pp_placement;
+
+// Receives bodies that have found their places, in the calling thread, several times during pp_pack; also
+// with a count of 0, when none has for a while. Returns 0 to go on; anything else ends the packing, and
+// what was handed over is it. context: as given to pp_pack. No exception may leave it.
+typedef int32_t (*pp_placed)(void *context, const struct pp_placement *placements, size_t count);
 
 // Where a body of the plane is: world = rotation(angle) * local + position.
 typedef struct pp_pose_2d {
@@ -585,10 +587,11 @@ typedef struct pp_mass_properties {
 // An index or a count names something that is not there.
 #define PP_BAD_INDEX 12
 
-// The tolerance of a mesh is outside its documented range.
-#define PP_BAD_TOLERANCE 13
 // The vertices of a triangle lie on one line, so that it has no normal.
 #define PP_DEGENERATE_TRIANGLE 13
+
+// The tolerance of a mesh is outside its documented range.
+#define PP_BAD_TOLERANCE 14
 
 // A plane holds a coefficient that is not finite.
 #define PP_PLANE_NOT_FINITE 20
@@ -764,27 +767,6 @@ pp_status pp_contact_area(const struct pp_particle *a,
                           double relative_tolerance,
                           double *area);
 
-// Fills a box or an upright cylinder with bodies of random orientation that do not overlap, as
-// pp_contact_detect decides.
-//
-// shapes: shape_count particles, each as likely as the others. sizes: size_count rows of a size and a
-// share, see struct pp_packing; a size is the diameter of a ball of the body's volume. May be NULL when
-// size_count is 0: shapes as they are.
-// placed: receives the bodies; see pp_placed. The packing ends with the number asked for, when placed ends
-// it, or when no further body finds a place: then fewer have been handed over.
-// message: receives, on failure, a sentence that names the value (may be NULL).
-// Pointers: shapes points to shape_count particles, sizes to 2*size_count doubles, message to message_size
-// bytes; placed is a function.
-// Errors: PP_NULL_POINTER, PP_BAD_PACKING.
-pp_status pp_pack(const struct pp_particle *const *shapes,
-                  size_t shape_count,
-                  const double *sizes,
-                  size_t size_count,
-                  const struct pp_packing *how,
-                  pp_placed placed,
-                  void *context,
-                  char *message,
-                  size_t message_size);
 // Finds the contact of particle A at pose_a with the plane through a point (world frame) with this normal
 // (of any length). A may touch it from either side; where its centre lies on the plane to rounding, A counts
 // as in front of it (PP_FLAG_NORMAL_BY_BOUNDARY).
@@ -826,6 +808,28 @@ pp_status pp_flat_contact_area(const struct pp_particle *a,
                                const struct pp_flat_contact *contact,
                                double relative_tolerance,
                                double *area);
+
+// Fills a box or an upright cylinder with bodies of random orientation that do not overlap, as
+// pp_contact_detect decides.
+//
+// shapes: shape_count particles, each as likely as the others. sizes: size_count rows of a size and a
+// share, see struct pp_packing; a size is the diameter of a ball of the body's volume. May be NULL when
+// size_count is 0: shapes as they are.
+// placed: receives the bodies; see pp_placed. The packing ends with the number asked for, when placed ends
+// it, or when no further body finds a place: then fewer have been handed over.
+// message: receives, on failure, a sentence that names the value (may be NULL).
+// Pointers: shapes points to shape_count particles, sizes to 2*size_count doubles, message to message_size
+// bytes; placed is a function.
+// Errors: PP_NULL_POINTER, PP_BAD_PACKING.
+pp_status pp_pack(const struct pp_particle *const *shapes,
+                  size_t shape_count,
+                  const double *sizes,
+                  size_t size_count,
+                  const struct pp_packing *how,
+                  pp_placed placed,
+                  void *context,
+                  char *message,
+                  size_t message_size);
 
 // Creates a particle from count planes.
 //

@@ -39,6 +39,7 @@ done
 
 stage suite "YADE on 1, 2 and 3 ranks" tests/mpi/run.py
 stage suite "YADE killed and loaded, shaken, started often" scripts/short_long.sh
+stage suite "Short examples" scripts/short_examples.sh
 stage suite "Short demo" scripts/short_demo.sh
 stage suite "Short wedge" scripts/short_wedge.sh
 stage suite "Short side by side" scripts/short_side_by_side.sh

@@ -29,6 +29,8 @@ ask for it.
 """
 import builtins
 import functools
+import sys
+import warnings
 
 from . import builds
 from .bodies import body
@@ -135,6 +137,20 @@ def _resize_dispatchers(yade):
             dispatcher.functors = dispatcher.functors
 
 
+def _boxes_in_window():
+    """Lets YADE's 3-D window show boxes in the place of shapes.
+
+    Its table of drawing functors is made before any script and has no row for a class of shape that comes later: drawing one ends YADE with
+    an assertion.
+    """
+    window = sys.modules.get("yade.qt")
+    if window is not None and hasattr(window, "Renderer"):
+        renderer = window.Renderer()
+        renderer.shape, renderer.bound = False, True
+        warnings.warn("YADE's 3-D window cannot draw the shapes of potential_particles and shows the boxes of all bodies; to draw the "
+                      "others (yade.qt.Renderer().shape = True) in a scene with our shapes ends YADE. potential_particles.plot draws all.")
+
+
 def prepare():
     """Looks up, in one thread, every functor that the scene will need.
 
@@ -207,6 +223,7 @@ def _load():
     builds.warn(running, glue.built_for_yade)
     _register(yade, glue)
     _resize_dispatchers(yade)
+    _boxes_in_window()
     _prepare_before_steps(yade)
     from . import outside, saves
     outside.guard_lists(yade, glue.set_list)

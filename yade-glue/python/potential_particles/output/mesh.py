@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .. import _glue
+from ..shape import Shape
 
 
 @dataclass
@@ -28,11 +29,13 @@ class Mesh:
 
 
 def mesh(shape, tolerance=1e-3):
-    """The surface of a PotentialParticle as a Mesh: closed, inside the particle, its points on the surface.
+    """The surface of a PotentialParticle, or of a Shape of this package, as a Mesh: closed, inside the particle, its points on the surface.
 
     tolerance: the largest distance from the surface to the mesh, over the bounding radius of the particle, 1e-5 to 1. The bound
     that the mesh keeps is its `error`. ValueError for a tolerance out of range and a shape that is no particle.
     """
+    if isinstance(shape, Shape):
+        shape = shape.particle()
     points, normals, triangles, error = _glue.surface_mesh(shape, float(tolerance))
     return Mesh(np.frombuffer(points).reshape(-1, 3), np.frombuffer(normals).reshape(-1, 3),
                 np.frombuffer(triangles, np.uint32).reshape(-1, 3).astype(np.int64), error)
