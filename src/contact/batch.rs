@@ -98,7 +98,7 @@ pub fn detect_batch_carried(
     detect_batch_by(one, particles, poses, pairs, threads, (memories, carried))
 }
 
-/// One contact, carried on where it can be. It is written where it comes into being: copying it takes a tenth of the time.
+/// One contact, carried on where it can be. It is written where it comes into being: copying it takes a twentieth of the time.
 #[inline(never)]
 fn carry(
     carrying: &Carrying,
