@@ -37,6 +37,11 @@ const SAME: f64 = 1e-9;
 const ROUNDING: f64 = 32.0 * f64::EPSILON;
 
 impl Patch {
+    /// p at its corners.
+    pub fn corners(&self) -> &[Vector3<f64>; 4] {
+        &self.corners
+    }
+
     /// p(u, v), and the area of the image of du dv.
     pub fn at(&self, u: f64, v: f64) -> (Vector3<f64>, f64) {
         let [a, b, c, d] = &self.corners;

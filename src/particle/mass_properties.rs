@@ -4,6 +4,9 @@
 //! plane at height h (`direction_mesh`) covers dω = h dA/|p|³, so that with τ = ρ/|p| they are integrals of h τ³/3,
 //! h τ⁴/4 p and h τ⁵/5 p pᵀ over its area: polynomials on a flat face, where τ = 1.
 //!
+//! On a ray through p the surface is reached at τ ≤ 1, where Newton's method from τ = 1 does not overshoot, since S is convex. Planes that are
+//! active at no corner of a patch are active nowhere on rays through it up to there, and are left out.
+//!
 //! On each cell the product of Kronrod's rule of 7 points with itself is compared with those in which one factor is Gauss' rule of
 //! the 3 points among them, once in u and once in v. The cell with the largest difference is halved in that direction, until
 //! the estimated errors of all cells add up to less than the tolerance. The error of the rule with 7 points, of degree 11, is
@@ -11,7 +14,6 @@
 //! derivative jumps within a cell it need not be less, and a direction in which a cell was never halved counts [`UNSEEN`] times.
 
 use crate::particle::direction_mesh::{self, Patch};
-use crate::particle::ray_cast;
 use crate::particle::shape::Shape;
 use nalgebra::{Matrix3, SVector, Vector3};
 use std::collections::BinaryHeap;
@@ -47,6 +49,12 @@ const OF_MESH: f64 = 0.1;
 const UNSEEN: f64 = 8.0;
 const LEAST_SHARE: f64 = 0.05;
 
+/// Most Newton steps on a ray: far outside each halves the distance, and beside the surface each doubles the digits.
+const MOST_STEPS: usize = 200;
+
+/// Least step, relative.
+const ROUNDING: f64 = 4.0 * f64::EPSILON;
+
 /// Kronrod's rule of 7 points on [0, 1]: point, weight, and weight in Gauss' rule of 3 points.
 pub(crate) const RULE: [(f64, f64, f64); 7] = [
     (0.019_754_365_645_989_858, 0.052_328_113_013_233_63, 0.0),
@@ -61,9 +69,17 @@ pub(crate) const RULE: [(f64, f64, f64); 7] = [
 /// V, ∫x dV (3), and xx, yy, zz, xy, yz, zx of ∫x xᵀ dV.
 type Moments = SVector<f64, 10>;
 
-/// The moments of one cell, a rectangle of u and v on a patch.
-struct Cell {
+/// A patch with what S is on rays through it: the weights, and the planes that may be active.
+struct Sector {
     patch: Patch,
+    plane_weight: f64,
+    sphere_weight: f64,
+    planes: Vec<(Vector3<f64>, f64)>,
+}
+
+/// The moments of one cell, a rectangle of u and v on the patch of a sector.
+struct Cell {
+    sector: usize,
     u: (f64, f64),
     v: (f64, f64),
     moments: Moments,
@@ -87,10 +103,10 @@ struct Norm {
 pub(crate) fn of(shape: &Shape, tolerance: f64) -> MassProperties {
     let tolerance = tolerance.max(LEAST_TOLERANCE);
     let mut patches = direction_mesh::along_faces(shape);
-    let (mut cells, mut norm) = first_pass(shape, &patches);
+    let (mut sectors, mut cells, mut norm) = first_pass(shape, &patches);
     if !(norm.of_mesh(&patches) <= OF_MESH * tolerance) {
         patches = direction_mesh::plain(shape);
-        (cells, norm) = first_pass(shape, &patches);
+        (sectors, cells, norm) = first_pass(shape, &patches);
     }
     let of_mesh = norm.of_mesh(&patches);
     cells.iter_mut().for_each(|cell| cell.judge(&norm));
@@ -99,7 +115,7 @@ pub(crate) fn of(shape: &Shape, tolerance: f64) -> MassProperties {
     while error > tolerance && heap.len() < MOST_CELLS {
         let Some(worst) = heap.pop() else { break };
         error -= worst.error;
-        for half in worst.halves(shape, &norm) {
+        for half in worst.halves(&sectors, &norm) {
             error += half.error;
             heap.push(half);
         }
@@ -110,11 +126,14 @@ pub(crate) fn of(shape: &Shape, tolerance: f64) -> MassProperties {
 }
 
 /// One cell on each part of each patch, and the norm that their moments give.
-fn first_pass(shape: &Shape, patches: &[Patch]) -> (Vec<Cell>, Norm) {
-    let parts = patches.iter().flat_map(|patch| patch.intervals().map(move |v| (*patch, v)));
-    let cells: Vec<Cell> = parts.map(|(patch, v)| Cell::of(shape, patch, (0.0, 1.0), v)).collect();
+fn first_pass(shape: &Shape, patches: &[Patch]) -> (Vec<Sector>, Vec<Cell>, Norm) {
+    // Behind these the origin lies: they may be active anywhere.
+    let behind: Vec<usize> = (0..shape.len()).filter(|&i| shape.offset(i) < 0.0).collect();
+    let sectors: Vec<Sector> = patches.iter().map(|patch| Sector::of(shape, *patch, &behind)).collect();
+    let parts = (0..sectors.len()).flat_map(|i| sectors[i].patch.intervals().map(move |v| (i, v)));
+    let cells: Vec<Cell> = parts.map(|(i, v)| Cell::of(&sectors, i, (0.0, 1.0), v)).collect();
     let norm = Norm::of(&sum(&cells));
-    (cells, norm)
+    (sectors, cells, norm)
 }
 
 fn sum(cells: &[Cell]) -> Moments {
@@ -162,23 +181,61 @@ impl Norm {
     }
 }
 
+impl Sector {
+    fn of(shape: &Shape, patch: Patch, behind: &[usize]) -> Self {
+        let mut counted = behind.to_vec();
+        for corner in patch.corners() {
+            shape.visit_near(corner, 0.0, |i, _, excess| {
+                if excess > 0.0 {
+                    counted.push(i);
+                }
+            });
+        }
+        counted.sort_unstable();
+        counted.dedup();
+        let planes = counted.into_iter().map(|i| (shape.normal(i), shape.offset(i))).collect();
+        Self { patch, plane_weight: shape.plane_weight, sphere_weight: shape.sphere_weight, planes }
+    }
+
+    /// τ ≤ 1 with S(τ p) = 1, for p on the patch, where S ≥ 1.
+    fn exit(&self, p: &Vector3<f64>) -> f64 {
+        let sphere = self.sphere_weight * p.norm_squared();
+        let mut tau = 1.0;
+        for _ in 0..MOST_STEPS {
+            let (mut value, mut half_slope) = (sphere * tau * tau - 1.0, sphere * tau);
+            for (n, d) in &self.planes {
+                let rate = n.dot(p);
+                let excess = (tau * rate - d).max(0.0);
+                value += self.plane_weight * excess * excess;
+                half_slope += self.plane_weight * excess * rate;
+            }
+            let step = 0.5 * value / half_slope;
+            // Also where a step is not a number.
+            if !(step > ROUNDING * tau) {
+                break;
+            }
+            tau -= step;
+        }
+        tau
+    }
+}
+
 impl Cell {
-    fn of(shape: &Shape, patch: Patch, u: (f64, f64), v: (f64, f64)) -> Self {
+    fn of(sectors: &[Sector], sector: usize, u: (f64, f64), v: (f64, f64)) -> Self {
+        let here = &sectors[sector];
         let (du, dv) = (u.1 - u.0, v.1 - v.0);
         let mut moments = Moments::zeros();
         let mut differences = [Moments::zeros(); 2];
-        let mut guess = 1.0;
         for (s, kronrod_u, gauss_u) in RULE {
             for (t, kronrod_v, gauss_v) in RULE {
-                let (p, area) = patch.at(u.0 + s * du, v.0 + t * dv);
-                let (at, ratio) = moments_of_ray(shape, &p, patch.height * area * du * dv, guess);
-                guess = ratio;
+                let (p, area) = here.patch.at(u.0 + s * du, v.0 + t * dv);
+                let at = moments_of_ray(&p, here.exit(&p), here.patch.height * area * du * dv);
                 moments += kronrod_u * kronrod_v * at;
                 differences[0] += (kronrod_u - gauss_u) * kronrod_v * at;
                 differences[1] += kronrod_u * (kronrod_v - gauss_v) * at;
             }
         }
-        Self { patch, u, v, moments, differences, shares: [UNSEEN; 2], error: 0.0, largest: 0 }
+        Self { sector, u, v, moments, differences, shares: [UNSEEN; 2], error: 0.0, largest: 0 }
     }
 
     fn judge(&mut self, norm: &Norm) {
@@ -188,11 +245,11 @@ impl Cell {
     }
 
     /// Two halves. By what they change of the whole, the error of the whole, they are judged: their own is less.
-    fn halves(&self, shape: &Shape, norm: &Norm) -> [Self; 2] {
+    fn halves(&self, sectors: &[Sector], norm: &Norm) -> [Self; 2] {
         let halved = |(from, to): (f64, f64)| [(from, 0.5 * (from + to)), (0.5 * (from + to), to)];
         let mut halves = match self.largest {
-            0 => halved(self.u).map(|u| Self::of(shape, self.patch, u, self.v)),
-            _ => halved(self.v).map(|v| Self::of(shape, self.patch, self.u, v)),
+            0 => halved(self.u).map(|u| Self::of(sectors, self.sector, u, self.v)),
+            _ => halved(self.v).map(|v| Self::of(sectors, self.sector, self.u, v)),
         };
         let change = norm.of_change(&(halves[0].moments + halves[1].moments - self.moments));
         let differences: f64 = halves.iter().map(|half| norm.of_change(&half.differences[self.largest])).sum();
@@ -206,16 +263,12 @@ impl Cell {
     }
 }
 
-/// The integrands where the ray through p leaves the particle, times `area`, and τ, of which `guess` is near.
-fn moments_of_ray(shape: &Shape, p: &Vector3<f64>, area: f64, guess: f64) -> (Moments, f64) {
-    let length = p.norm();
-    // The origin is inside, so that every ray leaves the particle.
-    let distance = ray_cast::distance_near(shape, &Vector3::zeros(), &(p / length), guess * length).unwrap_or(0.0);
-    let tau = distance / length;
+/// The integrands where the ray through p leaves the particle, at τ p, times `area`.
+fn moments_of_ray(p: &Vector3<f64>, tau: f64, area: f64) -> Moments {
     let cube = area * tau * tau * tau;
     let (f, s) = (cube * tau / 4.0 * p, cube * tau * tau / 5.0 * p);
     let moments = [cube / 3.0, f.x, f.y, f.z, s.x * p.x, s.y * p.y, s.z * p.z, s.x * p.y, s.y * p.z, s.z * p.x];
-    (moments.into(), tau)
+    moments.into()
 }
 
 /// Cells are ordered by their error.

@@ -23,8 +23,9 @@ ROUNDING, SPHERICITY = 0.05, 0.02
 # Of volume, centroid and inertia, relative.
 TOLERANCE = 1e-6
 
-# The centre is the centroid to this share of the size; a step of the repetition errs by its square at most.
-CENTRED = 2e-6
+# The repetition ends when the centre is the centroid to this share of the size, found with fewer digits, which takes far less time. A last step
+# with all digits follows; the shape does not change by it, but in the product of this share and k.
+CENTRED, ROUGHLY = 1e-5, 1e-4
 MOST_STEPS = 50
 
 
@@ -57,22 +58,20 @@ def _about(normals, heights, r, k, R):
 def _settled(definition_about, centre, size, name):
     """The Shape with its centroid as its centre, in principal axes. `definition_about(centre)`: planes, r, k, R."""
     from yade.wrapper import ConicPotentialParticle
-    # Most steps need fewer digits, which take far less time.
-    tolerance = 100.0 * TOLERANCE
     for _ in range(MOST_STEPS):
         planes, r, k, R = definition_about(centre)
         particle = ConicPotentialParticle(planes=planes, r=r, k=k, R=R)
-        volume, shift, inertia, error = particle.massProperties(tolerance)
-        shift = np.array(shift)
-        away = np.abs(shift).max() / size
-        if tolerance == TOLERANCE and away <= CENTRED:
+        shift = np.array(particle.massProperties(ROUGHLY)[1])
+        if np.abs(shift).max() <= CENTRED * size:
             break
-        if away <= 100.0 * CENTRED:
-            tolerance = TOLERANCE
-        if away > CENTRED:
-            centre = centre + shift
+        centre = centre + shift
     else:
         raise ValueError(f"{name}: no centre is its own centroid, to which k={k:g} with R={R:g} leads: take a smaller k, or a larger R")
+    volume, shift, inertia, error = particle.massProperties(TOLERANCE)
+    # The centroid is known no better than this.
+    if np.abs(np.array(shift)).max() > TOLERANCE * size:
+        centre = centre + np.array(shift)
+        planes, r, k, R = definition_about(centre)
     axes, moments = principal_axes(np.array([[inertia[i, j] for j in range(3)] for i in range(3)]))
     turned = [(*map(float, np.array(plane[:3]) @ axes), plane[3]) for plane in planes]
     final = ConicPotentialParticle(planes=turned, r=r, k=k, R=R)
