@@ -17,7 +17,6 @@ from pathlib import Path
 HERE = Path(sys.argv[0]).resolve().parent
 sys.path.insert(0, str(HERE))
 
-import numpy as np
 import yade
 from potential_particles import Recorder, mpi
 from yade import O

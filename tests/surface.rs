@@ -33,6 +33,21 @@ fn bodies() -> Vec<(String, Particle)> {
             all.push((format!("{name} r={r} k={k}"), particle(&faces, r, k)));
         }
     }
+    // Distances of the faces along +x, -x, +y, -y, +z, -z: a needle, a plate, a cube with its centre near a corner.
+    for (name, distances, r) in [
+        ("needle", [20.0, 20.0, 0.5, 0.5, 0.5, 0.5], 0.05),
+        ("plate", [5.0, 5.0, 5.0, 5.0, 0.05, 0.05], 0.01),
+        ("corner", [1.98, 0.02, 1.98, 0.02, 1.98, 0.02], 1e-3),
+    ] {
+        let planes: Vec<Plane> = CUBE
+            .iter()
+            .zip(distances)
+            .map(|(&normal, distance)| Plane { normal: normal.into(), offset: distance - r })
+            .collect();
+        for k in [0.0, 1e-3] {
+            all.push((format!("{name} r={r} k={k}"), Particle::new(&planes, r, k, 30.0).unwrap()));
+        }
+    }
     all
 }
 

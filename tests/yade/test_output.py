@@ -8,6 +8,7 @@ import numpy as np
 from yade import Body, FrictMat, Vector3, utils
 
 import potential_particles
+from potential_particles import shapes
 from harness import Checks, O, cube, plain, pyramid, pyramid_planes, turned
 from potential_particles.output import vtk_files
 from potential_particles.output.rasteriser import NOTHING, nearest_triangles
@@ -45,6 +46,11 @@ def test_mesh():
         middles = mesh.points[mesh.triangles].mean(1)
         gap = np.array(reference.surfaceDistance([Vector3(*m) for m in middles])) - np.linalg.norm(middles, axis=1)
         check.true(gap.min() > -1e-12, "it lies inside the particle")
+    shape = shapes.cuboid((1, 2, 3))
+    mesh = potential_particles.mesh(shape, 1e-3)
+    a, b, c = (mesh.points[mesh.triangles[:, i]] for i in range(3))
+    volume = (a * np.cross(b, c)).sum() / 6
+    check.true(0 < 1 - volume / shape.volume < 5e-3, f"a Shape has a mesh, of its volume: {volume} and {shape.volume}")
     check.raises(ValueError, lambda: potential_particles.mesh(cube(), 0), "tolerance 0", "[1e-5, 1]")
     check.raises(ValueError, lambda: potential_particles.mesh(cube(), float("nan")), "tolerance nan", "[1e-5, 1]")
     check.raises(ValueError, lambda: potential_particles.mesh(yade.PotentialParticle(k=2)), "a shape that is none", "k=2")

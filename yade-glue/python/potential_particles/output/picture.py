@@ -6,7 +6,7 @@ import yade
 from .drawn import ShapeMeshes, Triangles, drawn
 from .light import brightness
 from .rasteriser import NOTHING, interpolate, nearest_triangles
-from .view import View, framing_view, unit
+from .view import framing_view, unit
 
 VIEW_ANGLE = 0.42  # full height, radians
 SAMPLES = 2  # along each side of a pixel
