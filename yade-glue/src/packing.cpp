@@ -95,8 +95,8 @@ void packContainer(const py::list& shapes, const py::list& sizes, const py::dict
     std::vector<std::shared_ptr<const Particle>> particles;
     std::vector<const pp_particle*> handles;
     for (py::ssize_t i = 0; i < py::len(shapes); ++i) {
-        const yade::PotentialParticle& shape = py::extract<const yade::PotentialParticle&>(shapes[i]);
-        particles.push_back(Particle::make(Definition::of(shape)));
+        const py::extract<const yade::PotentialParticle&> shape(shapes[i]);
+        particles.push_back(Particle::make(Definition::of(shape())));
         handles.push_back(particles.back()->require());
     }
     std::vector<double> rows;
