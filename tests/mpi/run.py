@@ -121,7 +121,9 @@ def started(case, folder):
     for old in folder.glob("pid*"):
         old.unlink()
     process = subprocess.Popen(command(3, HERE / "scene.py", case, folder), env=ENVIRONMENT, text=True,
-                               stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+                               stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                               # Tests in the background of a shell would hand on that they ignore it, which no shell can undo.
+                               preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL))
     end = time.monotonic() + SECONDS
     while time.monotonic() < end and len(list(folder.glob("pid*"))) < 3 and process.poll() is None:
         time.sleep(0.05)

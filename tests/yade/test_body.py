@@ -65,7 +65,8 @@ own = 0.5 * spun.state.mass * 14 + 0.5 * sum(i * w * w for i, w in zip(spun.stat
 check.close(energy / own, 1.0, 1e-12, "kinetic energy before the first step")
 run(500)
 check.close(utils.kineticEnergy() / energy, 1.0, 1e-5, "kinetic energy of a free body")
-check.close(utils.angularMomentum(), momentum_before, 1e-5 * momentum_before.norm(), "its angular momentum")
+# YADE 2025 has it of a velocity and an orientation half a step apart.
+check.close(utils.angularMomentum(), momentum_before, spun.state.angVel.norm() * O.dt * momentum_before.norm(), "its angular momentum")
 check.close(spun.state.vel, Vector3(1, 2, 3), 1e-12, "velocity of its centroid")
 
 # Fixed, masked and coloured bodies, and further attributes of the shape.

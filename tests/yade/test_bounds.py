@@ -42,7 +42,8 @@ def tip(functor_, watch):
     O.engines = O.engines[:1] + collider(functor_, watch) + O.engines[2:]
     needle = O.bodies[add(prism(0.02, 1.0), Vector3(0, 0, 0.02))]
     needle.state.blockedDOFs = "xyz"  # its centre stays where it is
-    needle.state.angMom = Vector3(0, needle.state.inertia[1], 0)  # about 1 / s
+    needle.state.angVel = Vector3(0, 1, 0)
+    needle.state.angMom = Vector3(0, needle.state.inertia[1], 0)  # by which YADE before 2025 integrates
     add(prism(0.2, 0.2), Vector3(0.45, 0, -0.11), fixed=True)
     run(1700)  # past a quarter of a turn
     return contacts.overlapping, engine("collider").numAction

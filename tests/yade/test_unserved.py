@@ -35,9 +35,9 @@ for name, shape in ("Sphere", yade.Sphere(radius=1)), ("Box", yade.Box(extents=(
         check.equal(said(lambda: run(5)), [], "and once")
         scene(None, particle, shape, shape)
         check.equal(said(lambda: run(1)), [], f"nothing is said where {name} is served")
-scene(None, cube(), yade.Polyhedra(v=[(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)]))
+scene(None, cube(), yade.Tetra(v=[(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)]))
 lines = said(lambda: O.step())
-check.true(len(lines) == 1 and "ConicPotentialParticle (1) and Polyhedra (1): there is no functor for them" in lines[0], f"no remedy: {lines}")
+check.true(len(lines) == 1 and "ConicPotentialParticle (1) and Tetra (1): there is no functor for them" in lines[0], f"no remedy: {lines}")
 scene([yade.Ig2_ConicPP_ConicPP_ScGeom()], cube(), plain(cube_planes(), r=0.05, k=0.05, R=0.9))
 check.true("Ig2_PP_PP_ScGeom_Conic" in said(lambda: O.step())[0], "plain shapes beside ours")
 
