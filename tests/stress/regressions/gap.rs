@@ -134,7 +134,12 @@ fn the_gap_is_small_for_two_planes_in_one_place() {
 /// length.
 #[test]
 fn the_gap_is_small_beside_a_long_normal() {
-    for name in ["beside_a_long_normal", "beside_a_long_normal_again", "beside_long_normals_of_both"] {
+    for name in [
+        "beside_a_long_normal",
+        "beside_a_long_normal_again",
+        "beside_long_normals_of_both",
+        "beside_a_far_plane_of_long_normal",
+    ] {
         judged(name, &[LooseBound]);
     }
 }
