@@ -965,6 +965,26 @@ pp_status pp_particle_new_2d(const double *lines,
                              char *message,
                              size_t message_size);
 
+// Creates a particle of the plane from points whose convex hull is a polygon with rounded corners.
+//
+// The local origin is the centroid of the polygon, its sides are those of the polygon (k = 0), and
+// the shadow circle goes through its outermost corner.
+// points: count rows of x, y, in any order.
+// r: rounding radius, length, less than the distance of each side from the centroid. k: sphericity,
+// in [0, 1].
+// out: receives the particle; release it with pp_particle_free_2d.
+// message: receives, on failure, a sentence that names the point or value (may be NULL).
+// Errors: PP_NULL_POINTER, PP_PLANE_NOT_FINITE (a point is not), PP_UNBOUNDED (the points enclose
+// no area), PP_BAD_SPHERICITY, PP_BAD_ROUNDING_RADIUS, PP_TOO_MANY_PLANES.
+// Pointers: points points to 2*count doubles, out to one pointer, message to message_size bytes.
+pp_status pp_particle_new_polygon_2d(const double *points,
+                                     size_t count,
+                                     double r,
+                                     double k,
+                                     struct pp_particle_2d **out,
+                                     char *message,
+                                     size_t message_size);
+
 // Releases a particle of the plane; NULL is allowed and does nothing. No pair may still be using it.
 // Pointers: particle is NULL or came from pp_particle_new_2d and was not released yet.
 void pp_particle_free_2d(struct pp_particle_2d *particle);
@@ -1089,6 +1109,14 @@ pp_status pp_particle_box(const struct pp_particle *particle,
 //
 // Errors: PP_NULL_POINTER.
 pp_status pp_particle_bounding_radius(const struct pp_particle *particle, double *radius);
+
+// Whether the planes alone enclose a volume: 1, or 0 where only the shadow sphere bounds the particle,
+// at R/sqrt(k).
+//
+// That is valid for k > 0, and seldom meant where there are planes: one may have been left out.
+// Errors: PP_NULL_POINTER.
+pp_status pp_particle_planes_enclose(const struct pp_particle *particle,
+                                     int32_t *enclose);
 
 // Corners, local frame, of a polyhedron that holds the particle: rows of x, y, z.
 //

@@ -97,6 +97,31 @@ fn no_surface_is_further_off_than_the_bounding_radius() {
 }
 
 #[test]
+fn planes_that_leave_a_way_out_are_told_from_those_that_enclose() {
+    let encloses = |planes: &[Plane], scale: f64| {
+        let planes: Vec<Plane> =
+            planes.iter().map(|p| Plane { normal: 3.0 * p.normal, offset: 3.0 * scale * p.offset }).collect();
+        Particle::new(&planes, 0.3 * scale, 0.1, 2.0 * scale).unwrap().planes_enclose()
+    };
+    for scale in [1e-6, 1.0, 1e6] {
+        for closed in [cube_planes(0.5), cube_planes(-0.02), tetrahedron(0.4)] {
+            assert!(encloses(&closed, scale), "{closed:?}");
+            for missing in 0..closed.len() {
+                let open: Vec<_> = (0..closed.len()).filter(|&i| i != missing).map(|i| closed[i]).collect();
+                assert!(!encloses(&open, scale), "without plane {missing}: {open:?}");
+            }
+        }
+        // A needle whose ends lie far outside the shadow sphere.
+        let mut needle = cube_planes(0.2);
+        needle[4].offset = 1e3;
+        needle[5].offset = 1e3;
+        assert!(encloses(&needle, scale));
+        assert!(!encloses(&needle[..4], scale), "a prism without ends");
+    }
+    assert!(!Particle::sphere(1.0).unwrap().planes_enclose());
+}
+
+#[test]
 fn derivatives_match_differences() {
     for (planes, k) in [(cube_planes(0.4), 0.2), (tetrahedron(0.2), 0.0), (cube_planes(0.4), 1.0)] {
         let particle = Particle::new(&planes, 0.1, k, 0.8).unwrap();

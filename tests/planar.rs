@@ -6,6 +6,8 @@ mod batch;
 mod body;
 #[path = "planar/closest.rs"]
 mod closest;
+#[path = "planar/polygon.rs"]
+mod polygon;
 #[path = "planar/properties.rs"]
 mod properties;
 

@@ -130,14 +130,16 @@ pub unsafe extern "C" fn pp_particle_planes(
 
 pub(super) fn particle_status(error: &ParticleError) -> pp_status {
     match error {
-        ParticleError::PlaneNotFinite { .. } | ParticleError::LineNotFinite { .. } => PP_PLANE_NOT_FINITE,
+        ParticleError::PlaneNotFinite { .. }
+        | ParticleError::LineNotFinite { .. }
+        | ParticleError::VertexNotFinite { .. } => PP_PLANE_NOT_FINITE,
         ParticleError::ZeroNormal { .. } | ParticleError::ZeroLineNormal { .. } => PP_PLANE_ZERO_NORMAL,
         ParticleError::NormalLength { .. } | ParticleError::LineNormalLength { .. } => PP_PLANE_ZERO_NORMAL,
         ParticleError::Sphericity(_) => PP_BAD_SPHERICITY,
-        ParticleError::RoundingRadius(_) => PP_BAD_ROUNDING_RADIUS,
+        ParticleError::RoundingRadius(_) | ParticleError::RoundingTooLarge { .. } => PP_BAD_ROUNDING_RADIUS,
         ParticleError::ShadowRadius(_) => PP_BAD_SHADOW_RADIUS,
         ParticleError::CentreOutside { .. } | ParticleError::CentreOutsideLines { .. } => PP_CENTRE_OUTSIDE,
-        ParticleError::Unbounded | ParticleError::OpenLines => PP_UNBOUNDED,
+        ParticleError::Unbounded | ParticleError::OpenLines | ParticleError::FlatVertices(_) => PP_UNBOUNDED,
         ParticleError::TooManyPlanes(_) | ParticleError::TooManyLines(_) => PP_TOO_MANY_PLANES,
     }
 }

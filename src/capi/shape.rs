@@ -70,6 +70,20 @@ pub unsafe extern "C" fn pp_particle_bounding_radius(particle: *const pp_particl
     })
 }
 
+/// Whether the planes alone enclose a volume: 1, or 0 where only the shadow sphere bounds the particle,
+/// at R/sqrt(k).
+///
+/// That is valid for k > 0, and seldom meant where there are planes: one may have been left out.
+/// Errors: PP_NULL_POINTER.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn pp_particle_planes_enclose(particle: *const pp_particle, enclose: *mut i32) -> pp_status {
+    fenced(|| {
+        let particle = &unsafe { borrow(particle) }?.0;
+        unsafe { output(enclose) }?.write(particle.planes_enclose().into());
+        Ok(())
+    })
+}
+
 /// Corners, local frame, of a polyhedron that holds the particle: rows of x, y, z.
 ///
 /// corners: room for capacity rows; may be NULL when capacity is 0. count: receives the number of

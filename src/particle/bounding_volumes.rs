@@ -187,6 +187,16 @@ fn face(n: &Vector3<f64>, h: f64) -> Option<(Vector3<f64>, f64)> {
     h.is_finite().then_some((n, h))
 }
 
+/// Whether the planes (a, b, c, d) alone enclose a volume, without the shadow sphere.
+pub(super) fn planes_enclose(rows: &[[f64; 4]], dimensions: usize) -> bool {
+    // Each moved outwards until the origin is inside: what is open stays so, and what is enclosed, too.
+    let outside = rows.iter().map(|row| -row[3]).fold(0.0, f64::max);
+    let farthest = rows.iter().map(|row| row[3].abs()).fold(f64::MIN_POSITIVE, f64::max);
+    let faces: Vec<_> =
+        rows.iter().filter_map(|[a, b, c, d]| face(&Vector3::new(*a, *b, *c), d + outside + farthest)).collect();
+    linear_program::half_cube(&faces, dimensions).is_some()
+}
+
 /// A cube that holds {n·x ≤ h} in its interior, as half its edge, with the corners; `None` if the cube tried is none.
 fn enclosed(faces: &[(Vector3<f64>, f64)], dimensions: usize) -> Option<(f64, Vec<Vector3<f64>>)> {
     let farthest = faces.iter().map(|(_, h)| *h).fold(0.0, f64::max);

@@ -55,6 +55,14 @@ pub enum ParticleError {
     OpenLines,
     #[error("{0} lines are more than the {MAX_PLANES} that a particle may have")]
     TooManyLines(usize),
+    #[error("vertex {index} is not finite: x={x:?}, y={y:?}")]
+    VertexNotFinite { index: usize, x: f64, y: f64 },
+    #[error("the {0} vertices enclose no area: give three or more that do not lie on one line")]
+    FlatVertices(usize),
+    #[error(
+        "rounding radius r={r:?} is too large for these vertices: it must be below {limit:?}, the least distance of a side from the centroid"
+    )]
+    RoundingTooLarge { r: f64, limit: f64 },
 }
 
 impl ParticleError {

@@ -126,6 +126,12 @@ impl Particle {
         self.shape.shadow_radius
     }
 
+    /// Whether the planes alone enclose a volume. Where they do not (no planes, or one left out), only the shadow sphere bounds
+    /// the particle, at R/√k: for k > 0 that is valid, and seldom meant.
+    pub fn planes_enclose(&self) -> bool {
+        self.shape.planes_enclose()
+    }
+
     /// Radius about the local origin of a ball that holds the whole particle.
     pub fn bounding_radius(&self) -> f64 {
         self.shape.bounds.radius

@@ -10,7 +10,7 @@
 //! f = 0 is the surface, f < 0 the inside. Normals are used as given and never renormalised, so that the particle is
 //! exactly the one that the caller defined.
 
-use crate::particle::bounding_volumes::{Bounds, Extent};
+use crate::particle::bounding_volumes::{self, Bounds, Extent};
 use crate::particle::error::ParticleError;
 use crate::particle::plane::{MAX_PLANES, Plane};
 use crate::particle::plane_clusters::PlaneClusters;
@@ -77,6 +77,11 @@ impl Shape {
     /// Number of planes.
     pub(crate) fn len(&self) -> usize {
         self.rows.len()
+    }
+
+    /// Whether the planes alone enclose a volume.
+    pub(super) fn planes_enclose(&self) -> bool {
+        bounding_volumes::planes_enclose(&self.rows, self.dimensions)
     }
 
     /// The planes in the order in which they were given.

@@ -21,6 +21,7 @@ mod batch;
 mod closest_point;
 mod contact;
 mod particle;
+mod polygon;
 mod pose;
 mod section;
 

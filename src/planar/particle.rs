@@ -1,6 +1,7 @@
 //! Particles of the plane, each a particle of space cut at z = 0.
 
 use super::area_properties::{self, AreaProperties};
+use super::polygon::{self, Polygon};
 use super::pose::Pose;
 use super::raised;
 use crate::particle::particle::{self, ParticleError};
@@ -47,6 +48,46 @@ impl Particle {
         let planes: Vec<_> =
             lines.iter().map(|line| particle::Plane { normal: raised(&line.normal), offset: line.offset }).collect();
         particle::Particle::in_plane(&planes, r, k, shadow_radius).map(Self)
+    }
+
+    /// A convex polygon with rounded corners, about its centroid, by points of which the corners are the convex hull.
+    ///
+    /// Its sides lie where those of the polygon are (for k = 0; for k > 0 they bulge by about k·r/2 and less than the corners
+    /// recede). The shadow circle goes through the outermost corner. r: rounding radius, length, less than the distance of
+    /// each side from the centroid. k: sphericity, in [0, 1].
+    ///
+    /// ```
+    /// use potential_particles::planar::Particle;
+    /// let triangle = Particle::polygon(&[[0.0, 0.0], [3.0, 0.0], [0.0, 3.0]], 0.1, 0.0)?;
+    /// let properties = triangle.area_properties(1e-9);
+    /// assert!(properties.area < 4.5 && properties.centroid.norm() < 0.01);
+    /// # Ok::<(), potential_particles::ParticleError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Points that are not finite or enclose no area, r that is too large; and those of [`Particle::new`].
+    pub fn polygon(points: &[[f64; 2]], r: f64, k: f64) -> Result<Self, ParticleError> {
+        let polygon = Polygon::hull(points)?;
+        Self::new(&polygon.lines(r)?, r, k, polygon.radius())
+    }
+
+    /// A regular polygon, as [`Particle::polygon`] makes it; radius: of the circle through its corners, the first of which
+    /// lies on the x axis.
+    ///
+    /// # Errors
+    /// Fewer than three sides, a radius that is not positive and finite, and those of [`Particle::polygon`].
+    pub fn regular_polygon(sides: usize, radius: f64, r: f64, k: f64) -> Result<Self, ParticleError> {
+        Self::polygon(&polygon::regular(sides, radius.max(0.0)), r, k)
+    }
+
+    /// A rectangle with sides along x and y, as [`Particle::polygon`] makes it; width along x, height along y, length.
+    ///
+    /// # Errors
+    /// A width or height that is not positive and finite, and those of [`Particle::polygon`].
+    pub fn rectangle(width: f64, height: f64, r: f64, k: f64) -> Result<Self, ParticleError> {
+        // What is negative, or not a number, encloses no area.
+        let (x, y) = (0.5 * width.max(0.0), 0.5 * height.max(0.0));
+        Self::polygon(&[[-x, -y], [x, -y], [x, y], [-x, y]], r, k)
     }
 
     /// A circle of the given radius (k = 1, no lines).

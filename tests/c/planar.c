@@ -399,8 +399,37 @@ static void area_and_outline_of_a_square(void) {
     pp_particle_free_2d(square);
 }
 
+/* A triangle of legs 3 and 4 somewhere, its corners in no order and with a point inside; u and v, the distances
+ * beyond the two sides of a corner, have u^2 + v^2 = r^2 on its rounding. */
+static void polygon_from_points(void) {
+    const double points[] = {104.0, 50.0, 101.0, 51.0, 100.0, 53.0, 100.0, 50.0}, r = 0.1;
+    const double lost = r * r * (1 - PI / 4) * (1 + 5.0 / 3 + 5.0 / 4);
+    pp_particle_2d *triangle = NULL;
+    char message[PP_MESSAGE_SIZE];
+    CHECK_STATUS(pp_particle_new_polygon_2d(points, 4, r, 0.0, &triangle, message, sizeof message), PP_OK);
+    pp_area_properties found;
+    CHECK_STATUS(pp_particle_area_properties_2d(triangle, 1e-9, &found), PP_OK);
+    CHECK_NEAR(found.area, 6.0 - lost, 1e-7);
+    CHECK_NEAR2(found.centroid, 0.0, 0.0, 0.02);
+    pp_particle_free_2d(triangle);
+
+    pp_particle_2d *none = (pp_particle_2d *)(uintptr_t)1;
+    const double on_a_line[] = {0, 0, 1, 1, 2, 2}, not_finite[] = {0, 0, 1, NAN, 1, 0};
+    CHECK_STATUS(pp_particle_new_polygon_2d(on_a_line, 3, r, 0.0, &none, message, sizeof message), PP_UNBOUNDED);
+    CHECK(strstr(message, "enclose no area") != NULL);
+    CHECK_STATUS(pp_particle_new_polygon_2d(not_finite, 3, r, 0.0, &none, message, sizeof message), PP_PLANE_NOT_FINITE);
+    CHECK(strstr(message, "vertex 1") != NULL);
+    CHECK_STATUS(pp_particle_new_polygon_2d(points, 4, 2.0, 0.0, &none, message, sizeof message), PP_BAD_ROUNDING_RADIUS);
+    CHECK_STATUS(pp_particle_new_polygon_2d(points, 4, r, -1.0, &none, NULL, 0), PP_BAD_SPHERICITY);
+    CHECK_STATUS(pp_particle_new_polygon_2d(NULL, 4, r, 0.0, &none, message, sizeof message), PP_NULL_POINTER);
+    CHECK_STATUS(pp_particle_new_polygon_2d(points, 4, r, 0.0, NULL, NULL, 0), PP_NULL_POINTER);
+    CHECK_STATUS(pp_particle_new_polygon_2d(NULL, 0, r, 0.0, &none, NULL, 0), PP_UNBOUNDED);
+    CHECK(none == (pp_particle_2d *)(uintptr_t)1);
+}
+
 void test_planar(void) {
     area_and_outline_of_a_square();
+    polygon_from_points();
     layout_is_as_written_down();
     lines_are_checked();
     lines_are_limited_and_null_refused();

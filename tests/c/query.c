@@ -137,6 +137,24 @@ static void bounding_radius_holds_the_particle(void) {
     pp_particle_free(sphere);
 }
 
+static void open_planes_are_told(void) {
+    const double planes[6][4] = {{1, 0, 0, 0.9}, {-1, 0, 0, 0.9}, {0, 1, 0, 0.9}, {0, -1, 0, 0.9}, {0, 0, -1, 0.9}, {0, 0, 1, 0.9}};
+    for (size_t count = 0; count <= 6; count++) {
+        pp_particle *particle;
+        int32_t enclose = -1;
+        CHECK_STATUS(pp_particle_new(&planes[0][0], count, 0.1, 0.1, 2.0, &particle, NULL, 0), PP_OK);
+        CHECK_STATUS(pp_particle_planes_enclose(particle, &enclose), PP_OK);
+        CHECK(enclose == (count == 6));
+        pp_particle_free(particle);
+    }
+    pp_particle *cube = new_cube(1.0, 0.25, 0.0, 0.0);
+    int32_t enclose = -1;
+    CHECK_STATUS(pp_particle_planes_enclose(NULL, &enclose), PP_NULL_POINTER);
+    CHECK_STATUS(pp_particle_planes_enclose(cube, NULL), PP_NULL_POINTER);
+    CHECK(enclose == -1);
+    pp_particle_free(cube);
+}
+
 static void corners_hold_the_particle(void) {
     const double core = 1.0, r = 0.25;
     pp_particle *cube = new_cube(core, r, 0.0, 0.0);
@@ -262,6 +280,7 @@ void test_query(void) {
     potential_refuses();
     box_holds_the_particle();
     bounding_radius_holds_the_particle();
+    open_planes_are_told();
     corners_hold_the_particle();
     surface_distance_ends_on_the_surface();
     mass_properties_of_sphere_and_padded_cube();

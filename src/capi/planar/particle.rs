@@ -58,6 +58,46 @@ pub unsafe extern "C" fn pp_particle_new_2d(
     status
 }
 
+/// Creates a particle of the plane from points whose convex hull is a polygon with rounded corners.
+///
+/// The local origin is the centroid of the polygon, its sides are those of the polygon (k = 0), and
+/// the shadow circle goes through its outermost corner.
+/// points: count rows of x, y, in any order.
+/// r: rounding radius, length, less than the distance of each side from the centroid. k: sphericity,
+/// in [0, 1].
+/// out: receives the particle; release it with pp_particle_free_2d.
+/// message: receives, on failure, a sentence that names the point or value (may be NULL).
+/// Errors: PP_NULL_POINTER, PP_PLANE_NOT_FINITE (a point is not), PP_UNBOUNDED (the points enclose
+/// no area), PP_BAD_SPHERICITY, PP_BAD_ROUNDING_RADIUS, PP_TOO_MANY_PLANES.
+/// Pointers: points points to 2*count doubles, out to one pointer, message to message_size bytes.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn pp_particle_new_polygon_2d(
+    points: *const f64,
+    count: usize,
+    r: f64,
+    k: f64,
+    out: *mut *mut pp_particle_2d,
+    message: *mut c_char,
+    message_size: usize,
+) -> pp_status {
+    let explain = |text: &str| unsafe { write_message(text, message, message_size) };
+    let status = fenced(|| {
+        let out = unsafe { output(out) }?;
+        // SAFETY: the caller promised 2*count doubles.
+        let points = unsafe { array(points.cast::<[f64; 2]>(), count) }?;
+        let particle = Particle::polygon(points, r, k).map_err(|error| {
+            explain(&error.to_string());
+            particle_status(&error)
+        })?;
+        out.write(Box::into_raw(Box::new(pp_particle_2d(particle))));
+        Ok(())
+    });
+    if status == PP_NULL_POINTER {
+        explain("points and out must not be NULL");
+    }
+    status
+}
+
 /// Releases a particle of the plane; NULL is allowed and does nothing. No pair may still be using it.
 /// Pointers: particle is NULL or came from pp_particle_new_2d and was not released yet.
 #[unsafe(no_mangle)]
