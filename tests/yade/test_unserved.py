@@ -51,6 +51,9 @@ for body in O.bodies:
 check.equal(said(lambda: O.step()), [], "bodies that never move")
 scene(plain_only(), yade.Sphere(radius=1), yade.Wall(axis=0))
 check.equal(said(lambda: O.step()), [], "no potential particles")
+# A part of the scene on another rank.
+scene(plain_only(), cube(), yade.Subdomain())
+check.equal(said(lambda: O.step()), [], "subdomains of several ranks")
 # A body that comes later is seen as well.
 scene(plain_only(), cube(), cube())
 check.equal(said(lambda: run(3)), [], "all is served")

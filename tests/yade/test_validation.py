@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Bad particles are refused when they are made or changed; good changes take effect at once.
 import math
+import warnings
 
 import potential_particles
 import yade
@@ -19,6 +20,23 @@ for keywords, containing in [
     given.update(keywords)
     check.raises(ValueError, lambda: yade.ConicPotentialParticle(**given), f"{keywords}", containing)
 check.raises(ValueError, lambda: yade.ConicPotentialParticle(planes=[(1, 0, 0)]), "row of three", "row 0")
+
+# Taken with a warning: planes of which one is missing, where only the shadow sphere bounds the particle.
+def warned(make):
+    with warnings.catch_warnings(record=True) as said:
+        warnings.simplefilter("always")
+        make()
+    return [str(one.message) for one in said]
+
+
+given = dict(r=0.05, k=0.04, R=0.9)
+lines = warned(lambda: yade.ConicPotentialParticle(planes=cube_planes()[:5], **given))
+check.true(len(lines) == 1 and "the 5 planes enclose no volume" in lines[0] and "4.5" in lines[0], f"a cube without a face: {lines}")
+check.equal(warned(lambda: yade.ConicPotentialParticle(planes=cube_planes(), **given)), [], "a whole cube")
+check.equal(warned(lambda: yade.ConicPotentialParticle(k=1.0, R=1.0)), [], "a sphere has no planes")
+with warnings.catch_warnings():
+    warnings.simplefilter("error")
+    check.raises(UserWarning, lambda: yade.ConicPotentialParticle(planes=cube_planes()[:5], **given), "warnings as errors", "missing")
 
 # Refused when changed, and the old value stays.
 shape = cube()

@@ -84,6 +84,18 @@ const int& ConicPotentialParticle::getBaseClassIndex(int depth) const
 
 // --- the particle ---------------------------------------------------------------------------
 
+namespace {
+    // A shape is made by Python or by an archive, which may not hold Python's lock.
+    void warn(const std::string& sentence)
+    {
+        const PyGILState_STATE state = PyGILState_Ensure();
+        const bool raised = PyErr_WarnEx(PyExc_UserWarning, sentence.c_str(), 1) != 0;
+        PyGILState_Release(state);
+        if (raised) // warnings are errors here
+            py::throw_error_already_set();
+    }
+}
+
 const Particle* ConicPotentialParticle::particle() const
 {
     const Particle* particle = made.get();
@@ -107,6 +119,8 @@ void ConicPotentialParticle::settle()
         }
         accepted = next->definition;
         made.replace(next);
+        if (const std::string remark = next->remark(); !remark.empty())
+            warn("ConicPotentialParticle: " + remark);
     }
     if (automaticBox)
         fillBox();

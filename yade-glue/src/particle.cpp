@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <cstring>
 #include <iterator>
 #include <limits>
@@ -140,6 +141,17 @@ const pp_particle* Particle::require() const
     if (!owned)
         throw std::invalid_argument(whyNot);
     return owned.get();
+}
+
+std::string Particle::remark() const
+{
+    int32_t enclose = 1;
+    if (owned && !definition.a.empty() && definition.k < 1)
+        requireOk(pp_particle_planes_enclose(owned.get(), &enclose));
+    return enclose ? ""
+                   : "the " + std::to_string(definition.a.size())
+            + " planes enclose no volume, so that only the shadow sphere bounds the particle, at R/sqrt(k) = "
+            + std::to_string(definition.R / std::sqrt(definition.k)) + ": is a plane missing?";
 }
 
 void requireOk(pp_status status)

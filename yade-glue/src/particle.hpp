@@ -43,6 +43,8 @@ public:
     bool pending() const { return !definition.listsAgree(); }
     // Why there is no handle, as a sentence; empty when there is one.
     const std::string& refusal() const { return whyNot; }
+    // What is valid and seldom meant, as a sentence; empty when there is nothing to remark.
+    std::string remark() const;
     // Throws std::invalid_argument with the refusal when there is no handle.
     const pp_particle* require() const;
     double boundingRadius() const { return radius; }

@@ -11,6 +11,8 @@ from yade.wrapper import PotentialParticle
 # Which functor serves potential particles and this shape; others have none.
 _REMEDIES = {"Sphere": "Ig2_Sphere_ConicPP_ScGeom", "Box": "Ig2_Box_ConicPP_ScGeom", "Wall": "Ig2_Wall_ConicPP_ScGeom",
              "Facet": "Ig2_Facet_ConicPP_ScGeom"}
+# Of bodies that stand for a part of the scene, as on several ranks.
+_IMMATERIAL = ("Subdomain", "FluidDomainBbox")
 
 
 class UnservedShapes(UserWarning):
@@ -35,8 +37,8 @@ class _Group:
 def _groups(bodies):
     groups = {}
     for body in bodies:
-        if body.shape is not None and not body.isClump:
-            kind = type(body.shape)
+        kind = type(body.shape)
+        if body.shape is not None and not body.isClump and kind.__name__ not in _IMMATERIAL:
             if kind not in groups:
                 groups[kind] = _Group(body.shape)
             groups[kind].add(body)
