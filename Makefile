@@ -97,13 +97,13 @@ demo: export FUNCTOR := $(FUNCTOR)
 demo: export OUTPUT := $(OUTPUT)
 demo: glue
 	$(call heading,Falling pyramids)
-	@scripts/yade.sh -j$(THREADS) examples/pyramids.py
+	@scripts/yade.sh -j$(THREADS) studies/pyramids.py
 
 wedge: export CASES := $(CASES)
 wedge: export OUTPUT := $(OUTPUT)
 wedge: glue
 	$(call heading,Sliding wedge)
-	@scripts/yade.sh -j$(THREADS) examples/wedge.py
+	@scripts/yade.sh -j$(THREADS) studies/wedge.py
 
 mpi: export STEPS := $(STEPS)
 mpi: export BODIES := $(BODIES)
@@ -112,7 +112,7 @@ mpi: export OUTPUT := $(OUTPUT)
 mpi: RANKS := $(or $(RANKS),3)
 mpi: glue
 	$(call heading,Pile on $(RANKS) ranks)
-	@scripts/yade_mpi.sh $(RANKS) -j$(THREADS) examples/mpi_pile.py
+	@scripts/yade_mpi.sh $(RANKS) -j$(THREADS) studies/mpi_pile.py
 
 scale: glue
 	$(call heading,Scale)
@@ -143,7 +143,7 @@ long: glue
 side-by-side: export QUICK := $(QUICK)
 side-by-side: glue
 	$(call heading,Side by side)
-	@scripts/yade.sh -j1 examples/side_by_side/run.py
+	@scripts/yade.sh -j1 studies/side_by_side/run.py
 
 header:
 	@PP_WRITE_HEADER=1 cargo test --quiet --release --test header
@@ -170,7 +170,7 @@ stress: OUTPUT := $(or $(OUTPUT),out/stress)
 stress:
 	$(call heading,Stress)
 	@status=0; cargo run --quiet --release --example stress -- --poses $(POSES) $(if $(SEED),--seed $(SEED)) --settle-every $(SETTLE) --output $(OUTPUT) || status=$$?; \
-	/usr/bin/python3 examples/stress/plot.py $(OUTPUT); exit $$status
+	/usr/bin/python3 tools/stress/plot.py $(OUTPUT); exit $$status
 
 fuzz: export FUZZ_SECONDS ?= 60
 fuzz:

@@ -22,7 +22,7 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 
 TOP = Path(__file__).resolve().parent.parent
-sys.path.insert(0, str(TOP / "examples"))
+sys.path.insert(0, str(TOP / "studies"))
 
 import machine
 from summary import print_table, write_summary

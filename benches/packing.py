@@ -21,7 +21,7 @@ import numpy as np
 from PIL import Image
 
 TOP = Path(sys.argv[0]).resolve().parents[1]
-sys.path.insert(0, str(TOP / "examples"))
+sys.path.insert(0, str(TOP / "studies"))
 
 import machine
 import yade

@@ -20,7 +20,7 @@ import tempfile
 from pathlib import Path
 
 TOP = Path(__file__).resolve().parent.parent
-sys.path.insert(0, str(TOP / "examples"))
+sys.path.insert(0, str(TOP / "studies"))
 
 import machine
 

@@ -6,7 +6,7 @@ cd "$(dirname "$0")/.."
 
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
-STEPS=1500 BODIES=12 OUTPUT=$folder scripts/yade.sh -j1 examples/pyramids.py
+STEPS=1500 BODIES=12 OUTPUT=$folder scripts/yade.sh -j1 studies/pyramids.py
 
 /usr/bin/python3 - "$folder" <<'PYTHON'
 import json, pathlib, sys

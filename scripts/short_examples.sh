@@ -9,12 +9,18 @@ trap 'rm -rf "$folder"' EXIT
 (cd "$folder" && "$root"/scripts/yade.sh -j1 "$root"/examples/first_pile.py)
 BODIES=40 STEPS=5000 OUTPUT=$folder/rocks scripts/yade.sh -j1 examples/rocks.py
 BODIES=60 STEPS=7000 OUTPUT=$folder/hopper scripts/yade.sh -j1 examples/hopper.py
+BODIES=20 STEPS=3500 OUTPUT=$folder/pyramids scripts/yade.sh -j1 examples/pyramids.py | tee "$folder/pyramids.txt"
+scripts/yade.sh -j1 examples/wedge.py | tee "$folder/wedge.txt"
+BODIES=60 STEPS=1500 OUTPUT=$folder/mpi scripts/yade_mpi.sh 3 -j1 examples/mpi_pile.py 2>&1 | tee "$folder/mpi.txt"
 
 /usr/bin/python3 - "$folder" <<'PYTHON'
-import json, pathlib, sys
+import json, pathlib, re, sys
 folder = pathlib.Path(sys.argv[1])
 rocks, hopper = (json.loads((folder / name / "summary.json").read_text()) for name in ("rocks", "hopper"))
-pictures = [folder / "first_pile.png", folder / "rocks" / "rocks.png", folder / "hopper" / "hopper.png"]
+said = {name: (folder / f"{name}.txt").read_text() for name in ("pyramids", "wedge", "mpi")}
+wedge = [float(number) for number in re.findall(r"slides below (\S+) degrees; closed form (\S+),", said["wedge"])[0]]
+pictures = [folder / "first_pile.png", folder / "rocks" / "rocks.png", folder / "hopper" / "hopper.png",
+            *(folder / "pyramids" / f"pyramids_{i}.png" for i in range(3))]
 checks = {
     "pictures": all(picture.stat().st_size > 10_000 for picture in pictures),
     "rocks: all are there": rocks["bodies"] == 40 and rocks["lost"] == 0,
@@ -24,6 +30,11 @@ checks = {
     "rocks: frames": len(list((folder / "rocks").glob("rocks.bodies.*.vtp"))) == 6,
     "hopper: no failure": hopper["failures"] == 0,
     "hopper: nobody goes through the wall": hopper["rocks_beside_the_hopper"] == 0,
+    "pyramids: all are there, none failed": "20 pyramids" in said["pyramids"] and " 0 lost, 0 failures" in said["pyramids"],
+    "wedge: slides where the closed form has it": abs(wedge[0] - wedge[1]) < 0.01,
+    "rocks on 3 ranks: no failure, no warning": "60 rocks on 3 ranks" in said["mpi"] and "failures: none" in said["mpi"]
+        and "Warning" not in said["mpi"] and "pass through" not in said["mpi"],
+    "rocks on 3 ranks: saved": (folder / "mpi" / "rocks.yade.gz").stat().st_size > 1000,
     "hopper: rocks flow out": 0 < hopper["mass_out_kg"] <= hopper["mass_kg"] * (1 + 1e-9),
 }
 for name, good in checks.items():

@@ -6,7 +6,7 @@ cd "$(dirname "$0")/.."
 
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
-QUICK=1 OUTPUT=$folder scripts/yade.sh -j1 examples/side_by_side/run.py
+QUICK=1 OUTPUT=$folder scripts/yade.sh -j1 studies/side_by_side/run.py
 
 /usr/bin/python3 - "$folder" <<'PYTHON'
 import json, pathlib, sys

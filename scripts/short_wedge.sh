@@ -6,7 +6,7 @@ cd "$(dirname "$0")/.."
 
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
-CASES=short OUTPUT=$folder scripts/yade.sh -j1 examples/wedge.py
+CASES=short OUTPUT=$folder scripts/yade.sh -j1 studies/wedge.py
 
 /usr/bin/python3 - "$folder" <<'PYTHON'
 import csv, json, pathlib, sys

@@ -3,7 +3,7 @@
 #[path = "../benches/scene/random.rs"]
 #[allow(dead_code)]
 mod random;
-#[path = "../examples/stress/shapes.rs"]
+#[path = "../tools/stress/shapes.rs"]
 #[allow(dead_code)]
 mod shapes;
 #[path = "carried/wide.rs"]

@@ -1,40 +1,40 @@
 //! "make stress" in small: random pairs, walks and sweeps in seconds; and every pair that once failed.
 
-#[path = "../examples/stress/cases.rs"]
+#[path = "../tools/stress/cases.rs"]
 mod cases;
-#[path = "../examples/stress/clock.rs"]
+#[path = "../tools/stress/clock.rs"]
 #[allow(dead_code)]
 mod clock;
-#[path = "../examples/stress/double.rs"]
+#[path = "../tools/stress/double.rs"]
 mod double;
 #[path = "../benches/scene/evaluation.rs"]
 #[allow(dead_code)]
 mod evaluation;
-#[path = "../examples/stress/judge.rs"]
+#[path = "../tools/stress/judge.rs"]
 mod judge;
-#[path = "../examples/stress/line.rs"]
+#[path = "../tools/stress/line.rs"]
 mod line;
-#[path = "../examples/stress/pairs.rs"]
+#[path = "../tools/stress/pairs.rs"]
 mod pairs;
 #[path = "stress/planted.rs"]
 mod planted;
 #[path = "../benches/scene/random.rs"]
 #[allow(dead_code)]
 mod random;
-#[path = "../examples/stress/reference.rs"]
+#[path = "../tools/stress/reference.rs"]
 mod reference;
 #[path = "stress/regressions/mod.rs"]
 mod regressions;
-#[path = "../examples/stress/shapes.rs"]
+#[path = "../tools/stress/shapes.rs"]
 mod shapes;
-#[path = "../examples/stress/sweeps.rs"]
+#[path = "../tools/stress/sweeps.rs"]
 mod sweeps;
-#[path = "../examples/stress/tally.rs"]
+#[path = "../tools/stress/tally.rs"]
 #[allow(dead_code)]
 mod tally;
-#[path = "../examples/stress/walks.rs"]
+#[path = "../tools/stress/walks.rs"]
 mod walks;
-#[path = "../examples/stress/wide.rs"]
+#[path = "../tools/stress/wide.rs"]
 mod wide;
 #[path = "stress/yardstick.rs"]
 mod yardstick;

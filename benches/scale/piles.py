@@ -9,8 +9,8 @@ import sys
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
-EXAMPLES = HERE.parents[1] / "examples"
-sys.path.insert(0, str(EXAMPLES))
+STUDIES = HERE.parents[1] / "studies"
+sys.path.insert(0, str(STUDIES))
 
 import numpy as np
 import yade

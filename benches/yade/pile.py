@@ -13,8 +13,8 @@ import os
 import sys
 from pathlib import Path
 
-EXAMPLES = Path(sys.argv[0]).resolve().parent.parent.parent / "examples"
-sys.path.insert(0, str(EXAMPLES))
+STUDIES = Path(sys.argv[0]).resolve().parent.parent.parent / "studies"
+sys.path.insert(0, str(STUDIES))
 
 import numpy as np
 import potential_particles  # noqa: F401 (a saved scene holds its classes)
@@ -35,7 +35,7 @@ BLOCKS, BLOCK_STEPS = 300, 2
 
 
 def settle(count, steps, scene):
-    """The pile of examples/pyramids.py with another number of bodies."""
+    """The pile of studies/pyramids.py with another number of bodies."""
     pyramid = Pyramid(pyramids.SIZE)
     ball_radius = float(np.linalg.norm(surface_mesh(pyramid.surface)[0], axis=1).max())
     grid = loose_grid(count, ball_radius, pyramids.JITTER, pyramids.SEED)

@@ -13,8 +13,8 @@ import sys
 import time
 from pathlib import Path
 
-EXAMPLES = Path(sys.argv[0]).resolve().parent.parent.parent / "examples"
-sys.path.insert(0, str(EXAMPLES))
+STUDIES = Path(sys.argv[0]).resolve().parent.parent.parent / "studies"
+sys.path.insert(0, str(STUDIES))
 
 import numpy as np
 import yade

@@ -2,7 +2,7 @@
 
 pub mod bytes;
 pub mod detect;
-#[path = "../../examples/solve_pairs/input.rs"]
+#[path = "../../tools/solve_pairs/input.rs"]
 mod input;
 pub mod pairs_file;
 pub mod particle;

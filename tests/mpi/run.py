@@ -4,7 +4,7 @@
 
     tests/mpi/run.py
 
-Starts scene.py and the pile of examples/ through scripts/yade_mpi.sh, and judges what they write. The last line is
+Starts scene.py and the pile of studies/ through scripts/yade_mpi.sh, and judges what they write. The last line is
 'N passed, N failed'; exit status 1 if anything failed.
 """
 import json
@@ -156,7 +156,7 @@ def pile(folder):
     summaries = []
     for ranks in (1, 3):
         out = folder / f"pile{ranks}"
-        status, text = run(ranks, TOP / "examples" / "mpi_pile.py", OUTPUT=str(out), BODIES="30", STEPS="2400", FRAMES="3")
+        status, text = run(ranks, TOP / "studies" / "mpi_pile.py", OUTPUT=str(out), BODIES="30", STEPS="2400", FRAMES="3")
         check(status == 0, f"the pile on {ranks} ranks ends with {status}:\n{text}")
         summary = json.loads((out / "summary.json").read_text())
         check(all(row["met"] for row in summary["targets"]), f"the pile on {ranks} ranks: {summary['targets']}")
@@ -167,7 +167,7 @@ def pile(folder):
     one, three = summaries
     for what, tolerance in (("mean_height_m", 0.1), ("contacts", 0.5)):
         check(abs(one[what] - three[what]) < tolerance * one[what], f"{what} of a pile: {one[what]} and {three[what]}")
-    status, text = run(3, TOP / "examples" / "mpi_pile.py",
+    status, text = run(3, TOP / "studies" / "mpi_pile.py",
                        OUTPUT=str(folder / "pile3"), BODIES="30", STEPS="2450", FRAMES="0", RESUME="1")
     resumed = json.loads((folder / "pile3" / "summary.json").read_text())
     check(status == 0 and (resumed["first_step"], resumed["steps"]) == (2400, 2450), f"a resumed pile ends with {status}:\n{text}")

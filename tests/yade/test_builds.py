@@ -29,7 +29,7 @@ check.equal(rows, [[f"{b.debian} ({b.suite})", b.yade, b.python, b.boost, b.comp
 # Nothing else names an interpreter or a Boost by its version: what is installed is found.
 named = []
 NAMED = re.compile(r"python3\.\d|python3\d\d|boost1\.\d")
-for folder in ("scripts", "tests", "examples", "benches", "yade-glue"):
+for folder in ("scripts", "tests", "examples", "studies", "tools", "benches", "yade-glue"):
     for place, folders, names in os.walk(os.path.join(TOP, folder)):
         folders[:] = [name for name in folders if name not in ("build", "__pycache__")]
         for name in sorted(names):

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# The wedge of examples/wedge.py: its closed form, what it refuses, and the angle that the simulation finds, whatever
+# The wedge of studies/wedge.py: its closed form, what it refuses, and the angle that the simulation finds, whatever
 # size, stiffness and density.
 import sys
 from pathlib import Path
 
-sys.path.insert(0, str(Path(sys.argv[0]).resolve().parents[2] / "examples"))
+sys.path.insert(0, str(Path(sys.argv[0]).resolve().parents[2] / "studies"))
 
 import numpy as np
 import yade

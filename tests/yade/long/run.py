@@ -22,7 +22,7 @@ from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 TOP = HERE.parents[2]
-sys.path.insert(0, str(TOP / "examples"))
+sys.path.insert(0, str(TOP / "studies"))
 
 import machine
 import settings

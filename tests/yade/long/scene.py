@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The pile of examples/pyramids.py with another number of bodies, and how its states are compared."""
+"""The pile of studies/pyramids.py with another number of bodies, and how its states are compared."""
 import sys
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[3] / "examples"))
+sys.path.insert(0, str(Path(__file__).resolve().parents[3] / "studies"))
 
 import numpy as np
 from yade import O

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
 """YADE's own contact functor and the one of this library, side by side on the same scenes.
 
-    make side-by-side            (or: scripts/yade.sh -j1 examples/side_by_side/run.py)
+    make side-by-side            (or: scripts/yade.sh -j1 studies/side_by_side/run.py)
 
 Environment: QUICK=1 for a run of seconds that shows that everything works; OUTPUT for another folder
 than out/side_by_side. docs/side_by_side.md explains what is measured and how.

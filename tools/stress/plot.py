@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
 """Errors and times of a stress run.
 
-    python3 examples/stress/plot.py [out/stress]
+    python3 tools/stress/plot.py [out/stress]
 
 Reads summary.json of that folder and draws stress.png there.
 """

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
 """What oblique, off-centre impacts do to the energy: no gravity, friction or damping.
 
-    scripts/yade.sh -j1 examples/side_by_side/off_centre.py
+    scripts/yade.sh -j1 studies/side_by_side/off_centre.py
 
 Environment: IMPACTS (16), STIFFNESS (10000 N/m). For the library and YADE's own functor, at time steps each half of the one
 before, the change of the kinetic energy over an impact. What shrinks with the step is the step's; what
