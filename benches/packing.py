@@ -13,21 +13,15 @@ import sys
 import time
 from pathlib import Path
 
-import matplotlib
-
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt
 import numpy as np
-from PIL import Image
+from matplotlib import colormaps
 
 TOP = Path(sys.argv[0]).resolve().parents[1]
 sys.path.insert(0, str(TOP / "studies"))
 
 import machine
 import yade
-from picture import Bodies, Floor, framing_view, render
-from potential_particles import add_packing, pack, packing, shapes
-from potential_surface import PotentialSurface
+from potential_particles import add_packing, pack, packing, plot, shapes
 from summary import print_table, write_summary
 from yade import O
 
@@ -111,30 +105,14 @@ def compare(runs, count):
 
 
 def draw(placements, edge):
-    """The packing from above and aside; of its inside, which nobody sees, nothing."""
-    states = [(body, body.state) for body in O.bodies]
-    top = max(state.pos[2] for _, state in states)
-    deep = 2.0
-    seen = [(body, state) for body, state in states
-            if state.pos[2] > top - 2 * deep or state.pos[0] > edge - deep or state.pos[1] < deep]
-    surfaces = []
-    for body, _ in seen:
-        planes = np.array(body.shape.planes)
-        surfaces.append(PotentialSurface(planes[:, :3], planes[:, 3], body.shape.r, body.shape.k, body.shape.R))
-    size = np.array([body.state.mass for body, _ in seen]) ** (1 / 3)
-    colours = plt.get_cmap("YlOrBr")(0.75 - 0.5 * (size - size.min()) / np.ptp(size))[:, :3]
-    bodies = Bodies(
-        surfaces, np.array([body.shape.boundingRadius for body, _ in seen]),
-        np.array([tuple(state.pos) for _, state in seen]) - (0.5 * edge, 0.5 * edge, 0.0),
-        np.array([np.array(state.ori.toRotationMatrix()).reshape(3, 3) for _, state in seen]), colours,
-    )
-    half = 0.5 * edge
-    corners = [(x, y, z) for x in (-half, half) for y in (-half, half) for z in (0.0, top)]
-    view = framing_view(corners, np.array([0.8, -1.0, 0.75]), 0.5, 1.3)
-    image = render(bodies, Floor(0.0, 3.0 * edge), view, 910, 700)
-    # A table of colours makes a small file.
-    whole = Image.fromarray((255 * image).round().astype(np.uint8))
-    whole.quantize(128, dither=Image.Dither.NONE).save(OUT / "packing.png", optimize=True)
+    """The packing from above and aside, colour by size; of its inside, which nobody sees, nothing."""
+    top, deep = max(body.state.pos[2] for body in O.bodies), 2.0
+    seen = [body for body in O.bodies
+            if body.state.pos[2] > top - 2 * deep or body.state.pos[0] > edge - deep or body.state.pos[1] < deep]
+    size = np.array([body.state.mass for body in seen]) ** (1 / 3)
+    for body, colour in zip(seen, colormaps["YlOrBr"](0.75 - 0.5 * (size - size.min()) / np.ptp(size))):
+        body.shape.color = yade.Vector3(*map(float, colour[:3]))
+    plot(str(OUT / "packing.png"), towards=(0.8, -1.0, 0.75), size=(910, 700), bodies=[body.id for body in seen])
 
 
 main()
