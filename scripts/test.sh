@@ -32,6 +32,7 @@ stage check "C harness under AddressSanitizer and UBSan" submake -C tests/c asan
 stage check "Many threads under ThreadSanitizer and helgrind" submake -C tests/c tsan helgrind
 stage check "C harness calls every function" submake -C tests/c complete
 stage suite "C header as C++17" submake -C tests/c cxx
+stage check "C examples" submake -C tests/c examples
 stage check "YADE plugin, build and comparison with the installed YADE" submake glue
 for threads in 1 2; do
     stage suite "YADE scenes, -j$threads" tests/yade/run.py -j "$threads"
