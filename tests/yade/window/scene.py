@@ -22,12 +22,11 @@ from harness import Checks, O, add, cube, cube_planes, fresh_scene, halt, plain,
 ORDER = sys.argv[1]
 if ORDER != "after":
     import potential_particles  # noqa: F401
-if ORDER == "first":
-    # This YADE was started without its window, so that what its launcher does for one is done here.
-    application = QApplication(sys.argv)
-    yade.runtime.hasDisplay = True
+# For "first" YADE was started without its window, so that what its launcher does for one is done here.
+yade.runtime.hasDisplay = True
 from yade import qt  # noqa: E402
-view = qt.View()
+application = QApplication.instance() or QApplication(sys.argv)
+view = qt.View(timeout=60)
 if ORDER == "after":
     O.bodies.append(utils.sphere((0, 0, 0), 1))
     for _ in range(50):
@@ -206,10 +205,11 @@ for i in range(30):
 halt()
 check.true(isinstance(O.interactions[0, 1].geom, yade.ScGeomConicPP), "the bodies touch while they are drawn")
 picture()
-# Another window, after the first was closed.
+# The controller, which lists all functors; and another window, after the first was closed.
+qt.Controller()
 view.close()
 draw(0.6)
-view = qt.View()
+view = qt.View(timeout=60)
 picture()
 check.true(O.iter > 0, "YADE lives")
 print(f"{check.passed} passed, {check.failed} failed", flush=True)
