@@ -5,15 +5,19 @@ import re
 import shutil
 import signal
 import subprocess
+import sys
+import types
+import warnings
 
 import harness
 from harness import Checks, O
 
 import potential_particles
+import yade
 
 check = Checks()
 SCENE = os.path.join(os.path.dirname(os.path.abspath(harness.__file__)), "window", "scene.py")
-SECONDS = 200
+SECONDS = 90
 
 
 def needs_opengl(file):
@@ -25,7 +29,7 @@ def needs_opengl(file):
 def start(order):
     """A YADE on a display of its own. (In the order "first" the script does what YADE's launcher does for a window.)"""
     switches = ["-n"] if order == "first" else []
-    # Passive as in run.py; OpenGL of the processor, whatever else there is.
+    # OpenGL of the processor, whatever else there is.
     environment = dict(os.environ, LIBGL_ALWAYS_SOFTWARE="1", QT_QPA_PLATFORM="xcb")
     return subprocess.Popen(["xvfb-run", "-a", "-s", "-screen 0 900x700x24", "yade", "-x", *switches, f"-j{O.numThreads}", SCENE, order],
                             env=environment, text=True, start_new_session=True, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
@@ -35,7 +39,36 @@ def start(order):
 check.true(not needs_opengl(potential_particles._glue.__file__), "the plugin loads where there is no OpenGL")
 functor = potential_particles.Gl1_PotentialParticle_Conic()
 check.equal(functor.bases, ["PotentialParticle"], "what the functor draws")
-check.raises(TypeError, lambda: potential_particles._glue.window_dispatcher(functor), "what is no renderer")
+dispatcher_of = potential_particles._glue.window_dispatcher
+check.raises(TypeError, lambda: dispatcher_of(functor), "what is no renderer")
+renderer = yade.OpenGLRenderer()
+dispatcher = dispatcher_of(renderer)
+check.equal((type(dispatcher), dispatcher.functors), (yade.GlShapeDispatcher, []), "the dispatcher of a new renderer")
+
+
+def serve(dispatcher_of):
+    """What the import does where there is a window, for one whose renderer is this one."""
+    sys.modules["yade.qt"] = types.SimpleNamespace(Renderer=lambda: renderer)
+    try:
+        with warnings.catch_warnings(record=True) as said:
+            warnings.simplefilter("always")
+            potential_particles.window.serve(yade, dispatcher_of)
+        return [str(one.message) for one in said]
+    finally:
+        del sys.modules["yade.qt"]
+
+
+def unknown_renderer(_):
+    raise RuntimeError("laid out otherwise")
+
+
+dispatcher.functors = [yade.Gl1_PotentialParticle(), yade.Gl1_Sphere()]
+check.equal((serve(dispatcher_of), renderer.shape, renderer.bound), ([], True, False), "a window is served without a word")
+for shape, name in ((harness.cube(), "PotentialParticle_Conic"), (yade.PotentialParticle(), "PotentialParticle_Conic"), (yade.Sphere(), "Sphere")):
+    check.equal(type(dispatcher.dispFunctor(shape)).__name__, "Gl1_" + name, f"what draws a {type(shape).__name__}")
+said = serve(unknown_renderer)
+check.true(len(said) == 1 and "laid out otherwise" in said[0] and "potential_particles.plot" in said[0], f"an unknown renderer: {said}")
+check.equal((renderer.shape, renderer.bound), (False, True), "which then shows boxes")
 
 if shutil.which("xvfb-run"):
     for order in ("before", "after", "first"):
