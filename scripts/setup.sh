@@ -12,9 +12,11 @@ readonly PACKAGES=(
     # several processes through YADE's mpy: mpirun, and MPI for Python
     openmpi-bin python3-mpi4py
     # to build the plugin
-    g++ cmake make python3-dev libboost-python-dev libboost-serialization-dev libeigen3-dev
+    g++ cmake make python3-dev libboost-python-dev libboost-serialization-dev libeigen3-dev libgl-dev
     # to check it: objdump and nm; leaks and bad memory accesses (libc6-dbg is what valgrind reads)
     binutils valgrind libc6-dbg
+    # to check what YADE's window draws: a display, and OpenGL, of the processor
+    xvfb xauth libgl1-mesa-dri
     # pictures and summaries
     python3-matplotlib python3-numpy
     # shapes: convex hulls, and files of surfaces; files for ParaView

@@ -69,8 +69,9 @@ def main():
                 total_failed += failed
                 print(f"{'FAIL' if failed else 'ok  '} {script.stem:24} -j{threads}  {passed:4} passed {failed:3} failed"
                       f"  {time.monotonic() - begin:5.1f} s", flush=True)
-                if failed or options.verbose:
-                    print("    " + text.replace("\n", "\n    "))
+                lines = text.splitlines()
+                for line in lines if failed or options.verbose else [line for line in lines if line.startswith("skipped")]:
+                    print("    " + line)
     print(f"{total_passed} passed, {total_failed} failed")
     return 1 if total_failed or not total_passed else 0
 

@@ -15,7 +15,7 @@ from harness import *
 check = Checks()
 NAMES = ["ConicPotentialParticle", "ScGeomConicPP", "Ig2_ConicPP_ConicPP_ScGeom", "Ig2_PP_PP_ScGeom_Conic", "Bo1_ConicPP_Aabb",
          "Bo1_PP_Aabb_Conic", "BoundWatch", "ConicInteractionLoop", "Ig2_Sphere_ConicPP_ScGeom", "Ig2_Box_ConicPP_ScGeom",
-         "Ig2_Wall_ConicPP_ScGeom", "Ig2_Facet_ConicPP_ScGeom"]
+         "Ig2_Wall_ConicPP_ScGeom", "Ig2_Facet_ConicPP_ScGeom", "Gl1_PotentialParticle_Conic"]
 
 for name in NAMES:
     cls = getattr(yade.wrapper, name)
@@ -36,7 +36,7 @@ for name, base in [("ConicPotentialParticle", "PotentialParticle"), ("ConicPoten
                    ("Ig2_PP_PP_ScGeom_Conic", "IGeomFunctor"), ("Bo1_ConicPP_Aabb", "BoundFunctor"),
                    ("Bo1_PP_Aabb_Conic", "BoundFunctor"), ("BoundWatch", "GlobalEngine"),
                    ("ConicInteractionLoop", "InteractionLoop"), ("Ig2_Sphere_ConicPP_ScGeom", "IGeomFunctor"),
-                   ("Ig2_Facet_ConicPP_ScGeom", "Ig2_ConicPP_ConicPP_ScGeom")]:
+                   ("Ig2_Facet_ConicPP_ScGeom", "Ig2_ConicPP_ConicPP_ScGeom"), ("Gl1_PotentialParticle_Conic", "GlShapeFunctor")]:
     check.true(name in yade.system.childClasses(base), f"childClasses({base}) has {name}")
     check.true(issubclass(getattr(yade, name), getattr(yade, base)), f"{name} is a {base}")
 

@@ -32,6 +32,7 @@ PLUGIN_CLASSES = {
     "Bo1_ConicPP_Aabb": "BoundFunctor",
     "Bo1_PP_Aabb_Conic": "BoundFunctor",
     "BoundWatch": "GlobalEngine",
+    "Gl1_PotentialParticle_Conic": "GlShapeFunctor",
 }
 WORD = 8
 SHT_RELA, SHT_NOBITS, SHT_DYNSYM = 4, 8, 11

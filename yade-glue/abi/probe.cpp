@@ -14,6 +14,7 @@
 #include "serializable.hpp"
 #include "shape.hpp"
 #include "state.hpp"
+#include "window.hpp"
 
 // The destructor, defined here, is what makes the compiler write the table into this file.
 #define PROBE(Class)                                                                               \
@@ -47,6 +48,7 @@ PROBE(Interaction)
 PROBE(Functor)
 PROBE(IGeomFunctor)
 PROBE(BoundFunctor)
+PROBE(GlShapeFunctor)
 PROBE(Bound)
 PROBE(Aabb)
 PROBE(Engine)

@@ -16,6 +16,7 @@
 #include "bo1_conic_pp.hpp"
 #include "bound_watch.hpp"
 #include "conic_potential_particle.hpp"
+#include "gl1_potential_particle.hpp"
 #include "ig2_conic_pp.hpp"
 #include "sc_geom_conic_pp.hpp"
 
@@ -412,6 +413,17 @@ namespace {
         }
     }
 
+    // A functor of ours against one of YADE that overrides the same functions: the sizes must agree.
+    template <class Base> void compareSizes(Differences& found, const Base& functor, const char* builtinName)
+    {
+        const py::object builtin = py::import("yade.wrapper").attr(builtinName)();
+        const std::size_t ours = tableOf(&functor).words;
+        const std::size_t theirs = tableOf(&py::extract<Base&>(builtin)()).words;
+        if (ours == 0 || ours != theirs)
+            found.push_back(functor.getClassName() + ": virtual table of " + std::to_string(ours) + " words, " + builtinName
+                            + " has " + std::to_string(theirs));
+    }
+
     void checkTables(Differences& found)
     {
         const ConicPotentialParticle shape;
@@ -425,21 +437,9 @@ namespace {
         const ScGeomConicPP geom;
         const ScGeom plainGeom;
         compareTables(found, "ScGeomConicPP", geom, plainGeom, 28, { 2, 3, 4, 5, 6, 7, 8, 10, 12, 20, 23, 24 });
-        // Against YADE's own functor, which overrides the same functions: the sizes must agree.
-        const Ig2_ConicPP_ConicPP_ScGeom functor;
-        const py::object builtin = py::import("yade.wrapper").attr("Ig2_PP_PP_ScGeom")();
-        const std::size_t ours = tableOf(&functor).words;
-        const std::size_t theirs = tableOf(&py::extract<IGeomFunctor&>(builtin)()).words;
-        if (ours == 0 || ours != theirs)
-            found.push_back("Ig2_ConicPP_ConicPP_ScGeom: virtual table of " + std::to_string(ours)
-                            + " words, Ig2_PP_PP_ScGeom has " + std::to_string(theirs));
-        const Bo1_ConicPP_Aabb bounds;
-        const py::object builtinBounds = py::import("yade.wrapper").attr("PotentialParticle2AABB")();
-        const std::size_t own = tableOf(&bounds).words;
-        const std::size_t other = tableOf(&py::extract<BoundFunctor&>(builtinBounds)()).words;
-        if (own == 0 || own != other)
-            found.push_back("Bo1_ConicPP_Aabb: virtual table of " + std::to_string(own)
-                            + " words, PotentialParticle2AABB has " + std::to_string(other));
+        compareSizes<IGeomFunctor>(found, Ig2_ConicPP_ConicPP_ScGeom(), "Ig2_PP_PP_ScGeom");
+        compareSizes<BoundFunctor>(found, Bo1_ConicPP_Aabb(), "PotentialParticle2AABB");
+        compareSizes<GlShapeFunctor>(found, Gl1_PotentialParticle_Conic(), "Gl1_PotentialParticle");
         const BoundWatch watch;
         const py::object plainEngine = py::import("yade.wrapper").attr("GlobalEngine")();
         compareTables(found, "BoundWatch", watch, py::extract<GlobalEngine&>(plainEngine)(), 16, { 2, 3, 4, 6, 12, 15 });

@@ -10,6 +10,7 @@
 #include "registration.hpp"
 #include "retired.hpp"
 #include "surface_mesh.hpp"
+#include "window.hpp"
 
 #include <boost/archive/basic_archive.hpp>
 #include <boost/python/def.hpp>
@@ -63,5 +64,6 @@ BOOST_PYTHON_MODULE(_glue)
     py::def("set_list", &setListOf);
     py::def("surface_mesh", &pp::surfaceMesh);
     py::def("pack", &pp::packContainer);
+    py::def("window_dispatcher", &pp::windowDispatcher);
     py::scope().attr("packing_choices") = pp::packingChoices();
 }

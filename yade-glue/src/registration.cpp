@@ -7,6 +7,7 @@
 #include "bound_watch.hpp"
 #include "conic_interaction_loop.hpp"
 #include "conic_potential_particle.hpp"
+#include "gl1_potential_particle.hpp"
 #include "ig2_flat_conic_pp.hpp"
 #include "ig2_other_conic_pp.hpp"
 #include "sc_geom_conic_pp.hpp"
@@ -51,6 +52,7 @@ void registerClasses()
     registerWithFactory<Ig2_Box_ConicPP_ScGeom>(classNames[9]);
     registerWithFactory<Ig2_Wall_ConicPP_ScGeom>(classNames[10]);
     registerWithFactory<Ig2_Facet_ConicPP_ScGeom>(classNames[11]);
+    registerWithFactory<Gl1_PotentialParticle_Conic>(classNames[12]);
 
     // The list of plugins is read once, when YADE starts; this enters classes later than that.
     Singleton<yade::Omega>::instance().buildDynlibDatabase({ std::begin(classNames), std::end(classNames) });

@@ -1,12 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "surface_mesh.hpp"
 
-#include "particle.hpp"
-
 #include <boost/python/handle.hpp>
 #include <boost/python/object.hpp>
-
-#include <vector>
 
 namespace py = boost::python;
 
@@ -23,27 +19,30 @@ namespace {
 
 } // namespace
 
-py::tuple surfaceMesh(const yade::PotentialParticle& shape, double tolerance)
+SurfaceMesh SurfaceMesh::of(const Particle& particle, double tolerance)
 {
-    const std::shared_ptr<const Particle> particle = Particle::make(Definition::of(shape));
-    std::vector<double> vertices, normals;
-    std::vector<std::uint32_t> triangles;
+    SurfaceMesh mesh;
     // Enough for most meshes: asking the size alone would take as long as making the mesh.
     std::size_t points = 10'000, faces = 20'000;
-    double error = 0;
     pp_status status = PP_BUFFER_TOO_SMALL;
     while (status == PP_BUFFER_TOO_SMALL) {
-        vertices.resize(3 * points);
-        normals.resize(3 * points);
-        triangles.resize(3 * faces);
-        status = pp_particle_mesh(particle->require(), tolerance, vertices.data(), normals.data(), points, &points,
-                                  triangles.data(), faces, &faces, &error);
+        mesh.vertices.resize(3 * points);
+        mesh.normals.resize(3 * points);
+        mesh.triangles.resize(3 * faces);
+        status = pp_particle_mesh(particle.require(), tolerance, mesh.vertices.data(), mesh.normals.data(), points, &points,
+                                  mesh.triangles.data(), faces, &faces, &mesh.error);
     }
     requireOk(status);
-    vertices.resize(3 * points);
-    normals.resize(3 * points);
-    triangles.resize(3 * faces);
-    return py::make_tuple(bytes(vertices), bytes(normals), bytes(triangles), error);
+    mesh.vertices.resize(3 * points);
+    mesh.normals.resize(3 * points);
+    mesh.triangles.resize(3 * faces);
+    return mesh;
+}
+
+py::tuple surfaceMesh(const yade::PotentialParticle& shape, double tolerance)
+{
+    const SurfaceMesh mesh = SurfaceMesh::of(*Particle::make(Definition::of(shape)), tolerance);
+    return py::make_tuple(bytes(mesh.vertices), bytes(mesh.normals), bytes(mesh.triangles), mesh.error);
 }
 
 } // namespace potential_particles

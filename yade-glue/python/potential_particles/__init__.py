@@ -24,15 +24,13 @@ and was never tested is taken, with a warning of one line.
 
 Of YADE's own classes the import replaces three functions, which do as before: O.run and O.step look our functors up
 when there are several threads (prepare) and warn of shapes that no functor serves, and O.load says what to do about a
-scene of another YADE. The lists of PotentialParticle are set under a lock. protect_runs() replaces more, for those who
-ask for it.
+scene of another YADE. The lists of PotentialParticle are set under a lock, and YADE's 3-D window draws that class by our
+functor (window). protect_runs() replaces more, for those who ask for it.
 """
 import builtins
 import functools
-import sys
-import warnings
 
-from . import builds
+from . import builds, window
 from .bodies import body
 from .measures import extrema, porosity, solid_volume
 from .outside import protect_runs
@@ -137,20 +135,6 @@ def _resize_dispatchers(yade):
             dispatcher.functors = dispatcher.functors
 
 
-def _boxes_in_window():
-    """Lets YADE's 3-D window show boxes in the place of shapes.
-
-    Its table of drawing functors is made before any script and has no row for a class of shape that comes later: drawing one ends YADE with
-    an assertion.
-    """
-    window = sys.modules.get("yade.qt")
-    if window is not None and hasattr(window, "Renderer"):
-        renderer = window.Renderer()
-        renderer.shape, renderer.bound = False, True
-        warnings.warn("YADE's 3-D window cannot draw the shapes of potential_particles and shows the boxes of all bodies; to draw the "
-                      "others (yade.qt.Renderer().shape = True) in a scene with our shapes ends YADE. potential_particles.plot draws all.")
-
-
 def prepare():
     """Looks up, in one thread, every functor that the scene will need.
 
@@ -223,7 +207,7 @@ def _load():
     builds.warn(running, glue.built_for_yade)
     _register(yade, glue)
     _resize_dispatchers(yade)
-    _boxes_in_window()
+    window.serve(yade, glue.window_dispatcher)
     _prepare_before_steps(yade)
     from . import outside, saves
     outside.guard_lists(yade, glue.set_list)
