@@ -20,6 +20,8 @@ submake() {
     make --no-print-directory --silent "$@"
 }
 
+# A user's compiler may know other warnings.
+[ "${WERROR:-0}" != 1 ] || stage check "Formatting and warnings of Rust" submake lint
 stage check "Library, release build" submake library
 stage suite "Rust tests, with the C header" cargo test --release --no-fail-fast
 # Without optimisation: how they are built is what is tried, and the shared library stays as it is.

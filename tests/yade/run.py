@@ -4,16 +4,19 @@
 
     tests/yade/run.py [-j 1] [-j 2] [-v] [name ...]
 
+As many scripts run at once as there are processors: each is a process, and most of its time is YADE's start.
 Each script prints 'N passed, N failed' alone on its last line. Exit status 1 if anything failed, if
 a script died, or if a script checked nothing.
 """
 import argparse
+import functools
 import os
 import re
 import subprocess
 import sys
 import tempfile
 import time
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
@@ -23,7 +26,14 @@ SUMMARY = re.compile(r"(\d+) passed, (\d+) failed")
 NOISE = re.compile(r"Welcome to Yade|Using python version|XMLRPC info|TCP python prompt|Running script")
 
 
-def run(script, threads, package, scratch):
+def run(script, threads, package):
+    """(passed, failed, text, seconds) of one script, in a folder of its own."""
+    begin = time.monotonic()
+    with tempfile.TemporaryDirectory() as scratch:
+        return *judged(script, threads, package, scratch), time.monotonic() - begin
+
+
+def judged(script, threads, package, scratch):
     """(passed, failed, text) of one script; a script that died counts as one failure."""
     # Passive: threads of OpenMP that wait by spinning crawl when the machine is busy.
     environment = dict(os.environ, PYTHONPATH=os.pathsep.join([str(package), str(HERE)]), PP_PACKAGE=str(package),
@@ -60,15 +70,14 @@ def main():
     scripts = [script for script in sorted(HERE.glob("test_*.py"))
                if not options.names or any(name in script.name for name in options.names)]
     total_passed = total_failed = 0
-    with tempfile.TemporaryDirectory() as scratch:
-        for threads in options.threads or [1, 2]:
-            for script in scripts:
-                begin = time.monotonic()
-                passed, failed, text = run(script, threads, options.package, scratch)
+    for threads in options.threads or [1, 2]:
+        with ThreadPoolExecutor(os.cpu_count()) as pool:
+            results = pool.map(functools.partial(run, threads=threads, package=options.package), scripts)
+            for script, (passed, failed, text, seconds) in zip(scripts, results):
                 total_passed += passed
                 total_failed += failed
                 print(f"{'FAIL' if failed else 'ok  '} {script.stem:24} -j{threads}  {passed:4} passed {failed:3} failed"
-                      f"  {time.monotonic() - begin:5.1f} s", flush=True)
+                      f"  {seconds:5.1f} s", flush=True)
                 lines = text.splitlines()
                 for line in lines if failed or options.verbose else [line for line in lines if line.startswith("skipped")]:
                     print("    " + line)
