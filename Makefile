@@ -11,6 +11,10 @@ Contact detection between potential particles.
   make scale    where the time of a step goes, 200 to 100,000 pyramids beside spheres and an earlier commit; results in out/scale
   make mpi-scale  when several processes pay: measured here, and a model; minutes; results in out/mpi/scale
 
+  make deb        Debian packages of the library and the plugin, built in a Debian 12 and a 13 of their own; needs root; results in out/packages
+  make packages-test  builds them, and installs, uses and removes them in a bare Debian 12 and 13
+  make install    the library for C and C++ programs: header, pkg-config and CMake files; PREFIX=/usr/local DESTDIR=
+
   make test-debian13  set up, build and test in a Debian 13 of its own, beside this system; needs root; SUITE=sid: in unstable
 
   make setup    install what is missing from Debian (YADE, compilers, Boost, Eigen, ...)
@@ -42,7 +46,7 @@ Variables, as in "make demo STEPS=1000 BODIES=50":
   SEED=N            stress: repeats the pairs of that seed; without it each run draws one, and prints it first
   SETTLE=1          stress: settle one pose in so many in 32 digits, and those in doubt; POSES=100000000 SETTLE=200 takes 45 minutes
   FUZZ_SECONDS=60   fuzz: how long each target
-  SUITE=trixie      test-debian13: which release of Debian
+  SUITE=trixie      test-debian13: which release of Debian; SUITES="bookworm trixie": deb, packages-test
   CACHE=out/debian  test-debian13: where that release and its packages stay for the next time; FRESH=1 makes it anew
   WERROR=0          build, test: 1 takes compiler warnings for errors, as this project's CI does
   VERBOSE=1         test, test-debian13: show the output of every stage, not only of those that fail
@@ -66,7 +70,7 @@ export PATH := $(PATH):$(HOME)/.cargo/bin
 
 heading = @printf '== %s\n' '$(1)'
 
-.PHONY: help demo wedge mpi scale mpi-scale test test-debian13 side-by-side setup build library glue header lint bench stress fuzz long clean
+.PHONY: deb packages-test install help demo wedge mpi scale mpi-scale test test-debian13 side-by-side setup build library glue header lint bench stress fuzz long clean
 .DEFAULT_GOAL := help
 # The steps of one goal build on each other in the order in which they are named.
 .NOTPARALLEL:
@@ -124,6 +128,16 @@ mpi-scale: glue
 
 test:
 	@scripts/test.sh
+
+deb packages-test: SUITES ?= bookworm trixie
+deb:
+	@for suite in $(SUITES); do SUITE=$$suite scripts/packages.sh || exit; done
+
+packages-test:
+	@for suite in $(SUITES); do SUITE=$$suite TRY=1 scripts/packages.sh || exit; done
+
+install:
+	@PREFIX=$(or $(PREFIX),/usr/local) DESTDIR=$(DESTDIR) LIBDIR=$(LIBDIR) scripts/install.sh
 
 test-debian13: export SUITE := $(or $(SUITE),trixie)
 test-debian13: export CACHE := $(CACHE)

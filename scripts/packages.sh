@@ -1,0 +1,50 @@
+#!/usr/bin/env bash
+# Builds the Debian packages for one release of Debian in a Debian of its own; with TRY=1 it installs them in another that has nothing
+# else, uses them as a stranger would, and removes them. Called by "make deb" and "make packages-test".
+# SUITE names the release; its packages go to out/packages/SUITE. CACHE and FRESH are those of debian.sh.
+# Exit status 77: skipped, since root or debootstrap is not to be had.
+set -uo pipefail
+cd "$(dirname "$0")/.." || exit 1
+
+SUITE=${SUITE:-trixie}
+CACHE=$(realpath -m "${CACHE:-out/debian}")
+readonly SUITE CACHE OUT=$PWD/out/packages/$SUITE
+
+. scripts/chroot.sh
+own_namespaces scripts/packages.sh
+. scripts/stages.sh
+
+# Cargo need not be a package (see the function rust), so that dpkg is not asked whether it is.
+build() {
+    inside apt-get -qq install --yes --no-install-recommends debhelper dh-python dpkg-dev fakeroot lintian &&
+        rm -f "$ROOT"/*.deb && in_sources dpkg-buildpackage --build=binary --no-sign --no-check-builddeps --no-pre-clean &&
+        mkdir -p "$OUT" && rm -f "$OUT"/*.deb && cp "$ROOT"/*potential-particles*.deb "$OUT"
+}
+
+lint() {
+    inside sh -c 'lintian --allow-root --fail-on error,warning --suppress-tags initial-upload-closes-no-bugs,bad-distribution-in-changes-file /*potential-particles*.deb'
+}
+
+bare() {
+    ROOT=$CACHE/$SUITE-bare
+    FRESH=1 INCLUDE=ca-certificates prepare && mkdir -p "$ROOT/packages" && cp "$OUT"/*.deb scripts/try_packages.sh "$ROOT/packages"
+}
+
+ROOT=$CACHE/$SUITE
+printf 'Packages for Debian (%s) in %s\n' "$SUITE" "$OUT"
+stage check "Debian, packages and Rust" prepare_to_build
+[ "$failed" -eq 0 ] || { printf '\n%d passed, %d failed\n' "$passed" "$failed"; exit 1; }
+stage check "Sources" copy_sources
+stage check "Set-up" in_sources make setup
+stage check "Packages" build
+stage check "Lintian" lint
+if [ "${TRY:-0}" = 1 ] && [ "$failed" -eq 0 ]; then
+    stage check "A bare Debian" bare
+    ROOT=$CACHE/$SUITE-bare
+    stage suite "Installed, used and removed" inside bash /packages/try_packages.sh
+    tail -n +1 "$LOGS/Installed--used-and-removed.log" | grep '^ok ' || true
+fi
+ls -l "$OUT" 2>/dev/null
+
+printf '\n%d passed, %d failed\n' "$passed" "$failed"
+[ "$failed" -eq 0 ]
