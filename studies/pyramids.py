@@ -145,8 +145,8 @@ def append_pyramid(contact, pyramid, material, position, orientation):
     return O.bodies.append(body)
 
 
-def engines(contact, loop=None):
-    """YADE's loop: boxes, contacts, springs, motion. `loop`: another contact loop than the best there is."""
+def engines(contact):
+    """YADE's loop: boxes, contacts, springs, motion."""
     return [
         yade.ForceResetter(),
         yade.InsertionSortCollider(
@@ -155,7 +155,7 @@ def engines(contact, loop=None):
             avoidSelfInteractionMask=SLAB_ONLY,
             label="collider",
         ),
-        (loop or contact.loop)(
+        contact.loop(
             [contact.functor],
             [
                 # Without a contact area (the functor's switch) the stiffnesses are those of

@@ -5,12 +5,13 @@ A pile of a few thousand bodies is settled once and kept; a larger one is made o
 compartments side by side, so that 100,000 bodies at rest take seconds to make. SI units, z up.
 """
 
+import os
 import sys
 from pathlib import Path
 
-HERE = Path(__file__).resolve().parent
-STUDIES = HERE.parents[1] / "studies"
-sys.path.insert(0, str(STUDIES))
+# Those of the tree whose plugin is measured: <tree>/yade-glue/build/python. Earlier commits have them among their examples.
+TREE = Path(os.environ["PYTHONPATH"].split(os.pathsep)[0]).parents[2]
+sys.path.insert(0, str(next(path for path in (TREE / "studies", TREE / "examples") if (path / "pyramids.py").exists() and (path / "box.py").exists())))
 
 import numpy as np
 import yade
@@ -18,6 +19,7 @@ from yade import O, utils
 
 import loose_grid
 import pyramids
+from bodies import give_mass, potential_body
 from box import BODY_MASK, SLAB_ONLY, Box
 from contact_functor import LIBRARY, ContactFunctor
 from pyramid import Pyramid
@@ -91,6 +93,11 @@ class Pile:
         O.materials.append(self.material)
         self.ids = []
 
+    def _other_loop(self, loop):
+        if self.loop is None:
+            return loop
+        return self.loop(loop.geomDispatcher.functors, loop.physDispatcher.functors, loop.lawDispatcher.functors, label="contacts")
+
     def _watch_boxes(self):
         reset, collider, *others = O.engines
         collider.boundDispatcher.functors = [yade.Bo1_ConicPP_Aabb()]
@@ -115,16 +122,18 @@ class Pile:
 
     def _append(self, position, orientation):
         if self.kind == PYRAMIDS:
-            number = pyramids.append_pyramid(self.contact, self.pyramid, self.material, position, orientation)
+            body = potential_body(self.contact.shape_class, self.pyramid.surface, self.material, position, orientation)
+            give_mass(body, self.pyramid.volume, self.pyramid.principal_inertia)
+            body.mask = BODY_MASK
         else:
-            ball = utils.sphere(tuple(map(float, position)), SPHERE_RADIUS, material=self.material, mask=BODY_MASK)
-            number = O.bodies.append(ball)
+            body = utils.sphere(tuple(map(float, position)), SPHERE_RADIUS, material=self.material, mask=BODY_MASK)
+        number = O.bodies.append(body)
         self.ids.append(number)
         return O.bodies[number]
 
     def _finish(self):
         if self.kind == PYRAMIDS:
-            O.engines = pyramids.engines(self.contact, self.loop)
+            O.engines = [self._other_loop(one) if one.label == "contacts" else one for one in pyramids.engines(self.contact)]
             if self.watched:
                 self._watch_boxes()
             self.contact.prepare()
