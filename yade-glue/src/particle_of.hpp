@@ -16,10 +16,16 @@ namespace potential_particles {
 inline const Particle* particleOf(const boost::shared_ptr<yade::Shape>& shape, const yade::PotentialParticle& pp,
                                   std::shared_ptr<const Particle>& keeper)
 {
-    if (typeid(pp) == typeid(ConicPotentialParticle))
-        if (const Particle* particle = static_cast<const ConicPotentialParticle&>(pp).particle())
+    const auto* own = typeid(pp) == typeid(ConicPotentialParticle) ? static_cast<const ConicPotentialParticle*>(&pp) : nullptr;
+    if (own)
+        if (const Particle* particle = own->particle())
             return particle;
     keeper = ParticleStore::instance().find(shape, pp);
+    // Between these two looks a script in another thread may have finished one change of several attributes, by which the shape
+    // has its particle again, and have begun the next.
+    if (own && keeper->pending())
+        if (const Particle* particle = own->particle())
+            return particle;
     return keeper.get();
 }
 
