@@ -47,8 +47,9 @@ ranks() {
 }
 
 by_pkg_config() {
-    for name in one_pair step falling_pyramids; do
-        cc -O2 "$C_EXAMPLES/$name.c" $(pkg-config --cflags --libs potential-particles) -lm -o "$name" && "./$name" || return
+    local example
+    for example in one_pair step falling_pyramids; do
+        cc -O2 "$C_EXAMPLES/$example.c" $(pkg-config --cflags --libs potential-particles) -lm -o "$example" && "./$example" || return
     done
 }
 
