@@ -129,12 +129,10 @@ mpi-scale: glue
 test:
 	@scripts/test.sh
 
+packages-test: export TRY := 1
 deb packages-test: SUITES ?= bookworm trixie
-deb:
+deb packages-test:
 	@for suite in $(SUITES); do SUITE=$$suite scripts/packages.sh || exit; done
-
-packages-test:
-	@for suite in $(SUITES); do SUITE=$$suite TRY=1 scripts/packages.sh || exit; done
 
 install:
 	@PREFIX=$(or $(PREFIX),/usr/local) DESTDIR=$(DESTDIR) LIBDIR=$(LIBDIR) scripts/install.sh

@@ -19,8 +19,8 @@ soname=libpotential_particles.so.${version%%.*}
 
 # A build of its own: programs and the plugin in this tree find the library without a SONAME, by its place.
 export CARGO_TARGET_DIR=${CARGO_TARGET_DIR:-target}
-cargo rustc --quiet --release --lib --crate-type cdylib --target-dir "$CARGO_TARGET_DIR/install" -- -C link-arg=-Wl,-soname,"$soname"
-cargo rustc --quiet --release --lib --crate-type staticlib --target-dir "$CARGO_TARGET_DIR/install"
+cargo rustc --quiet --release --lib --crate-type cdylib,staticlib --target-dir "$CARGO_TARGET_DIR/install" \
+    -- -C link-arg=-Wl,-soname,"$soname"
 built=$CARGO_TARGET_DIR/install/release
 
 filled() {

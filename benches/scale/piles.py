@@ -7,11 +7,9 @@ compartments side by side, so that 100,000 bodies at rest take seconds to make. 
 
 import os
 import sys
-from pathlib import Path
 
-# Those of the tree whose plugin is measured: <tree>/yade-glue/build/python. Earlier commits have them among their examples.
-TREE = Path(os.environ["PYTHONPATH"].split(os.pathsep)[0]).parents[2]
-sys.path.insert(0, str(next(path for path in (TREE / "studies", TREE / "examples") if (path / "pyramids.py").exists() and (path / "box.py").exists())))
+# The scenes of the commit whose plugin is measured.
+sys.path.insert(0, os.environ["STUDIES"])
 
 import numpy as np
 import yade

@@ -112,12 +112,18 @@ def run(command, **more):
     subprocess.run([str(part) for part in command], check=True, **more)
 
 
+def studies(package):
+    """The folder with the scenes of the tree to which a package belongs; earlier commits have them among their examples."""
+    tree = package.parents[2]
+    return next(folder for folder in (tree / "studies", tree / "examples") if folder.exists())
+
+
 def measured(name, package):
     kind, count, copies, threads, way, windows, steps = RUNS[name]
     result = OUT / "result.json"
     result.unlink(missing_ok=True)
     environment = dict(
-        os.environ, PYTHONPATH=str(package), OMP_WAIT_POLICY="passive", KIND=kind, COUNT=str(count), COPIES=str(copies),
+        os.environ, PYTHONPATH=str(package), STUDIES=str(studies(package)), OMP_WAIT_POLICY="passive", KIND=kind, COUNT=str(count), COPIES=str(copies),
         PILE=str(OUT / f"{kind}_{count}.npz"), WAY=way, WINDOWS=str(windows), STEPS=str(steps), RESULT=str(result),
     )
     if name in ONCE:
@@ -131,9 +137,7 @@ def measured(name, package):
 
 def demo(package, steps):
     """Seconds of all engines in the pyramids of `make demo`, of the tree to which the package belongs."""
-    # Earlier commits have it among their examples.
-    tree, out = package.parents[2], OUT / "demo"
-    script = next(path for path in (tree / "studies" / "pyramids.py", tree / "examples" / "pyramids.py") if path.exists())
+    out, script = OUT / "demo", studies(package) / "pyramids.py"
     (out / "summary.json").unlink(missing_ok=True)
     environment = dict(
         os.environ, PYTHONPATH=str(package), OMP_WAIT_POLICY="passive", STEPS=str(steps), BODIES="200", FUNCTOR="library",

@@ -145,8 +145,9 @@ impl Solution {
         self.lower - self.rounding - flat > 1.0
     }
 
-    /// What rounding leaves at the optimum itself, with the least that it can do to the places of the planes: S changes by that
-    /// much where the body moves by the rounding of a length. The blur of a body with one long normal says more of its others.
+    /// What rounding leaves at the optimum itself, with the least that it can do to the places of the planes: the change of S when
+    /// the body moves by the rounding of a length. The blur alone is a bound for the longest normal, and too large where a shorter
+    /// one is active.
     #[inline(always)]
     pub fn least_rounding(&self, model: &LocalModel, problem: Problem) -> f64 {
         // Planes of unit normals have a blur of at most twice the shift: rounding of their offsets adds less than that of the point.

@@ -38,27 +38,17 @@ pub unsafe extern "C" fn pp_particle_new(
     message: *mut c_char,
     message_size: usize,
 ) -> pp_status {
-    let explain = |text: &str| unsafe { write_message(text, message, message_size) };
-    let status = fenced(|| {
-        let out = unsafe { output(out) }?;
+    let make = || {
         if count > PP_MAX_PLANES {
-            explain(&ParticleError::TooManyPlanes(count).to_string());
-            return Err(PP_TOO_MANY_PLANES);
+            return Ok(Err(ParticleError::TooManyPlanes(count)));
         }
         // SAFETY: the caller promised 4*count doubles.
         let rows = unsafe { array(planes.cast::<[f64; 4]>(), count) }?;
         let planes: Vec<Plane> = rows.iter().map(|&row| Plane::from(row)).collect();
-        let particle = Particle::new(&planes, r, k, shadow_radius).map_err(|error| {
-            explain(&error.to_string());
-            particle_status(&error)
-        })?;
-        out.write(Box::into_raw(Box::new(pp_particle(particle))));
-        Ok(())
-    });
-    if status == PP_NULL_POINTER {
-        explain("planes and out must not be NULL");
-    }
-    status
+        Ok(Particle::new(&planes, r, k, shadow_radius).map(pp_particle))
+    };
+    // SAFETY: out and message are the caller's, as promised.
+    unsafe { create(make, "planes and out must not be NULL", out, message, message_size) }
 }
 
 /// Releases a particle; NULL is allowed and does nothing. No pair may still be using it.
@@ -128,7 +118,34 @@ pub unsafe extern "C" fn pp_particle_planes(
     })
 }
 
-pub(super) fn particle_status(error: &ParticleError) -> pp_status {
+/// Hands what `make` makes to the caller. Why it could not is written to the message: the error's own sentence, or `null` for a
+/// pointer that is NULL.
+/// Pointers: out is NULL or valid for writing, message is NULL or valid for writing size bytes.
+pub(super) unsafe fn create<T>(
+    make: impl FnOnce() -> Result<Result<T, ParticleError>, pp_status>,
+    null: &str,
+    out: *mut *mut T,
+    message: *mut c_char,
+    message_size: usize,
+) -> pp_status {
+    // SAFETY: by contract.
+    let explain = |text: &str| unsafe { write_message(text, message, message_size) };
+    let status = fenced(|| {
+        let out = unsafe { output(out) }?;
+        let made = make()?.map_err(|error| {
+            explain(&error.to_string());
+            particle_status(&error)
+        })?;
+        out.write(Box::into_raw(Box::new(made)));
+        Ok(())
+    });
+    if status == PP_NULL_POINTER {
+        explain(null);
+    }
+    status
+}
+
+fn particle_status(error: &ParticleError) -> pp_status {
     match error {
         ParticleError::PlaneNotFinite { .. }
         | ParticleError::LineNotFinite { .. }

@@ -189,7 +189,7 @@ fn face(n: &Vector3<f64>, h: f64) -> Option<(Vector3<f64>, f64)> {
 
 /// Whether the planes (a, b, c, d) alone enclose a volume, without the shadow sphere.
 pub(super) fn planes_enclose(rows: &[[f64; 4]], dimensions: usize) -> bool {
-    // Each moved outwards until the origin is inside: what is open stays so, and what is enclosed, too.
+    // That depends on the normals alone, as long as a point is inside; so each plane is moved outwards until the origin is.
     let outside = rows.iter().map(|row| -row[3]).fold(0.0, f64::max);
     let farthest = rows.iter().map(|row| row[3].abs()).fold(f64::MIN_POSITIVE, f64::max);
     let faces: Vec<_> =

@@ -119,8 +119,8 @@ void ConicPotentialParticle::settle()
         }
         accepted = next->definition;
         made.replace(next);
-        if (const std::string remark = next->remark(); !remark.empty())
-            warn("ConicPotentialParticle: " + remark);
+        if (!next->remark().empty())
+            warn("ConicPotentialParticle: " + next->remark());
     }
     if (automaticBox)
         fillBox();

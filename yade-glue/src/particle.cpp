@@ -134,6 +134,14 @@ Particle::Particle(Definition given)
     owned.reset(made);
     requireOk(pp_particle_bounding_radius(made, &radius));
     reaches = Support(definition, made, radius);
+
+    int32_t enclose = 1;
+    if (!definition.a.empty() && definition.k < 1)
+        requireOk(pp_particle_planes_enclose(made, &enclose));
+    if (!enclose)
+        seldomMeant = "the " + std::to_string(definition.a.size())
+            + " planes enclose no volume, so that only the shadow sphere bounds the particle, at R/sqrt(k) = "
+            + std::to_string(definition.R / std::sqrt(definition.k)) + ": is a plane missing?";
 }
 
 const pp_particle* Particle::require() const
@@ -141,17 +149,6 @@ const pp_particle* Particle::require() const
     if (!owned)
         throw std::invalid_argument(whyNot);
     return owned.get();
-}
-
-std::string Particle::remark() const
-{
-    int32_t enclose = 1;
-    if (owned && !definition.a.empty() && definition.k < 1)
-        requireOk(pp_particle_planes_enclose(owned.get(), &enclose));
-    return enclose ? ""
-                   : "the " + std::to_string(definition.a.size())
-            + " planes enclose no volume, so that only the shadow sphere bounds the particle, at R/sqrt(k) = "
-            + std::to_string(definition.R / std::sqrt(definition.k)) + ": is a plane missing?";
 }
 
 void requireOk(pp_status status)

@@ -44,7 +44,7 @@ public:
     // Why there is no handle, as a sentence; empty when there is one.
     const std::string& refusal() const { return whyNot; }
     // What is valid and seldom meant, as a sentence; empty when there is nothing to remark.
-    std::string remark() const;
+    const std::string& remark() const { return seldomMeant; }
     // Throws std::invalid_argument with the refusal when there is no handle.
     const pp_particle* require() const;
     double boundingRadius() const { return radius; }
@@ -63,6 +63,7 @@ private:
 
     std::unique_ptr<pp_particle, Release> owned;
     std::string whyNot;
+    std::string seldomMeant;
     double radius;
     Support reaches;
 };

@@ -2,7 +2,7 @@
 
 use crate::ParticleError;
 use crate::capi::fence::{array, borrow, fenced, output, write_rows};
-use crate::capi::particle::{PP_MAX_PLANES, particle_status, write_message};
+use crate::capi::particle::{PP_MAX_PLANES, create};
 use crate::capi::status::*;
 use crate::planar::{Line, Particle};
 use std::ffi::c_char;
@@ -35,27 +35,17 @@ pub unsafe extern "C" fn pp_particle_new_2d(
     message: *mut c_char,
     message_size: usize,
 ) -> pp_status {
-    let explain = |text: &str| unsafe { write_message(text, message, message_size) };
-    let status = fenced(|| {
-        let out = unsafe { output(out) }?;
+    let make = || {
         if count > PP_MAX_PLANES {
-            explain(&ParticleError::TooManyLines(count).to_string());
-            return Err(PP_TOO_MANY_PLANES);
+            return Ok(Err(ParticleError::TooManyLines(count)));
         }
         // SAFETY: the caller promised 3*count doubles.
         let rows = unsafe { array(lines.cast::<[f64; 3]>(), count) }?;
         let lines: Vec<Line> = rows.iter().map(|&row| Line::from(row)).collect();
-        let particle = Particle::new(&lines, r, k, shadow_radius).map_err(|error| {
-            explain(&error.to_string());
-            particle_status(&error)
-        })?;
-        out.write(Box::into_raw(Box::new(pp_particle_2d(particle))));
-        Ok(())
-    });
-    if status == PP_NULL_POINTER {
-        explain("lines and out must not be NULL");
-    }
-    status
+        Ok(Particle::new(&lines, r, k, shadow_radius).map(pp_particle_2d))
+    };
+    // SAFETY: out and message are the caller's, as promised.
+    unsafe { create(make, "lines and out must not be NULL", out, message, message_size) }
 }
 
 /// Creates a particle of the plane from points whose convex hull is a polygon with rounded corners.
@@ -80,22 +70,13 @@ pub unsafe extern "C" fn pp_particle_new_polygon_2d(
     message: *mut c_char,
     message_size: usize,
 ) -> pp_status {
-    let explain = |text: &str| unsafe { write_message(text, message, message_size) };
-    let status = fenced(|| {
-        let out = unsafe { output(out) }?;
+    let make = || {
         // SAFETY: the caller promised 2*count doubles.
         let points = unsafe { array(points.cast::<[f64; 2]>(), count) }?;
-        let particle = Particle::polygon(points, r, k).map_err(|error| {
-            explain(&error.to_string());
-            particle_status(&error)
-        })?;
-        out.write(Box::into_raw(Box::new(pp_particle_2d(particle))));
-        Ok(())
-    });
-    if status == PP_NULL_POINTER {
-        explain("points and out must not be NULL");
-    }
-    status
+        Ok(Particle::polygon(points, r, k).map(pp_particle_2d))
+    };
+    // SAFETY: out and message are the caller's, as promised.
+    unsafe { create(make, "points and out must not be NULL", out, message, message_size) }
 }
 
 /// Releases a particle of the plane; NULL is allowed and does nothing. No pair may still be using it.
