@@ -11,6 +11,8 @@ Contact detection between potential particles.
   make scale    where the time of a step goes, 200 to 100,000 pyramids beside spheres and an earlier commit; results in out/scale
   make mpi-scale  when several processes pay: measured here, and a model; minutes; results in out/mpi/scale
 
+  make guide    the documentation as a site, in out/guide
+
   make deb        Debian packages of the library and the plugin, built in a Debian 12 and a 13 of their own; needs root; results in out/packages
   make packages-test  builds them, and installs, uses and removes them in a bare Debian 12 and 13
   make install    the library for C and C++ programs: header, pkg-config and CMake files; PREFIX=/usr/local DESTDIR=
@@ -70,7 +72,7 @@ export PATH := $(PATH):$(HOME)/.cargo/bin
 
 heading = @printf '== %s\n' '$(1)'
 
-.PHONY: deb packages-test install help demo wedge mpi scale mpi-scale test test-debian13 side-by-side setup build library glue header lint bench stress fuzz long clean
+.PHONY: guide deb packages-test install help demo wedge mpi scale mpi-scale test test-debian13 side-by-side setup build library glue header lint bench stress fuzz long clean
 .DEFAULT_GOAL := help
 # The steps of one goal build on each other in the order in which they are named.
 .NOTPARALLEL:
@@ -128,6 +130,10 @@ mpi-scale: glue
 
 test:
 	@scripts/test.sh
+
+guide: glue
+	$(call heading,Guide)
+	@scripts/guide.sh $(or $(OUTPUT),out/guide)
 
 packages-test: export TRY := 1
 deb packages-test: SUITES ?= bookworm trixie

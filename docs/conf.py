@@ -1,0 +1,52 @@
+# The guide: `make guide` runs Sphinx with this file, within YADE, whose classes the Python reference describes.
+import re
+
+project = "Potential particles"
+author = "the authors of potential-particles"
+extensions = ["myst_parser", "sphinx.ext.autodoc"]
+source_suffix = {".md": "markdown"}
+exclude_patterns = ["figures"]
+myst_heading_anchors = 3
+html_theme = "furo"
+html_title = "Potential particles"
+html_show_copyright = False
+html_copy_source = False
+autodoc_member_order = "bysource"
+autodoc_typehints = "none"
+# `text` and `sh` blocks hold dots and glob patterns.
+highlight_language = "none"
+
+# "name: what it is" at the beginning of a line.
+PARAMETER = re.compile(r"([a-zA-Z_]+(?:, [a-zA-Z_]+)*): ")
+MARKUP = re.compile(r"([\\*|]|_(?=\W|$))")
+
+
+def plain_text(line):
+    """A line of a docstring, which is plain text with `code` in backquotes, as reStructuredText."""
+    parts = line.split("`")
+    return "".join("``" + part + "``" if i % 2 else MARKUP.sub(r"\\\1", part) for i, part in enumerate(parts))
+
+
+def as_restructured_text(app, what, name, obj, options, lines):
+    """Paragraphs stay paragraphs, what is indented is shown as it is."""
+    given, indented = list(lines), False
+    lines.clear()
+    for line in given:
+        if line.startswith("    ") or (indented and line.startswith(" ")):
+            if not indented:
+                lines.extend(["", "::", ""])
+            indented = True
+            lines.append("    " + line)
+        else:
+            if indented and line.strip():
+                lines.append("")
+                indented = False
+            parameter = PARAMETER.match(line)
+            if parameter:
+                lines.extend(["", f"**{parameter[1]}**: " + plain_text(line[parameter.end():])])
+            else:
+                lines.append("" if indented else plain_text(line))
+
+
+def setup(app):
+    app.connect("autodoc-process-docstring", as_restructured_text)

@@ -1,0 +1,127 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: MIT OR Apache-2.0
+"""Runs every code block of README.md and of the pages under docs/.
+
+    tests/guide/run.py [PAGE ...]
+
+Python blocks of a page run one after the other in one YADE, C blocks are compiled and run, cmake blocks build an example against an
+installation in a folder of its own. Of a shell block each "make" must be a target and each script must be there. Rust blocks are
+doctests of the library; here it is checked that their page is one. Other languages, and blocks that name none, fail.
+"""
+import os
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+from blocks import blocks
+
+TOP = Path(__file__).resolve().parents[2]
+TARGET = Path(os.environ.get("CARGO_TARGET_DIR", TOP / "target")).resolve()
+RELEASE = TARGET / "release"
+SECONDS = 120
+# What stands around the body of a main function, where a block is one.
+C_AROUND = "#include <potential_particles.h>\n#include <stdio.h>\nint main(void) {\n%s\nreturn 0;\n}\n"
+
+
+def call(command, folder, **more):
+    """None if the command ends well, else what it said."""
+    try:
+        done = subprocess.run(command, cwd=folder, text=True, timeout=SECONDS, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                              stderr=subprocess.STDOUT, **more)
+    except subprocess.TimeoutExpired as late:
+        return f"{late.stdout or ''}\nstill running after {SECONDS} s"
+    return None if done.returncode == 0 else done.stdout
+
+
+def run_python(page_blocks, scratch):
+    """The first failure of a page's blocks, by their places."""
+    script = Path(scratch, "page.py")
+    parts = ["import sys, traceback\n"]
+    for block in page_blocks:
+        source = block.before + block.code
+        parts.append(f"_place, _source = {block.place!r}, {source!r}\n"
+                     "try:\n    exec(compile(_source, _place, 'exec'), globals())\n    print('done', _place)\n"
+                     "except BaseException:\n    traceback.print_exc()\n    import os; sys.stdout.flush(); os._exit(1)\n")
+    script.write_text("".join(parts) + "print('the end')\nimport os; sys.stdout.flush(); os._exit(0)\n")
+    said = call([TOP / "scripts/yade.sh", "-j1", script], scratch)
+    return {block.place: None if said is None or f"done {block.place}" in said else said for block in page_blocks}
+
+
+def run_c(block, scratch):
+    source = block.code if "int main(" in block.code else C_AROUND % (block.before + block.code)
+    Path(scratch, "block.c").write_text(source)
+    return call(["cc", "-std=c11", "-Wall", "-Wextra", "-Werror", "block.c", f"-I{TOP / 'include'}", f"-L{RELEASE}", "-lpotential_particles",
+                 f"-Wl,-rpath,{RELEASE}", "-lm", "-o", "block"], scratch) or call(["./block"], scratch)
+
+
+def run_cmake(block, scratch):
+    installed = Path(scratch, "installed")
+    Path(scratch, "CMakeLists.txt").write_text(
+        f"cmake_minimum_required(VERSION 3.18)\nproject(guide C)\nadd_executable(mine {TOP}/examples/c/one_pair.c)\n{block.code}"
+        "target_link_libraries(mine m)\n")
+    return (call(["make", "install", f"PREFIX={installed}"], TOP)
+            or call(["cmake", "-S", ".", "-B", "build", f"-DCMAKE_PREFIX_PATH={installed}"], scratch)
+            or call(["cmake", "--build", "build"], scratch) or call(["build/mine"], scratch))
+
+
+def check_shell(block):
+    """Commands of this project must exist as they are written."""
+    for line in block.code.splitlines():
+        words = line.split("#")[0].split()
+        if not words:
+            continue
+        if words[0] == "make":
+            said = call(["make", "--dry-run", "--silent", *words[1:]], TOP)
+            if said is not None:
+                return f"{line}\n{said}"
+        elif "/" in words[0]:
+            if not os.access(TOP / words[0], os.X_OK):
+                return f"{line}: there is no program {words[0]}"
+        else:
+            return f"{line}: nothing says how this is tested (a comment above the block: <!-- tested by: FILE: TEXT -->)"
+    return None
+
+
+def is_doctest(block):
+    page = f'include_str!("../{block.page}")'
+    return None if page in (TOP / "src/lib.rs").read_text() else f"src/lib.rs has no {page}"
+
+
+def tested_elsewhere(block):
+    file, text = block.tested_by
+    path = TOP / file
+    return None if path.is_file() and text in path.read_text() else f"{file} does not hold {text!r}"
+
+
+def run_block(block):
+    if block.tested_by:
+        return tested_elsewhere(block)
+    with tempfile.TemporaryDirectory() as scratch:
+        return {"c": lambda: run_c(block, scratch), "cmake": lambda: run_cmake(block, scratch), "sh": lambda: check_shell(block),
+                "rust": lambda: is_doctest(block)}.get(block.language, lambda: f"language {block.language!r}: not known here")()
+
+
+def main():
+    pages = [Path(one) for one in sys.argv[1:]] or [Path("README.md"), *sorted(path.relative_to(TOP) for path in (TOP / "docs").glob("*.md"))]
+    os.chdir(TOP)
+    passed = failed = 0
+    for page in pages:
+        found = blocks(page)
+        scripts = [block for block in found if block.language == "python" and not block.tested_by]
+        results = {}
+        if scripts:
+            with tempfile.TemporaryDirectory() as scratch:
+                for file in (TOP / "examples/data").iterdir():
+                    Path(scratch, file.name).symlink_to(file)
+                results = run_python(scripts, scratch)
+        for block in found:
+            said = results[block.place] if block.place in results else run_block(block)
+            passed, failed = passed + (said is None), failed + (said is not None)
+            if said is not None:
+                print(f"{block.place}: {block.language or 'a block without a language'} fails\n{said}")
+    print(f"{passed} passed, {failed} failed")
+    sys.exit(1 if failed else 0)
+
+
+main()
