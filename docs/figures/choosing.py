@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
 """The picture of docs/choosing.md: what stiffness, damping and time step do to a small pile.
 
-    scripts/yade.sh -j1 docs/figures/choosing.py        # writes docs/pictures/choosing.png; some minutes
+    scripts/yade.sh -j1 docs/figures/choosing.py        # writes docs/pictures/choosing.png; a few minutes
 """
 import matplotlib
 
@@ -107,8 +107,8 @@ def main():
         print(label, *zip(SHARES, errors), sep="\n", flush=True)
         steps.loglog(SHARES, errors, marks, label=label)
     steps.axvline(0.5, color="0.6")
-    steps.text(0.48, steps.get_ylim()[0] * 1.3, "default", ha="right", color="0.4")
-    steps.legend(frameon=False, fontsize=8)
+    steps.text(0.48, 0.95, "default", ha="right", color="0.4", transform=steps.get_xaxis_transform())
+    steps.legend(frameon=False, fontsize=8, loc="lower right")
     steps.set(xlabel="time step / proved limit", ylabel="drift of the energy / fall", title="time step")
 
     for axis in (overlaps, energies, steps):
