@@ -47,6 +47,6 @@ impl Scale {
 
     /// Whether s cannot be told from 0, as where a constraint is slack.
     pub fn tells_nothing(&self) -> bool {
-        !(self.s > self.gap)
+        !(self.low > 0.0)
     }
 }

@@ -24,6 +24,17 @@ fn rounding_of_sums(count: u32) -> f64 {
     (ROUNDING + f64::from(count)) * DoubleDouble::UNIT
 }
 
+/// Which side a plane is on at a point where its depth cannot be told from 0.
+///
+/// The gradient of S is the same either way, but not the curvature: a step that takes a plane for off ends at once where it comes on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Undecided {
+    /// As the sign of its depth says.
+    BySign,
+    /// On.
+    On,
+}
+
 /// A plane near the point of reference.
 #[derive(Clone, Copy)]
 struct Plane {
@@ -38,6 +49,11 @@ struct Plane {
 impl Plane {
     fn depth(&self, delta: &Wide) -> DoubleDouble {
         self.excess + self.normal.dot(delta)
+    }
+
+    /// Bound on the rounding of a depth at x₀ + δ, |δ| = `length`, beyond that of e, which is that of the data.
+    fn doubt(&self, length: f64) -> f64 {
+        8.0 * DoubleDouble::UNIT * (self.excess.rounded().abs() + self.length * length)
     }
 
     /// The depth at x₀ + δ in doubles, and a bound on its rounding: what is clearly on or off needs no more digits.
@@ -165,9 +181,9 @@ impl<'a> ExtendedBody<'a> {
         });
     }
 
-    /// Calls `visit` with the normal and the depth of each plane that is on at x₀ + δ. Gives a lower bound of |depth| over the
-    /// others.
-    fn visit_active(&self, delta: &Wide, mut visit: impl FnMut(&Wide, DoubleDouble)) -> f64 {
+    /// Calls `visit` with the normal and the depth of each plane that is on at x₀ + δ; the depth is 0 where it is so by `undecided`
+    /// alone. Gives a lower bound of |depth| over the others.
+    fn visit_active(&self, delta: &Wide, undecided: Undecided, mut visit: impl FnMut(&Wide, DoubleDouble)) -> f64 {
         let (quick, mut clear) = (rounded(delta), f64::INFINITY);
         let length = quick.norm();
         for plane in &self.planes {
@@ -179,6 +195,8 @@ impl<'a> ExtendedBody<'a> {
             let depth = plane.depth(delta);
             if depth.is_positive() {
                 visit(&plane.normal, depth);
+            } else if undecided == Undecided::On && depth.rounded() > -plane.doubt(length) {
+                visit(&plane.normal, of(0.0));
             } else {
                 clear = smaller(depth.rounded().abs(), clear);
             }
@@ -187,19 +205,25 @@ impl<'a> ExtendedBody<'a> {
     }
 
     /// Calls `visit` with the normal of each plane that is on at x₀ + δ.
-    pub fn active_normals(&self, delta: &Wide, mut visit: impl FnMut(Vector3<f64>)) {
-        self.visit_active(delta, |n, _| visit(rounded(n)));
+    pub fn active_normals(&self, delta: &Wide, undecided: Undecided, mut visit: impl FnMut(Vector3<f64>)) {
+        self.visit_active(delta, undecided, |n, _| visit(rounded(n)));
     }
 
     /// S at x₀ + δ with derivatives in `axes` (columns, solver frame; `metric` is the product of their transpose with them).
-    pub fn quadratic(&self, delta: &Wide, axes: &Matrix3<f64>, metric: &Symmetric<DoubleDouble>) -> WideQuadratic {
+    pub fn quadratic(
+        &self,
+        delta: &Wide,
+        undecided: Undecided,
+        axes: &Matrix3<f64>,
+        metric: &Symmetric<DoubleDouble>,
+    ) -> WideQuadratic {
         let (w2, m2) = (self.plane_weight * 2.0, self.sphere_weight * 2.0);
         let turned = |v: &Wide| {
             let along = |i: usize| v.x * axes[(0, i)] + v.y * axes[(1, i)] + v.z * axes[(2, i)];
             Vector3::new(along(0), along(1), along(2))
         };
         let (mut square, mut linear, mut squares) = (of(0.0), wide(&Vector3::zeros()), Symmetric::default());
-        self.visit_active(delta, |n, depth| {
+        self.visit_active(delta, undecided, |n, depth| {
             let n = turned(n);
             square += depth * depth;
             linear += n * depth;
@@ -214,7 +238,7 @@ impl<'a> ExtendedBody<'a> {
     }
 
     /// Whether each plane is on at x₀ + δ + v if it is at x₀ + δ, and off if it is off, but for rounding.
-    pub fn keeps_active_set(&self, delta: &Wide, v: &Wide) -> bool {
+    pub fn keeps_active_set(&self, delta: &Wide, undecided: Undecided, v: &Wide) -> bool {
         let (quick, end) = (rounded(delta), rounded(&(delta + v)));
         let (length, length_of_end) = (quick.norm(), end.norm());
         self.planes.iter().all(|plane| {
@@ -224,10 +248,9 @@ impl<'a> ExtendedBody<'a> {
                 return true;
             }
             let (before, after) = (plane.depth(delta), plane.depth(&(delta + v)).rounded());
-            // Beyond the rounding of e, which is that of the data.
-            let doubt =
-                8.0 * DoubleDouble::UNIT * (plane.excess.rounded().abs() + plane.length * (length + length_of_end));
-            if before.is_positive() { after >= -doubt } else { after <= doubt }
+            let doubt = plane.doubt(length + length_of_end);
+            let on = before.is_positive() || (undecided == Undecided::On && before.rounded() > -plane.doubt(length));
+            if on { after >= -doubt } else { after <= doubt }
         })
     }
 
@@ -258,7 +281,7 @@ impl<'a> ExtendedBody<'a> {
         let particle = self.body.particle;
         let (mut square, mut linear) = (of(0.0), wide(&Vector3::zeros()));
         let (mut pull, mut count, mut least) = (0.0, 0, f64::INFINITY);
-        let clear = self.visit_active(delta, |n, depth| {
+        let clear = self.visit_active(delta, Undecided::BySign, |n, depth| {
             least = smaller(depth.rounded(), least);
             square += depth * depth;
             linear += n * depth;

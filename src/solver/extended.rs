@@ -19,7 +19,7 @@ use crate::model::dual_path::{Optimum, Side};
 use crate::model::local_model::{self, Start};
 use crate::model::problem::Problem;
 use crate::model::quadratic_model::Model;
-use crate::pair::extended_body::{ExtendedBody, Wide, WideQuadratic, WideValue, rounded, wide};
+use crate::pair::extended_body::{ExtendedBody, Undecided, Wide, WideQuadratic, WideValue, rounded, wide};
 use crate::pair::placed_particle::Body;
 use crate::pair::relative_pose::Pair;
 use crate::solver::newton::{self, Goal};
@@ -53,6 +53,8 @@ struct Extended<'a> {
 
 /// Both quadratics at x₀ + δ in graded axes.
 struct WideModel {
+    /// How planes count there of which the depth cannot be told from 0.
+    undecided: Undecided,
     axes: Matrix3<f64>,
     sides: [WideQuadratic; 2],
     /// Bounds on the least curvatures from below.
@@ -129,7 +131,7 @@ impl Extended<'_> {
         let mut found = Found { delta: wide(&Vector3::zeros()), lambda: first, optimum: None };
         let mut bracket = Bracket { low: 0.0, high: f64::INFINITY, slow: 0 };
         // The active set at the start may be that of the optimum.
-        let model = self.model(&found.delta, first);
+        let model = self.model(&found.delta, Undecided::BySign, first);
         if let Some(optimum) = model.quadratics(self.problem).solve(first) {
             self.accept(&mut found, &model, optimum);
         }
@@ -152,26 +154,27 @@ impl Extended<'_> {
     /// Goes to the optimum of a model, if the active set is the same there; whether it is.
     fn accept(&mut self, found: &mut Found, model: &WideModel, optimum: Optimum<DoubleDouble>) -> bool {
         let v = model.to_solver(&optimum.step);
-        let accepted = optimum.settled && self.keeps_active_sets(&found.delta, &v);
+        let accepted = optimum.settled && self.keeps_active_sets(&found.delta, model.undecided, &v);
         if accepted {
             *found = Found { delta: found.delta + v, lambda: optimum.lambda, optimum: Some(optimum) };
         }
         accepted
     }
 
-    fn keeps_active_sets(&mut self, delta: &Wide, v: &Wide) -> bool {
+    fn keeps_active_sets(&mut self, delta: &Wide, undecided: Undecided, v: &Wide) -> bool {
         let reach = rounded(delta).norm() + rounded(v).norm();
         // Both, since a line search along v needs the planes on the way.
         self.bodies.iter_mut().for_each(|body| body.cover(reach));
-        self.bodies.iter().all(|body| body.keeps_active_set(delta, v))
+        self.bodies.iter().all(|body| body.keeps_active_set(delta, undecided, v))
     }
 
     /// Moves δ to the minimum of a·S_A + b·S_B, by Newton's method with an exact line search; the quadratics there, or `None` where
     /// all steps do not suffice or a number leaves its range.
     fn minimise(&mut self, delta: &mut Wide, lambda: DoubleDouble) -> Option<WideModel> {
         let (a, b) = self.problem.weights(lambda);
+        let mut undecided = Undecided::BySign;
         for _ in 0..MOST_STEPS {
-            let model = self.model(delta, lambda);
+            let model = self.model(delta, undecided, lambda);
             let [q_a, q_b] = &model.sides;
             let hessian = q_a.hessian.weighted(a, &q_b.hessian, b);
             let soft = a * model.soft[0] + b * model.soft[1];
@@ -181,17 +184,21 @@ impl Extended<'_> {
             if !rounded(&v).iter().all(|c| c.is_finite()) {
                 return None;
             }
-            if self.keeps_active_sets(delta, &v) {
+            if self.keeps_active_sets(delta, undecided, &v) {
                 *delta += v;
                 // The quadratics are those of the minimum, but about another point.
-                return Some(self.model(delta, lambda));
+                return Some(self.model(delta, undecided, lambda));
             }
             let alpha = self.best_step(delta, &v, (a.rounded(), b.rounded()));
-            let moved = *delta + v * DoubleDouble::from(alpha);
-            if moved == *delta {
+            if alpha * rounded(&v).norm() > DoubleDouble::UNIT * rounded(delta).norm() {
+                *delta += v * DoubleDouble::from(alpha);
+                undecided = Undecided::BySign;
+            } else if undecided == Undecided::BySign {
+                // A plane that counts as off comes on at once.
+                undecided = Undecided::On;
+            } else {
                 return Some(model);
             }
-            *delta = moved;
         }
         None
     }
@@ -227,20 +234,20 @@ impl Extended<'_> {
         alpha
     }
 
-    fn model(&mut self, delta: &Wide, lambda: DoubleDouble) -> WideModel {
+    fn model(&mut self, delta: &Wide, undecided: Undecided, lambda: DoubleDouble) -> WideModel {
         self.steps += 1;
         let reach = rounded(delta).norm();
         self.bodies.iter_mut().for_each(|body| body.cover(reach));
         let (a, b) = self.problem.weights(lambda.rounded());
-        let axes = graded_basis::aligned(&ActiveNormals { bodies: &self.bodies, delta, weights: [a, b] });
+        let axes = graded_basis::aligned(&ActiveNormals { bodies: &self.bodies, delta, undecided, weights: [a, b] });
         // Doubles are orthonormal to rounding only; the metric says by how much they are off.
         let mut metric = Symmetric::default();
         for i in 0..3 {
             metric.add_square(&wide(&axes.row(i).transpose()));
         }
-        let sides = [0, 1].map(|i| self.bodies[i].quadratic(delta, &axes, &metric));
+        let sides = [0, 1].map(|i| self.bodies[i].quadratic(delta, undecided, &axes, &metric));
         let soft = [0, 1].map(|i| DoubleDouble::from(LESS * self.bodies[i].soft()));
-        WideModel { axes, sides, soft }
+        WideModel { undecided, axes, sides, soft }
     }
 
     /// The solution where a search ended, with the bounds of its value.
@@ -353,6 +360,7 @@ impl WideModel {
 struct ActiveNormals<'a> {
     bodies: &'a [ExtendedBody<'a>; 2],
     delta: &'a Wide,
+    undecided: Undecided,
     weights: [f64; 2],
 }
 
@@ -360,7 +368,7 @@ impl StiffNormals for ActiveNormals<'_> {
     fn visit(&self, mut visit: impl FnMut(Vector3<f64>, f64)) {
         for (body, weight) in self.bodies.iter().zip(self.weights) {
             let curvature = 2.0 * weight * body.plane_weight();
-            body.active_normals(self.delta, |n| visit(n, curvature));
+            body.active_normals(self.delta, self.undecided, |n| visit(n, curvature));
         }
     }
 }

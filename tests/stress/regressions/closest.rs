@@ -63,6 +63,7 @@ fn closest_from_memory_is_not_slack_for_want_of_a_bound() {
     judged_by("closest_from_memory_deep_in_a_core", &[Warm], 11, 32_611);
     judged_by("closest_from_memory_at_a_large_body", &[Warm], 11, 53_360);
     judged_by("closest_from_memory_without_a_core", &[Warm], 1, 355_952);
+    judged_by("a_plane_at_its_switch_from_memory", &[Warm], 555_473_478, 656_280);
 }
 
 /// P1 lies in the core of a sharp body, at planes that push with 10⁻²⁴ of its size; in the others both bodies are deep inside
