@@ -16,7 +16,7 @@ autodoc_typehints = "none"
 # `text` and `sh` blocks hold dots and glob patterns.
 highlight_language = "none"
 
-# "name: what it is" at the beginning of a line.
+# "name: what it is" at the beginning of a line, after a sentence or a blank line.
 PARAMETER = re.compile(r"([a-zA-Z_]+(?:, [a-zA-Z_]+)*): ")
 MARKUP = re.compile(r"([\\*|]|_(?=\W|$))")
 
@@ -31,7 +31,7 @@ def as_restructured_text(app, what, name, obj, options, lines):
     """Paragraphs stay paragraphs, what is indented is shown as it is."""
     given, indented = list(lines), False
     lines.clear()
-    for line in given:
+    for before, line in zip(["", *given], given):
         if line.startswith("    ") or (indented and line.startswith(" ")):
             if not indented:
                 lines.extend(["", "::", ""])
@@ -42,7 +42,7 @@ def as_restructured_text(app, what, name, obj, options, lines):
                 lines.append("")
                 indented = False
             parameter = PARAMETER.match(line)
-            if parameter:
+            if parameter and (not before.strip() or before.endswith(".")):
                 lines.extend(["", f"**{parameter[1]}**: " + plain_text(line[parameter.end():])])
             else:
                 lines.append("" if indented else plain_text(line))
