@@ -49,6 +49,7 @@ stage suite "Short side by side" scripts/short_side_by_side.sh
 stage check "Guide as a site" scripts/guide.sh "$CARGO_TARGET_DIR/guide"
 stage suite "Links of the guide" tests/guide/links.py "$CARGO_TARGET_DIR/guide"
 stage suite "Code blocks of the guide" tests/guide/run.py
+stage suite "Messages that the guide explains" tests/guide/sentences.py
 
 printf '\n%d passed, %d failed\n' "$passed" "$failed"
 [ "$failed" -eq 0 ]
