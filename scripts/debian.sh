@@ -22,6 +22,9 @@ stage check "Library and YADE plugin, compared with the YADE of this release" in
 stage suite "YADE scenes, -j1" in_sources tests/yade/run.py -j 1
 stage suite "YADE on 1, 2 and 3 ranks" in_sources tests/mpi/run.py
 stage suite "Short demo" in_sources scripts/short_demo.sh
+stage check "Guide as a site" in_sources scripts/guide.sh target/guide
+stage suite "Links of the guide" in_sources tests/guide/links.py target/guide
+stage suite "Code blocks of the guide" in_sources tests/guide/run.py
 if [ -e yade-glue/build/python/potential_particles/_glue.so ] && command -v yade >/dev/null; then
     stage suite "Files of this machine's YADE and of the other, loaded by either" scripts/exchange_saves.sh "$ROOT"
 else

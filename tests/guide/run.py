@@ -19,7 +19,7 @@ from blocks import blocks
 TOP = Path(__file__).resolve().parents[2]
 TARGET = Path(os.environ.get("CARGO_TARGET_DIR", TOP / "target")).resolve()
 RELEASE = TARGET / "release"
-SECONDS = 120
+SECONDS = 600
 # What stands around the body of a main function, where a block is one.
 C_AROUND = "#include <potential_particles.h>\n#include <stdio.h>\nint main(void) {\n%s\nreturn 0;\n}\n"
 

@@ -235,4 +235,17 @@ bare = plain(cube_planes(), r=0.05, k=0.05, R=0.9)
 lower, upper, body = bound(bare, orientation=Quaternion.Identity)
 check.close(upper, Vector3(5.5, 6.5, 7.5), 3e-3, "a plain shape without a box: the library's")
 
+# A shape keeps the functor that served it first. What counts is the scene that steps, not the one of which that functor knows.
+shared = cube()
+_, of_all_turns, _ = bound(shared, watch=False, orientation=Quaternion.Identity)
+O.switchToScene(O.addScene())
+O.materials.append(yade.FrictMat())
+O.engines = [yade.ForceResetter(), *collider(yade.Bo1_PP_Aabb_Conic(), verlet=0.0)]
+body = O.bodies[add(shared, Vector3(5, 6, 7), Quaternion.Identity, fixed=True, volume=1, inertia=Vector3(1, 1, 1))]
+run(1)
+found = body.bound.max
+_, as_it_stands, _ = bound(cube(), orientation=Quaternion.Identity)
+check.true(as_it_stands[0] < of_all_turns[0] - 0.1, "with a watch the box is smaller")
+check.close(found, as_it_stands, 1e-12, "a shape that was in a scene without a watch: the box of this scene")
+
 check.finish()

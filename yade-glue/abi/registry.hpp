@@ -13,6 +13,8 @@ public:
 
 namespace yade {
 
+class Scene;
+
 // Only reached through Singleton<...>::instance(); never made or copied here, so no field of
 // either is declared.
 class ClassFactory {
@@ -32,6 +34,8 @@ public:
     // Enters the classes into YADE's table and calls pyRegisterClass of each on yade.wrapper.
     // Python errors in there are printed, not passed on.
     void buildDynlibDatabase(const std::vector<std::string>& classNames);
+    // The scene that steps.
+    const boost::shared_ptr<Scene>& getScene() const;
 };
 
 } // namespace yade

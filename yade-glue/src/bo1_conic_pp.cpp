@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "archives.hpp"
 
+#include "../abi/registry.hpp"
 #include "bo1_conic_pp.hpp"
 #include "bound_watch.hpp"
 #include "bounding_box.hpp"
@@ -63,7 +64,11 @@ void Bo1_ConicPP_Aabb::go(const boost::shared_ptr<yade::Shape>& shape, boost::sh
     if (!bound)
         bound = boost::make_shared<yade::Aabb>();
     try {
-        const Box box = BoundWatch::guards(*scene) ? boxAsTurned(shape, at, *scene) : boxOfAnyTurn(shape, at, *scene);
+        // Not `scene`: a shape keeps the functor that first served it, also when it goes into another scene, and that one's pointer
+        // is to a scene that may be gone.
+        const yade::Scene& stepping = *Singleton<yade::Omega>::instance().getScene();
+        const Box box
+            = BoundWatch::guards(stepping) ? boxAsTurned(shape, at, stepping) : boxOfAnyTurn(shape, at, stepping);
         countTurning(*bound, box, at.position);
         bound->min = box.lower;
         bound->max = box.upper;
