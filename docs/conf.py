@@ -11,6 +11,8 @@ html_theme = "furo"
 html_title = "Potential particles"
 html_show_copyright = False
 html_copy_source = False
+html_static_path = ["static"]
+html_css_files = ["wide.css"]
 autodoc_member_order = "bysource"
 autodoc_typehints = "none"
 # `text` and `sh` blocks hold dots and glob patterns.
