@@ -1,0 +1,90 @@
+# SPDX-License-Identifier: MIT OR Apache-2.0
+"""A block on an incline: does it stay, slide, topple, or slide and topple?
+
+Hoek & Bray (1974) drew four regions in the plane of the slope angle and b/h. For a block that slides and topples at
+once, they compared b/h with the slope. The balance of momentum, which Bray & Goodman (1981) and Sagaseta
+(1986) wrote down, compares it with friction: a block that slides is turned over by friction alone.
+"""
+
+import numpy as np
+from yade import O
+
+from scene import GRAVITY, Scene, box_corners, place_of, tilted_gravity, turn_about_y
+
+STAYS, SLIDES, TOPPLES, BOTH = "stays", "slides", "topples", "slides and topples"
+MARGIN = 0.2  # degrees off the borders
+FRICTION = (20.0, 30.0, 40.0)  # degrees
+
+RAMP = 60.0  # beats in which the plane is tilted
+FALLEN, SLID = 0.02, 10.0  # radians, elastic shear displacements
+PATIENCE = 1.2  # s for a block of 1 m
+
+
+def region(slope, aspect, friction):
+    """What a block does from rest; slope and friction in degrees, aspect = atan(b/h) in degrees.
+
+    It topples if the reaction would have to leave the base: below the slope if it rests, below friction if it slides. Turning
+    about its lower edge it needs the friction F/N of that motion, less than that of rest.
+    """
+    if min(slope, friction) <= aspect:
+        return SLIDES if slope > friction else STAYS
+    return BOTH if friction < _needed(slope, aspect) else TOPPLES
+
+
+def _needed(slope, aspect):
+    """Friction angle, degrees, with which a block that topples keeps its edge where it is."""
+    a, d = np.radians(slope), np.radians(aspect)
+    b, h = np.sin(d), np.cos(d)
+    angular = 1.5 * (h * np.sin(a) - b * np.cos(a))  # acceleration times diagonal^2 / (g diagonal)
+    along = np.sin(a) - 0.5 * h * angular
+    across = np.cos(a) + 0.5 * b * angular
+    return np.degrees(np.arctan2(along, across))
+
+
+def region_of_hoek_and_bray(slope, aspect, friction):
+    """The four regions of their chart."""
+    topples = aspect < slope
+    if slope > friction:
+        return BOTH if topples else SLIDES
+    return TOPPLES if topples else STAYS
+
+
+def points(count, seed=1):
+    """(slope, aspect, friction) at random, as many in each region, none within MARGIN of a border."""
+    random = np.random.default_rng(seed)
+    found = {name: [] for name in (STAYS, SLIDES, TOPPLES, BOTH)}
+    while min(map(len, found.values())) < count // 4:
+        friction = random.choice(FRICTION)
+        slope, aspect = random.uniform(2.0, 60.0), random.uniform(8.0, 70.0)
+        shifts = MARGIN * np.array([(0, 0), (1, 0), (-1, 0), (0, 1), (0, -1)])
+        near = {region(slope + i, aspect + j, friction) for i, j in shifts}
+        near |= {region(slope, aspect, friction + i) for i in (-MARGIN, MARGIN)}
+        if len(near) == 1 and len(found[name := near.pop()]) < count // 4:
+            found[name].append((slope, aspect, float(friction)))
+    return [point for some in found.values() for point in some]
+
+
+def simulate(slope, aspect, friction):
+    """What the block does in YADE: (region, turn in radians, slip of the base in m)."""
+    height, base = np.cos(np.radians(aspect)), np.sin(np.radians(aspect))
+    scene = Scene(size=min(base, height), load=base * height * min(base, height))
+    scene.block(box_corners(8.0, 2.0, 1.0), fixed=True, position=(0, 0, -0.5))
+    block = scene.block(box_corners(base, min(base, height), height), position=(0, 0, 0.5 * height))
+    edge = (0.5 * base - scene.rounding, 0.0, 0.0)
+    scene.start(friction)
+    scene.settle()
+    steps = 40
+    for part in range(1, steps + 1):
+        scene.set_gravity(tilted_gravity(slope * part / steps))
+        scene.run(RAMP / steps * scene.beat)
+    until = O.time + PATIENCE
+    slid = SLID * scene.overlap
+    while O.time < until:
+        scene.run(20 * scene.beat)
+        turn, slip = turn_about_y(block), place_of(block, edge)[0] - edge[0]
+        if turn > FALLEN or slip > 0.02 or (O.time > until - PATIENCE / 2 and block.state.vel.norm() < 1e-7):
+            break
+    scene.check()
+    topples, slides = turn > 0.1 * FALLEN, slip > slid
+    name = BOTH if topples and slides else TOPPLES if topples else SLIDES if slides else STAYS
+    return name, float(turn), float(slip)

@@ -1,0 +1,184 @@
+# SPDX-License-Identifier: MIT OR Apache-2.0
+"""The scene of every case: blocks with flat faces, springs and friction, and all numerical choices, which no case changes.
+
+Every length below is relative to the size of the scene, the diameter of the largest ball in its smallest block.
+
+- Edges are rounded with the radius r = ROUNDING: the flat part of a face, over which its contact point may move, ends r inside the edge.
+- Springs are so stiff that the largest force at rest, which the case names (`load`), makes an overlap of OVERLAP.
+- Faces are flat (k = 0). Their contact point is chosen as if they bulged by BULGE of that overlap, so that it moves smoothly with
+  the tilt: it crosses a face while the block tilts by some 1e-6 rad (docs/wedge.md).
+- The time step follows from the stiffest motion, springs or tilting.
+- What is looked for at rest is damped by YADE's local damping, which vanishes at rest and delays all motion of a block
+  alike; what is looked for in motion is not damped at all.
+"""
+
+import numpy as np
+import yade
+from potential_particles import body, shapes
+from potential_particles.polyhedron import Polyhedron
+from yade import O, Vector3
+
+from stepping import advance
+
+GRAVITY = 9.81  # m/s^2
+DENSITY = 2600.0  # kg/m^3; no result depends on it
+ROUNDING = 1e-3
+OVERLAP = 1e-5
+BULGE = 0.05
+SHEAR = 0.5  # of the normal stiffness
+DAMPING = 0.5
+# Of the time in which the springs, and tilting, turn one radian.
+SPRING_STEP, TILT_STEP = 0.2, 0.8
+# Blocks with faces that bulge (k > 0) need springs softer than the bulge k r / 2, up to a part of r.
+OVERLAP_OVER_BULGE, MOST_OVERLAP = 20.0, 0.1
+
+FREE_MASK, FIXED_MASK, FIXED_ONLY = 0b01, 0b11, 0b10
+
+
+class Scene:
+    """Empties YADE's scene. Add blocks, then `start`.
+
+    size: m; load: the largest force of a contact at rest, as the weight of so much volume (m^3) of rock.
+    """
+
+    def __init__(self, size, load, rounding=ROUNDING, sphericity=0.0):
+        O.reset()
+        self.size, self.rounding, self.sphericity = size, rounding * size, sphericity
+        self.load = load * DENSITY * GRAVITY
+        self.overlap = size * max(OVERLAP, min(OVERLAP_OVER_BULGE * sphericity, MOST_OVERLAP) * rounding)
+        self.stiffness = self.load / self.overlap
+        self.friction = 0.0
+        self.functor = None
+        self.material = O.materials[O.materials.append(self._material())]
+
+    def _material(self):
+        return yade.FrictMat(young=1.0, poisson=1.0, frictionAngle=0.0, density=DENSITY)
+
+    # --- blocks ---------------------------------------------------------------------------------
+
+    def block(self, corners, fixed=False, position=(0.0, 0.0, 0.0), tilt=0.0, mask=None):
+        """The convex hull of corners (m) as a body; tilt (radians) about the y axis, clockwise as seen with x to the right
+        and z up."""
+        corners = np.asarray(corners, float)
+        relative = self.rounding / (2.0 * Polyhedron.of_points(corners).ball_radius)
+        shape = shapes.from_vertices(corners, r=relative, k=self.sphericity)
+        return self.add(shape, fixed, position, tilt, mask)
+
+    def add(self, shape, fixed=False, position=(0.0, 0.0, 0.0), tilt=0.0, mask=None):
+        """A Shape as a body; returns it."""
+        mask = mask if mask is not None else (FIXED_MASK if fixed else FREE_MASK)
+        turn = (np.cos(0.5 * tilt), 0.0, np.sin(0.5 * tilt), 0.0)
+        made = body(shape, self.material, position, turn, fixed=fixed, mask=mask)
+        O.bodies.append(made)
+        return made
+
+    # --- engines --------------------------------------------------------------------------------
+
+    def start(self, friction, damping=DAMPING, gravity=(0.0, 0.0, -GRAVITY), before=()):
+        """Engines and time step; friction angle in degrees. `before`: engines that run before the contacts."""
+        bulge = BULGE * self.overlap / self.rounding
+        regularisation = {"flatRegularisation": bulge} if self.sphericity == 0.0 else {}
+        self.functor = yade.Ig2_ConicPP_ConicPP_ScGeom(calContactArea=False, **regularisation)
+        physics, law = self._laws()
+        O.engines = [
+            yade.ForceResetter(),
+            yade.BoundWatch(),
+            yade.InsertionSortCollider(
+                [yade.Bo1_ConicPP_Aabb()], verletDist=0.02 * self.size, avoidSelfInteractionMask=FIXED_ONLY
+            ),
+            *before,
+            yade.ConicInteractionLoop([self.functor], [physics], [law]),
+            yade.NewtonIntegrator(damping=damping, gravity=gravity, exactAsphericalRot=True),
+        ]
+        O.dt = self._time_step(max(bulge, self.sphericity))
+        self.set_friction(friction)
+
+    def _laws(self):
+        def value(number):
+            return yade.MatchMaker(algo="val", val=float(number))
+
+        physics = yade.Ip2_FrictMat_FrictMat_FrictPhys(kn=value(self.stiffness), ks=value(SHEAR * self.stiffness))
+        # Levers of forces run to the contact point, not along the normal as for spheres.
+        return physics, yade.Law2_ScGeom_FrictPhys_CundallStrack(sphericalBodies=False)
+
+    def _time_step(self, curving):
+        """s. A tilt moves the point by tilt R^2 / (r curving), and with it the load."""
+        least = np.inf
+        for one in self.free():
+            springs = np.sqrt(self.stiffness / one.state.mass)
+            lever = one.shape.boundingRadius**2 / (curving * self.rounding)
+            tilting = np.sqrt(self.load * lever / min(one.state.inertia))
+            least = min(least, SPRING_STEP / springs, TILT_STEP / tilting)
+        return least
+
+    @property
+    def motion(self):
+        """The integrator."""
+        return O.engines[-1]
+
+    def free(self):
+        """Bodies that may move."""
+        return [one for one in O.bodies if one.state.blockedDOFs == ""]
+
+    def set_friction(self, angle):
+        """Friction angle of all contacts from now on, degrees."""
+        self.friction = angle
+        for material in O.materials:
+            material.frictionAngle = np.radians(angle)
+        for interaction in O.interactions:
+            if interaction.isReal:
+                interaction.phys.tangensOfFrictionAngle = np.tan(np.radians(angle))
+
+    def set_gravity(self, vector):
+        """m/s^2; a tilted gravity stands for a tilted plane."""
+        self.motion.gravity = Vector3(*map(float, vector))
+
+    # --- what it does ---------------------------------------------------------------------------
+
+    @property
+    def beat(self):
+        """sqrt(overlap / g), s: the pace of the springs."""
+        return np.sqrt(self.overlap / GRAVITY)
+
+    def run(self, seconds):
+        """So long, in whole steps."""
+        advance(O.iter + max(1, round(seconds / O.dt)))
+
+    def settle(self, quiet=1e-6, most=4000):
+        """Until no block is faster than `quiet` sqrt(g overlap), and at most so many beats; True if they rest."""
+        limit = quiet * np.sqrt(GRAVITY * self.overlap)
+        until = O.time + most * self.beat
+        while O.time < until:
+            self.run(20.0 * self.beat)
+            if max(one.state.vel.norm() for one in self.free()) < limit:
+                return True
+        return False
+
+    def check(self):
+        """SystemExit if a contact could not be computed."""
+        if self.functor.failures:
+            raise SystemExit(f"{self.functor.failures} contacts could not be computed: {self.functor.failureReport}")
+
+
+def box_corners(length, width, height):
+    """Of a box about the origin along x, y, z."""
+    return [(0.5 * x * length, 0.5 * y * width, 0.5 * z * height) for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)]
+
+
+def tilted_gravity(angle):
+    """Gravity seen from a plane that dips by `angle` (degrees) towards x."""
+    radians = np.radians(angle)
+    return GRAVITY * np.array([np.sin(radians), 0.0, -np.cos(radians)])
+
+
+def turn_about_y(one):
+    """By how much a body has turned about y since it was made, radians, -pi to pi; positive falls towards +x."""
+    turned = one.state.ori * one.state.refOri.conjugate()
+    w, y = turned[3], turned[1]
+    return 2.0 * np.arctan2(y, w) if w >= 0.0 else 2.0 * np.arctan2(-y, -w)
+
+
+def place_of(one, point):
+    """Where a material point is now that was at `point` (m, world) when the body was made."""
+    local = one.state.refOri.conjugate() * (Vector3(*map(float, point)) - one.state.refPos)
+    return np.array(one.state.pos + one.state.ori * local)
