@@ -29,6 +29,7 @@ SHEAR = 0.5  # of the normal stiffness
 DAMPING = 0.5
 # Of the time in which the springs, and tilting, turn one radian.
 SPRING_STEP, TILT_STEP = 0.2, 0.8
+QUIET = 1e-5  # of the speed that belongs to the overlap
 # Blocks with faces that bulge (k > 0) need springs softer than the bulge k r / 2, up to a part of r.
 OVERLAP_OVER_BULGE, MOST_OVERLAP = 20.0, 0.1
 
@@ -62,13 +63,12 @@ class Scene:
         corners = np.asarray(corners, float)
         relative = self.rounding / (2.0 * Polyhedron.of_points(corners).ball_radius)
         shape = shapes.from_vertices(corners, r=relative, k=self.sphericity)
-        return self.add(shape, fixed, position, tilt, mask)
+        return self.add(shape, fixed, position, (np.cos(0.5 * tilt), 0.0, np.sin(0.5 * tilt), 0.0), mask)
 
-    def add(self, shape, fixed=False, position=(0.0, 0.0, 0.0), tilt=0.0, mask=None):
-        """A Shape as a body; returns it."""
+    def add(self, shape, fixed=False, position=(0.0, 0.0, 0.0), orientation=(1.0, 0.0, 0.0, 0.0), mask=None):
+        """A Shape as a body; orientation w, x, y, z. Returns the body."""
         mask = mask if mask is not None else (FIXED_MASK if fixed else FREE_MASK)
-        turn = (np.cos(0.5 * tilt), 0.0, np.sin(0.5 * tilt), 0.0)
-        made = body(shape, self.material, position, turn, fixed=fixed, mask=mask)
+        made = body(shape, self.material, position, orientation, fixed=fixed, mask=mask)
         O.bodies.append(made)
         return made
 
@@ -144,13 +144,19 @@ class Scene:
         """So long, in whole steps."""
         advance(O.iter + max(1, round(seconds / O.dt)))
 
-    def settle(self, quiet=1e-6, most=4000):
-        """Until no block is faster than `quiet` sqrt(g overlap), and at most so many beats; True if they rest."""
-        limit = quiet * np.sqrt(GRAVITY * self.overlap)
+    def at_rest(self):
+        """Whether no block is faster than QUIET sqrt(g overlap), and none is turned faster than that at its farthest corner."""
+        limit = QUIET * np.sqrt(GRAVITY * self.overlap)
+        return all(
+            one.state.vel.norm() < limit and one.state.angVel.norm() * one.shape.boundingRadius < limit for one in self.free()
+        )
+
+    def settle(self, most=4000):
+        """Until the blocks rest, and at most so many beats; whether they rest."""
         until = O.time + most * self.beat
         while O.time < until:
             self.run(20.0 * self.beat)
-            if max(one.state.vel.norm() for one in self.free()) < limit:
+            if self.at_rest():
                 return True
         return False
 

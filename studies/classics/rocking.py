@@ -1,0 +1,103 @@
+# SPDX-License-Identifier: MIT OR Apache-2.0
+"""A column rocks freely from edge to edge (Housner 1963).
+
+About its edge it is a pendulum turned over: theta'' = -p^2 sin(a - theta), p^2 = 3 g / (4 R), R half the diagonal, a = atan(b/h).
+From rest at theta0 it is upright again after a quarter period. If it neither bounces nor slides when it lands on the other
+edge, its angular momentum about that edge is kept, and the angular velocity after is 1 - 1.5 sin^2 a times that before.
+"""
+
+import numpy as np
+import yade
+from yade import O
+
+from scene import GRAVITY, SHEAR, Scene, box_corners, turn_about_y
+
+BASE, HEIGHT = 1.0, 4.0  # m
+TILTS = (0.2, 0.4, 0.6, 0.8)  # theta0 over a
+FRICTION = 45.0  # degrees
+IMPACTS = 3
+
+
+def slenderness():
+    """a, radians."""
+    return np.arctan2(BASE, HEIGHT)
+
+
+def pace():
+    """p, 1/s."""
+    return np.sqrt(0.75 * GRAVITY / np.hypot(0.5 * BASE, 0.5 * HEIGHT))
+
+
+def quarter_period(tilt):
+    """s, from rest at theta0 = tilt a; the integral of dtheta / theta' without linearising.
+
+    With a - theta = y, y from a - theta0 = c to a: theta'^2 / 2 = p^2 (cos c - cos y). y = c + s^2 takes the pole away.
+    """
+    a = slenderness()
+    c = a * (1.0 - tilt)
+    nodes, weights = np.polynomial.legendre.leggauss(60)
+    s = 0.5 * np.sqrt(a - c) * (nodes + 1.0)
+    # cos c - cos(c + s^2) = 2 sin(c + s^2/2) sin(s^2/2)
+    speed = np.sqrt(4.0 * np.sin(c + 0.5 * s * s) * np.sin(0.5 * s * s))
+    return float(0.5 * np.sqrt(a - c) * np.sum(weights * 2.0 * s / speed) / pace())
+
+
+def quarter_period_of_housner(tilt):
+    """His, for slender columns: acosh(1/(1 - tilt))/p."""
+    return float(np.arccosh(1.0 / (1.0 - tilt)) / pace())
+
+
+def housner_ratio():
+    """Of the angular velocities after and before an impact."""
+    return 1.0 - 1.5 * np.sin(slenderness()) ** 2
+
+
+class Dashpots(Scene):
+    """With dashpots beside the springs, by which what lands does not bounce."""
+
+    def _material(self):
+        # YADE puts the values of both bodies in series: twice each gives what is wanted.
+        mass = self.load / GRAVITY
+        normal = 2.0 * np.sqrt(self.stiffness * mass)
+        return yade.ViscElMat(
+            kn=2.0 * self.stiffness, ks=2.0 * SHEAR * self.stiffness, cn=2.0 * normal, cs=2.0 * normal,
+            frictionAngle=0.0, density=2600.0,
+        )
+
+    def _laws(self):
+        return yade.Ip2_ViscElMat_ViscElMat_ViscElPhys(), yade.Law2_ScGeom_ViscElPhys_Basic()
+
+
+def simulate(tilt, kind=Scene, impacts=1, after=0.0):
+    """Looks (n, 3): time (s), turn (radians), angular velocity (1/s), from rest at theta0 = tilt a until so many impacts
+    and `after` s more."""
+    scene = kind(size=BASE, load=BASE * BASE * HEIGHT)
+    scene.block(box_corners(8.0, 4.0, 1.0), fixed=True, position=(0, 0, -0.5))
+    block = scene.block(box_corners(BASE, BASE, HEIGHT), position=(0, 0, 0.5 * HEIGHT))
+    turn = tilt * slenderness()
+    # On its right edge; what is turned by theta about y falls towards +x.
+    edge = np.array([0.5 * BASE, 0.0, 0.0])
+    arm = np.array([-0.5 * BASE, 0.0, 0.5 * HEIGHT])
+    c, s = np.cos(turn), np.sin(turn)
+    place = edge + np.array([c * arm[0] + s * arm[2], 0.0, -s * arm[0] + c * arm[2]])
+    block.state.pos = yade.Vector3(*map(float, place))
+    block.state.ori = yade.Quaternion((0, 1, 0), float(turn))
+    scene.start(FRICTION, damping=0.0)
+    looks, crossings, sign, end = [], 0, 1.0, None
+    limit = 4.0 * (impacts + 1) * quarter_period(tilt) + 2.0
+    while O.time < limit and (end is None or O.time < end):
+        scene.run(2.0 * scene.beat)
+        looks.append((O.time, turn_about_y(block), block.state.angVel[1]))
+        if sign * looks[-1][1] < -1e-5:
+            sign, crossings = -sign, crossings + 1
+            if crossings == impacts and end is None:
+                end = O.time + after
+    scene.check()
+    return np.array(looks)
+
+
+def first_upright(looks):
+    """Time at which the turn is 0 first, s, between two looks."""
+    i = int(np.argmax(looks[:, 1] <= 0.0))
+    (t0, a0, _), (t1, a1, _) = looks[i - 1], looks[i]
+    return t0 + (t1 - t0) * a0 / (a0 - a1)
