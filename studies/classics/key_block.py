@@ -1,0 +1,133 @@
+# SPDX-License-Identifier: MIT OR Apache-2.0
+"""A tetrahedral block in the roof of a tunnel, between three joints: does it fall or hold?
+
+It rests on joints A and B, and joint C lies on it. Their line of intersection plunges out of the roof, and joint C opens (Shi's
+mode of sliding on two faces; Goodman & Shi 1985). Without cohesion the limit is that of the wedge
+(Hoek & Bray 1974; studies/joint_planes.py): tan(friction) = W sin(plunge) / (N_A + N_B).
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+import yade
+from potential_particles import shapes
+from yade import O
+
+from joint_planes import Plane, sliding_on
+from scene import GRAVITY, ROUNDING, Scene
+
+HEIGHT = 1.0  # of the block above the roof, m
+REACH = 0.6  # from where the line leaves the roof to joint C, along the line's trend, m
+HEADROOM = 3.0  # of friction above the plunge, with which it is held at first, degrees
+PARTS = (0.6, 0.8)  # of tan(plunge): tangents of friction at which it slides
+NEAR = 0.02  # degrees on both sides of the angle found, at which it is tried whether it holds
+WAY = (0.01, 0.04)  # from where to where the acceleration is measured, m
+PATIENCE = 3.0  # s
+
+
+@dataclass(frozen=True)
+class RoofBlock:
+    """Two joints that carry it."""
+
+    name: str
+    plane_a: Plane
+    plane_b: Plane
+
+    @property
+    def limit(self):
+        """The closed form."""
+        return sliding_on(self.plane_a.normal, self.plane_b.normal)
+
+    def joint_c(self):
+        """(unit normal upwards, offset) of the joint above, through the apex and a line across the roof."""
+        line = self.limit.line
+        across = np.cross([0.0, 0.0, 1.0], line)
+        apex = -line / -line[2] * HEIGHT
+        trend = np.array([line[0], line[1], 0.0]) / np.hypot(line[0], line[1])
+        normal = np.cross(across, apex - REACH * trend)
+        normal *= np.sign(normal[2]) / np.linalg.norm(normal)
+        return normal, float(normal @ apex)
+
+    def half_spaces(self):
+        """Rows (outward normal, offset) of the block."""
+        up = np.array([0.0, 0.0, 1.0])
+        c, offset = self.joint_c()
+        return [(*-self.plane_a.normal, 0.0), (*-self.plane_b.normal, 0.0), (*-up, 0.0), (*c, offset)]
+
+
+    def mode(self):
+        """"falls" if every joint opens when it moves straight down, or else "slides" """
+        joints = np.array([row[:3] for row in self.half_spaces()])[[0, 1, 3]]
+        return "falls" if np.all(joints[:, 2] > 0.0) else "slides"
+
+
+CASES = (
+    RoofBlock("steep", Plane(60, 130), Plane(60, 230)),
+    RoofBlock("oblique", Plane(50, 150), Plane(65, 240)),
+    RoofBlock("one flat, one steep", Plane(45, 140), Plane(75, 250)),
+)
+
+
+class HungBlock:
+    """The scene: the block on its two joints, laid down without friction while a force along the line holds it."""
+
+    def __init__(self, case):
+        self.case, self.line = case, case.limit.line
+        shape = shapes.from_planes(case.half_spaces(), r=ROUNDING, k=0.0)
+        size = shape.r / ROUNDING
+        self.scene = scene = Scene(size=size, load=shape.volume)
+        self.block = scene.add(shape)
+        for outward, offset in ((-case.plane_a.normal, 0.0), (-case.plane_b.normal, 0.0), case.joint_c()):
+            scene.add(shapes.cuboid((8.0, 8.0, 1.0), r=ROUNDING * size), fixed=True, **_behind(outward, offset))
+        scene.start(friction=0.0)
+        weight = self.block.state.mass * GRAVITY
+        hold = weight * self.line[2] * self.line
+        self._push(hold)
+        scene.settle()
+        scene.set_friction(case.limit.plunge + HEADROOM)
+        for part in np.linspace(1.0, 0.0, 41)[1:]:
+            self._push(part * hold)
+            scene.run(5.0 * scene.beat)
+        scene.settle()
+
+    def _push(self, force):
+        O.forces.setPermF(self.block.id, yade.Vector3(*map(float, force)))
+
+    def slide(self, friction):
+        """Sets the friction angle and lets go; looks (n, 2): time (s), way along the line (m)."""
+        scene = self.scene
+        scene.set_friction(friction)
+        begin, start, looks = O.time, np.array(self.block.state.pos), []
+        while O.time < begin + PATIENCE:
+            scene.run(20.0 * scene.beat)
+            looks.append((O.time - begin, (np.array(self.block.state.pos) - start) @ self.line))
+            if looks[-1][1] > WAY[1] or scene.at_rest():
+                break
+        scene.check()
+        return np.array(looks)
+
+
+def critical_angle(case):
+    """Degrees: where the acceleration, linear in tan(friction), is zero, from two angles at which it slides."""
+    tangents = np.array(PARTS) * np.tan(np.radians(case.limit.plunge)) * 0.5
+    found = []
+    for tangent in tangents:
+        time, way = HungBlock(case).slide(np.degrees(np.arctan(tangent))).T
+        far = way > WAY[0]
+        found.append(2.0 * np.polyfit(time[far], way[far], 2)[0])
+    (one, other), (low, high) = found, tangents
+    return float(np.degrees(np.arctan(low + one * (high - low) / (one - other))))
+
+
+def holds(case, friction):
+    """Whether it comes to rest at a friction angle, from rest at a larger one."""
+    return HungBlock(case).slide(friction)[-1, 1] < WAY[0]
+
+
+def _behind(outward, offset):
+    """Position and orientation of a slab of thickness 1 whose face is the plane outward . x = offset, beyond it."""
+    outward = np.asarray(outward) / np.linalg.norm(outward)
+    turn = yade.Quaternion()
+    turn.setFromTwoVectors(yade.Vector3(0, 0, 1), yade.Vector3(*map(float, outward)))
+    place = outward * (offset + 0.5)
+    return {"position": place, "orientation": (turn[3], turn[0], turn[1], turn[2])}
