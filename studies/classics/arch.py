@@ -11,14 +11,19 @@ import numpy as np
 from scipy.optimize import linprog
 from yade import O
 
-from scene import ROUNDING, Scene, box_corners
+from report import row, target, worst
+from scene import ROUNDING, Scene, box_corners, place_of
 
+TITLE = "a semicircular arch"
 MILANKOVITCH, HEYMAN = 0.1075, 0.106
 HINGE = 54.5  # degrees
 RADIUS = 1.0  # m
 FRICTION = 60.0  # degrees: no joint slides
 STONES = 40
+SEARCH = (0.09, 0.13)  # t/R
 BRACKET = 4e-4  # of t/R
+# Stones, r over t, k: each row changes one thing.
+VARIED = ((10, ROUNDING, 0.0), (20, ROUNDING, 0.0), (20, 1e-2, 0.0), (20, 3e-2, 0.0), (20, ROUNDING, 0.01), (20, ROUNDING, 0.1), (20, 1e-2, 0.1))
 MOVED = 0.01  # of the thickness: it falls
 PATIENCE = 4.0  # s
 
@@ -47,26 +52,39 @@ def least_thickness(stones, inset=0.0):
 
 
 def line_of_thrust(thickness, stones, inset=0.0):
-    """Where some line of thrust meets the joints, as parts of the thickness from the middle, outwards; None if there is none.
-
-    Unknown: force (x, z) and moment about the origin at the left springing, and by how much of the thickness it stays inside.
+    """Force (x, z) and moment about the origin at the left springing, with which some line of thrust passes every joint within
+    its thickness, `inset` t inside the edges; None if there is none. The density is 1, the width too.
     """
-    angles = joints(stones)
-    weights, moments = _weights(thickness, angles)
     rows, sides = [], []
-    for angle, weight, moment in zip(angles, weights, moments):
-        along, outward = np.array([np.cos(angle), -np.sin(angle)]), np.array([np.sin(angle), np.cos(angle)])
-        # Force (X, Z - weight), moment M about the origin, counterclockwise, of what is left of the joint on what is right.
-        # About a point p of the joint: M' = M - (p_x F_z - p_z F_x), and N = F . along; |M' at the middle| <= N t (1/2 - inset).
-        middle = RADIUS * outward
-        turn = np.array([middle[1], -middle[0], 1.0]), middle[0] * weight + moment
-        normal = np.array([along[0], along[1], 0.0]), -along[1] * weight
+    for normal, turn in _resultants(thickness, stones):
         for sign in (1.0, -1.0):
             reach = (0.5 - inset) * thickness
             rows.append(sign * turn[0] - reach * normal[0])
-            sides.append(-(sign * turn[1] - reach * normal[1]))
+            sides.append(reach * normal[1] - sign * turn[1])
     found = linprog(np.zeros(3), A_ub=rows, b_ub=sides, bounds=[(None, None)] * 3, method="highs")
     return None if found.status == 2 else found.x
+
+
+def eccentricities(thickness, stones, reaction):
+    """Where the line of thrust meets each joint: from its middle outwards, as part of the thickness."""
+    return np.array([
+        -(turn[0] @ reaction + turn[1]) / (normal[0] @ reaction + normal[1]) / thickness
+        for normal, turn in _resultants(thickness, stones)
+    ])  # fmt: skip
+
+
+def _resultants(thickness, stones):
+    """Of each joint its normal force and its moment about the middle of the joint, counterclockwise, on what is right of it: both
+    as (coefficients of the reaction at the left springing, constant)."""
+    angles = joints(stones)
+    weights, moments = _weights(thickness, angles)
+    for angle, weight, moment in zip(angles, weights, moments):
+        along, outward = np.array([np.cos(angle), -np.sin(angle)]), np.array([np.sin(angle), np.cos(angle)])
+        # What is left of the joint passes on F = (X, Z - weight), and M about the origin; about p it is M - (p_x F_z - p_z F_x).
+        middle = RADIUS * outward
+        turn = np.array([middle[1], -middle[0], 1.0]), middle[0] * weight + moment
+        normal = np.array([along[0], along[1], 0.0]), -along[1] * weight
+        yield normal, turn
 
 
 def _weights(thickness, angles):
@@ -125,3 +143,79 @@ class Arch:
                 break
         self.scene.check()
         return True
+
+    def thrust(self):
+        """Where the contact point of each joint is: from its middle outwards, as part of the thickness."""
+        ends = {}
+        for one in O.interactions:
+            if one.isReal:
+                point = np.array(one.geom.contactPoint)
+                ends[round(float(np.degrees(np.arctan2(point[0], point[2]))), 2)] = (np.hypot(point[0], point[2]) - RADIUS) / self.thickness
+        return sorted(ends.items())
+
+    def outlines(self):
+        """The stones where they are now, each as corners (x, z)."""
+        drawn = []
+        for one, (start, end) in zip(self.stones, zip(joints(len(self.stones))[:-1], joints(len(self.stones))[1:])):
+            section = outline(self.thickness, start, end)
+            drawn.append([place_of(one, (x, 0.0, z))[::2].tolist() for x, z in section])
+        return drawn
+
+
+def thinnest(stones, rounding, sphericity, bracket=BRACKET, look=lambda part: None):
+    """(largest t/R that falls, smallest that stands)."""
+    low, high = SEARCH
+    trials = int(np.ceil(np.log2((high - low) / bracket)))
+    for trial in range(1, trials + 1):
+        middle = 0.5 * (low + high)
+        low, high = (low, middle) if Arch(middle, stones, rounding, sphericity).stands() else (middle, high)
+        look(trial / trials)
+    return low, high
+
+
+def run(note, short):
+    """The arch of STONES, and others with other stones, r and k; or one of ten stones."""
+    cases = [(10, ROUNDING, 0.0)] if short else [(STONES, ROUNDING, 0.0), *VARIED]
+    bracket = 2e-3 if short else BRACKET
+    costs = np.cumsum([0.0, *(case[0] ** 2 for case in cases)])
+    rows = []
+    for number, (stones, rounding, sphericity) in enumerate(cases):
+        here, cost = costs[number], costs[number + 1] - costs[number]
+        low, high = thinnest(stones, rounding, sphericity, bracket, lambda part: note((here + part * cost) / costs[-1]))
+        name = f"least t/R, {stones} stones, r = {rounding:g} t, k = {sphericity:g}"
+        rows.append(row(name, least_thickness(stones, rounding), 0.5 * (low + high)))
+        rows[-1]["bracket"] = high - low
+        if number == 0:
+            data = _picture(high, low, stones)
+    angles, offsets = np.array(data["thrust"]).T
+    hinge = float(np.abs(angles)[np.argmin(offsets)])
+    least = rows[0]["found"]
+    rows += [
+        row(f"least t/R, {cases[0][0]} stones, against Milankovitch", MILANKOVITCH, least),
+        row("hinge at the intrados, from the crown", HINGE, hinge, "°"),
+    ]
+    aims = [
+        target("arch: t/R against that of so many stones and hinges r inside the edges, largest error", 1e-3, worst(rows[:-2])),
+    ]
+    if not short:
+        spacing = 180.0 / STONES
+        aims += [
+            target("arch: error of t/R against Milankovitch", 1e-3, abs(rows[-2]["error"])),
+            target("arch: hinge against 54.5 degrees, in joints", 0.5, abs(rows[-1]["error"]) / spacing),
+        ]
+    return {"title": TITLE, "rows": rows, "targets": aims, "data": data}
+
+
+def _picture(stands, falls, stones):
+    """The arch at rest with its line of thrust, and one that is falling."""
+    arch = Arch(stands, stones)
+    arch.stands()
+    data = {"thrust": arch.thrust(), "rest": arch.outlines(), "thickness": stands}
+    least = least_thickness(stones, ROUNDING)
+    line = eccentricities(least, stones, line_of_thrust(least, stones, ROUNDING))
+    data["line"] = [np.degrees(joints(stones)).tolist(), line.tolist()]
+    arch = Arch(0.9 * falls, stones)
+    while arch.moved() < 1.5 and O.time < PATIENCE:
+        arch.scene.run(0.02)
+    data["fallen"] = arch.outlines()
+    return data

@@ -9,10 +9,12 @@ once, they compared b/h with the slope. The balance of momentum, which Bray & Go
 import numpy as np
 from yade import O
 
-from scene import GRAVITY, Scene, box_corners, place_of, tilted_gravity, turn_about_y
+from report import row, target
+from scene import Scene, box_corners, place_of, tilted_gravity, turn_about_y
 
 STAYS, SLIDES, TOPPLES, BOTH = "stays", "slides", "topples", "slides and topples"
-MARGIN = 0.2  # degrees off the borders
+TITLE = "a block on an incline"
+MARGIN, NEAR = 0.2, 1.0  # degrees off the borders: all of the points; the nearest border of every second one
 FRICTION = (20.0, 30.0, 40.0)  # degrees
 
 RAMP = 60.0  # beats in which the plane is tilted
@@ -50,18 +52,26 @@ def region_of_hoek_and_bray(slope, aspect, friction):
 
 
 def points(count, seed=1):
-    """(slope, aspect, friction) at random, as many in each region, none within MARGIN of a border."""
+    """(slope, aspect, friction) at random, as many in each region, none within MARGIN of a border, half of them within NEAR."""
     random = np.random.default_rng(seed)
-    found = {name: [] for name in (STAYS, SLIDES, TOPPLES, BOTH)}
-    while min(map(len, found.values())) < count // 4:
-        friction = random.choice(FRICTION)
-        slope, aspect = random.uniform(2.0, 60.0), random.uniform(8.0, 70.0)
-        shifts = MARGIN * np.array([(0, 0), (1, 0), (-1, 0), (0, 1), (0, -1)])
-        near = {region(slope + i, aspect + j, friction) for i, j in shifts}
-        near |= {region(slope, aspect, friction + i) for i in (-MARGIN, MARGIN)}
-        if len(near) == 1 and len(found[name := near.pop()]) < count // 4:
-            found[name].append((slope, aspect, float(friction)))
+    found = {(name, near): [] for name in (STAYS, SLIDES, TOPPLES, BOTH) for near in (False, True)}
+    each = {near: (count // 4 + near) // 2 for near in (False, True)}
+    while any(len(some) < each[near] for (_, near), some in found.items()):
+        point = random.uniform(2.0, 60.0), random.uniform(8.0, 70.0), float(random.choice(FRICTION))
+        here = _around(*point, MARGIN)
+        if len(here) > 1:
+            continue
+        near = len(_around(*point, NEAR)) > 1
+        some = found[here.pop(), near]
+        if len(some) < each[near]:
+            some.append(point)
     return [point for some in found.values() for point in some]
+
+
+def _around(slope, aspect, friction, angle):
+    """The regions that are met within an angle of a point, along each of the three axes."""
+    shifts = angle * np.vstack([np.zeros(3), np.eye(3), -np.eye(3)])
+    return {region(slope + i, aspect + j, friction + k) for i, j, k in shifts}
 
 
 def simulate(slope, aspect, friction):
@@ -88,3 +98,23 @@ def simulate(slope, aspect, friction):
     topples, slides = turn > 0.1 * FALLEN, slip > slid
     name = BOTH if topples and slides else TOPPLES if topples else SLIDES if slides else STAYS
     return name, float(turn), float(slip)
+
+
+def run(note, short):
+    """100 points, or 12."""
+    places, looks = points(12 if short else 100), []
+    for number, place in enumerate(places, 1):
+        found, turn, slip = simulate(*place)
+        looks.append({
+            "slope": place[0], "aspect": place[1], "friction": place[2], "found": found, "turn": turn, "slip": slip,
+            "region": region(*place), "hoek_and_bray": region_of_hoek_and_bray(*place),
+        })  # fmt: skip
+        note(number / len(places))
+    right = sum(look["found"] == look["region"] for look in looks)
+    charted = sum(look["found"] == look["hoek_and_bray"] for look in looks)
+    rows = [
+        row("points in their region, by the balance of momentum", len(looks), right),
+        row("points in their region of Hoek & Bray's chart", len(looks), charted),
+    ]
+    aim = target(f"incline: points of {len(looks)} outside their region", 0, len(looks) - right)
+    return {"title": TITLE, "rows": rows, "targets": [aim], "data": {"points": looks}}

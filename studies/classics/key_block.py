@@ -7,6 +7,7 @@ mode of sliding on two faces; Goodman & Shi 1985). Without cohesion the limit is
 """
 
 from dataclasses import dataclass
+from itertools import combinations
 
 import numpy as np
 import yade
@@ -14,8 +15,10 @@ from potential_particles import shapes
 from yade import O
 
 from joint_planes import Plane, sliding_on
+from report import row, target, worst
 from scene import GRAVITY, ROUNDING, Scene
 
+TITLE = "a key block in a roof"
 HEIGHT = 1.0  # of the block above the roof, m
 REACH = 0.6  # from where the line leaves the roof to joint C, along the line's trend, m
 HEADROOM = 3.0  # of friction above the plunge, with which it is held at first, degrees
@@ -23,6 +26,7 @@ PARTS = (0.6, 0.8)  # of tan(plunge): tangents of friction at which it slides
 NEAR = 0.02  # degrees on both sides of the angle found, at which it is tried whether it holds
 WAY = (0.01, 0.04)  # from where to where the acceleration is measured, m
 PATIENCE = 3.0  # s
+STEEP = 80.0  # friction angle of the block that falls all the same, degrees
 
 
 @dataclass(frozen=True)
@@ -55,11 +59,6 @@ class RoofBlock:
         return [(*-self.plane_a.normal, 0.0), (*-self.plane_b.normal, 0.0), (*-up, 0.0), (*c, offset)]
 
 
-    def mode(self):
-        """"falls" if every joint opens when it moves straight down, or else "slides" """
-        joints = np.array([row[:3] for row in self.half_spaces()])[[0, 1, 3]]
-        return "falls" if np.all(joints[:, 2] > 0.0) else "slides"
-
 
 CASES = (
     RoofBlock("steep", Plane(60, 130), Plane(60, 230)),
@@ -69,7 +68,7 @@ CASES = (
 
 
 class HungBlock:
-    """The scene: the block on its two joints, laid down without friction while a force along the line holds it."""
+    """The scene: a block on its two joints, laid down without friction while a force along the line holds it."""
 
     def __init__(self, case):
         self.case, self.line = case, case.limit.line
@@ -78,7 +77,7 @@ class HungBlock:
         self.scene = scene = Scene(size=size, load=shape.volume)
         self.block = scene.add(shape)
         for outward, offset in ((-case.plane_a.normal, 0.0), (-case.plane_b.normal, 0.0), case.joint_c()):
-            scene.add(shapes.cuboid((8.0, 8.0, 1.0), r=ROUNDING * size), fixed=True, **_behind(outward, offset))
+            scene.add(shapes.cuboid((8.0, 8.0, 1.0), r=ROUNDING * size, k=0.0), fixed=True, **_behind(outward, offset))
         scene.start(friction=0.0)
         weight = self.block.state.mass * GRAVITY
         hold = weight * self.line[2] * self.line
@@ -107,6 +106,29 @@ class HungBlock:
         return np.array(looks)
 
 
+def corners(case):
+    """Of the block, (4, 3), m."""
+    spaces = np.array(case.half_spaces())
+    return [np.linalg.solve(spaces[list(i), :3], spaces[list(i), 3]).tolist() for i in combinations(range(4), 3)]
+
+
+def fall():
+    """Acceleration (m/s^2) of a block between three joints that all overhang, between which friction cannot hold it."""
+    normals = [Plane(70.0, bearing).normal for bearing in (90.0, 210.0, 330.0)]
+    spaces = [(*normal, normal[2] * HEIGHT) for normal in normals] + [(0.0, 0.0, -1.0, 0.0)]
+    shape = shapes.from_planes(spaces, r=ROUNDING, k=0.0)
+    size = shape.r / ROUNDING
+    scene = Scene(size=size, load=shape.volume)
+    block = scene.add(shape)
+    for *outward, offset in spaces[:3]:
+        scene.add(shapes.cuboid((8.0, 8.0, 1.0), r=ROUNDING * size, k=0.0), fixed=True, **_behind(outward, offset))
+    scene.start(friction=STEEP, damping=0.0)
+    start = block.state.pos[2]
+    scene.run(np.sqrt(2.0 * 0.1 / GRAVITY))
+    scene.check()
+    return float(2.0 * (start - block.state.pos[2]) / O.time**2)
+
+
 def critical_angle(case):
     """Degrees: where the acceleration, linear in tan(friction), is zero, from two angles at which it slides."""
     tangents = np.array(PARTS) * np.tan(np.radians(case.limit.plunge)) * 0.5
@@ -131,3 +153,24 @@ def _behind(outward, offset):
     turn.setFromTwoVectors(yade.Vector3(0, 0, 1), yade.Vector3(*map(float, outward)))
     place = outward * (offset + 0.5)
     return {"position": place, "orientation": (turn[3], turn[0], turn[1], turn[2])}
+
+
+def run(note, short):
+    """Three blocks on two joints, or one."""
+    rows, cases, wrong = [], CASES[1:2] if short else CASES, 0
+    for number, case in enumerate(cases, 1):
+        found = critical_angle(case)
+        # Held and let fall from a rest, on both sides of the angle: not from accelerations.
+        wrong += bool(not holds(case, found + NEAR) or holds(case, found - NEAR))
+        name = f"critical friction angle, joints {case.plane_a} and {case.plane_b}"
+        rows.append(row(name, case.limit.friction_angle, found, "°"))
+        note(number / len(cases))
+    error = worst(rows)
+    found = fall()
+    rows.append(row(f"acceleration between three joints that overhang, friction {STEEP:g}°", GRAVITY, found, "m/s²", found / GRAVITY - 1.0))
+    aims = [
+        target("key block: error of the friction angle, degrees", 0.05, error),
+        target(f"key block: blocks that do not hold {NEAR:g}° above the angle found, or do {NEAR:g}° below", 0, wrong),
+        target("key block: error of the free fall, relative", 1e-3, abs(rows[-1]["error"])),
+    ]
+    return {"title": TITLE, "rows": rows, "targets": aims, "data": {"corners": corners(cases[0])}}

@@ -10,8 +10,10 @@ import numpy as np
 import yade
 from yade import O
 
+from report import row, target, worst
 from scene import GRAVITY, Scene, box_corners, tilted_gravity
 
+TITLE = "Newmark's block on a shaken plane"
 SLOPE, FRICTION = 15.0, 30.0  # degrees
 FREQUENCY = 1.0  # Hz
 RATIOS = (1.2, 1.5, 2.0, 2.5)  # A over Y; from 2.7 on it would slide upwards as well
@@ -31,7 +33,7 @@ def displacement(ratio, yields, omega):
     def velocity(phase):  # times w / A
         return np.cos(start) - np.cos(phase) - (phase - start) / ratio
 
-    low, high = 0.5 * np.pi, 2.0 * np.pi + start
+    high = 2.0 * np.pi + start
     if velocity(high) > 0.0:
         raise ValueError(f"ratio={ratio:g}: the block would not come to rest within a cycle; take a smaller one")
     # Velocity grows until the phase pi - start, and falls from there to its only zero.
@@ -50,15 +52,14 @@ def simulate(ratio, cycles=CYCLES):
     scene = Scene(size=1.0, load=1.0)
     plane = scene.block(box_corners(8.0, 2.0, 1.0), fixed=True, position=(0, 0, -0.5))
     block = scene.block(box_corners(1.0, 1.0, 1.0), position=(0, 0, 0.5))
-    # YADE's engine has the velocity -A w sin(w t + fi): here A w (1 - cos), so that plane and block start together. The
-    # constant part of it is the velocity of both at the beginning.
     shaking = yade.HarmonicMotionEngine(ids=[plane.id], A=(0, 0, 0), f=(FREQUENCY, 0, 0), fi=(0, 0, 0), dead=True)
     scene.start(FRICTION, gravity=tilted_gravity(SLOPE), before=[shaking])
     scene.settle()
     scene.motion.damping = 0.0
-    # The plane's velocity is to be (A/w) cos(w t'), acceleration upwards A sin(w t'), t' from now; the block shares it.
+    # The engine's velocity is -a w sin(w t + fi), a its amplitude. The plane is to have a w cos(w t'), t' from now, so that it is
+    # accelerated upwards by A sin(w t'). The block shares the velocity at first.
     shaking.A = (amplitude, 0, 0)
-    shaking.fi = (0.5 * np.pi * -1.0 - omega * O.time, 0, 0)
+    shaking.fi = (-0.5 * np.pi - omega * O.time, 0, 0)
     shaking.dead = False
     block.state.vel = block.state.vel + yade.Vector3(amplitude * omega, 0, 0)
     begin, origin, looks = O.time, block.state.pos[0] - plane.state.pos[0], [(0.0, 0.0)]
@@ -67,3 +68,17 @@ def simulate(ratio, cycles=CYCLES):
         looks.append((O.time - begin, block.state.pos[0] - plane.state.pos[0] - origin))
     scene.check()
     return np.array(looks).T
+
+
+def run(note, short):
+    """Four strengths of shaking, or one."""
+    omega, yields = 2.0 * np.pi * FREQUENCY, yield_acceleration(SLOPE, FRICTION)
+    rows, paths, ratios = [], [], RATIOS[2:3] if short else RATIOS
+    for number, ratio in enumerate(ratios, 1):
+        time, way = simulate(ratio)
+        closed, found = displacement(ratio, yields, omega), float(way[-1]) / CYCLES
+        rows.append(row(f"way of a cycle, A = {ratio:g} Y", closed, found, "m", found / closed - 1.0))
+        paths.append({"ratio": ratio, "time": time.tolist(), "way": way.tolist(), "cycle": closed})
+        note(number / len(ratios))
+    aim = target("Newmark: error of the way of a cycle, relative", 5e-3, worst(rows))
+    return {"title": TITLE, "rows": rows, "targets": [aim], "data": {"paths": paths, "frequency": FREQUENCY}}

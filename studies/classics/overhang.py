@@ -9,8 +9,10 @@ largest factor at which it stands is bracketed by halving.
 import numpy as np
 from yade import O
 
+from report import row, target, worst
 from scene import Scene, box_corners, turn_about_y
 
+TITLE = "n blocks over the edge of a table"
 LENGTH, WIDTH, HEIGHT = 1.0, 0.5, 0.25  # m
 COUNTS = tuple(range(2, 9))
 BRACKET = 5e-4  # of the factor
@@ -58,3 +60,15 @@ def largest(count, bracket=BRACKET, low=0.98, high=1.02):
         middle = 0.5 * (low + high)
         low, high = (middle, high) if stands(count, middle) else (low, middle)
     return 0.5 * (low + high) * overhang(count), 0.5 * (high - low) * overhang(count)
+
+
+def run(note, short):
+    """Two to eight blocks, or three."""
+    rows, counts = [], (3,) if short else COUNTS
+    for count in counts:
+        found, half = largest(count)
+        rows.append(row(f"largest overhang of {count} blocks", overhang(count), found, "lengths"))
+        rows[-1]["bracket"] = 2.0 * half
+        note(sum(one for one in counts if one <= count) / sum(counts))
+    aim = target("overhang: error, lengths", 5e-3, worst(rows))
+    return {"title": TITLE, "rows": rows, "targets": [aim], "data": {"counts": list(counts), "steps": steps(counts[-1])}}

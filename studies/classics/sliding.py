@@ -4,8 +4,10 @@
 import numpy as np
 from yade import O
 
+from report import row, target, worst
 from scene import GRAVITY, Scene, box_corners, tilted_gravity
 
+TITLE = "a block slides down a plane"
 SLOPES = (25.0, 35.0, 40.0)  # degrees
 FRICTION = 20.0
 HOLDS = 60.0  # friction angle until time 0
@@ -34,3 +36,17 @@ def simulate(slope, friction):
         looks.append((O.time - begin, block.state.pos[0] - origin))
     scene.check()
     return np.array(looks).T
+
+
+def run(note, short):
+    """Three slopes, or one."""
+    rows, paths, slopes = [], [], SLOPES[1:2] if short else SLOPES
+    for number, slope in enumerate(slopes, 1):
+        time, way = simulate(slope, FRICTION)
+        when = float(np.interp(1.0, way, time))
+        closed = 0.5 * acceleration(slope, FRICTION) * when**2
+        rows.append(row(f"way at {slope:g}°, friction {FRICTION:g}°, when it has slid one length", closed, 1.0, "m", 1.0 / closed - 1.0))
+        paths.append({"slope": slope, "time": time.tolist(), "way": way.tolist(), "acceleration": acceleration(slope, FRICTION)})
+        note(number / len(slopes))
+    aim = target("sliding block: error of the way after one length, relative", 1e-3, worst(rows))
+    return {"title": TITLE, "rows": rows, "targets": [aim], "data": {"paths": paths}}

@@ -7,11 +7,12 @@ at the limit no force is left below the lowest. Their solution: 38.15 degrees.
 """
 
 import numpy as np
-import yade
 from yade import O
 
+from report import row, target
 from scene import GRAVITY, Scene, box_corners, tilted_gravity
 
+TITLE = "a toppling slope of 16 columns"
 PUBLISHED = 38.15  # degrees
 COUNT, CREST = 16, 10
 WIDTH = 10.0  # of a column, m
@@ -129,3 +130,21 @@ def critical_angle(bracket=BRACKET, look=lambda part: None):
             low = middle
         look(bracket / (high - low))
     return low, high, pushes
+
+
+def run(note, short):
+    """The bracket; or a wide one."""
+    closed = limit()
+    low, high, pushes = critical_angle(0.5 if short else BRACKET, note)
+    found = 0.5 * (low + high)
+    expected, modes = forces(closed)
+    largest = int(np.argmax(expected))
+    rows = [
+        row("friction angle of limit equilibrium", closed, found, "°"),
+        row("largest push between two columns over the largest weight", float(expected[largest] / (WIDTH * heights().max())),
+            float(pushes[largest] / (WIDTH * heights().max()))),
+    ]
+    rows[0]["bracket"] = high - low
+    aim = target("Goodman & Bray: error of the friction angle, degrees", 0.3, abs(rows[0]["error"]))
+    data = {"pushes": pushes.tolist(), "expected": expected.tolist(), "modes": modes, "heights": heights().tolist(), "published": PUBLISHED}
+    return {"title": TITLE, "rows": rows, "targets": [aim], "data": data}
