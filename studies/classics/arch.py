@@ -19,7 +19,7 @@ MILANKOVITCH, HEYMAN = 0.1075, 0.106
 HINGE = 54.5  # degrees
 RADIUS = 1.0  # m
 FRICTION = 60.0  # degrees: no joint slides
-STONES = 40
+STONES = 30
 SEARCH = (0.09, 0.13)  # t/R
 BRACKET = 4e-4  # of t/R
 # Stones, r over t, k: each row changes one thing.

@@ -117,8 +117,8 @@ class Scene:
         return O.engines[-1]
 
     def free(self):
-        """Bodies that may move."""
-        return [one for one in O.bodies if one.state.blockedDOFs == ""]
+        """Blocks that may move."""
+        return [one for one in O.bodies if one.state.blockedDOFs == "" and not one.isClump]
 
     def set_friction(self, angle):
         """Friction angle of all contacts from now on, degrees."""
