@@ -45,6 +45,7 @@ stage suite "YADE killed and loaded, shaken, started often" scripts/short_long.s
 stage suite "Short examples" scripts/short_examples.sh
 stage suite "Short demo" scripts/short_demo.sh
 stage suite "Short wedge" scripts/short_wedge.sh
+stage suite "Short classics" scripts/short_classics.sh
 stage suite "Short side by side" scripts/short_side_by_side.sh
 
 printf '\n%d passed, %d failed\n' "$passed" "$failed"

@@ -25,7 +25,7 @@ BRACKET = 4e-4  # of t/R
 # Stones, r over t, k: each row changes one thing.
 VARIED = ((10, ROUNDING, 0.0), (20, ROUNDING, 0.0), (20, 1e-2, 0.0), (20, 3e-2, 0.0), (20, ROUNDING, 0.01), (20, ROUNDING, 0.1), (20, 1e-2, 0.1))
 MOVED = 0.01  # of the thickness: it falls
-PATIENCE = 4.0  # s
+PATIENCE = 1.5  # s; what stands rests after a tenth of that
 
 
 def joints(stones):
@@ -133,16 +133,13 @@ class Arch:
         return max((one.state.pos - one.state.refPos).norm() for one in self.stones) / self.thickness
 
     def stands(self):
-        """Whether it comes to rest before a stone has moved by MOVED."""
-        while O.time < PATIENCE:
-            self.scene.run(200.0 * self.scene.beat)
-            if self.moved() > MOVED:
-                self.scene.check()
-                return False
-            if self.scene.at_rest():
-                break
+        """Whether it comes to rest before a stone has moved by MOVED, and within PATIENCE."""
+        rests = False
+        while O.time < PATIENCE and self.moved() <= MOVED and not rests:
+            self.scene.run(100.0 * self.scene.beat)
+            rests = self.scene.at_rest()
         self.scene.check()
-        return True
+        return rests
 
     def thrust(self):
         """Where the contact point of each joint is: from its middle outwards, as part of the thickness."""
@@ -215,7 +212,7 @@ def _picture(stands, falls, stones):
     line = eccentricities(least, stones, line_of_thrust(least, stones, ROUNDING))
     data["line"] = [np.degrees(joints(stones)).tolist(), line.tolist()]
     arch = Arch(0.9 * falls, stones)
-    while arch.moved() < 1.5 and O.time < PATIENCE:
+    while arch.moved() < 1.5 and O.time < 2.0 * PATIENCE:
         arch.scene.run(0.02)
     data["fallen"] = arch.outlines()
     return data

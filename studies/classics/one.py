@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""One case in YADE: run.py starts it with CASE, OUTPUT (a file) and SHORT in the environment.
+"""Cases in YADE, one after the other: run.py starts it with CASES (names), OUTPUT (a folder) and SHORT in the environment.
 
-Lines "part 0.25" on standard output say how far it is.
+Lines "part NAME 0.25" on standard output say how far it is; each case leaves NAME.json.
 """
 
 import importlib
@@ -20,21 +20,23 @@ import potential_particles
 from summary import write_summary
 
 
-def note(part):
-    print(f"part {part:.4f}", flush=True)
-
-
 def main():
+    for name in os.environ["CASES"].split(","):
+        one(name, Path(os.environ["OUTPUT"]), os.environ.get("SHORT") == "1")
+
+
+def one(name, folder, short):
+    """Runs a case and writes what it found."""
     begin = time.perf_counter()
-    case = importlib.import_module(os.environ["CASE"])
-    result = case.run(note, short=os.environ.get("SHORT") == "1")
+    case = importlib.import_module(name)
+    result = case.run(lambda part: print(f"part {name} {part:.4f}", flush=True), short)
     result["wall_seconds"] = time.perf_counter() - begin
     result["versions"] = {
         "yade": yade.config.version,
         "library": potential_particles.library_version(),
         "glue": potential_particles.__version__,
     }
-    write_summary(Path(os.environ["OUTPUT"]), result)
+    write_summary(folder / f"{name}.json", result)
 
 
 main()

@@ -171,7 +171,7 @@ def _rolling(axis, data, rows):
 
 def _tumbling(axis, data, rows):
     for colour, run in zip(COLOURS, data["runs"]):
-        name = f"{run['steps']} steps a turn" + (", half step" if run["corrected"] else "")
+        name = f"{run['steps']} steps a turn" + (f", {run['rule']}" if run["rule"] != "Fincham1992" else "")
         drift = np.maximum(np.abs(np.array(run["energy"]) - 1.0), 1e-16)
         axis.semilogy(run["turns"][1:], drift[1:], color=colour, lw=0.9, label=name)
     axis.axhline(1e-6, color=CLOSED, lw=0.8)
@@ -179,7 +179,15 @@ def _tumbling(axis, data, rows):
     _labels(axis, "turns", "change of energy, relative", loc="lower right", ncol=2)
 
 
+def _twist(axis, data, rows):
+    for colour, path in zip(COLOURS, data["paths"]):
+        axis.plot(path["time"], path["spin"], color=colour, lw=1.2, label=path["name"])
+    time = np.array(data["paths"][0]["time"])
+    axis.plot(time, data["spin"] - data["deceleration"] * time, "--", color=CLOSED, lw=0.9, label="closed form, even pressure")
+    _labels(axis, "time, s", "angular velocity, 1/s", loc="lower left")
+
+
 DRAWN = {
     "incline": _incline, "sliding": _sliding, "newmark": _newmark, "rocking": _rocking, "arch": _arch, "overhang": _overhang,
-    "toppling": _toppling, "key_block": _key_block, "rolling": _rolling, "tumbling": _tumbling,
+    "toppling": _toppling, "key_block": _key_block, "rolling": _rolling, "tumbling": _tumbling, "twist": _twist,
 }  # fmt: skip

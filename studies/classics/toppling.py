@@ -93,18 +93,14 @@ class Slope:
         return max(np.linalg.norm(one.state.pos - place) for one, place in zip(self.columns, self.places))
 
     def holds(self, friction):
-        """Whether the columns come to rest again after friction was lowered, degrees, before one has moved by MOVED."""
+        """Whether the columns come to rest again after friction was lowered, degrees, before one has moved by MOVED, and within PATIENCE."""
         self.scene.set_friction(friction)
-        until = O.time + PATIENCE
-        while O.time < until:
+        until, rests = O.time + PATIENCE, False
+        while O.time < until and self.moved() <= MOVED * self.scene.overlap and not rests:
             self.scene.run(50.0 * self.scene.beat)
-            if self.moved() > MOVED * self.scene.overlap:
-                self.scene.check()
-                return False
-            if self.scene.at_rest():
-                break
+            rests = self.scene.at_rest()
         self.scene.check()
-        return True
+        return rests
 
     def pushes(self):
         """Normal force between columns n and n - 1, n = 16..2, per unit weight of rock, m^2."""
