@@ -19,12 +19,12 @@ MILANKOVITCH, HEYMAN = 0.1075, 0.106
 HINGE = 54.5  # degrees
 RADIUS = 1.0  # m
 FRICTION = 60.0  # degrees: no joint slides
-STONES = 30
+STONES = 40
 SEARCH = (0.09, 0.13)  # t/R
 BRACKET = 4e-4  # of t/R
 # Stones, r over t, k: each row changes one thing.
 VARIED = ((10, ROUNDING, 0.0), (20, ROUNDING, 0.0), (20, 1e-2, 0.0), (20, 3e-2, 0.0), (20, ROUNDING, 0.01), (20, ROUNDING, 0.1), (20, 1e-2, 0.1))
-MOVED = 0.01  # of the thickness: it falls
+MOVED = 100.0  # overlaps: it falls; an arch that stands settles by some 0.6 of them a stone
 PATIENCE = 1.5  # s; what stands rests after a tenth of that
 
 
@@ -129,8 +129,8 @@ class Arch:
         scene.start(FRICTION)
 
     def moved(self):
-        """The largest way of a centroid so far, thicknesses."""
-        return max((one.state.pos - one.state.refPos).norm() for one in self.stones) / self.thickness
+        """The largest way of a centroid so far, overlaps."""
+        return max((one.state.pos - one.state.refPos).norm() for one in self.stones) / self.scene.overlap
 
     def stands(self):
         """Whether it comes to rest before a stone has moved by MOVED, and within PATIENCE."""
@@ -212,7 +212,7 @@ def _picture(stands, falls, stones):
     line = eccentricities(least, stones, line_of_thrust(least, stones, ROUNDING))
     data["line"] = [np.degrees(joints(stones)).tolist(), line.tolist()]
     arch = Arch(0.9 * falls, stones)
-    while arch.moved() < 1.5 and O.time < 2.0 * PATIENCE:
+    while arch.moved() * arch.scene.overlap < 1.5 * arch.thickness and O.time < 2.0 * PATIENCE:
         arch.scene.run(0.02)
     data["fallen"] = arch.outlines()
     return data

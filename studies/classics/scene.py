@@ -24,11 +24,11 @@ GRAVITY = 9.81  # m/s^2
 DENSITY = 2600.0  # kg/m^3; no result depends on it
 ROUNDING = 1e-3
 OVERLAP = 1e-5
-BULGE = 0.05
+BULGE = 0.1
 SHEAR = 0.5  # of the normal stiffness
 DAMPING = 0.5
 # Of the time in which the springs, and tilting, turn one radian.
-SPRING_STEP, TILT_STEP = 0.2, 0.8
+SPRING_STEP, TILT_STEP = 0.2, 0.4
 QUIET = 1e-5  # of the speed that belongs to the overlap
 # Blocks with faces that bulge (k > 0) need springs softer than the bulge k r / 2, up to a part of r.
 OVERLAP_OVER_BULGE, MOST_OVERLAP = 20.0, 0.1
