@@ -15,7 +15,7 @@ from report import row, target, worst
 from scene import ROUNDING, Scene, box_corners, place_of
 
 TITLE = "a semicircular arch"
-MILANKOVITCH, HEYMAN = 0.1075, 0.106
+MILANKOVITCH = 0.1075
 HINGE = 54.5  # degrees
 RADIUS = 1.0  # m
 FRICTION = 60.0  # degrees: no joint slides
@@ -23,7 +23,11 @@ STONES = 40
 SEARCH = (0.09, 0.13)  # t/R
 BRACKET = 4e-4  # of t/R
 # Stones, r over t, k: each row changes one thing.
-VARIED = ((10, ROUNDING, 0.0), (20, ROUNDING, 0.0), (20, 1e-2, 0.0), (20, 3e-2, 0.0), (20, ROUNDING, 0.01), (20, ROUNDING, 0.1), (20, 1e-2, 0.1))
+VARIED = (
+    (10, ROUNDING, 0.0), (20, ROUNDING, 0.0), (20, 1e-2, 0.0), (20, 3e-2, 0.0),
+    (20, ROUNDING, 0.01), (20, ROUNDING, 0.1), (20, 1e-2, 0.1),
+)  # fmt: skip
+BULGES = 1e-4  # k r over t: above that stones are no trapezia any more
 MOVED = 100.0  # overlaps: it falls; an arch that stands settles by some 0.6 of them a stone
 PATIENCE = 1.5  # s; what stands rests after a tenth of that
 
@@ -146,8 +150,9 @@ class Arch:
         ends = {}
         for one in O.interactions:
             if one.isReal:
-                point = np.array(one.geom.contactPoint)
-                ends[round(float(np.degrees(np.arctan2(point[0], point[2]))), 2)] = (np.hypot(point[0], point[2]) - RADIUS) / self.thickness
+                x, _, z = one.geom.contactPoint
+                angle = round(float(np.degrees(np.arctan2(x, z))), 2)
+                ends[angle] = (np.hypot(x, z) - RADIUS) / self.thickness
         return sorted(ends.items())
 
     def outlines(self):
@@ -175,13 +180,14 @@ def run(note, short):
     cases = [(10, ROUNDING, 0.0)] if short else [(STONES, ROUNDING, 0.0), *VARIED]
     bracket = 2e-3 if short else BRACKET
     costs = np.cumsum([0.0, *(case[0] ** 2 for case in cases)])
-    rows = []
+    rows, flat = [], []
     for number, (stones, rounding, sphericity) in enumerate(cases):
         here, cost = costs[number], costs[number + 1] - costs[number]
         low, high = thinnest(stones, rounding, sphericity, bracket, lambda part: note((here + part * cost) / costs[-1]))
         name = f"least t/R, {stones} stones, r = {rounding:g} t, k = {sphericity:g}"
         rows.append(row(name, least_thickness(stones, rounding), 0.5 * (low + high)))
         rows[-1]["bracket"] = high - low
+        flat.append(sphericity * rounding <= BULGES)
         if number == 0:
             data = _picture(high, low, stones)
     angles, offsets = np.array(data["thrust"]).T
@@ -191,12 +197,12 @@ def run(note, short):
         row(f"least t/R, {cases[0][0]} stones, against Milankovitch", MILANKOVITCH, least),
         row("hinge at the intrados, from the crown", HINGE, hinge, "°"),
     ]
-    aims = [
-        target("arch: t/R against that of so many stones and hinges r inside the edges, largest error", 1e-3, worst(rows[:-2])),
-    ]
+    named = "arch: error of t/R against that of so many stones, hinges r inside the edges"
+    aims = [target(named, 1e-3, worst([one for one, good in zip(rows, flat) if good]))]
     if not short:
         spacing = 180.0 / STONES
         aims += [
+            target(f"{named}, k r above {BULGES:g} t", 1e-3, worst([one for one, good in zip(rows, flat) if not good])),
             target("arch: error of t/R against Milankovitch", 1e-3, abs(rows[-2]["error"])),
             target("arch: hinge against 54.5 degrees, in joints", 0.5, abs(rows[-1]["error"]) / spacing),
         ]

@@ -6,7 +6,6 @@ The block on top leans over the next by 1/2 at most, the next by 1/4, and so on:
 largest factor at which it stands is bracketed by halving.
 """
 
-import numpy as np
 from yade import O
 
 from report import row, target, worst
@@ -68,4 +67,5 @@ def run(note, short):
         rows[-1]["bracket"] = 2.0 * half
         note(sum(one for one in counts if one <= count) / sum(counts))
     aim = target("overhang: error, lengths", 5e-3, worst(rows))
-    return {"title": TITLE, "rows": rows, "targets": [aim], "data": {"counts": list(counts), "steps": steps(counts[-1])}}
+    data = {"counts": list(counts), "steps": steps(counts[-1])}
+    return {"title": TITLE, "rows": rows, "targets": [aim], "data": data}

@@ -6,7 +6,7 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
-from matplotlib.patches import Polygon
+from matplotlib.patches import Polygon, Rectangle
 from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 
 DOTS_PER_INCH = 120
@@ -51,16 +51,17 @@ def _incline(axis, data, rows):
     """Slope less friction against aspect less friction: borders of different friction angles then nearly lie on each other."""
     colours = dict(zip(("stays", "slides", "topples", "slides and topples"), COLOURS))
     marks = {20.0: "o", 30.0: "s", 40.0: "^"}
+
+    def plot(chosen, mark, **style):
+        some = [p for p in data["points"] if chosen(p)]
+        axis.plot([p["slope"] - p["friction"] for p in some], [p["aspect"] - p["friction"] for p in some], mark, **style)
+
     for name, colour in colours.items():
         for friction, mark in marks.items():
-            some = [p for p in data["points"] if p["region"] == name and p["friction"] == friction]
-            axis.plot([p["slope"] - friction for p in some], [p["aspect"] - friction for p in some], mark, ms=4, color=colour)
+            plot(lambda p: p["region"] == name and p["friction"] == friction, mark, ms=4, color=colour)
         axis.plot([], [], "o", ms=4, color=colour, label=name)
-    wrong = [p for p in data["points"] if p["found"] != p["region"]]
-    axis.plot([p["slope"] - p["friction"] for p in wrong], [p["aspect"] - p["friction"] for p in wrong], "kx", ms=9)
-    other = [p for p in data["points"] if p["found"] != p["hoek_and_bray"]]
-    axis.plot([p["slope"] - p["friction"] for p in other], [p["aspect"] - p["friction"] for p in other], "o", ms=9, mfc="none",
-              mec=FAINT, label="else in Hoek & Bray's chart")  # fmt: skip
+    plot(lambda p: p["found"] != p["region"], "kx", ms=9)
+    plot(lambda p: p["found"] != p["hoek_and_bray"], "o", ms=9, mfc="none", mec=FAINT, label="else in Hoek & Bray's chart")
     axis.axvline(0.0, color=CLOSED, lw=0.8)
     axis.plot([-40, 0, 60], [-40, 0, 0], color=CLOSED, lw=0.8)
     axis.set_xlim(-38, 42)
@@ -101,10 +102,13 @@ def _arch(axis, data, rows):
     for stones, alpha in ((data["rest"], 1.0), (data["fallen"], 0.35)):
         for stone in stones:
             axis.add_patch(Polygon(stone, fc=STONE if alpha == 1.0 else "none", ec=EDGE, lw=0.6, alpha=alpha))
-    for (angles, offsets), style in ((data["line"], {"color": CLOSED, "lw": 0.9, "label": "line of thrust, closed form"}),
-                                     (np.array(data["thrust"]).T, {"marker": "o", "ls": "", "ms": 2.5, "color": FOUND, "label": "contact points"})):  # fmt: skip
+
+    def plot(angles, offsets, style, **more):
         radii = 1.0 + np.array(offsets) * data["thickness"]
-        axis.plot(radii * np.sin(np.radians(angles)), radii * np.cos(np.radians(angles)), **style)
+        axis.plot(radii * np.sin(np.radians(angles)), radii * np.cos(np.radians(angles)), style, **more)
+
+    plot(*data["line"], "-", color=CLOSED, lw=0.9, label="line of thrust, closed form")
+    plot(*np.array(data["thrust"]).T, "o", ms=2.5, color=FOUND, label="contact points")
     axis.plot([], [], color=EDGE, lw=0.6, alpha=0.35, label="a tenth thinner, on its way")
     axis.set_aspect("equal")
     axis.set_ylim(-0.05, 1.25)
@@ -116,14 +120,15 @@ def _arch(axis, data, rows):
 
 def _overhang(axis, data, rows):
     reach, height = 0.0, 0.25
-    axis.add_patch(Polygon([(-2, -0.3), (0, -0.3), (0, 0), (-2, 0)], fc=FAINT, ec=EDGE, lw=0.6))
+    axis.add_patch(Rectangle((-2.0, -0.3), 2.0, 0.3, fc=FAINT, ec=EDGE, lw=0.6))
     for level, step in enumerate(data["steps"]):
         reach += step
         low = level * height
-        axis.add_patch(Polygon([(reach - 1, low), (reach, low), (reach, low + height), (reach - 1, low + height)], fc=STONE, ec=EDGE, lw=0.6))
+        axis.add_patch(Rectangle((reach - 1.0, low), 1.0, height, fc=STONE, ec=EDGE, lw=0.6))
     axis.plot([0, reach], [low + 1.6 * height] * 2, "|-", color=CLOSED, lw=0.8)
     axis.text(0.5 * reach, low + 1.8 * height, "overhang", ha="center", fontsize=8)
-    text = "\n".join(f"n = {count}: {row['found']:.4f}  ({row['closed_form']:.4f})" for count, row in zip(data["counts"], rows))
+    lines = [f"n = {n}: {row['found']:.4f}  ({row['closed_form']:.4f})" for n, row in zip(data["counts"], rows)]
+    text = "\n".join(lines)
     axis.text(1.75, -0.25, "found (closed form)\n" + text, fontsize=7.5, va="bottom")
     axis.set_xlim(-1.6, 3.0)
     axis.set_ylim(-0.35, low + 2.8 * height)
@@ -136,7 +141,8 @@ def _toppling(axis, data, rows):
     columns = np.arange(len(heights), 1, -1)
     axis.bar(columns - 0.5, data["expected"][:-1], width=0.85, fc=STONE, ec=EDGE, lw=0.6, label="closed form")
     axis.plot(columns - 0.5, data["pushes"], "o", ms=4, color=FOUND, label="found")
-    axis.plot(np.arange(1, len(heights) + 1), heights * 2.0, color=FAINT, lw=0.8, drawstyle="steps-mid", label="height of the column, 0.5 m")
+    numbers, name = np.arange(1, len(heights) + 1), "height of the column, 0.5 m"
+    axis.plot(numbers, 2.0 * heights, color=FAINT, lw=0.8, drawstyle="steps-mid", label=name)
     axis.invert_xaxis()
     text = f"limit: {rows[0]['found']:.3f}°, closed form {rows[0]['closed_form']:.3f}°"
     axis.text(0.02, 0.94, text, transform=axis.transAxes, fontsize=8)

@@ -2,10 +2,9 @@
 """What a case hands back: rows of a table, targets, and what its picture shows."""
 
 
-def row(what, closed_form, found, unit="", error=None):
-    """One line of the table: numbers, or words for what has none; error: found less closed form unless given."""
-    if error is None:
-        error = found - closed_form
+def row(what, closed_form, found, unit="", relative=False):
+    """One line of the table; the error is found less closed form, over that if `relative`."""
+    error = (found - closed_form) / (closed_form if relative else 1.0)
     return {"what": what, "closed_form": closed_form, "found": found, "unit": unit, "error": error}
 
 

@@ -10,9 +10,8 @@ import yade
 from potential_particles import shapes
 from yade import O
 
-from rocking import Dashpots
 from report import row, target
-from scene import GRAVITY, ROUNDING, box_corners, tilted_gravity
+from scene import GRAVITY, ROUNDING, Scene, box_corners, tilted_gravity
 
 TITLE = "a cylinder of n planes rolls down an incline"
 SLOPE, FRICTION = 20.0, 40.0  # degrees
@@ -29,14 +28,14 @@ def acceleration(slope):
 
 def simulate(sides, slope=SLOPE, way=WAY):
     """Time (s) and way (m) down the plane from rest."""
-    scene = Dashpots(size=2.0 * RADIUS, load=np.pi * RADIUS**2 * WIDTH)
+    scene = Scene(size=2.0 * RADIUS, load=np.pi * RADIUS**2 * WIDTH, moving=True)
     scene.block(box_corners(16.0, 4.0, 1.0), fixed=True, position=(0.0, 0.0, -0.5))
     shape = shapes.cylinder(RADIUS, WIDTH, sides, r=ROUNDING, k=0.0)
     # On a side, its axis along y.
     height = RADIUS * np.sqrt(np.pi / (sides * np.tan(np.pi / sides)))
-    turn = yade.Quaternion((0, 1, 0), 0.0) * yade.Quaternion((1, 0, 0), 0.5 * np.pi)
+    turn = yade.Quaternion((1, 0, 0), 0.5 * np.pi)
     roller = scene.add(shape, orientation=(turn[3], turn[0], turn[1], turn[2]), position=(-3.0, 0.0, height))
-    scene.start(FRICTION, damping=0.0, gravity=tilted_gravity(slope))
+    scene.start(FRICTION, gravity=tilted_gravity(slope))
     origin, looks = roller.state.pos[0], [(0.0, 0.0)]
     step = np.sqrt(2.0 * way / acceleration(slope)) / LOOKS
     while looks[-1][1] < way and O.time < 200.0 * step:
@@ -48,17 +47,20 @@ def simulate(sides, slope=SLOPE, way=WAY):
 
 def run(note, short):
     """Six numbers of sides, or two."""
-    rows, paths, numbers = [], [], SIDES[1:4:2] if short else SIDES
+    rows, paths, numbers = [], [], SIDES[1:4] if short else SIDES
     for number, sides in enumerate(numbers, 1):
         time, way = simulate(sides)
         found = 2.0 * WAY / float(np.interp(WAY, way, time)) ** 2
-        rows.append(row(f"mean acceleration over one turn, n = {sides}", acceleration(SLOPE), found, "m/s²", found / acceleration(SLOPE) - 1.0))
+        name = f"mean acceleration over one turn, n = {sides}"
+        rows.append(row(name, acceleration(SLOPE), found, "m/s²", relative=True))
         paths.append({"sides": sides, "time": time.tolist(), "way": way.tolist()})
         note(number / len(numbers))
     errors = [abs(one["error"]) for one in rows]
-    growth = max(later / earlier for earlier, later in zip(errors, errors[1:]))
+    # Of prisms whose sides are more than their rounding: the others are as good as round.
+    edged = [error for error, n in zip(errors, numbers) if 1.0 - np.cos(np.pi / n) > 2.0 * ROUNDING]
+    growth = max((later / earlier for earlier, later in zip(edged, edged[1:])), default=0.0)
     aims = [
-        target("rolling: error with n over that with the n before, largest", 1.0, growth),
-        target("rolling: error of the acceleration with the largest n, relative", 1e-3, errors[-1]),
+        target("rolling: error with n over that with the n before, while sides are above r, largest", 1.0, growth),
+        target("rolling: error of the acceleration of the others, relative, largest", 1e-3, max(errors[len(edged):])),
     ]
-    return {"title": TITLE, "rows": rows, "targets": aims, "data": {"paths": paths, "acceleration": acceleration(SLOPE)}}
+    return {"title": TITLE, "rows": rows, "targets": aims, "data": {"paths": paths}}

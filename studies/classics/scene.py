@@ -8,8 +8,9 @@ Every length below is relative to the size of the scene, the diameter of the lar
 - Faces are flat (k = 0). Their contact point is chosen as if they bulged by BULGE of that overlap, so that it moves smoothly with
   the tilt: it crosses a face while the block tilts by some 1e-6 rad (docs/wedge.md).
 - The time step follows from the stiffest motion, springs or tilting.
-- What is looked for at rest is damped by YADE's local damping, which vanishes at rest and delays all motion of a block
-  alike; what is looked for in motion is not damped at all.
+- What is looked for at rest has YADE's local damping, which vanishes at rest and delays all motion of a block alike. What is looked for
+  in motion (`moving`) has none, but dashpots beside the normal springs, so that what lands does not bounce. (Dashpots in shear would
+  add to the friction of YADE's law, which limits the spring alone.)
 """
 
 import numpy as np
@@ -26,7 +27,8 @@ ROUNDING = 1e-3
 OVERLAP = 1e-5
 BULGE = 0.1
 SHEAR = 0.5  # of the normal stiffness
-DAMPING = 0.5
+DAMPING = 0.5  # YADE's local one
+DASHPOT = 2.0  # over sqrt(k m), m the mass of the load
 # Of the time in which the springs, and tilting, turn one radian.
 SPRING_STEP, TILT_STEP = 0.2, 0.4
 QUIET = 1e-5  # of the speed that belongs to the overlap
@@ -42,8 +44,9 @@ class Scene:
     size: m; load: the largest force of a contact at rest, as the weight of so much volume (m^3) of rock.
     """
 
-    def __init__(self, size, load, rounding=ROUNDING, sphericity=0.0):
+    def __init__(self, size, load, moving=False, rounding=ROUNDING, sphericity=0.0):
         O.reset()
+        self.moving = moving
         self.size, self.rounding, self.sphericity = size, rounding * size, sphericity
         self.load = load * DENSITY * GRAVITY
         self.overlap = size * max(OVERLAP, min(OVERLAP_OVER_BULGE * sphericity, MOST_OVERLAP) * rounding)
@@ -53,17 +56,23 @@ class Scene:
         self.material = O.materials[O.materials.append(self._material())]
 
     def _material(self):
-        return yade.FrictMat(young=1.0, poisson=1.0, frictionAngle=0.0, density=DENSITY)
+        if not self.moving:
+            return yade.FrictMat(young=1.0, poisson=1.0, frictionAngle=0.0, density=DENSITY)
+        dashpot = DASHPOT * np.sqrt(self.stiffness * self.load / GRAVITY)
+        # YADE puts the values of both bodies in series: twice each gives what is wanted.
+        return yade.ViscElMat(
+            kn=2.0 * self.stiffness, ks=2.0 * SHEAR * self.stiffness, cn=2.0 * dashpot, cs=0.0,
+            frictionAngle=0.0, density=DENSITY,
+        )  # fmt: skip
 
     # --- blocks ---------------------------------------------------------------------------------
 
-    def block(self, corners, fixed=False, position=(0.0, 0.0, 0.0), tilt=0.0, mask=None):
-        """The convex hull of corners (m) as a body; tilt (radians) about the y axis, clockwise as seen with x to the right
-        and z up."""
+    def block(self, corners, fixed=False, position=(0.0, 0.0, 0.0), mask=None):
+        """The convex hull of corners (m) as a body."""
         corners = np.asarray(corners, float)
         relative = self.rounding / (2.0 * Polyhedron.of_points(corners).ball_radius)
         shape = shapes.from_vertices(corners, r=relative, k=self.sphericity)
-        return self.add(shape, fixed, position, (np.cos(0.5 * tilt), 0.0, np.sin(0.5 * tilt), 0.0), mask)
+        return self.add(shape, fixed, position, mask=mask)
 
     def add(self, shape, fixed=False, position=(0.0, 0.0, 0.0), orientation=(1.0, 0.0, 0.0, 0.0), mask=None):
         """A Shape as a body; orientation w, x, y, z. Returns the body."""
@@ -74,7 +83,7 @@ class Scene:
 
     # --- engines --------------------------------------------------------------------------------
 
-    def start(self, friction, damping=DAMPING, gravity=(0.0, 0.0, -GRAVITY), before=()):
+    def start(self, friction, gravity=(0.0, 0.0, -GRAVITY), before=()):
         """Engines and time step; friction angle in degrees. `before`: engines that run before the contacts."""
         bulge = BULGE * self.overlap / self.rounding
         regularisation = {"flatRegularisation": bulge} if self.sphericity == 0.0 else {}
@@ -88,12 +97,15 @@ class Scene:
             ),
             *before,
             yade.ConicInteractionLoop([self.functor], [physics], [law]),
-            yade.NewtonIntegrator(damping=damping, gravity=gravity, exactAsphericalRot=True),
+            yade.NewtonIntegrator(damping=0.0 if self.moving else DAMPING, gravity=gravity, exactAsphericalRot=True),
         ]
         O.dt = self._time_step(max(bulge, self.sphericity))
         self.set_friction(friction)
 
     def _laws(self):
+        if self.moving:
+            return yade.Ip2_ViscElMat_ViscElMat_ViscElPhys(), yade.Law2_ScGeom_ViscElPhys_Basic()
+
         def value(number):
             return yade.MatchMaker(algo="val", val=float(number))
 

@@ -64,7 +64,8 @@ def _rate(turn, momentum, inertia):
     q = (2 * (x * y - w * z) * a + (1 - 2 * (x * x + z * z)) * b + 2 * (y * z + w * x) * c) / inertia[1]
     r = (2 * (x * z + w * y) * a + 2 * (y * z - w * x) * b + (1 - 2 * (x * x + y * y)) * c) / inertia[2]
     return (
-        0.5 * (-x * p - y * q - z * r), 0.5 * (w * p + y * r - z * q), 0.5 * (w * q + z * p - x * r), 0.5 * (w * r + x * q - y * p),
+        0.5 * (-x * p - y * q - z * r), 0.5 * (w * p + y * r - z * q),
+        0.5 * (w * q + z * p - x * r), 0.5 * (w * r + x * q - y * p),
     )  # fmt: skip
 
 
@@ -121,12 +122,14 @@ def run(note, short):
         looks, change = simulate(steps, turns, rule)
         drifts[rule] = drift = float(np.abs(looks[:, 2] - 1.0).max())
         momentum = max(momentum, change) if rule != DEL_VALLE else momentum
-        rows.append(row(f"energy over that at the start, {turns} turns, {steps} steps a turn, {NAMES[rule]}", 1.0, 1.0 + drift, "", drift))
+        rows.append(row(f"energy over that at the start, {turns} turns, {steps} steps a turn, {NAMES[rule]}", 1.0, 1.0 + drift))
         data.append({"steps": steps, "rule": rule, "turns": (looks[:, 0] * SPIN / (2 * np.pi)).tolist(),
                      "spin": looks[:, 1].tolist(), "energy": looks[:, 2].tolist()})  # fmt: skip
         note(number / len(rules(short)))
-    rows.append(row("angular momentum over that at the start", 1.0, 1.0 + momentum, "", momentum))
-    last = {rule: steps for rule, steps in rules(short)}
-    aims = [target(f"free flight: change of energy, {NAMES[rule]}, {steps} steps a turn", 1e-6, drifts[rule]) for rule, steps in last.items()]
+    rows.append(row("angular momentum over that at the start", 1.0, 1.0 + momentum))
+    aims = [
+        target(f"free flight: change of energy, {NAMES[rule]}, {steps} steps a turn", 1e-6, drifts[rule])
+        for rule, steps in dict(rules(short)).items()
+    ]
     aims.append(target("free flight: change of angular momentum", 1e-6, momentum))
     return {"title": TITLE, "rows": rows, "targets": aims, "data": {"runs": data}}

@@ -61,11 +61,11 @@ def corners():
 
 def simulate(points=None):
     """Times (s) and angular velocities (1/s), with the contact's own point or with a patch."""
-    scene = Scene(size=SIDE, load=SIDE**3)
+    scene = Scene(size=SIDE, load=SIDE**3, moving=True)
     if points is None:
         scene.block(box_corners(4.0, 4.0, 1.0), fixed=True, position=(0.0, 0.0, -0.5))
     block = scene.block(box_corners(SIDE, SIDE, SIDE), position=(0.0, 0.0, 0.5 * SIDE - scene.overlap))
-    scene.start(FRICTION, damping=0.0)
+    scene.start(FRICTION)
     block.state.angVel = Vector3(0, 0, SPIN)
     block.state.angMom = Vector3(0, 0, SPIN * block.state.inertia[2])
     patch = None if points is None else Patch(points, scene.stiffness)
@@ -93,9 +93,10 @@ def run(note, short):
         time, spin = simulate(points)
         moving = spin > 0.05 * SPIN
         found = float(-np.polyfit(time[moving], spin[moving], 1)[0])
-        rows.append(row(f"loss of angular velocity, {name}", deceleration(), found, "1/s²", found / deceleration() - 1.0))
+        rows.append(row(f"loss of angular velocity, {name}", deceleration(), found, "1/s²", relative=True))
         lever = 0.0 if points is None else float(np.mean(np.hypot(*points.T)))
         rows[-1]["of_these_points"] = deceleration(lever)
         paths.append({"name": name, "time": time.tolist(), "spin": spin.tolist()})
         note(number / len(choices))
-    return {"title": TITLE, "rows": rows, "targets": [], "data": {"paths": paths, "deceleration": deceleration(), "spin": SPIN}}
+    data = {"paths": paths, "deceleration": deceleration(), "spin": SPIN}
+    return {"title": TITLE, "rows": rows, "targets": [], "data": data}
