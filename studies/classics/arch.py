@@ -19,12 +19,12 @@ MILANKOVITCH = 0.1075
 HINGE = 54.5  # degrees
 RADIUS = 1.0  # m
 FRICTION = 60.0  # degrees: no joint slides
-STONES = 40
+STONES = 20
 SEARCH = (0.09, 0.13)  # t/R
 BRACKET = 4e-4  # of t/R
 # Stones, r over t, k: each row changes one thing.
 VARIED = (
-    (10, ROUNDING, 0.0), (20, ROUNDING, 0.0), (20, 1e-2, 0.0), (20, 3e-2, 0.0),
+    (10, ROUNDING, 0.0), (40, ROUNDING, 0.0), (20, 1e-2, 0.0), (20, 3e-2, 0.0),
     (20, ROUNDING, 0.01), (20, ROUNDING, 0.1), (20, 1e-2, 0.1),
 )  # fmt: skip
 BULGES = 1e-4  # k r over t: above that stones are no trapezia any more

@@ -31,8 +31,8 @@ from table import markdown, print_rows, print_targets
 
 # In the order of the page and the table: about how many seconds each takes.
 SECONDS = {
-    "incline": 40, "sliding": 3, "newmark": 5, "rocking": 12, "arch": 250, "overhang": 45, "toppling": 50, "key_block": 18,
-    "rolling": 4, "tumbling": 30, "twist": 4,
+    "incline": 25, "sliding": 3, "newmark": 8, "rocking": 6, "arch": 200, "overhang": 100, "toppling": 80, "key_block": 20,
+    "rolling": 4, "tumbling": 15, "twist": 2,
 }  # fmt: skip
 SHORT_SECONDS = 3
 AT_ONCE = 2

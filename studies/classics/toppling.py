@@ -21,7 +21,7 @@ HELD = 43.0  # friction angle with which the columns come to rest at first, degr
 SEARCH = (36.0, HELD)  # degrees
 BRACKET = 0.02  # degrees
 MOVED = 10.0  # overlaps: it fails
-PATIENCE = 20.0  # s
+PATIENCE = 5.0  # s; what rests does so after a tenth of that
 BELOW, ABOVE = 5.0, 5.0  # by how much tops step down towards the toe, and down behind the crest, m
 
 
