@@ -22,7 +22,7 @@ TITLE = "a key block in a roof"
 HEIGHT = 1.0  # of the block above the roof, m
 REACH = 0.6  # from where the line leaves the roof to joint C, along the line's trend, m
 HEADROOM = 3.0  # of friction above the plunge, with which it is held at first, degrees
-PARTS = (0.6, 0.8)  # of tan(plunge): tangents of friction at which it slides
+PARTS = (0.3, 0.4)  # of tan(plunge): tangents of friction at which it slides
 NEAR = 0.02  # degrees on both sides of the angle found, at which it is tried whether it holds
 WAY = (0.01, 0.04)  # from where to where the acceleration is measured, m
 PATIENCE = 3.0  # s
@@ -131,7 +131,7 @@ def fall():
 
 def critical_angle(case):
     """Degrees: where the acceleration, linear in tan(friction), is zero, from two angles at which it slides."""
-    tangents = np.array(PARTS) * np.tan(np.radians(case.limit.plunge)) * 0.5
+    tangents = np.array(PARTS) * np.tan(np.radians(case.limit.plunge))
     found = []
     for tangent in tangents:
         time, way = HungBlock(case).slide(np.degrees(np.arctan(tangent))).T
@@ -143,7 +143,9 @@ def critical_angle(case):
 
 def holds(case, friction):
     """Whether it comes to rest at a friction angle, from rest at a larger one."""
-    return HungBlock(case).slide(friction)[-1, 1] < WAY[0]
+    hung = HungBlock(case)
+    hung.slide(friction)
+    return hung.scene.at_rest()
 
 
 def _behind(outward, offset):
