@@ -7,6 +7,7 @@ Contact detection between potential particles.
   make test     set up, build, and run every test
 
   make wedge    a wedge on two joints: at which friction angle does it slide? results in out/wedge
+  make classics ten closed forms that block codes are judged by, among them incline, arch and toppling; results in out/classics
   make mpi      a pile of pyramids on several processes, through YADE's mpy; results in out/mpi
   make scale    where the time of a step goes, 200 to 100,000 pyramids beside spheres and an earlier commit; results in out/scale
   make mpi-scale  when several processes pay: measured here, and a model; minutes; results in out/mpi/scale
@@ -41,8 +42,8 @@ Variables, as in "make demo STEPS=1000 BODIES=50":
   STARTS=500        long: how often a tiny scene is started
   KILLS=10          long: how often a run is killed and loaded
   FUNCTOR=library   demo: who finds the contacts: library, or builtin for YADE's own functor
-  CASES=all         wedge: all, or short for two of them
-  OUTPUT=DIR        demo, wedge, mpi, side-by-side, long: where the results go (out/pyramids, ...)
+  CASES=all         wedge, classics: all, or short for a few of them; classics: names, as in CASES=arch,rocking
+  OUTPUT=DIR        demo, wedge, classics, mpi, side-by-side, long: where the results go (out/pyramids, ...)
   THREADS=1         demo, mpi: threads of YADE (of each process)
   QUICK=1           side-by-side: a little of everything, in seconds
   POSES=1000000     stress: number of poses
@@ -73,7 +74,7 @@ export PATH := $(PATH):$(HOME)/.cargo/bin
 
 heading = @printf '== %s\n' '$(1)'
 
-.PHONY: sanitize guide deb packages-test install help demo wedge mpi scale mpi-scale test test-debian13 side-by-side setup build library glue header lint bench stress fuzz long clean
+.PHONY: sanitize guide deb packages-test install help demo wedge classics mpi scale mpi-scale test test-debian13 side-by-side setup build library glue header lint bench stress fuzz long clean
 .DEFAULT_GOAL := help
 # The steps of one goal build on each other in the order in which they are named.
 .NOTPARALLEL:
@@ -111,6 +112,12 @@ wedge: export OUTPUT := $(OUTPUT)
 wedge: glue
 	$(call heading,Sliding wedge)
 	@scripts/yade.sh -j$(THREADS) studies/wedge.py
+
+classics: export CASES := $(CASES)
+classics: export OUTPUT := $(OUTPUT)
+classics: glue
+	$(call heading,Classics of blocks)
+	@studies/classics/run.py
 
 mpi: export STEPS := $(STEPS)
 mpi: export BODIES := $(BODIES)

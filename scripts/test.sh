@@ -45,6 +45,7 @@ stage suite "YADE killed and loaded, shaken, started often" scripts/short_long.s
 stage suite "Short examples" scripts/short_examples.sh
 stage suite "Short demo" scripts/short_demo.sh
 stage suite "Short wedge" scripts/short_wedge.sh
+stage suite "Short classics" scripts/short_classics.sh
 stage suite "Short side by side" scripts/short_side_by_side.sh
 stage check "Guide as a site" scripts/guide.sh "$CARGO_TARGET_DIR/guide"
 stage suite "Links of the guide" tests/guide/links.py "$CARGO_TARGET_DIR/guide"

@@ -1,0 +1,202 @@
+# SPDX-License-Identifier: MIT OR Apache-2.0
+"""The scene of every case: blocks with flat faces, springs and friction, and all numerical choices, which no case changes.
+
+Every length below is relative to the size of the scene, the diameter of the largest ball in its smallest block.
+
+- Edges are rounded with the radius r = ROUNDING: the flat part of a face, over which its contact point may move, ends r inside the edge.
+- Springs are so stiff that the largest force at rest, which the case names (`load`), makes an overlap of OVERLAP.
+- Faces are flat (k = 0). Their contact point is chosen as if they bulged by BULGE of that overlap, so that it moves smoothly with
+  the tilt: it crosses a face while the block tilts by some 1e-6 rad (docs/wedge.md).
+- The time step follows from the stiffest motion, springs or tilting.
+- What is looked for at rest has YADE's local damping, which vanishes at rest and delays all motion of a block alike. What is looked for
+  in motion (`moving`) has none, but dashpots beside the normal springs, so that what lands does not bounce. (Dashpots in shear would
+  add to the friction of YADE's law, which limits the spring alone.)
+"""
+
+import numpy as np
+import yade
+from potential_particles import body, shapes
+from potential_particles.polyhedron import Polyhedron
+from yade import O, Vector3
+
+from stepping import advance
+
+GRAVITY = 9.81  # m/s^2
+DENSITY = 2600.0  # kg/m^3; no result depends on it
+ROUNDING = 1e-3
+OVERLAP = 1e-5
+BULGE = 0.1
+SHEAR = 0.5  # of the normal stiffness
+DAMPING = 0.5  # YADE's local one
+DASHPOT = 2.0  # over sqrt(k m), m the mass of the load
+# Of the time in which the springs, and tilting, turn one radian.
+SPRING_STEP, TILT_STEP = 0.2, 0.4
+QUIET = 1e-5  # of the speed that belongs to the overlap
+# Blocks with faces that bulge (k > 0) need springs softer than the bulge k r / 2, up to a part of r.
+OVERLAP_OVER_BULGE, MOST_OVERLAP = 20.0, 0.1
+
+FREE_MASK, FIXED_MASK, FIXED_ONLY = 0b01, 0b11, 0b10
+
+
+class Scene:
+    """Empties YADE's scene. Add blocks, then `start`.
+
+    size: m; load: the largest force of a contact at rest, as the weight of so much volume (m^3) of rock.
+    """
+
+    def __init__(self, size, load, moving=False, rounding=ROUNDING, sphericity=0.0):
+        O.reset()
+        self.moving = moving
+        self.size, self.rounding, self.sphericity = size, rounding * size, sphericity
+        self.load = load * DENSITY * GRAVITY
+        self.overlap = size * max(OVERLAP, min(OVERLAP_OVER_BULGE * sphericity, MOST_OVERLAP) * rounding)
+        self.stiffness = self.load / self.overlap
+        self.friction = 0.0
+        self.functor = None
+        self.material = O.materials[O.materials.append(self._material())]
+
+    def _material(self):
+        if not self.moving:
+            return yade.FrictMat(young=1.0, poisson=1.0, frictionAngle=0.0, density=DENSITY)
+        dashpot = DASHPOT * np.sqrt(self.stiffness * self.load / GRAVITY)
+        # YADE puts the values of both bodies in series: twice each gives what is wanted.
+        return yade.ViscElMat(
+            kn=2.0 * self.stiffness, ks=2.0 * SHEAR * self.stiffness, cn=2.0 * dashpot, cs=0.0,
+            frictionAngle=0.0, density=DENSITY,
+        )  # fmt: skip
+
+    # --- blocks ---------------------------------------------------------------------------------
+
+    def block(self, corners, fixed=False, position=(0.0, 0.0, 0.0), mask=None):
+        """The convex hull of corners (m) as a body."""
+        corners = np.asarray(corners, float)
+        relative = self.rounding / (2.0 * Polyhedron.of_points(corners).ball_radius)
+        shape = shapes.from_vertices(corners, r=relative, k=self.sphericity)
+        return self.add(shape, fixed, position, mask=mask)
+
+    def add(self, shape, fixed=False, position=(0.0, 0.0, 0.0), orientation=(1.0, 0.0, 0.0, 0.0), mask=None):
+        """A Shape as a body; orientation w, x, y, z. Returns the body."""
+        mask = mask if mask is not None else (FIXED_MASK if fixed else FREE_MASK)
+        made = body(shape, self.material, position, orientation, fixed=fixed, mask=mask)
+        O.bodies.append(made)
+        return made
+
+    # --- engines --------------------------------------------------------------------------------
+
+    def start(self, friction, gravity=(0.0, 0.0, -GRAVITY), before=()):
+        """Engines and time step; friction angle in degrees. `before`: engines that run before the contacts."""
+        bulge = BULGE * self.overlap / self.rounding
+        regularisation = {"flatRegularisation": bulge} if self.sphericity == 0.0 else {}
+        self.functor = yade.Ig2_ConicPP_ConicPP_ScGeom(calContactArea=False, **regularisation)
+        physics, law = self._laws()
+        O.engines = [
+            yade.ForceResetter(),
+            yade.BoundWatch(),
+            yade.InsertionSortCollider(
+                [yade.Bo1_ConicPP_Aabb()], verletDist=0.02 * self.size, avoidSelfInteractionMask=FIXED_ONLY
+            ),
+            *before,
+            yade.ConicInteractionLoop([self.functor], [physics], [law]),
+            yade.NewtonIntegrator(damping=0.0 if self.moving else DAMPING, gravity=gravity, exactAsphericalRot=True),
+        ]
+        O.dt = self._time_step(max(bulge, self.sphericity))
+        self.set_friction(friction)
+
+    def _laws(self):
+        if self.moving:
+            return yade.Ip2_ViscElMat_ViscElMat_ViscElPhys(), yade.Law2_ScGeom_ViscElPhys_Basic()
+
+        def value(number):
+            return yade.MatchMaker(algo="val", val=float(number))
+
+        physics = yade.Ip2_FrictMat_FrictMat_FrictPhys(kn=value(self.stiffness), ks=value(SHEAR * self.stiffness))
+        # Levers of forces run to the contact point, not along the normal as for spheres.
+        return physics, yade.Law2_ScGeom_FrictPhys_CundallStrack(sphericalBodies=False)
+
+    def _time_step(self, curving):
+        """s. A tilt moves the point by tilt R^2 / (r curving), and with it the load."""
+        least = np.inf
+        for one in self.free():
+            springs = np.sqrt(self.stiffness / one.state.mass)
+            lever = one.shape.boundingRadius**2 / (curving * self.rounding)
+            tilting = np.sqrt(self.load * lever / min(one.state.inertia))
+            least = min(least, SPRING_STEP / springs, TILT_STEP / tilting)
+        return least
+
+    @property
+    def motion(self):
+        """The integrator."""
+        return O.engines[-1]
+
+    def free(self):
+        """Blocks that may move."""
+        return [one for one in O.bodies if one.state.blockedDOFs == "" and not one.isClump]
+
+    def set_friction(self, angle):
+        """Friction angle of all contacts from now on, degrees."""
+        self.friction = angle
+        for material in O.materials:
+            material.frictionAngle = np.radians(angle)
+        for interaction in O.interactions:
+            if interaction.isReal:
+                interaction.phys.tangensOfFrictionAngle = np.tan(np.radians(angle))
+
+    def set_gravity(self, vector):
+        """m/s^2; a tilted gravity stands for a tilted plane."""
+        self.motion.gravity = Vector3(*map(float, vector))
+
+    # --- what it does ---------------------------------------------------------------------------
+
+    @property
+    def beat(self):
+        """sqrt(overlap / g), s: the pace of the springs."""
+        return np.sqrt(self.overlap / GRAVITY)
+
+    def run(self, seconds):
+        """So long, in whole steps."""
+        advance(O.iter + max(1, round(seconds / O.dt)))
+
+    def at_rest(self):
+        """Whether no block is faster than QUIET sqrt(g overlap), and none is turned faster than that at its farthest corner."""
+        limit = QUIET * np.sqrt(GRAVITY * self.overlap)
+        return all(
+            one.state.vel.norm() < limit and one.state.angVel.norm() * one.shape.boundingRadius < limit for one in self.free()
+        )
+
+    def settle(self, most=4000):
+        """Until the blocks rest, and at most so many beats; whether they rest."""
+        until = O.time + most * self.beat
+        while O.time < until:
+            self.run(20.0 * self.beat)
+            if self.at_rest():
+                return True
+        return False
+
+    def check(self):
+        """SystemExit if a contact could not be computed."""
+        if self.functor.failures:
+            raise SystemExit(f"{self.functor.failures} contacts could not be computed: {self.functor.failureReport}")
+
+
+def box_corners(length, width, height):
+    """Of a box about the origin along x, y, z."""
+    return [(0.5 * x * length, 0.5 * y * width, 0.5 * z * height) for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)]
+
+
+def tilted_gravity(angle):
+    """Gravity seen from a plane that dips by `angle` (degrees) towards x."""
+    radians = np.radians(angle)
+    return GRAVITY * np.array([np.sin(radians), 0.0, -np.cos(radians)])
+
+
+def turn_about_y(one):
+    """By how much a body has turned about y since it was made, radians, -pi to pi; positive falls towards +x."""
+    turned = one.state.ori * one.state.refOri.conjugate()
+    w, y = turned[3], turned[1]
+    return 2.0 * np.arctan2(y, w) if w >= 0.0 else 2.0 * np.arctan2(-y, -w)
+
+
+def place_of(one, point):
+    """Where a material point is now that was at `point` (m, world) when the body was made."""
+    local = one.state.refOri.conjugate() * (Vector3(*map(float, point)) - one.state.refPos)
+    return np.array(one.state.pos + one.state.ori * local)
