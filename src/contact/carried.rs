@@ -300,8 +300,11 @@ impl Carried {
         let lambda = u / (1.0 - u);
         let solution = Solution { gradients, gradient_norms, values, ..Solution::unsettled(*x, lambda, *rounds) };
         let along = |n: &Vector3<f64>| {
-            let piece =
-                |i: usize| Piece { curvature: pieces[i].hessian.times(n).dot(n), reach: pieces[i].reach - moved[i] };
+            let piece = |i: usize| Piece {
+                curvature: pieces[i].hessian.times(n).dot(n),
+                reach: pieces[i].reach - moved[i],
+                ..Piece::default()
+            };
             [piece(0), piece(1)]
         };
         let steep = SLOPE_ROUNDING * left.stiffness * (moved[0] + moved[1]);

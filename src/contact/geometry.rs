@@ -59,8 +59,9 @@ impl LocalContact {
         let surface = if overlapping {
             let pieces = pieces(&across.vector);
             let (ray_a, ray_b) = (|| Ray::of_a(pair, x, &normal), || Ray::of_b(pair, x, &normal));
-            let to_a = across.way(solution.values[0], pieces[0], &gradients[0], |guess| ray_a().way(guess))?;
-            let to_b = across.way(solution.values[1], pieces[1], &-gradients[1], |guess| ray_b().way(guess))?;
+            let slope = |i: usize| (gradients[i] - pieces[i].surplus_gradient).dot(&across.vector);
+            let to_a = across.way(solution.values[0], pieces[0], slope(0), |guess| ray_a().way(guess))?;
+            let to_b = across.way(solution.values[1], pieces[1], -slope(1), |guess| ray_b().way(guess))?;
             // Where s < 1 by less than the rounding of the point, the surfaces seem to have passed each other.
             let passed = to_a + to_b < 0.0;
             let (to_a, to_b) = if passed { meeting([ray_a(), ray_b()], [to_a, to_b]) } else { (to_a, to_b) };
@@ -171,17 +172,11 @@ impl Across {
         self.vector / self.length
     }
 
-    /// How far the surface is where S is this piece, with the gradient at its beginning: on the quadratic at hand, or from
-    /// where that would be. A piece of no reach says nothing, not even that a point where it is 1 lies on the surface.
+    /// How far the surface is where S is this piece, with its slope along the vector: on the quadratic at hand, or from where
+    /// that would be. A piece of no reach says nothing, not even that a point where it is 1 lies on the surface.
     #[inline(always)]
-    fn way(
-        &self,
-        value: f64,
-        piece: Piece,
-        gradient: &Vector3<f64>,
-        from_there: impl Fn(f64) -> Option<f64>,
-    ) -> Option<f64> {
-        let way = self.length * ray_cast::root_of_piece(value - 1.0, gradient.dot(&self.vector), piece.curvature);
+    fn way(&self, value: f64, piece: Piece, slope: f64, from_there: impl Fn(f64) -> Option<f64>) -> Option<f64> {
+        let way = self.length * ray_cast::root_of_piece(value - piece.surplus - 1.0, slope, piece.curvature);
         if way.abs() < piece.reach { Some(way) } else { from_there(way) }
     }
 }

@@ -111,14 +111,20 @@ impl LocalModel {
         }
     }
 
-    /// S_A and S_B along a vector of the solver's frame, from the point x on.
+    /// The particles' own S_A and S_B along a vector of the solver's frame, from the point x on.
     #[inline]
     pub fn pieces(&self, bodies: [&Body; 2], x: &Vector3<f64>, n: &Vector3<f64>) -> [Piece; 2] {
         let (n, moved) = (self.to_axes(n), (x - self.x).norm());
         let piece = |body: &Body, q: &Quadratic| {
-            let exact = body.is_plain() && q.expansion <= NEAR_SURFACE;
+            let exact = q.expansion <= NEAR_SURFACE;
             let reach = if exact { q.clear / body.particle.bounds.longest_normal - moved } else { 0.0 };
-            Piece { curvature: q.hessian.times(&n).dot(&n), reach: CLEAR * reach }
+            let piece = Piece { curvature: q.hessian.times(&n).dot(&n), reach: CLEAR * reach, ..Piece::default() };
+            if body.is_plain() {
+                return piece;
+            }
+            // n in either axes has the same length.
+            let curvature = piece.curvature - body.surplus_curvature() * n.norm_squared();
+            Piece { curvature, surplus: body.surplus(x), surplus_gradient: body.surplus_gradient(x), ..piece }
         };
         [piece(bodies[0], &self.q_a), piece(bodies[1], &self.q_b)]
     }
@@ -188,11 +194,14 @@ impl StiffNormals for ActiveNormals<'_> {
     }
 }
 
-/// A potential along a vector.
-#[derive(Clone, Copy, Debug)]
+/// A potential along a vector, as the particle has it: without what the regularisation adds.
+#[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Piece {
     /// Its second derivative; of a vector without unit, 1/length².
     pub curvature: f64,
+    /// What the regularisation adds where the line begins, and its gradient there, solver's frame.
+    pub surplus: f64,
+    pub surplus_gradient: Vector3<f64>,
     /// How far it is the same quadratic for sure, either way, length.
     pub reach: f64,
 }

@@ -229,6 +229,16 @@ impl<'a> Body<'a> {
         (self.sphere_weight - self.particle.sphere_weight) * (x - self.centre).norm_squared()
     }
 
+    /// The gradient of that.
+    pub fn surplus_gradient(&self, x: &Vector3<f64>) -> Vector3<f64> {
+        self.surplus_curvature() * (x - self.centre)
+    }
+
+    /// Its curvature in each direction.
+    pub fn surplus_curvature(&self) -> f64 {
+        2.0 * (self.sphere_weight - self.particle.sphere_weight)
+    }
+
     /// Upper bound of what the regularisation adds anywhere in {S ≤ `level`}.
     pub fn most_surplus(&self, level: f64) -> f64 {
         let added = self.sphere_weight - self.particle.sphere_weight;

@@ -89,15 +89,10 @@ impl<'a> Call<'a> {
         Axes::of(self.bodies())
     }
 
-    /// Whether a first step can be the last: where the axes have to follow the planes, it takes more.
-    fn may_take_one_step(&self) -> bool {
-        self.settings.back_end == BackEnd::Fast && self.axes() == Axes::OfB
-    }
-
     /// The solution of the first step, if that is all that it takes.
     #[inline(always)]
     pub fn first_step(&mut self, problem: Problem, lambda: f64, model: &LocalModel) -> Option<Solution> {
-        if !self.may_take_one_step() {
+        if self.settings.back_end != BackEnd::Fast {
             return None;
         }
         let goal = self.goal(problem);
@@ -241,7 +236,7 @@ impl<'a> Call<'a> {
         model: &LocalModel,
         will_do: impl Fn(&CertifiedPoint) -> bool,
     ) -> Option<[CertifiedPoint; 2]> {
-        if !self.may_take_one_step() {
+        if self.settings.back_end != BackEnd::Fast {
             return None;
         }
         let bodies = self.bodies();
