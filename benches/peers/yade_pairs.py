@@ -20,9 +20,9 @@ import yade.log
 from yade import Body, Omega, Quaternion, Vector3, polyhedra_utils, utils
 
 import pair_file
+import yade_level_set
 
 O = Omega()
-GRID, NODES = 25, 500  # of a level set: cells across the body, and nodes on its surface
 MOST_PAIRS = 20
 
 
@@ -131,13 +131,11 @@ def polyhedra_engines():
 
 
 def level_set(group):
-    """The signed distance to the swept hull on a grid; exact where it matters, to the faces and the nearest points of the hull."""
     key = id(group)
     if key not in FIELDS:
-        FIELDS[key] = (*signed_distances(group), group)
+        FIELDS[key] = (*yade_level_set.signed_distances(group.corners, group.triangles, group.swept), group)
     grid, field, _ = FIELDS[key]
-    body = utils.levelSetBody(grid=grid, distField=field, nSurfNodes=NODES, dynamic=False, material=FRICTION)
-    return body
+    return yade_level_set.body(grid, field, FRICTION)
 
 
 FIELDS = {}
@@ -149,43 +147,6 @@ def level_set_engines():
         [yade.Ip2_FrictMat_FrictMat_FrictPhys()],
         [yade.Law2_ScGeom_FrictPhys_CundallStrack(neverErase=True)],
     )
-
-
-def signed_distances(group):
-    corners = np.array(group.corners)
-    low, high = corners.min(axis=0) - group.swept, corners.max(axis=0) + group.swept
-    step = (high - low).max() / GRID
-    counts = np.ceil((high - low) / step).astype(int) + 7
-    start = low - 3 * step
-    grid = yade.RegularGrid(min=Vector3(*start), nGP=yade.Vector3i(*map(int, counts)), spacing=float(step))
-    axes = [start[i] + step * np.arange(counts[i]) for i in range(3)]
-    points = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, 3)
-    return grid, (hull_distance(group, points) - group.swept).reshape(counts).tolist()
-
-
-def hull_distance(group, points):
-    """To the hull of the corners: inside minus the distance to the nearest face, outside that to the nearest point of a triangle."""
-    corners = np.array(group.corners)
-    least = np.full(len(points), np.inf)
-    highest = np.full(len(points), -np.inf)
-    for triangle in group.triangles:
-        a, b, c = corners[triangle]
-        normal = np.cross(b - a, c - a)
-        normal /= np.linalg.norm(normal)
-        highest = np.maximum(highest, (points - a) @ normal)
-        least = np.minimum(least, triangle_distance(points, a, b, c, normal))
-    return np.where(highest > 0, least, highest)
-
-
-def triangle_distance(points, a, b, c, normal):
-    inside = np.ones(len(points), bool)
-    to_edges = np.full(len(points), np.inf)
-    for p, q in ((a, b), (b, c), (c, a)):
-        along = q - p
-        inside &= (points - p) @ np.cross(normal, along) >= 0
-        share = np.clip((points - p) @ along / (along @ along), 0, 1)
-        to_edges = np.minimum(to_edges, np.linalg.norm(points - p - share[:, None] * along, axis=1))
-    return np.where(inside, np.abs((points - a) @ normal), to_edges)
 
 
 FRICTION = yade.FrictMat(young=1e7, poisson=0.3, frictionAngle=0.3, density=2000.0)
