@@ -12,6 +12,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 NEIGHBOUR_SKIN = 0.01  # m
+NUMBERS = re.compile(r"\s*(?:-?\d[-+.\de]*\s*){4}")  # a line of the log's tables
 
 
 class Pile:
@@ -45,7 +46,7 @@ class Pile:
         if done.returncode:
             raise RuntimeError(next((line for line in log.splitlines() if line.startswith("ERROR")), f"exit code {done.returncode}"))
         seconds = [float(found) for found in re.findall(r"Loop time of (\S+) on", log)]
-        rows = [[float(word) for word in line.split()] for line in log.splitlines() if re.fullmatch(r"\s*(?:[-+.\deE]+\s*){4}", line)]
+        rows = [[float(word) for word in line.split()] for line in log.splitlines() if NUMBERS.fullmatch(line)]
         return seconds[1:], rows
 
     def _body(self, number, turn):
