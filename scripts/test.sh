@@ -46,6 +46,7 @@ stage suite "Short examples" scripts/short_examples.sh
 stage suite "Short demo" scripts/short_demo.sh
 stage suite "Short wedge" scripts/short_wedge.sh
 stage suite "Short side by side" scripts/short_side_by_side.sh
+stage check "What other codes are judged by" /usr/bin/python3 benches/peers/test_answers.py
 
 printf '\n%d passed, %d failed\n' "$passed" "$failed"
 [ "$failed" -eq 0 ]

@@ -47,7 +47,9 @@ class Judge:
             if self.group.place not in (TOUCHING, LYING):
                 return -1.0
             formulation = "closest" if contestant.way == "closest" else "midway"
-            answer = self.settled(formulation)[pair]
+            if formulation not in self.kept:
+                self.kept[formulation] = self.settled(formulation)
+            answer = self.kept[formulation][pair]
             return answer[0] if answer else -1.0
         kind = "volume" if contestant.way == "polyhedra" else "depth"
         key = (kind, pair)

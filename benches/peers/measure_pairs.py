@@ -22,7 +22,7 @@ CURVES = {
 
 class Effort:
     def __init__(self, quick):
-        self.rounds, self.seconds = (2, 2e-3) if quick else (9, 15e-3)
+        self.rounds, self.seconds = (2, 2e-3) if quick else (7, 12e-3)
         self.pairs, self.many = (10, 4) if quick else (100, 30)
         self.planes = (5, 100) if quick else PLANES
         self.slow_rounds = 1 if quick else 3

@@ -23,7 +23,7 @@ import pair_file
 import yade_level_set
 
 O = Omega()
-MOST_PAIRS = 20
+MOST_PAIRS = {"potential": 20, "polyhedra": 20, "levelset": 10}
 
 
 class Scene:
@@ -32,7 +32,7 @@ class Scene:
     def __init__(self, group, way):
         O.reset()
         self.way = way
-        self.pairs = group.pairs[:MOST_PAIRS]
+        self.pairs = group.pairs[: MOST_PAIRS[way]]
         engines = {"potential": potential_engines, "polyhedra": polyhedra_engines, "levelset": level_set_engines}[way]
         make = {"potential": potential, "polyhedra": polyhedron, "levelset": level_set}[way]
         collider, self.loop = engines()
