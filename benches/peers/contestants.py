@@ -40,24 +40,43 @@ class Contestant:
 
 
 POINT = "point, normal, overlap"
+BOTH = POINT + ", surface points"
+OWN = BOTH + "; area by a second call; bound on the error"
 GJK = "GJK; EPA where the cores meet"
-TOLERANCE = "tolerance 1e-6 of GJK and of EPA (its defaults), 128 and 64 iterations, distance_upper_bound 0"
-TOUCH = ("touching", "lying")
+COALS = "tolerances of GJK and EPA 1e-6, 128 and 64 iterations (defaults), distance_upper_bound 0; cached guess when warm"
+PARRYS = "tolerance 4.7e-8 relative (fixed), 100 iterations; contacts of the cores up to 2r apart"
+BULLETS = "relative 1e-12 of the squared distance (fixed); separating axis kept when warm"
+CARRIED = "gap_tolerance 1e-12, point to 1e-9 of the size (the plugin's default)"
+LEVEL_SET = "deepest of 500 nodes in a field on a grid of 25 cells across"
+MIDWAY, DEFAULT = "midway problem", "gap_tolerance 1e-12 (default)"
+TOUCH, APART, WARM = ("touching", "lying"), ("near", "far"), ("warm",)
+
+
+def _one(program, way, label, computes, settings, gives, work=CONTACT, **limits):
+    return Contestant(program, way, label, work, computes, settings, gives, **limits)
+
+
 CONTESTANTS = (
-    Contestant(OURS, "midway", "this library, midway", CONTACT, "midway problem", "gap_tolerance 1e-12 (default)", POINT + ", surface points; area by a second call; bound on the error"),
-    Contestant(OURS, "carried", "this library, midway carried in a batch", CONTACT, "midway problem; a contact of the last step is carried on", "gap_tolerance 1e-12, point to 1e-9 of the size (the plugin's default)", POINT + ", surface points; area by a second call; bound on the error"),
-    Contestant(OURS, "closest", "this library, closest", CONTACT, "closest problem, both points", "gap_tolerance 1e-12 (default)", POINT + ", surface points; area by a second call; bound on the error"),
-    Contestant(OURS, "conic", "clarabel", CONTACT, "the paper's cone program of midway", "its defaults, through this library", POINT, places=TOUCH, most_planes=20, warmths=("cold",), rival=True),
-    Contestant(PARRY, "contact", "parry", CONTACT, GJK, "tolerance 4.7e-8 relative (fixed), 100 iterations; contacts looked for up to twice the rounding", POINT + ", surface points", rival=True),
-    Contestant(PARRY, "intersection", "parry, yes or no", CONTACT, "GJK until a plane separates", "the same", "yes or no", places=("near", "far"), edges=("sharp",), rival=True),
-    Contestant(PARRY, "distance", "parry, distance", DISTANCE, "GJK to the end", "the same", "distance, closest points", places=("near",)),
-    Contestant(COAL, "contact", "Coal", CONTACT, GJK, TOLERANCE + "; cached guess when warm", POINT + ", surface points", rival=True),
-    Contestant(COAL, "contact-nesterov", "Coal, Nesterov", CONTACT, "the same with Nesterov acceleration", TOLERANCE + "; cached guess when warm", POINT + ", surface points", rival=True),
-    Contestant(COAL, "distance", "Coal, distance", DISTANCE, "GJK to the end", "tolerance 1e-6", "distance, closest points", places=("near",)),
-    Contestant(BULLET, "contact", "Bullet, double precision", CONTACT, GJK, "relative 1e-12 of the squared distance (fixed); separating axis kept when warm", POINT + ", surface points", rival=True),
-    Contestant(YADE, "potential", "YADE's PotentialParticle", CONTACT, "least f_A + f_B with f_A = f_B, by Newton", "accuracyTol 1e-7 (default), no contact area", POINT + "; area by rays", places=TOUCH, edges=("potential",), most_planes=12, warmths=("warm",), rival=True),
-    Contestant(YADE, "polyhedra", "YADE's Polyhedra", CONTACT, "volume of intersection, by CGAL", "exact but for rounding", "point, normal, volume, area", places=TOUCH, edges=("sharp",), most_planes=100, warmths=("warm",), rival=True),
-    Contestant(YADE, "levelset", "YADE's LevelSet", CONTACT, "deepest of 500 nodes in a field on a grid of 25 cells across", "no tolerance: nodes and grid", POINT, places=TOUCH, edges=("sharp", "rounded"), most_planes=20, warmths=("warm",)),
+    _one(OURS, "midway", "this library, midway", MIDWAY, DEFAULT, OWN),
+    _one(OURS, "carried", "this library, midway in a batch", MIDWAY + "; the last contact is carried on", CARRIED, OWN),
+    _one(OURS, "closest", "this library, closest", "closest problem, both points", DEFAULT, OWN),
+    _one(OURS, "conic", "clarabel", "the paper's cone program of midway", "its defaults, through this library", POINT,
+         places=TOUCH, most_planes=20, warmths=("cold",), rival=True),
+    _one(PARRY, "contact", "parry", GJK, PARRYS, BOTH, rival=True),
+    _one(PARRY, "intersection", "parry, yes or no", "GJK until a plane separates", PARRYS, "yes or no",
+         places=APART, edges=("sharp",), rival=True),
+    _one(PARRY, "distance", "parry, distance", "GJK to the end", PARRYS, "distance, closest points", DISTANCE, places=("near",)),
+    _one(COAL, "contact", "Coal", GJK, COALS, BOTH, rival=True),
+    _one(COAL, "contact-nesterov", "Coal, Nesterov", GJK + "; Nesterov acceleration", COALS, BOTH, rival=True),
+    _one(COAL, "distance", "Coal, distance", "GJK to the end", COALS, "distance, closest points", DISTANCE, places=("near",)),
+    _one(BULLET, "contact", "Bullet, double precision", GJK, BULLETS, BOTH, rival=True),
+    _one(YADE, "potential", "YADE's PotentialParticle", "least f_A + f_B with f_A = f_B, by Newton",
+         "accuracyTol 1e-7 (default), no contact area", POINT + "; area by rays",
+         places=TOUCH, edges=("potential",), most_planes=12, warmths=WARM, rival=True),
+    _one(YADE, "polyhedra", "YADE's Polyhedra", "volume of intersection, by CGAL", "exact but for rounding",
+         "point, normal, volume, area", places=TOUCH, edges=("sharp",), most_planes=100, warmths=WARM, rival=True),
+    _one(YADE, "levelset", "YADE's LevelSet", LEVEL_SET, "no tolerance: nodes and grid", POINT,
+         places=TOUCH, edges=("sharp", "rounded"), most_planes=20, warmths=WARM),
 )
 
 

@@ -32,12 +32,12 @@ class Effort:
         self.falling_step, self.settle = (1500, 2500) if quick else (1500, 10000)
         # Steps before the windows, seconds that they may take, windows, steps of each.
         self.before = {OURS: 60, LAMMPS: 20, POTENTIAL: 2, POLYHEDRA: 10, LEVEL_SET: 10} if quick else {
-            OURS: 600, LAMMPS: 600, POTENTIAL: 20, POLYHEDRA: 600, LEVEL_SET: 600}
-        self.seconds = 3 if quick else 45
+            OURS: 600, LAMMPS: 300, POTENTIAL: 20, POLYHEDRA: 600, LEVEL_SET: 600}
+        self.seconds = 3 if quick else 30
         self.windows = 2 if quick else 8
         self.stages = STAGES[1:] if quick else STAGES
         self.bounces = not quick
-        self.steps = {OURS: 60, LAMMPS: 10 if quick else 60, POTENTIAL: 2, POLYHEDRA: 4, LEVEL_SET: 4}
+        self.steps = {OURS: 60, LAMMPS: 10 if quick else 20, POTENTIAL: 2, POLYHEDRA: 4, LEVEL_SET: 4}
 
 
 def rows(found, quick):

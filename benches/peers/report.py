@@ -108,6 +108,7 @@ def draw(rows, curves, line, path):
     labels = _unique(row["label"] for row in rows if row["group"] in groups and row["work"] == CONTACT)
     colours = {label: plt.get_cmap("tab10" if len(labels) <= 10 else "tab20")(i) for i, label in enumerate(labels)}
     for panel, name in zip(axes[0], groups):
+        panel.set(xscale="log", yscale="log", xlim=(LEAST_ERROR / 3, MOST_ERROR))
         for row in rows:
             if row["group"] == name and row.get("median_error") is not None:
                 _dot(panel, row, colours[row["label"]])
@@ -115,7 +116,7 @@ def draw(rows, curves, line, path):
             points = sorted((max(one["worst_error"], LEAST_ERROR), one["microseconds"]) for one in curves
                             if (one["group"], one["label"], one["warmth"]) == (name, label, warmth) and one["worst_error"] is not None)
             panel.plot(*zip(*points), "-" if warmth == "warm" else ":", color=colours.get(label, "grey"), linewidth=1)
-        panel.set(xscale="log", yscale="log", xlim=(LEAST_ERROR / 3, MOST_ERROR), xlabel="worst error, against its own exact answer, of the size")
+        panel.set_xlabel("worst error, against its own exact answer, of the size")
         panel.set_title(describe(next(row for row in rows if row["group"] == name)), fontsize=10)
         panel.grid(True, which="major", linewidth=0.3)
     axes[0][0].set_ylabel("a call, µs")

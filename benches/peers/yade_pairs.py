@@ -26,6 +26,9 @@ O = Omega()
 MOST_PAIRS = {"potential": 20, "polyhedra": 20, "levelset": 10}
 
 
+APART = Vector3(16, 0, 0)  # from pair to pair, so that none meets another
+
+
 class Scene:
     """The pairs of one group, with one functor."""
 
@@ -37,11 +40,11 @@ class Scene:
         make = {"potential": potential, "polyhedra": polyhedron, "levelset": level_set}[way]
         collider, self.loop = engines()
         self.bodies = []
-        for first, seconds in self.pairs:
+        for number, (first, seconds) in enumerate(self.pairs):
             both = [make(group), make(group)]
             for body, place in zip(both, (first, seconds[0])):
                 body.state.blockedDOFs = "xyzXYZ"
-                self.place(body, place)
+                self.place(body, place, number)
                 O.bodies.append(body)
             self.bodies.append(both)
         O.dt = 1e-9
@@ -52,16 +55,16 @@ class Scene:
         O.engines = [self.loop]
         self.contacts = [utils.createInteraction(one.id, other.id) for one, other in self.bodies]
 
-    def place(self, body, place):
+    def place(self, body, place, number):
         turn = Quaternion(*place[3:]).normalized()
         own, offset = OWN.get(id(body), (Quaternion.Identity, Vector3.Zero))
-        body.state.pos = Vector3(*place[:3]) + turn * offset
+        body.state.pos = Vector3(*place[:3]) + turn * offset + number * APART
         body.state.ori = turn * own
 
     def step(self, time):
         """Seconds of the loop with every B at its pose of that number."""
-        for (_, body), (_, seconds) in zip(self.bodies, self.pairs):
-            self.place(body, seconds[time])
+        for number, ((_, body), (_, seconds)) in enumerate(zip(self.bodies, self.pairs)):
+            self.place(body, seconds[time], number)
         self.loop.execTime = 0
         O.step()
         return 1e-9 * self.loop.execTime
@@ -79,15 +82,15 @@ class Scene:
     def answers(self):
         for pose in range(len(self.pairs[0][1])):
             self.step(pose)
-        return [self.answer(contact) for contact in self.contacts]
+        return [self.answer(contact, number) for number, contact in enumerate(self.contacts)]
 
-    def answer(self, contact):
+    def answer(self, contact, number):
         if not contact.isReal or contact.geom is None:
             return []
         geom = contact.geom
         sense = 1 if contact.id1 < contact.id2 else -1
         measure = geom.penetrationVolume if self.way == "polyhedra" else geom.penetrationDepth
-        found = [measure, *geom.contactPoint, *(sense * geom.normal)]
+        found = [measure, *(geom.contactPoint - number * APART), *(sense * geom.normal)]
         if not np.isfinite(found).all():
             return None
         return found if measure > 0 else []

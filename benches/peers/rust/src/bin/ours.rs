@@ -4,7 +4,8 @@
 use peers::scene::{Group, Placement};
 use peers::server::{Answer, Contestant, serve};
 use potential_particles::{
-    BackEnd, Carried, Contact, DetectError, Formulation, Kind, Memory, Particle, Plane, Pose, Settings, detect, detect_batch_carried,
+    BackEnd, Carried, Contact, DetectError, Formulation, Kind, Memory, Particle, Plane, Pose, Settings, detect,
+    detect_batch_carried,
 };
 
 /// To what part of the size the point of a contact that is carried on is known: the plugin's default.
@@ -94,7 +95,8 @@ impl Contestant for Batch {
         let (memories, carried): (&mut [Memory], &mut [Carried]) =
             if warm { (&mut ours.memories, &mut self.carried) } else { (&mut [], &mut []) };
         let poses = &self.poses[time];
-        let found = detect_batch_carried(&particles, poses, &self.pairs, &ours.settings, CARRY_TOLERANCE, 1, memories, carried);
+        let found =
+            detect_batch_carried(&particles, poses, &self.pairs, &ours.settings, CARRY_TOLERANCE, 1, memories, carried);
         for (kept, found) in ours.answers.iter_mut().zip(found.expect("settings in range")) {
             *kept = answer(&found);
         }
