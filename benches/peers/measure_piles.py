@@ -27,17 +27,31 @@ LINES = {OURS: 18, POTENTIAL: 85, POLYHEDRA: 30, LEVEL_SET: 55, LAMMPS: 60}
 
 
 class Effort:
+    """Steps and times of a run, by number of bodies."""
+
     def __init__(self, quick):
         self.counts = (200,) if quick else (200, 2000)
-        self.falling_step, self.settle = (1500, 2500) if quick else (1500, 10000)
-        # Steps before the windows, seconds that they may take, windows, steps of each.
-        self.before = {OURS: 60, LAMMPS: 20, POTENTIAL: 2, POLYHEDRA: 10, LEVEL_SET: 10} if quick else {
-            OURS: 600, LAMMPS: 300, POTENTIAL: 20, POLYHEDRA: 600, LEVEL_SET: 600}
-        self.seconds = 3 if quick else 30
-        self.windows = 2 if quick else 8
         self.stages = STAGES[1:] if quick else STAGES
         self.bounces = not quick
-        self.steps = {OURS: 60, LAMMPS: 10 if quick else 20, POTENTIAL: 2, POLYHEDRA: 4, LEVEL_SET: 4}
+        self.falling_step = 1500
+        self.settle = 2500 if quick else 8000
+        self.quick = quick
+        self.seconds = 3 if quick else 30  # that the steps before the windows may take, and the windows
+        self.windows = 2 if quick else 8
+
+    def takes(self, kind, count):
+        """At 2,000 bodies a step of these takes seconds, and the level sets of 2,000 bodies minutes to make."""
+        return count <= 200 or kind not in (POTENTIAL, LEVEL_SET)
+
+    def before(self, kind, count):
+        """Steps before the windows."""
+        if self.quick:
+            return {OURS: 60, LAMMPS: 20, POTENTIAL: 2}.get(kind, 10)
+        return {POTENTIAL: 20, LAMMPS: 300 if count <= 200 else 40}.get(kind, 600)
+
+    def steps(self, kind, count):
+        """Steps of a window."""
+        return {OURS: 60 if count <= 200 else 20, LAMMPS: 20 if count <= 200 and not self.quick else 5, POTENTIAL: 2}.get(kind, 4)
 
 
 def rows(found, quick):
@@ -59,8 +73,9 @@ def rows(found, quick):
             if stage not in effort.stages:
                 continue
             for kind in LABELS:
-                if kind == LAMMPS and kind in missing:
-                    result.append({"kind": kind, "label": LABELS[kind], "count": count, "stage": stage, "missing": missing[kind]})
+                why = missing.get(kind) if effort.takes(kind, count) else "too slow, see 200"
+                if why:
+                    result.append({"kind": kind, "label": LABELS[kind], "count": count, "stage": stage, "missing": why})
                     continue
                 print(f"  {count} {stage}: {LABELS[kind]}", flush=True)
                 row = one(kind, count, file, effort, found)
@@ -75,8 +90,8 @@ def one(kind, count, file, effort, found):
     try:
         if kind == LAMMPS:
             return lammps(file, count, effort, found.commands[LAMMPS])
-        return yade({"kind": kind, "count": count, "task": "windows", "start": str(file), "settle": effort.before[kind],
-                     "seconds": effort.seconds, "windows": effort.windows, "steps": effort.steps[kind]})
+        return yade({"kind": kind, "count": count, "task": "windows", "start": str(file), "settle": effort.before(kind, count),
+                     "seconds": effort.seconds, "windows": effort.windows, "steps": effort.steps(kind, count)})
     except (RuntimeError, OSError, subprocess.TimeoutExpired) as error:
         return {"missing": str(error)}
 
@@ -108,8 +123,8 @@ def lammps(file, count, effort, command):
     pile = Pile(core, _faces(core), shape["r"], shape["mass"], np.array(shape["inertia"]), shape["laws"])
     states = dict(np.load(file))
     pile.write(FOLDER, states, (shape["half_width"], shape["height"]))
-    steps = effort.steps[LAMMPS]
-    seconds, table = pile.run(FOLDER, command, shape["half_width"], steps, effort.windows + effort.before[LAMMPS] // steps)
+    steps = effort.steps(LAMMPS, count)
+    seconds, table = pile.run(FOLDER, command, shape["half_width"], steps, effort.windows + effort.before(LAMMPS, count) // steps)
     timed = np.array(seconds[-effort.windows:]) / steps * 1e3
     kept = int(table[-1][1])
     return {"bodies": count, "fastest_ms": float(timed.min()), "median_ms": float(np.median(timed)), "lost": count - kept, "kinetic_J": table[-1][2]}
