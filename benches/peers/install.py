@@ -118,7 +118,10 @@ def _lammps():
 
 
 def _compile(name, flags, links):
-    _run(["g++", *WARNINGS, *flags, HERE / "cpp" / f"{name}.cpp", "-o", OUT / "bin" / name, *links])
+    """Unless it is there and younger than its sources, and than this file."""
+    program, sources = OUT / "bin" / name, [HERE / "cpp" / f"{name}.cpp", HERE / "cpp" / "server.hpp", Path(__file__)]
+    if not program.exists() or program.stat().st_mtime < max(source.stat().st_mtime for source in sources):
+        _run(["g++", *WARNINGS, *flags, sources[0], "-o", program, *links])
 
 
 def _package(name):
