@@ -79,7 +79,7 @@ class Measurement:
 
     def race(self, group, entries):
         """Seconds a call, the fastest batch of each; None of those that gave no answer."""
-        best = [float("inf")] * len(entries)
+        best, self.why = [float("inf")] * len(entries), {}
         for turn in range(self.effort.rounds):
             for index, (one, warmth) in enumerate(entries):
                 slow = one.program == YADE or one.way == "conic"
@@ -90,14 +90,14 @@ class Measurement:
                     best[index] = min(best[index], found)
                 except (RuntimeError, OSError) as error:
                     print(f"      {one.label}: {error}", flush=True)
-                    best[index] = None
+                    best[index], self.why[one] = None, str(error)
         return best
 
     def row(self, group, one, warmth, seconds, judge):
         row = {
             "group": group.name, "planes": group.planes, "edges": group.edges, "place": group.place, "warmth": warmth,
             "program": one.program, "way": one.way, "label": one.label, "work": one.work, "rival": one.rival,
-            "microseconds": None if seconds is None else 1e6 * seconds,
+            "microseconds": None if seconds is None else 1e6 * seconds, "why": self.why.get(one),
         }
         if seconds is not None:
             row.update(judge.errors(one, self.answers(one.program, group, one.way, warmth)))

@@ -136,7 +136,7 @@ def _dot(panel, row, colour):
 def _both(rows, program, way):
     times = [_time([row for row in rows if row["warmth"] == warmth], program, way) for warmth in ("cold", "warm")]
     if times == [None, None]:
-        return "–"
+        return next((row["why"] for row in rows if (row["program"], row["way"]) == (program, way) and row.get("why")), "–")
     return " / ".join("–" if value is None else digits(value) for value in times)
 
 

@@ -8,7 +8,6 @@ Results go to out/peers: summary.json with targets, table.md, peers.png. Leave t
 """
 
 import argparse
-import os
 import sys
 import time
 from pathlib import Path
@@ -31,21 +30,26 @@ def main():
     started = time.perf_counter()
     print("Contestants", flush=True)
     found = install.everybody()
-    os.environ["no_proxy"] = "*"
     line = f"{machine.machine_line()}, {machine.now()}"
     summary = {"machine": machine.machine_line(), "date": machine.now(), "command": "make peers" + (" QUICK=1" if options.quick else ""),
-               "versions": found.versions, "missing": found.missing, "load_before": measure_pairs.load(), "targets": []}
+               "versions": found.versions, "missing": found.missing, "load_before": measure_pairs.load(), "load_after": None, "targets": []}
     parts = [f"*{line}; {summary['command']}*"]
     if options.only != "piles":
         parts += pairs_part(found, options.quick, line, summary)
+        # What was measured stays if the piles are interrupted.
+        write_results(parts, summary)
     if options.only != "pairs":
         parts += piles_part(found, options.quick, summary)
     parts += ["## As others publish it", report.published_table()]
     summary["load_after"] = measure_pairs.load()
-    (install.OUT / "table.md").write_text("\n\n".join(parts) + "\n")
-    write_summary(install.OUT / "summary.json", summary)
+    write_results(parts, summary)
     print_targets(summary["targets"])
     print_table([("time", f"{time.perf_counter() - started:.0f} s"), ("results", f"{install.OUT}: table.md, peers.png, summary.json")])
+
+
+def write_results(parts, summary):
+    (install.OUT / "table.md").write_text("\n\n".join(parts) + "\n")
+    write_summary(install.OUT / "summary.json", summary)
 
 
 def pairs_part(found, quick, line, summary):
