@@ -73,6 +73,7 @@ class Pile:
             "fix motion all nve/body", f"fix weight all gravity {gravity} vector 0 0 -1", "fix_modify weight energy yes",
             f"fix floor all wall/body/polyhedron {stiffness} {along} {across} zplane 0.0 NULL", *walls,
             "compute turning all temp/body", "compute_modify turning extra/dof 0", "variable kinetic equal c_turning*3*atoms",
-            "variable weight equal f_weight", "thermo_style custom step atoms v_kinetic v_weight", "thermo_modify lost ignore norm no", f"thermo {steps}",
+            "variable weight equal f_weight", "thermo_style custom step atoms v_kinetic v_weight",
+            "thermo_modify lost ignore norm no", f"thermo {steps}",
             *[f"run {steps}"] * (windows + 1), "",
         ])

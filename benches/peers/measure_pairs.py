@@ -122,7 +122,10 @@ class Measurement:
                         server = self.server(program, way)
                         times = [server.ask("time", name, asked, warmth, self.effort.seconds) for _ in range(self.effort.rounds // 3 + 1)]
                         errors = judge.errors(one, self.answers(program, group, asked, warmth))
-                        found.append({"group": name, "label": one.label, "tolerance": float(tolerance), "warmth": warmth, "microseconds": 1e6 * min(times), **errors})
+                        found.append({
+                            "group": name, "label": one.label, "tolerance": float(tolerance), "warmth": warmth,
+                            "microseconds": 1e6 * min(times), **errors,
+                        })
         return found
 
     def stop(self):

@@ -47,7 +47,11 @@ def soundness(rows):
     ours = [row for row in rows if row["program"] == OURS and row["way"] != "conic"]
     count = lambda key: sum(row.get(key) or 0 for row in ours)
     worst = max((row.get("worst_error") or 0.0 for row in ours), default=0.0)
-    limits = (("our failures", count("failed"), 0), ("our contacts missed or made up", count("wrong"), 0), ("our worst error of the overlap, of the size", worst, 1e-9))
+    limits = (
+        ("our failures", count("failed"), 0),
+        ("our contacts missed or made up", count("wrong"), 0),
+        ("our worst error of the overlap, of the size", worst, 1e-9),
+    )
     return [{"name": name, "sense": "at most", "target": limit, "measured": value, "met": value <= limit} for name, value, limit in limits]
 
 
@@ -83,16 +87,19 @@ def distance_table(rows):
 
 def contestant_table(rows, found):
     """Who computes what, with what stop rule, how exactly, and what a contact law gets."""
-    lines = ["| contestant | computes | settings, stop rule | gives | worst error, of | failed | wrong | pairs |", "|---|---|---|---|---|---|---|---|"]
+    lines = ["| contestant | computes | settings, stop rule | gives | worst error, of | failed | wrong | answers |"]
+    lines.append("|---|---|---|---|---|---|---|---|")
     for one in CONTESTANTS:
         of_one = [row for row in rows if (row["program"], row["way"]) == (one.program, one.way) and row.get("pairs")]
+        cells = [one.label, one.computes, one.settings, one.gives]
         if not of_one:
-            lines.append(f"| {one.label} | {one.computes} | {one.settings} | {one.gives} | not measured: {found.missing.get(one.program, 'no answer')} | | | |")
+            why = found.missing.get(one.program, "no answer")
+            lines.append("| " + " | ".join([*cells, f"not measured: {why}", "", "", ""]) + " |")
             continue
         worst = max((row["worst_error"] for row in of_one if row["worst_error"] is not None), default=None)
         total = lambda key: sum(row[key] for row in of_one)
         error = "–" if worst is None else f"{worst:.1e}, {of_one[0]['error_of']}"
-        lines.append(f"| {one.label} | {one.computes} | {one.settings} | {one.gives} | {error} | {total('failed')} | {total('wrong')} | {total('pairs')} |")
+        lines.append("| " + " | ".join([*cells, error, *(str(total(key)) for key in ("failed", "wrong", "pairs"))]) + " |")
     return "\n".join(lines)
 
 
@@ -122,7 +129,8 @@ def draw(rows, curves, line, path):
     axes[0][0].set_ylabel("a call, µs")
     handles = [plt.Line2D([], [], marker="o", linestyle="", color=colours[label], label=label) for label in labels]
     figure.legend(handles=handles, loc="lower center", ncols=4, fontsize=8, frameon=False)
-    figure.suptitle(f"Contacts of two convex bodies: filled from memory, hollow from nothing; lines: over the tolerance\n{line}", fontsize=9)
+    title = "Contacts of two convex bodies: filled from memory, hollow from nothing; lines: over the tolerance"
+    figure.suptitle(f"{title}\n{line}", fontsize=9)
     figure.subplots_adjust(left=0.05, right=0.99, top=0.85, bottom=0.28, wspace=0.05)
     figure.savefig(path, dpi=110)
     plt.close(figure)
