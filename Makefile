@@ -27,6 +27,7 @@ Contact detection between potential particles.
   make lint     formatting and warnings
   make bench    run time, each target beside what was measured, and run time against error; results in out/bench
   make side-by-side  YADE's own contact functor and this one on the same scenes; results in out/side_by_side
+  make peers    the codes one would pick instead, on the same pairs and piles; installs them; results in out/peers
   make stress   a million random pairs, judged without a known answer; results in out/stress
   make fuzz     fuzz particle creation, detection and the reader of pairs, a minute each; needs libFuzzer's headers (g++)
   make sanitize  the plugin with AddressSanitizer and UBSan, and YADE's scenes with it; a quarter of an hour
@@ -45,7 +46,7 @@ Variables, as in "make demo STEPS=1000 BODIES=50":
   CASES=all         wedge, classics: all, or short for a few of them; classics: names, as in CASES=arch,rocking
   OUTPUT=DIR        demo, wedge, classics, mpi, side-by-side, long: where the results go (out/pyramids, ...)
   THREADS=1         demo, mpi: threads of YADE (of each process)
-  QUICK=1           side-by-side: a little of everything, in seconds
+  QUICK=1           side-by-side, peers: a little of everything, in seconds (peers: a minute)
   POSES=1000000     stress: number of poses
   SEED=N            stress: repeats the pairs of that seed; without it each run draws one, and prints it first
   SETTLE=1          stress: settle one pose in so many in 32 digits, and those in doubt; POSES=100000000 SETTLE=200 takes 45 minutes
@@ -74,7 +75,7 @@ export PATH := $(PATH):$(HOME)/.cargo/bin
 
 heading = @printf '== %s\n' '$(1)'
 
-.PHONY: sanitize guide deb packages-test install help demo wedge classics mpi scale mpi-scale test test-debian13 side-by-side setup build library glue header lint bench stress fuzz long clean
+.PHONY: sanitize guide deb packages-test install help demo wedge classics mpi scale mpi-scale test test-debian13 side-by-side peers setup build library glue header lint bench stress fuzz long clean
 .DEFAULT_GOAL := help
 # The steps of one goal build on each other in the order in which they are named.
 .NOTPARALLEL:
@@ -180,6 +181,10 @@ sanitize: setup library
 	@cmake --build out/sanitize --parallel $$(nproc)
 	@LD_PRELOAD="$$(g++ -print-file-name=libasan.so) $$(g++ -print-file-name=libubsan.so)" ASAN_OPTIONS=detect_leaks=0 \
 	UBSAN_OPTIONS=print_stacktrace=1:halt_on_error=1 tests/yade/run.py --package out/sanitize/python -j1 -j2
+
+peers: glue
+	$(call heading,Peers)
+	@benches/peers/run.py $(if $(QUICK),--quick)
 
 header:
 	@PP_WRITE_HEADER=1 cargo test --quiet --release --test header

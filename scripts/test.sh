@@ -51,6 +51,7 @@ stage check "Guide as a site" scripts/guide.sh "$CARGO_TARGET_DIR/guide"
 stage suite "Links of the guide" tests/guide/links.py "$CARGO_TARGET_DIR/guide"
 stage suite "Code blocks of the guide" tests/guide/run.py
 stage suite "Messages that the guide explains" tests/guide/sentences.py
+stage check "What other codes are judged by" /usr/bin/python3 benches/peers/test_answers.py
 
 printf '\n%d passed, %d failed\n' "$passed" "$failed"
 [ "$failed" -eq 0 ]

@@ -1,0 +1,89 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: MIT OR Apache-2.0
+"""Side by side with the codes a user would pick instead: pairs, and piles. The contestants are installed first; then no network.
+
+    benches/peers/run.py [--quick] [--only pairs|piles]
+
+Results go to out/peers: summary.json with targets, table.md, peers.png. Leave the machine alone meanwhile.
+"""
+
+import argparse
+import sys
+import time
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "studies"))
+
+import install
+import machine
+import measure_pairs
+import measure_piles
+import report
+from summary import print_table, write_summary
+
+
+def main():
+    arguments = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    arguments.add_argument("--quick", action="store_true", help="a little of everything, in a minute")
+    arguments.add_argument("--only", choices=("pairs", "piles"), help="one of the two parts; the other is left out of the results")
+    options = arguments.parse_args()
+    started = time.perf_counter()
+    print("Contestants", flush=True)
+    found = install.everybody()
+    line = f"{machine.machine_line()}, {machine.now()}"
+    summary = {"machine": machine.machine_line(), "date": machine.now(), "command": "make peers" + (" QUICK=1" if options.quick else ""),
+               "versions": found.versions, "missing": found.missing, "load_before": measure_pairs.load(), "load_after": None, "targets": []}
+    parts = [f"*{line}; {summary['command']}*"]
+    if options.only != "piles":
+        parts += pairs_part(found, options.quick, line, summary)
+        # What was measured stays if the piles are interrupted.
+        write_results(parts, summary)
+    if options.only != "pairs":
+        parts += piles_part(found, options.quick, summary)
+    parts += ["## As others publish it", report.published_table()]
+    summary["load_after"] = measure_pairs.load()
+    write_results(parts, summary)
+    print_targets(summary["targets"])
+    print_table([("time", f"{time.perf_counter() - started:.0f} s"), ("results", f"{install.OUT}: table.md, peers.png, summary.json")])
+
+
+def write_results(parts, summary):
+    (install.OUT / "table.md").write_text("\n\n".join(parts) + "\n")
+    write_summary(install.OUT / "summary.json", summary)
+
+
+def pairs_part(found, quick, line, summary):
+    print("Pairs", flush=True)
+    measurement = measure_pairs.Measurement(found, measure_pairs.Effort(quick))
+    try:
+        rows, curves = measurement.rows(), measurement.curves()
+    finally:
+        measurement.stop()
+    summary.update(pairs=rows, curves=curves)
+    summary["targets"] += report.targets(rows)
+    report.draw(rows, curves, line, install.OUT / "peers.png")
+    return [
+        "## A pair: microseconds a call, from nothing / from memory", report.pair_table(rows),
+        "## Distance of bodies that are near, from nothing / from memory", report.distance_table(rows),
+        "## Who computes what, and how exactly", report.contestant_table(rows, found),
+    ]
+
+
+def piles_part(found, quick, summary):
+    print("Piles", flush=True)
+    piles = measure_piles.rows(found, quick)
+    summary["piles"] = piles
+    summary["targets"] += measure_piles.targets(piles)
+    return ["## A pile", measure_piles.table(piles)]
+
+
+def print_targets(targets):
+    for target in targets:
+        measured = "–" if target["measured"] is None else f"{target['measured']:.3g}"
+        verdict = {True: "met", False: "MISSED", None: "not measured"}[target["met"]]
+        sense = "<=" if target["sense"] == "at most" else ">="
+        print(f"  {target['name']:<86} {sense} {target['target']:<6g} {measured:>8}  {verdict}")
+
+
+if __name__ == "__main__":
+    main()
