@@ -15,7 +15,7 @@ html_static_path = ["static"]
 html_css_files = ["wide.css"]
 autodoc_member_order = "bysource"
 autodoc_typehints = "none"
-# `text` and `sh` blocks hold dots and glob patterns.
+# Indented blocks name no language: formulas and commands.
 highlight_language = "none"
 
 # "name: what it is" at the beginning of a line, after a sentence or a blank line.

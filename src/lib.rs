@@ -105,11 +105,12 @@ pub mod internals {
     pub use crate::particle::potential;
 }
 
-/// The Rust code of README.md and of the guide is tested like any example.
+/// The Rust code of README.md is tested like any example.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
 struct Readme;
 
+/// And so is that of the guide.
 #[cfg(doctest)]
 #[doc = include_str!("../docs/rust.md")]
 struct Guide;

@@ -5,7 +5,7 @@ import numpy as np
 from scipy.optimize import linprog
 from scipy.spatial import ConvexHull, HalfspaceIntersection
 
-from pairs import LYING, NEAR_BY, TOUCHING, exact
+from pairs import LYING, NEAR_BY, TOUCHING, cores, exact
 
 SETTLED = "@1e-14"  # our own answers in extended precision, whose bound is proved
 DOUBTFUL = 1e-7  # of the size: an overlap below it is no contact that must be found
@@ -63,9 +63,7 @@ class Judge:
 
 def volume(group, pair):
     """Of the intersection of the cores at the last pose."""
-    (position_a, turn_a), (position_b, turn_b) = group.poses_a[pair], group.poses_b[pair][-1]
-    a = group.core.placed(np.zeros(3), turn_a.as_matrix())
-    b = group.core.placed(position_b - position_a, turn_b.as_matrix())
+    a, b = cores(group, pair)
     normals, offsets = np.vstack([a.normals, b.normals]), np.concatenate([a.offsets, b.offsets])
     # The centre of the largest ball in it, and lengths in units of that ball: qhull's own limits are absolute.
     rows = np.column_stack([normals, np.ones(len(normals))])

@@ -147,11 +147,15 @@ def _numbers(pose):
     return [*pose[0].tolist(), w, x, y, z]
 
 
+def cores(one, pair):
+    """Those of A and B at the last pose, from the centre of A."""
+    (position_a, turn_a), (position_b, turn_b) = one.poses_a[pair], one.poses_b[pair][-1]
+    return one.core.placed(np.zeros(3), turn_a.as_matrix()), one.core.placed(position_b - position_a, turn_b.as_matrix())
+
+
 def exact(one, pair):
     """At the last pose: what is to be found by those who measure distance and depth of the swept cores; > 0: overlap."""
-    (position_a, turn_a), (position_b, turn_b) = one.poses_a[pair], one.poses_b[pair][-1]
-    a = one.core.placed(np.zeros(3), turn_a.as_matrix())
-    b = one.core.placed(position_b - position_a, turn_b.as_matrix())
+    a, b = cores(one, pair)
     if one.place != FAR and one.swept == 0 and one.place in (TOUCHING, LYING):
         return penetration(a, b)[0]
     return 2 * one.swept - distance(a, b)[0]

@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
 """The picture of docs/choosing.md: what stiffness, damping and time step do to a small pile.
 
-    scripts/yade.sh -j1 docs/figures/choosing.py        # writes docs/pictures/choosing.png; a few minutes
+    scripts/yade.sh -j1 docs/figures/choosing.py        # writes docs/pictures/choosing.png; a minute
 """
+import sys
+
 import matplotlib
 
 matplotlib.use("Agg")
@@ -13,6 +15,9 @@ import potential_particles
 from potential_particles import boundaries, packing, shapes
 from yade import *
 from yade import utils
+
+sys.path.insert(0, "studies")
+from stepping import advance
 
 SIZE, GRAVITY, DENSITY = 0.1, 9.81, 2600.0
 HEIGHT = 6 * SIZE
@@ -44,7 +49,7 @@ def largest_overlap(young, rocks):
     scene(young, 0.3, rocks, 30)
     largest, end = 0.0, 1.2
     while O.time < end:
-        O.run(20, wait=True)
+        advance(O.iter + 20)
         largest = max([largest] + [i.geom.penetrationDepth for i in O.interactions if i.isReal])
     lying = max(i.geom.penetrationDepth for i in O.interactions if i.isReal)
     return largest / SIZE, lying / SIZE
@@ -56,7 +61,7 @@ def kinetic(damping, rocks):
     weight = sum(body.state.mass for body in O.bodies if body.state.mass > 0) * GRAVITY * HEIGHT / 2
     times, energies = [], []
     while O.time < 2.0:
-        O.run(max(1, int(0.01 / O.dt)), wait=True)
+        advance(O.iter + max(1, int(0.01 / O.dt)))
         times.append(O.time)
         energies.append(utils.kineticEnergy() / weight)
     return times, energies
@@ -72,7 +77,7 @@ def energy_error(share, kinds, young):
         body.state.pos = (0, 0, HEIGHT / 2)
         energies = []
         while O.time < 1.0:
-            O.run(max(1, int(0.004 / O.dt)), wait=True)
+            advance(O.iter + max(1, int(0.004 / O.dt)))
             if not any(i.isReal for i in O.interactions):
                 # Velocities are those of half a step before: the height is taken there.
                 height = body.state.pos[2] - 0.5 * O.dt * body.state.vel[2]

@@ -224,9 +224,14 @@ impl<'a> Body<'a> {
         2.0 * (self.sphere_weight * larger(value, 0.0)).sqrt()
     }
 
+    /// Weight of the sphere that the regularisation adds to S.
+    fn added(&self) -> f64 {
+        self.sphere_weight - self.particle.sphere_weight
+    }
+
     /// How much the regularisation adds to S at x.
     pub fn surplus(&self, x: &Vector3<f64>) -> f64 {
-        (self.sphere_weight - self.particle.sphere_weight) * (x - self.centre).norm_squared()
+        self.added() * (x - self.centre).norm_squared()
     }
 
     /// The gradient of that.
@@ -236,17 +241,16 @@ impl<'a> Body<'a> {
 
     /// Its curvature in each direction.
     pub fn surplus_curvature(&self) -> f64 {
-        2.0 * (self.sphere_weight - self.particle.sphere_weight)
+        2.0 * self.added()
     }
 
     /// Upper bound of what the regularisation adds anywhere in {S ≤ `level`}.
     pub fn most_surplus(&self, level: f64) -> f64 {
-        let added = self.sphere_weight - self.particle.sphere_weight;
-        if added == 0.0 {
+        if self.added() == 0.0 {
             return 0.0;
         }
         let reach = self.particle.reach(level);
-        added * reach * reach
+        self.added() * reach * reach
     }
 }
 

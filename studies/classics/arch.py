@@ -109,11 +109,6 @@ def _area(corners):
     return abs(area), float(((x + np.roll(x, -1)) * cross).sum() / (6.0 * area))
 
 
-if __name__ == "__main__":
-    for n in (8, 10, 16, 20, 21, 30, 31, 40, 60, 100):
-        print(n, least_thickness(n), least_thickness(n, 1e-3))
-
-
 class Arch:
     """An arch of stones on two fixed blocks, in YADE."""
 
@@ -138,12 +133,7 @@ class Arch:
 
     def stands(self):
         """Whether it comes to rest before a stone has moved by MOVED, and within PATIENCE."""
-        rests = False
-        while O.time < PATIENCE and self.moved() <= MOVED and not rests:
-            self.scene.run(100.0 * self.scene.beat)
-            rests = self.scene.at_rest()
-        self.scene.check()
-        return rests
+        return self.scene.comes_to_rest(PATIENCE, every=100.0, fails=lambda: self.moved() > MOVED)
 
     def thrust(self):
         """Where the contact point of each joint is: from its middle outwards, as part of the thickness."""

@@ -8,6 +8,7 @@ that exceeds 0, and stops when its velocity is 0 again.
 
 import numpy as np
 import yade
+from scipy.optimize import brentq
 from yade import O
 
 from report import row, target, worst
@@ -37,11 +38,8 @@ def displacement(ratio, yields, omega):
     if velocity(high) > 0.0:
         raise ValueError(f"ratio={ratio:g}: the block would not come to rest within a cycle; take a smaller one")
     # Velocity grows until the phase pi - start, and falls from there to its only zero.
-    low = np.pi - start
-    for _ in range(200):
-        middle = 0.5 * (low + high)
-        low, high = (middle, high) if velocity(middle) > 0.0 else (low, middle)
-    way = np.cos(start) * (high - start) - (np.sin(high) - np.sin(start)) - 0.5 * (high - start) ** 2 / ratio
+    stop = brentq(velocity, np.pi - start, high, xtol=1e-14)
+    way = np.cos(start) * (stop - start) - (np.sin(stop) - np.sin(start)) - 0.5 * (stop - start) ** 2 / ratio
     return ratio * yields / omega**2 * way
 
 

@@ -6,8 +6,6 @@ The block on top leans over the next by 1/2 at most, the next by 1/4, and so on:
 largest factor at which it stands is bracketed by halving.
 """
 
-from yade import O
-
 from report import row, target, worst
 from scene import Scene, box_corners, turn_about_y
 
@@ -40,12 +38,7 @@ def stands(count, factor):
         place = (reach - 0.5 * LENGTH, 0.0, (level + 0.5) * HEIGHT)
         blocks.append(scene.block(box_corners(LENGTH, WIDTH, HEIGHT), position=place))
     scene.start(friction=30.0)
-    rests = False
-    while O.time < PATIENCE and not rests and max(abs(turn_about_y(one)) for one in blocks) < FALLEN:
-        scene.run(50.0 * scene.beat)
-        rests = scene.at_rest()
-    scene.check()
-    return rests
+    return scene.comes_to_rest(PATIENCE, every=50.0, fails=lambda: max(abs(turn_about_y(one)) for one in blocks) >= FALLEN)
 
 
 def largest(count, bracket=BRACKET, low=0.98, high=1.02):

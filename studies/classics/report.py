@@ -8,10 +8,9 @@ def row(what, closed_form, found, unit="", relative=False):
     return {"what": what, "closed_form": closed_form, "found": found, "unit": unit, "error": error}
 
 
-def target(name, limit, measured, sense="<="):
-    """A figure that is to stay below a limit, or above it."""
-    met = measured <= limit if sense == "<=" else measured >= limit
-    return {"name": name, "sense": sense, "target": limit, "measured": measured, "met": bool(met)}
+def target(name, limit, measured):
+    """A figure that is to stay below a limit."""
+    return {"name": name, "sense": "<=", "target": limit, "measured": measured, "met": bool(measured <= limit)}
 
 
 def worst(rows):

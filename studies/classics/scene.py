@@ -163,14 +163,18 @@ class Scene:
             one.state.vel.norm() < limit and one.state.angVel.norm() * one.shape.boundingRadius < limit for one in self.free()
         )
 
+    def comes_to_rest(self, within, every, fails=lambda: False):
+        """Whether the blocks rest within so many seconds from now, before `fails` is true; looked at every so many beats."""
+        until, rests = O.time + within, False
+        while O.time < until and not rests and not fails():
+            self.run(every * self.beat)
+            rests = self.at_rest()
+        self.check()
+        return rests
+
     def settle(self, most=4000):
         """Until the blocks rest, and at most so many beats; whether they rest."""
-        until = O.time + most * self.beat
-        while O.time < until:
-            self.run(20.0 * self.beat)
-            if self.at_rest():
-                return True
-        return False
+        return self.comes_to_rest(most * self.beat, every=20.0)
 
     def check(self):
         """SystemExit if a contact could not be computed."""

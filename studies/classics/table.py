@@ -40,11 +40,11 @@ def print_targets(summary, out):
 
 def _cells(one):
     unit = f" {one['unit']}" if one["unit"] else ""
-    return one["what"], _number(one["closed_form"]) + unit, _number(one["found"]) + unit, _number(one["error"], sign="+")
+    return one["what"], _number(one["closed_form"]) + unit, _number(one["found"]) + unit, _number(one["error"], "+.2g")
 
 
-def _number(value, sign=""):
-    return "none" if value is None else f"{value:{sign}.5g}" if not sign else f"{value:+.2g}"
+def _number(value, style=".5g"):
+    return "none" if value is None else format(value, style)
 
 
 def _verdict(one):

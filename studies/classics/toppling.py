@@ -7,6 +7,7 @@ from sliding, about its base; at the limit no force is left below the lowest. Th
 """
 
 import numpy as np
+from scipy.optimize import brentq
 from yade import O
 
 from report import row, target
@@ -62,11 +63,7 @@ def forces(friction):
 
 def limit():
     """Friction angle of limit equilibrium, degrees."""
-    low, high = 20.0, 44.0
-    for _ in range(60):
-        middle = 0.5 * (low + high)
-        low, high = (middle, high) if forces(middle)[0][-1] > 0.0 else (low, middle)
-    return 0.5 * (low + high)
+    return float(brentq(lambda friction: forces(friction)[0][-1], 20.0, 44.0, xtol=1e-12))
 
 
 class Slope:
@@ -94,12 +91,7 @@ class Slope:
     def holds(self, friction):
         """Whether the columns come to rest again after friction was lowered, degrees, before one has moved by MOVED, and within PATIENCE."""
         self.scene.set_friction(friction)
-        until, rests = O.time + PATIENCE, False
-        while O.time < until and self.moved() <= MOVED * self.scene.overlap and not rests:
-            self.scene.run(50.0 * self.scene.beat)
-            rests = self.scene.at_rest()
-        self.scene.check()
-        return rests
+        return self.scene.comes_to_rest(PATIENCE, every=50.0, fails=lambda: self.moved() > MOVED * self.scene.overlap)
 
     def pushes(self):
         """Normal force between columns n and n - 1, n = 16..2, per unit weight of rock, m^2."""

@@ -20,6 +20,18 @@ TOP = Path(__file__).resolve().parents[2]
 TARGET = Path(os.environ.get("CARGO_TARGET_DIR", TOP / "target")).resolve()
 RELEASE = TARGET / "release"
 SECONDS = 600
+# In YADE, and past its exit, which waits for threads that a block may have started. Names are those of scripts: global.
+PAGE = """import os, sys, traceback
+for _place, _source in %r:
+    try:
+        exec(compile(_source, _place, "exec"), globals())
+    except BaseException:
+        traceback.print_exc()
+        sys.stdout.flush()
+        os._exit(1)
+    print("done", _place, flush=True)
+os._exit(0)
+"""
 # What stands around the body of a main function, where a block is one.
 C_AROUND = "#include <potential_particles.h>\n#include <stdio.h>\nint main(void) {\n%s\nreturn 0;\n}\n"
 
@@ -35,16 +47,9 @@ def call(command, folder, **more):
 
 
 def run_python(page_blocks, scratch):
-    """The first failure of a page's blocks, by their places."""
-    script = Path(scratch, "page.py")
-    parts = ["import sys, traceback\n"]
-    for block in page_blocks:
-        source = block.before + block.code
-        parts.append(f"_place, _source = {block.place!r}, {source!r}\n"
-                     "try:\n    exec(compile(_source, _place, 'exec'), globals())\n    print('done', _place)\n"
-                     "except BaseException:\n    traceback.print_exc()\n    import os; sys.stdout.flush(); os._exit(1)\n")
-    script.write_text("".join(parts) + "print('the end')\nimport os; sys.stdout.flush(); os._exit(0)\n")
-    said = call([TOP / "scripts/yade.sh", "-j1", script], scratch)
+    """What each block said that did not run to its end, else None, by their places. A failure ends the page."""
+    Path(scratch, "page.py").write_text(PAGE % [(block.place, block.before + block.code) for block in page_blocks])
+    said = call([TOP / "scripts/yade.sh", "-j1", "page.py"], scratch)
     return {block.place: None if said is None or f"done {block.place}" in said else said for block in page_blocks}
 
 
