@@ -46,8 +46,10 @@ pub(crate) fn point_bound(solution: &Solution, model: &LocalModel, bodies: [&Bod
     let left = problem.mismatch(solution.values[0], solution.values[1]);
     let (side_a, side_b) = problem.changes(sides[0], sides[1]);
     sum += sensitivity.to_value(left + side_a + side_b + SIDES * f64::EPSILON * larger(solution.upper, 1.0));
-    // Where both gradients vanish, the sensitivity has no digits.
-    if sum.is_finite() { sum + carried } else { by_convexity(solution, bodies, problem) + carried }
+    // Where both gradients vanish, the sensitivity has no digits; and where a plane may go off, the quadratics are others.
+    let longest_normals = bodies.map(|body| body.particle.bounds.longest_normal);
+    let holds = sum.is_finite() && sensitivity.holds_within(sum, longest_normals);
+    if holds { sum + carried } else { by_convexity(solution, bodies, problem) + carried }
 }
 
 /// By strong convexity: what the bounds of the value leave.

@@ -31,12 +31,15 @@ pub(crate) struct Sensitivity {
     slope: Vector3<f64>,
     /// q_A and q_B.
     values: [f64; 2],
+    /// Least depth of a plane of A and of B times the length of its normal.
+    pushes: [f64; 2],
 }
 
 impl Sensitivity {
-    /// Of the optimum of two quadratics with least curvatures `soft` of A and B; `None` where both sides do not part with λ.
+    /// Of the optimum of two quadratics with least curvatures `soft` of A and B, whose planes push by at least so much; `None` where
+    /// both sides do not part with λ.
     #[inline(always)]
-    pub fn of(optimum: &Optimum, problem: Problem, soft: (f64, f64)) -> Option<Self> {
+    pub fn of(optimum: &Optimum, problem: Problem, soft: (f64, f64), pushes: [f64; 2]) -> Option<Self> {
         if !(optimum.rate_of_weight > 0.0) {
             return None;
         }
@@ -55,12 +58,20 @@ impl Sensitivity {
             to_all_planes: larger(of_planes, 0.0),
             slope: optimum.slope(problem),
             values: optimum.values.into(),
+            pushes,
         })
     }
 
     /// The move that would take away what is left of the slope.
     pub fn unsolved(&self) -> f64 {
         self.to_slope.times(&self.slope).norm()
+    }
+
+    /// Whether every plane still pushes when the point has moved so far, with normals of A and B no longer than these.
+    #[inline]
+    pub fn holds_within(&self, moved: f64, longest_normals: [f64; 2]) -> bool {
+        let holds = |i: usize| moved * longest_normals[i] * longest_normals[i] <= self.pushes[i];
+        holds(0) && holds(1)
     }
 
     /// How α·q_A + β·q_B moves the point when S of A (0) or B (1) grows: |α|·|along|/rate, or that of β.

@@ -97,7 +97,9 @@ impl Solution {
         let of_optimum = rounding.of_optimum(problem, optimum);
         let force = problem.weighted(gradient_norms[0], gradient_norms[1], lambda);
         let DualBound { height, certain } = DualBound::after(model, bodies, problem, step, (upper, force));
-        let sensitivity = if certain { Sensitivity::of(optimum, problem, local_model::softest(bodies)) } else { None };
+        let pushes = [step.checks[0].least_push, step.checks[1].least_push];
+        let soft = local_model::softest(bodies);
+        let sensitivity = if certain { Sensitivity::of(optimum, problem, soft, pushes) } else { None };
         Self {
             x: model.x + step.v,
             lambda,

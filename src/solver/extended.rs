@@ -316,7 +316,8 @@ impl Extended<'_> {
     fn by_sensitivity(&self, optimum: &Optimum, delta: &Wide) -> Option<f64> {
         let values = [self.bodies[0].value(delta), self.bodies[1].value(delta)];
         let soft = (self.bodies[0].soft(), self.bodies[1].soft());
-        let sensitivity = Sensitivity::of(optimum, self.problem, soft)?;
+        // Whether planes still push is seen below, once it is known how far the point may move.
+        let sensitivity = Sensitivity::of(optimum, self.problem, soft, [f64::INFINITY; 2])?;
         let (a, b) = self.problem.weights(optimum.lambda);
         let (mut sum, mut sides) = (sensitivity.unsolved(), [0.0; 2]);
         for (i, (of, weight)) in values.iter().zip([a, b]).enumerate() {

@@ -61,3 +61,10 @@ fn the_bound_of_the_point_counts_a_plane_met_within_rounding() {
 fn the_bound_of_the_point_holds_between_very_stiff_planes() {
     judged_by("very_stiff_planes", &[Swap, BoundOfPoint], 5, 96_615);
 }
+
+/// A plane of B was on by 4e-17, where P1 is known to 1e-7 only, since A is 1e8 times as large: along the edge without it the
+/// point lay 1.5e-6 off.
+#[test]
+fn the_bound_of_the_point_counts_a_plane_that_may_go_off() {
+    judged_by("plane_on_by_less_than_the_point_is_known", &[BoundOfPoint], 303_443_503, 708_928);
+}
