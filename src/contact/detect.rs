@@ -16,6 +16,7 @@ use crate::pose::Pose;
 use crate::settings::{BackEnd, Formulation, Settings, SettingsError};
 use crate::solver::call::{Call, CertifiedPoint, SolveError};
 use nalgebra::Vector3;
+use std::ops::ControlFlow::{Break, Continue};
 use thiserror::Error;
 
 /// Why there is no answer.
@@ -235,8 +236,8 @@ fn solved(
     }
     // Written so that the solution need not be copied.
     let midway = match call.first_step(Problem::Midway, start.lambda, &model) {
-        Some(solution) => solution,
-        None => call.solve(Problem::Midway, start.lambda, &mut model)?,
+        Break(solution) => solution,
+        Continue(step) => call.solve(Problem::Midway, start.lambda, &mut model, step)?,
     };
     let scale = call.scale(&midway, Problem::Midway);
     let separated = midway.ending == Ending::Separated;

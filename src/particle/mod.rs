@@ -4,7 +4,7 @@
 //! |---|---|
 //! | `plane` | one plane as given |
 //! | `error` | why planes and parameters do not make a particle |
-//! | `plane_clusters` | planes in clusters of similar normals, which are skipped as a whole where none of them is active |
+//! | `plane_clusters` | planes in a tree of clusters of similar normals, which are skipped as a whole where none of them is active |
 //! | `linear_program` | whether half-spaces enclose a volume, and how large it is (Seidel's algorithm) |
 //! | `bounding_volumes` | a ball and a polyhedron that hold the particle |
 //! | `shape` | the validated definition with its clusters and bounding volumes |

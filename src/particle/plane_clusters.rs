@@ -1,4 +1,4 @@
-//! Planes in clusters of similar normals, so that most planes of a many-faced particle are never evaluated.
+//! Planes in a tree of clusters of similar normals, so that most planes of a many-faced particle are never evaluated.
 //!
 //! Every excess n_i·y − d_i of a cluster is at most m·y + ρ|y| − d, with m the mean of its normals, ρ their largest
 //! distance from it and d its least offset. Where that bound is negative, no plane of the cluster is active.
@@ -7,8 +7,8 @@ use crate::particle::plane::Plane;
 use nalgebra::Vector3;
 use std::ops::Range;
 
-/// Most planes of a cluster: about as many as one bound costs to evaluate.
-pub(crate) const MOST: usize = 12;
+/// Most planes of a particle that need no bounds, and of a cluster that is not divided: about as many as two bounds cost to evaluate.
+const MOST: usize = 12;
 
 /// Relative margin of a bound, 45ε.
 ///
@@ -24,9 +24,11 @@ struct Cluster {
     spread: f64,
     least_offset: f64,
     planes: Range<usize>,
+    /// The first cluster after this one that holds none of its planes; the one right after it, if this one is not divided.
+    next: usize,
 }
 
-/// The clusters of a particle, which keeps its planes in their order.
+/// The clusters of a particle, which keeps its planes in their order: each before the two halves it is divided into.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct PlaneClusters(Box<[Cluster]>);
 
@@ -49,6 +51,11 @@ impl PlaneClusters {
         self.0.len() <= 1
     }
 
+    /// Where to begin: all planes together are never left out.
+    fn first(&self) -> usize {
+        usize::from(!self.is_single())
+    }
+
     /// Calls `visit` with runs of planes that may have an excess above −`early`. Returns an upper bound on the excess of all
     /// other planes.
     #[inline(always)]
@@ -56,12 +63,17 @@ impl PlaneClusters {
         let single = self.is_single();
         let length = if single { 0.0 } else { y.norm() * (1.0 + MARGIN) };
         let mut most_left_out = f64::NEG_INFINITY;
-        for cluster in &self.0 {
+        let mut i = self.first();
+        while let Some(cluster) = self.0.get(i) {
             let bound = if single { f64::INFINITY } else { cluster.bound(y, length) };
             if bound > -early {
-                visit(cluster.planes.clone());
+                i += 1;
+                if single || i == cluster.next {
+                    visit(cluster.planes.clone());
+                }
             } else {
                 most_left_out = bound.max(most_left_out);
+                i = cluster.next;
             }
         }
         most_left_out
@@ -74,22 +86,39 @@ impl PlaneClusters {
             return largest_of(all.planes.clone());
         }
         let length = y.norm() * (1.0 + MARGIN);
+        let likely = self.most_likely(y, length);
         let mut largest = (f64::NEG_INFINITY, 0);
-        for cluster in &self.0 {
-            if cluster.bound(y, length) > largest.0 {
+        if let Some(cluster) = self.0.get(likely) {
+            largest = largest_of(cluster.planes.clone());
+        }
+        let mut i = self.first();
+        while let Some(cluster) = self.0.get(i) {
+            let beyond = i != likely && cluster.bound(y, length) > largest.0;
+            if beyond && i + 1 == cluster.next {
                 let found = largest_of(cluster.planes.clone());
                 if found.0 > largest.0 {
                     largest = found;
                 }
             }
+            i = if beyond { i + 1 } else { cluster.next };
         }
         largest
+    }
+
+    /// The undivided cluster to which the larger bounds lead.
+    fn most_likely(&self, y: &Vector3<f64>, length: f64) -> usize {
+        let mut i = 0;
+        while self.0.get(i).is_some_and(|cluster| i + 1 < cluster.next) {
+            let (left, right) = (i + 1, self.0[i + 1].next);
+            i = if self.0[left].bound(y, length) > self.0[right].bound(y, length) { left } else { right };
+        }
+        i
     }
 }
 
 impl Cluster {
-    /// Of the planes `order`, which take the places from `start` on.
-    fn of(planes: &[Plane], order: &[usize], start: usize) -> Self {
+    /// Of the planes `order`, which take the places from `start` on, not divided.
+    fn of(planes: &[Plane], order: &[usize], start: usize, at: usize) -> Self {
         let mean = order.iter().map(|&i| planes[i].normal).sum::<Vector3<f64>>() / order.len() as f64;
         let spread = order.iter().map(|&i| (planes[i].normal - mean).norm()).fold(0.0, f64::max);
         let least_offset = order.iter().map(|&i| planes[i].offset).fold(f64::INFINITY, f64::min);
@@ -98,6 +127,7 @@ impl Cluster {
             spread: spread + MARGIN * mean.norm().max(spread),
             least_offset,
             planes: start..start + order.len(),
+            next: at + 1,
         }
     }
 
@@ -108,11 +138,12 @@ impl Cluster {
 
 /// Halves a run of planes along the axis on which their normals differ most, until the halves are small.
 fn divide(planes: &[Plane], order: &mut [usize], start: usize, clusters: &mut Vec<Cluster>) {
-    let count = order.len();
+    let (count, at) = (order.len(), clusters.len());
+    if count == 0 {
+        return;
+    }
+    clusters.push(Cluster::of(planes, order, start, at));
     if count <= MOST {
-        if count > 0 {
-            clusters.push(Cluster::of(planes, order, start));
-        }
         return;
     }
     let extent = |axis: usize| {
@@ -127,6 +158,7 @@ fn divide(planes: &[Plane], order: &mut [usize], start: usize, clusters: &mut Ve
     let (left, right) = order.split_at_mut(count / 2);
     divide(planes, left, start, clusters);
     divide(planes, right, start + count / 2, clusters);
+    clusters[at].next = clusters.len();
 }
 
 #[cfg(test)]

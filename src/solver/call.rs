@@ -11,7 +11,7 @@ use crate::bounds::point_bound::point_bound;
 use crate::bounds::solution::{Ending, Solution};
 use crate::flags::Flags;
 use crate::model::dual_path;
-use crate::model::local_model::{self, Axes, LocalModel, Piece, Start};
+use crate::model::local_model::{self, Axes, LocalModel, Piece, Start, Step};
 use crate::model::problem::Problem;
 use crate::model::quadratic_model;
 use crate::pair::placed_particle::Body;
@@ -23,6 +23,7 @@ use crate::settings::{BackEnd, Settings};
 use crate::solver::newton::{self, Goal};
 use crate::solver::{extended, initial_guess};
 use nalgebra::Vector3;
+use std::ops::ControlFlow::{self, Break, Continue};
 use thiserror::Error;
 
 /// A gap this many times what rounding, regularisation and tolerance explain is looked at in extended precision.
@@ -89,27 +90,40 @@ impl<'a> Call<'a> {
         Axes::of(self.bodies())
     }
 
-    /// The solution of the first step, if that is all that it takes.
+    /// The solution of the first step, if that is all that it takes; else to go on with the step, if there is one.
     #[inline(always)]
-    pub fn first_step(&mut self, problem: Problem, lambda: f64, model: &LocalModel) -> Option<Solution> {
+    pub fn first_step(
+        &mut self,
+        problem: Problem,
+        lambda: f64,
+        model: &LocalModel,
+    ) -> ControlFlow<Solution, Option<Step>> {
         if self.settings.back_end != BackEnd::Fast {
-            return None;
+            return Continue(None);
         }
-        let goal = self.goal(problem);
-        let optimum = model.quadratics(self.bodies(), problem).solve(lambda)?;
-        let solution = newton::accepted(self.bodies(), &goal, model, optimum)?;
+        let (bodies, goal) = (self.bodies(), self.goal(problem));
+        let Some(optimum) = model.quadratics(bodies, problem).solve(lambda) else { return Continue(None) };
+        let step = model.step(bodies, optimum);
+        let Some(solution) = newton::accepted(bodies, &goal, model, &step) else { return Continue(Some(step)) };
         self.count(&solution);
-        Some(solution)
+        Break(solution)
     }
 
-    /// By all solvers in their order, beginning with the model at hand; that of the solution is left there.
+    /// By all solvers in their order, beginning with the model at hand and the step from there, if it is known; the model of the
+    /// solution is left there.
     #[inline(never)]
-    pub fn solve(&mut self, problem: Problem, lambda: f64, model: &mut LocalModel) -> Result<Solution, SolveError> {
+    pub fn solve(
+        &mut self,
+        problem: Problem,
+        lambda: f64,
+        model: &mut LocalModel,
+        first: Option<Step>,
+    ) -> Result<Solution, SolveError> {
         if self.settings.back_end == BackEnd::Conic {
             return self.by_cone_program(problem, model);
         }
         let goal = self.goal(problem);
-        let mut solution = newton::solve(self.bodies(), &goal, lambda, self.axes(), model);
+        let mut solution = newton::solve(self.bodies(), &goal, lambda, self.axes(), model, first);
         if self.wants_more(&solution, model, &goal) {
             self.iterations += solution.iterations;
             solution = self.extended(&goal, solution, model)?;
@@ -203,8 +217,8 @@ impl<'a> Call<'a> {
             None => self.model(&start, problem),
         };
         let solution = match self.first_step(problem, start.lambda, &model) {
-            Some(solution) => solution,
-            None => self.solve(problem, start.lambda, &mut model)?,
+            Break(solution) => solution,
+            Continue(step) => self.solve(problem, start.lambda, &mut model, step)?,
         };
         let found = self.certified(problem, &solution, &model);
         // A scale that cannot be told from 0 is a sign of a core only if there is one.
@@ -242,8 +256,8 @@ impl<'a> Call<'a> {
         let bodies = self.bodies();
         let soft = local_model::softest(bodies);
         let [p1, p2] = quadratic_model::both_closest([&model.q_a, &model.q_b], soft, lambdas)?;
-        let on_a = newton::accepted(bodies, &self.goal(Problem::OnA), model, p1)?;
-        let on_b = newton::accepted(bodies, &self.goal(Problem::OnB), model, p2)?;
+        let on_a = newton::accepted(bodies, &self.goal(Problem::OnA), model, &model.step(bodies, p1))?;
+        let on_b = newton::accepted(bodies, &self.goal(Problem::OnB), model, &model.step(bodies, p2))?;
         let points = [self.certified(Problem::OnA, &on_a, model), self.certified(Problem::OnB, &on_b, model)];
         if !points.iter().all(|found| !found.scale.tells_nothing() && will_do(found)) {
             return None;

@@ -6,7 +6,6 @@
 
 use crate::bounds::solution::{Ending, Solution};
 use crate::linalg::number::larger;
-use crate::model::dual_path::Optimum;
 use crate::model::kkt_check::Change;
 use crate::model::local_model::{self, Axes, LocalModel, Step};
 use crate::model::problem::Problem;
@@ -48,14 +47,13 @@ impl Goal {
     }
 }
 
-/// The solution that an optimum of unchanged active set is, if its bounds are as good as they can be.
+/// The solution that a step of unchanged active set leads to, if its bounds are as good as they can be.
 #[inline(always)]
-pub(crate) fn accepted(bodies: [&Body; 2], goal: &Goal, model: &LocalModel, optimum: Optimum) -> Option<Solution> {
-    let step = model.step(bodies, optimum);
+pub(crate) fn accepted(bodies: [&Body; 2], goal: &Goal, model: &LocalModel, step: &Step) -> Option<Solution> {
     if step.change != Change::None || !step.optimum.settled {
         return None;
     }
-    let solution = Solution { iterations: 1, ..Solution::of(model, bodies, goal.problem, &step) };
+    let solution = Solution { iterations: 1, ..Solution::of(model, bodies, goal.problem, step) };
     if goal.stop_when_separated && solution.separates(flat(bodies)) {
         return Some(Solution { ending: Ending::Separated, ..solution });
     }
@@ -95,9 +93,17 @@ impl Quality {
     }
 }
 
-/// Solves for the goal, beginning with the model at hand; that of the solution is left there.
-pub(crate) fn solve(bodies: [&Body; 2], goal: &Goal, lambda: f64, axes: Axes, model: &mut LocalModel) -> Solution {
-    let mut search = Search { bodies, goal, axes, model, lambda, attempt: None, best: None, iterations: 0 };
+/// Solves for the goal, beginning with the model at hand, and with the step from there if it is known; the model of the solution
+/// is left there.
+pub(crate) fn solve(
+    bodies: [&Body; 2],
+    goal: &Goal,
+    lambda: f64,
+    axes: Axes,
+    model: &mut LocalModel,
+    first: Option<Step>,
+) -> Solution {
+    let mut search = Search { bodies, goal, axes, model, lambda, first, attempt: None, best: None, iterations: 0 };
     while search.iterations < MOST_ITERATIONS {
         match search.iterate() {
             Continue(()) => {}
@@ -116,6 +122,8 @@ struct Search<'a> {
     /// The model at hand.
     model: &'a mut LocalModel,
     lambda: f64,
+    /// The step from there, while it is the first.
+    first: Option<Step>,
     /// The step that led to the model at hand.
     attempt: Option<Attempt>,
     best: Option<Best>,
@@ -138,7 +146,9 @@ impl Search<'_> {
         if !self.merit().is_finite() {
             return Break(None);
         }
-        let Some(step) = self.model.optimum(self.bodies, self.goal.problem, self.lambda) else { return Break(None) };
+        let known = self.first.take();
+        let next = known.or_else(|| self.model.optimum(self.bodies, self.goal.problem, self.lambda));
+        let Some(step) = next else { return Break(None) };
         self.lambda = step.optimum.lambda;
         if step.change == Change::Leaving {
             *self.model = self.model.without_leaving(self.bodies, &step, self.weights(), self.axes);
