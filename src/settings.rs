@@ -127,12 +127,16 @@ impl Settings {
     /// than is asked for. A raised one is a choice that stays.
     pub(crate) fn least_sphericity(&self) -> f64 {
         let precise = self.gap_tolerance < LEAST_OF_DOUBLES;
-        let raised = self.flat_regularisation > Self::default().flat_regularisation;
-        if precise && !raised {
+        if precise && !self.raises_regularisation() {
             self.flat_regularisation.min(SHARE_OF_REGULARISATION * self.gap_tolerance)
         } else {
             self.flat_regularisation
         }
+    }
+
+    /// Whether the regularisation of flat faces is more than the default: it then shapes the answer on purpose.
+    pub(crate) fn raises_regularisation(&self) -> bool {
+        self.flat_regularisation > Self::default().flat_regularisation
     }
 
     /// Checks every range, and that the back end was built in.

@@ -13,7 +13,8 @@ use crate::contact::geometry::LocalContact;
 use crate::flags::Flags;
 use crate::linalg::number::{larger, smaller};
 use crate::linalg::symmetric::{Factor, Symmetric};
-use crate::model::local_model::{LocalModel, Piece};
+use crate::model::local_model::{self, LocalModel, Piece};
+use crate::model::problem::Problem;
 use crate::pair::placed_particle::Body;
 use crate::pair::relative_pose::Pair;
 use crate::particle::particle::Particle;
@@ -72,20 +73,28 @@ const ENOUGH: f64 = 0.02;
 /// Bound on how many times that of the solved contact the rounding of places is within reach (derived: 3.1).
 const MORE_ROUNDING: f64 = 4.0;
 
+/// Largest share by which the weighted curvatures may change on the way: what is left is then known to a factor of two (docs/theory.md).
+const MOST_CHANGE: f64 = 0.5;
+
+/// Most that the regularisation may have moved the solved point, relative to the smaller bounding radius: less than a contact point has to be
+/// known to.
+const MOST_MOVED: f64 = 1e-10;
+
 /// Units of rounding, times the ratio of curvatures, in a slope that is carried along a distance (estimated).
 const SLOPE_ROUNDING: f64 = 16.0 * f64::EPSILON;
 
 impl KnownPiece {
-    /// Of the potential of a body, in its own frame, from the quadratic of the model.
+    /// Of the potential of a body as it is, in its own frame, from the quadratic of the model, less what the regularisation adds to it.
     fn of(model: &LocalModel, body: &Body, i: usize) -> Self {
         let q = if i == 0 { &model.q_a } else { &model.q_b };
         let point = &model.points[i];
         let clear = q.clear - MORE_ROUNDING * point.blur;
+        let added = body.surplus_curvature();
         Self {
             from: point.y,
-            value: q.expansion,
-            gradient: body.turn(&q.gradient),
-            hessian: body.turn_matrix(&q.hessian),
+            value: q.expansion - 0.5 * added * point.y.norm_squared(),
+            gradient: body.turn(&q.gradient) - added * point.y,
+            hessian: body.turn_matrix(&q.hessian.scaled(1.0, -added)),
             reach: smaller(clear / body.particle.bounds.longest_normal, point.y.norm()),
         }
     }
@@ -142,7 +151,7 @@ impl Equations {
         let here = [a.at(x), b.at(x)];
         let apart = here[1].gradient - here[0].gradient;
         let h = a.hessian.weighted(1.0 - u, &b.hessian, u);
-        let least = (1.0 - u) * soft[0] + u * soft[1];
+        let least = larger((1.0 - u) * soft[0] + u * soft[1], h.least_eigenvalue());
         let factor = Factor::of(&h, least)?;
         let along = factor.solve(&apart);
         Some(Self {
@@ -199,6 +208,22 @@ fn precision_of(settings: &Settings) -> [f64; 2] {
     [settings.gap_tolerance, settings.flat_regularisation]
 }
 
+/// Bound on how far the regularisation, which is left off from here on, has moved the solved point: it adds a slope to the balance
+/// of forces and a value to either side. Infinite where that is not known, or where it was raised to move the point.
+fn moved_by_regularisation(bodies: [&Body; 2], solution: &Solution, settings: &Settings) -> f64 {
+    if bodies.iter().all(|body| body.is_plain()) {
+        return 0.0;
+    }
+    let Some(sensitivity) = solution.sensitivity.as_ref().filter(|_| !settings.raises_regularisation()) else {
+        return f64::INFINITY;
+    };
+    let (a, b) = Problem::Midway.weights(solution.lambda);
+    let slope = |body: &Body| body.surplus_gradient(&solution.x).norm();
+    let value = larger(bodies[0].surplus(&solution.x), bodies[1].surplus(&solution.x));
+    let dimensions = bodies[0].particle.dimensions;
+    (a * slope(bodies[0]) + b * slope(bodies[1])) * sensitivity.per_slope(dimensions) + sensitivity.to_value(value)
+}
+
 impl Carried {
     /// From a contact that was solved as an overlap in doubles; empty where its quadratics do not say enough.
     pub(crate) fn of(
@@ -210,9 +235,11 @@ impl Carried {
         scale: Scale,
         point_bound: f64,
     ) -> Self {
-        let exact = model.in_solver_axes() && solution.linear && bodies.iter().all(|body| body.is_plain());
+        let exact = model.in_solver_axes() && solution.linear;
         let pieces = [KnownPiece::of(model, bodies[0], 0), KnownPiece::of(model, bodies[1], 1)];
-        if !(exact && pieces.iter().all(|piece| piece.reach > 0.0)) {
+        let moved = moved_by_regularisation(bodies, solution, settings);
+        let near = moved <= MOST_MOVED * local_model::smallest(bodies);
+        if !(exact && near && pieces.iter().all(|piece| piece.reach > 0.0)) {
             return Self::default();
         }
         Self {
@@ -221,7 +248,7 @@ impl Carried {
             x: solution.x,
             weight: solution.lambda / (1.0 + solution.lambda),
             gap: scale.gap,
-            point_bound,
+            point_bound: point_bound + moved,
             precision: precision_of(settings),
         }
     }
@@ -273,12 +300,15 @@ impl Carried {
         let mismatch = here[0].value - here[1].value;
         let next = equations.step(&slope(&here, u), mismatch);
         let way = next.way.norm();
-        let converges = way * way <= CONVERGING * CONVERGING * change && 2.0 * way <= room;
+        // The curvatures there, H + δ·E, differ from those that were factored by no more than this share of H.
+        let share = step.weight.abs() / smaller(self.weight, 1.0 - self.weight);
+        let left_out = 1.0 + 2.0 * share * equations.stiffness.sqrt();
+        let converges = way * way <= CONVERGING * CONVERGING * change && 2.0 * way * left_out <= room;
         // Where it is no shorter by far, it must be rounding.
-        if !(converges || way <= self.point_bound) {
+        if !(share <= MOST_CHANGE && (converges || way <= self.point_bound)) {
             return None;
         }
-        let left = Left { square: mismatch.abs() + next.open, way, stiffness: equations.stiffness };
+        let left = Left { square: mismatch.abs() + next.open, way: way * left_out, stiffness: equations.stiffness };
         Some(Optimum { x, u, here, left, rounds })
     }
 
@@ -327,7 +357,7 @@ struct Optimum {
 struct Left {
     /// Of S.
     square: f64,
-    /// Length of the next step.
+    /// Bound on the length of the next step, in whatever direction the curvatures have changed.
     way: f64,
     /// Ratio of the sum of the curvatures to the least one.
     stiffness: f64,

@@ -241,10 +241,10 @@ fn solved(
     };
     let scale = call.scale(&midway, Problem::Midway);
     let separated = midway.ending == Ending::Separated;
-    let least = Settings::default().flat_regularisation;
-    if !separated && scale.s >= 1.0 && scale.low < 1.0 && settings.flat_regularisation > least {
+    if !separated && scale.s >= 1.0 && scale.low < 1.0 && settings.raises_regularisation() {
         // Where the bulge of a raised regularisation may hide an overlap, the particles as they are decide.
-        let settings = Settings { flat_regularisation: least, ..*settings };
+        let flat_regularisation = Settings::default().flat_regularisation;
+        let settings = Settings { flat_regularisation, ..*settings };
         let contact = solved(pair, pose_b, &settings, memory, None)?;
         return Ok(Contact { flags: contact.flags.with(Flags::DEFAULT_REGULARISATION), ..contact });
     }

@@ -3,6 +3,13 @@
 use crate::linalg::number::{Number, Twin};
 use nalgebra::{Matrix3, Vector3};
 
+/// Share of the trace from which an eigenvalue can be told from the rounding of the determinant.
+const LEAST_TOLD: f64 = 1e-7;
+
+/// Bound on that rounding where it can: the products of the determinant are at most tr³, and γ₈ of their sum is 1e-14·tr³ at most,
+/// where the determinant is 2.5e-8·tr³ (estimated).
+const DETERMINANT_ROUNDING: f64 = 1e-6;
+
 /// A symmetric 3×3 matrix, of numbers or of lanes of them.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[repr(C)]
@@ -100,6 +107,20 @@ impl Symmetric {
             zy: factor * self.zy,
             zz: factor * self.zz + diagonal,
         }
+    }
+
+    /// Lower bound of the least eigenvalue of a matrix that has none below 0: the other two multiply to (½·tr)² at most, so that it
+    /// is at least 4·det/tr². 0 where that is less than [`LEAST_TOLD`] of the trace.
+    #[inline]
+    pub(crate) fn least_eigenvalue(&self) -> f64 {
+        let minors = [
+            self.yy * self.zz - self.zy * self.zy,
+            self.yx * self.zz - self.zy * self.zx,
+            self.yx * self.zy - self.yy * self.zx,
+        ];
+        let (determinant, trace) = (self.xx * minors[0] - self.yx * minors[1] + self.zx * minors[2], self.trace());
+        let least = 4.0 * determinant / (trace * trace) * (1.0 - DETERMINANT_ROUNDING);
+        if least > LEAST_TOLD * trace { least } else { 0.0 }
     }
 
     /// Sum of the squares of all nine entries.

@@ -16,12 +16,13 @@ use nalgebra::{Matrix3, Vector3};
 pub(crate) enum Axes {
     /// Those of B.
     OfB,
-    /// Aligned with the stiffest planes, chosen anew at each point.
+    /// Aligned with the stiffest planes, chosen anew at each point where those that are on leave a soft direction; else those of B.
     Graded,
 }
 
-/// Ratio of plane to sphere curvature above which the axes of B lose the soft direction: its relative error
-/// is the ratio times 1e-16, and a Newton step is still worth its cost at 1e-8 or so.
+/// Ratio of plane to sphere curvature above which the axes of B may lose a soft direction: its relative error
+/// is the ratio times 1e-16, and a Newton step is still worth its cost at 1e-8 or so. Where planes resist in all directions,
+/// as at a corner, there is no soft one ([`crate::linalg::symmetric::Symmetric::least_eigenvalue`]).
 const GRADED_FROM: f64 = 1e7;
 
 /// S up to which a point is so near the surface that a quadratic from there has all its digits on the surface.
@@ -83,13 +84,26 @@ impl LocalModel {
     /// At a point with its active sets. The stiffest planes are those of the sum with these weights.
     #[inline(always)]
     pub fn of(bodies: [&Body; 2], x: Vector3<f64>, points: [LocalPoint; 2], weights: (f64, f64), axes: Axes) -> Self {
-        let axes = match axes {
-            Axes::OfB => None,
-            Axes::Graded => Some(graded_basis::aligned(&ActiveNormals { bodies, points: &points, weights })),
-        };
-        let q_a = bodies[0].at(&points[0], axes.as_ref());
-        let q_b = bodies[1].at(&points[1], axes.as_ref());
-        Self { x, axes, points, q_a, q_b }
+        let (q_a, q_b) = (bodies[0].at(&points[0], None), bodies[1].at(&points[1], None));
+        let mut model = Self { x, axes: None, points, q_a, q_b };
+        if axes == Axes::Graded && model.has_soft_direction(weights) {
+            model.grade(bodies, weights);
+        }
+        model
+    }
+
+    /// Whether the planes of the sum with these weights leave a direction without resistance, or nearly.
+    fn has_soft_direction(&self, (a, b): (f64, f64)) -> bool {
+        self.q_a.hessian.weighted(a, &self.q_b.hessian, b).least_eigenvalue() == 0.0
+    }
+
+    /// Takes the quadratics in axes aligned with the stiffest planes of that sum instead.
+    #[inline(never)]
+    fn grade(&mut self, bodies: [&Body; 2], weights: (f64, f64)) {
+        let axes = graded_basis::aligned(&ActiveNormals { bodies, points: &self.points, weights });
+        self.q_a = bodies[0].at(&self.points[0], Some(&axes));
+        self.q_b = bodies[1].at(&self.points[1], Some(&axes));
+        self.axes = Some(axes);
     }
 
     /// Whether the axes of the quadratics are the solver's own.

@@ -30,6 +30,8 @@ fn particle(random: &mut Random) -> Particle {
     } else {
         ((-9.0, 0.0), Sphericity::Between(-9.0, 0.0))
     };
+    // Many with flat faces, where the regularisation is left off.
+    let sphericity = if random.uniform() < 0.3 { Sphericity::Flat } else { sphericity };
     let size = if random.uniform() < 0.5 { (0.0, 0.0) } else { (-2.0, 2.0) };
     shapes::particle(&Recipe { hull, rounding, sphericity, size }, random)
 }
