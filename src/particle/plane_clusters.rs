@@ -165,27 +165,58 @@ fn divide(planes: &[Plane], order: &mut [usize], start: usize, clusters: &mut Ve
 mod tests {
     use super::*;
 
+    /// Planes all around, at distances that differ, some with long normals.
+    fn scattered() -> Vec<Plane> {
+        let plane = |i: i32| {
+            let (z, phi) = (1.0 - (2.0 * f64::from(i) + 1.0) / 500.0, f64::from(i) * 2.399963);
+            let s = (1.0 - z * z).sqrt();
+            let length = if i % 50 == 0 { 3.0 } else { 1.0 };
+            let normal = length * Vector3::new(s * phi.cos(), s * phi.sin(), z);
+            Plane { normal, offset: length * (0.4 + 0.03 * f64::from(i % 5)) }
+        };
+        (0..500).map(plane).collect()
+    }
+
+    fn excess(plane: &Plane, y: &Vector3<f64>) -> f64 {
+        plane.normal.dot(y) - plane.offset
+    }
+
     #[test]
     fn no_active_plane_is_left_out() {
-        let planes: Vec<Plane> = (0..500)
-            .map(|i| {
-                let (z, phi) = (1.0 - (2.0 * f64::from(i) + 1.0) / 500.0, f64::from(i) * 2.399963);
-                let s = (1.0 - z * z).sqrt();
-                Plane { normal: Vector3::new(s * phi.cos(), s * phi.sin(), z), offset: 0.4 + 0.03 * f64::from(i % 5) }
-            })
-            .collect();
+        let planes = scattered();
         let (clusters, order) = PlaneClusters::of(&planes);
         let mut fewest = planes.len();
         for p in planes.iter().step_by(7) {
-            let y = p.normal * 0.45;
+            let y = p.normal.normalize() * 0.45;
             let mut near = Vec::new();
             let most_left_out = clusters.visit_near(&y, 0.0, |run| near.extend(run.map(|place| order[place])));
             for (i, plane) in planes.iter().enumerate() {
-                let excess = plane.normal.dot(&y) - plane.offset;
+                let excess = excess(plane, &y);
                 assert!(excess <= most_left_out.min(0.0) || near.contains(&i), "plane {i} was left out");
             }
             fewest = fewest.min(near.len());
         }
         assert!(fewest < 150, "{fewest} of 500 planes visited");
+    }
+
+    #[test]
+    fn the_largest_excess_is_that_of_all_planes() {
+        let planes = scattered();
+        let (clusters, order) = PlaneClusters::of(&planes);
+        let mut looked_at = 0;
+        for p in planes.iter().step_by(7) {
+            for way in [-0.2, 0.1, 0.45, 3.0] {
+                let y = way * p.normal;
+                let of = |place: usize| (excess(&planes[order[place]], &y), place);
+                let (most, place) = clusters.largest(&y, |run| {
+                    looked_at += run.len();
+                    run.map(of).max_by(|a, b| a.0.total_cmp(&b.0)).expect("no run is empty")
+                });
+                let all = planes.iter().map(|plane| excess(plane, &y)).fold(f64::NEG_INFINITY, f64::max);
+                assert_eq!((most, excess(&planes[order[place]], &y)), (all, all));
+            }
+        }
+        let asked = planes.len().div_ceil(7) * 4;
+        assert!(looked_at < 100 * asked, "{} of 500 planes at a time", looked_at / asked);
     }
 }
