@@ -56,6 +56,22 @@ for ending in ("yade.gz", "xml", "xml.bz2", "memory"):
     check.true(len(found) == len(expected) and worst < 1e-9, f"{ending}: the run goes on as before, off by {worst:g}")
     check.equal(functor().failures, 0, f"{ending}: failures")
 
+# What a contact carries on from step to step is not saved: a save drops it, so that the run goes on from there as a loaded one does.
+scene()
+run(1500)
+
+
+def carried_in_a_step():
+    before = functor().answers["carried"]
+    run(1)
+    return functor().answers["carried"] - before
+
+
+check.true(carried_in_a_step() > 0, "contacts are carried on")
+O.saveTmp("dropped")
+check.equal(carried_in_a_step(), 0, "after a save all are solved")
+check.true(carried_in_a_step() > 0, "and carried on again")
+
 # A file of a version before, in which a memory was half as long: made from one of today, and loaded with what it remembers.
 scene()
 run(1500)

@@ -64,6 +64,7 @@ struct PairInScene {
         geom = castTo<ScGeomConicPP, yade::ScGeom>(interaction->geom.get());
         if (geom && typeid(*geom) == typeid(ScGeomConicPP)) {
             own = static_cast<ScGeomConicPP*>(geom);
+            own->dropIfSaved();
             return true;
         }
         if (real)

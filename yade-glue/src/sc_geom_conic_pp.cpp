@@ -97,6 +97,7 @@ template <class Archive> void ScGeomConicPP::serialize(Archive& archive, unsigne
         memory = { { 0 } };
     auto bytes = boost::serialization::make_binary_object(&memory, version == 0 ? oldSize : sizeof memory);
     archive& boost::serialization::make_nvp("memory", bytes);
+    saved.store(Archive::is_saving::value, std::memory_order_relaxed);
 }
 
 } // namespace potential_particles

@@ -12,6 +12,7 @@
 
 #include <potential_particles.h>
 
+#include <atomic>
 #include <memory>
 
 namespace potential_particles {
@@ -26,14 +27,28 @@ public:
     PP_ABI_SERIALIZABLE_OVERRIDES
 
     pp_memory memory = { { 0 } };
-    // Not saved: made again by the first look after loading.
+    // Not saved: made again by the first look after loading, and after saving.
     KeptApart apart;
     // Of a pair that touches; nor is this.
     std::unique_ptr<pp_carry> carry;
     // Of a particle and a flat boundary, which use none of the above; nor is this.
     std::unique_ptr<KeptOff> off;
 
+    // At each look, first: drops what is not saved if the pair was saved since the last, so that a run goes on from a save as
+    // one that is loaded from it does. By the thread that looks, since a script may save from another.
+    void dropIfSaved()
+    {
+        if (!saved.load(std::memory_order_relaxed))
+            return;
+        saved.store(false, std::memory_order_relaxed);
+        apart.forget();
+        carry.reset();
+        off.reset();
+    }
+
 private:
+    std::atomic<bool> saved { false };
+
     friend class boost::serialization::access;
     template <class Archive> void serialize(Archive& archive, unsigned);
 
