@@ -53,7 +53,9 @@ for ending in ("yade.gz", "xml", "xml.bz2", "memory"):
     check.true(all(b.shape.volume > 0 for b in O.bodies), f"{ending}: particles are there again")
     found = go_on()
     worst = max(abs(x - y) for x, y in zip(found, expected))
-    check.true(len(found) == len(expected) and worst < 1e-9, f"{ending}: the run goes on as before, off by {worst:g}")
+    # Two threads may sum forces in another order.
+    same = worst == 0 if O.numThreads == 1 else worst < 1e-9
+    check.true(len(found) == len(expected) and same, f"{ending}: the run goes on as before, off by {worst:g}")
     check.equal(functor().failures, 0, f"{ending}: failures")
 
 # What a contact carries on from step to step is not saved: a save drops it, so that the run goes on from there as a loaded one does.
