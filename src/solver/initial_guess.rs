@@ -28,9 +28,10 @@ const MOST_TRIALS: usize = 24;
 /// Most planes of a body that are all followed from one step to the next: in larger bodies it is faster to leave clusters out.
 const MOST_FOLLOWED: usize = 32;
 
-/// Planes that share a place of the surface, above which the quadratics there tell more than the planes one by one: of 100 planes and
-/// r/size = 0.05 (4.4 planes) the linear program takes three times as long, of 20 planes (0.7) a quarter less (docs/benchmarks.md).
-const SMOOTH: f64 = 4.0;
+/// Planes that share a place of the surface, above which the quadratics there tell more than the planes one by one. With r/size = 0.05,
+/// bodies of 40 planes (1.4) take as many instructions either way, of 50 planes (1.75) 44 % fewer without the linear program, of 20
+/// planes (0.7) 50 % more (docs/benchmarks.md).
+const SMOOTH: f64 = 1.5;
 
 /// Relative to F: no other plane lies higher.
 const LEVEL: f64 = 1e-9;
