@@ -28,6 +28,7 @@ Contact detection between potential particles.
   make bench    run time, each target beside what was measured, and run time against error; results in out/bench
   make side-by-side  YADE's own contact functor and this one on the same scenes; results in out/side_by_side
   make peers    the codes one would pick instead, on the same pairs and piles; installs them; results in out/peers
+  make roofline after make peers: what limits a call from memory, and a step of a pile; results in out/roofline
   make stress   a million random pairs, judged without a known answer; results in out/stress
   make fuzz     fuzz particle creation, detection and the reader of pairs, a minute each; needs libFuzzer's headers (g++)
   make sanitize  the plugin with AddressSanitizer and UBSan, and YADE's scenes with it; a quarter of an hour
@@ -75,7 +76,7 @@ export PATH := $(PATH):$(HOME)/.cargo/bin
 
 heading = @printf '== %s\n' '$(1)'
 
-.PHONY: sanitize guide deb packages-test install help demo wedge classics mpi scale mpi-scale test test-debian13 side-by-side peers setup build library glue header lint bench stress fuzz long clean
+.PHONY: sanitize guide deb packages-test install help demo wedge classics mpi scale mpi-scale test test-debian13 side-by-side peers roofline setup build library glue header lint bench stress fuzz long clean
 .DEFAULT_GOAL := help
 # The steps of one goal build on each other in the order in which they are named.
 .NOTPARALLEL:
@@ -185,6 +186,11 @@ sanitize: setup library
 peers: glue
 	$(call heading,Peers)
 	@benches/peers/run.py $(if $(QUICK),--quick)
+
+# After `make peers`, whose pairs and states it takes.
+roofline: glue
+	$(call heading,Limits of a call and of a step)
+	@benches/peers/roofline.py
 
 header:
 	@PP_WRITE_HEADER=1 cargo test --quiet --release --test header

@@ -52,6 +52,7 @@ stage suite "Links of the guide" tests/guide/links.py "$CARGO_TARGET_DIR/guide"
 stage suite "Code blocks of the guide" tests/guide/run.py
 stage suite "Messages that the guide explains" tests/guide/sentences.py
 stage check "What other codes are judged by" /usr/bin/python3 benches/peers/test_answers.py
+stage check "How limits of a call are counted" /usr/bin/python3 benches/peers/test_roofline.py
 
 printf '\n%d passed, %d failed\n' "$passed" "$failed"
 [ "$failed" -eq 0 ]

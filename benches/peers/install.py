@@ -35,10 +35,10 @@ class Contestants:
 def everybody():
     OUT.mkdir(parents=True, exist_ok=True)
     (OUT / "bin").mkdir(exist_ok=True)
-    _debian()
+    packages(DEBIAN)
     found = Contestants()
-    found.add(OURS, lambda: _rust("ours"))
-    found.add(PARRY, lambda: _rust("parry"))
+    found.add(OURS, lambda: rust("ours"))
+    found.add(PARRY, lambda: rust("parry"))
     found.add(COAL, _coal)
     found.add(BULLET, _bullet)
     found.add(YADE, _yade)
@@ -51,10 +51,11 @@ def placed():
     return _target() / "release" / "placed"
 
 
-def _debian():
-    listed = subprocess.run(["dpkg-query", "--show", "--showformat=${db:Status-Abbrev}${Package}\n", *DEBIAN], capture_output=True, text=True)
+def packages(names):
+    """Installs those of Debian's packages that are not there."""
+    listed = subprocess.run(["dpkg-query", "--show", "--showformat=${db:Status-Abbrev}${Package}\n", *names], capture_output=True, text=True)
     there = {line[3:] for line in listed.stdout.splitlines() if line[1:2] == "i"}
-    absent = [name for name in DEBIAN if name not in there]
+    absent = [name for name in names if name not in there]
     if absent:
         print(f"  installing with apt: {' '.join(absent)}", flush=True)
         root = [] if os.geteuid() == 0 else ["sudo"]
@@ -69,7 +70,8 @@ def _target():
     return Path(os.environ.get("CARGO_TARGET_DIR", TOP / "target")).resolve() / "peers"
 
 
-def _rust(name):
+def rust(name):
+    """Builds a program of the package `peers`: its command and what it is made of."""
     folder = HERE / "rust"
     environment = dict(os.environ, CARGO_TARGET_DIR=str(_target()))
     _run(["cargo", "build", "--release", "--quiet", "--locked"], cwd=folder, env=environment)

@@ -1,5 +1,6 @@
 //! This library. Ways: midway, closest, carried (in a batch, as the YADE plugin asks), conic (clarabel on the paper's cone
-//! program); `midway@1e-14` sets gap_tolerance; `midway+all` solves pairs that are apart to the end.
+//! program); `midway@1e-14` sets gap_tolerance; `midway+all` solves pairs that are apart to the end; with `midway+wait` each call
+//! waits for the answer of the one before, where else the processor works on several at a time.
 
 use peers::scene::{Group, Placement};
 use peers::server::{Answer, Contestant, serve};
@@ -7,6 +8,7 @@ use potential_particles::{
     BackEnd, Carried, Contact, DetectError, Formulation, Kind, Memory, Particle, Plane, Pose, Settings, detect,
     detect_batch_carried,
 };
+use std::hint::black_box;
 
 /// To what part of the size the point of a contact that is carried on is known: the plugin's default.
 const CARRY_TOLERANCE: f64 = 1e-9;
@@ -19,6 +21,8 @@ struct Ours {
     b: Vec<Vec<Pose>>,
     memories: Vec<Memory>,
     answers: Vec<Answer>,
+    /// What is left of the bits of an answer in the index of the next pair: 0, but all are there to make it wait.
+    kept_of_answer: Option<usize>,
 }
 
 /// All pairs of a time in one call.
@@ -32,6 +36,7 @@ struct Batch {
 
 fn main() {
     serve(|group, way| {
+        let (way, waits) = way.strip_suffix("+wait").map_or((way, false), |way| (way, true));
         let (way, all) = way.strip_suffix("+all").map_or((way, false), |way| (way, true));
         let (way, tolerance) = way.split_once('@').unwrap_or((way, "1e-12"));
         let mut settings = Settings { solve_separated: all, ..Settings::default() };
@@ -42,13 +47,13 @@ fn main() {
             "conic" => settings.back_end = BackEnd::Conic,
             _ => return None,
         }
-        let ours = Ours::new(group, settings);
+        let ours = Ours::new(group, settings, waits.then(|| black_box(0)));
         Some(if way == "carried" { Box::new(Batch::new(ours)) } else { Box::new(ours) })
     });
 }
 
 impl Ours {
-    fn new(group: &Group, settings: Settings) -> Self {
+    fn new(group: &Group, settings: Settings, kept_of_answer: Option<usize>) -> Self {
         let planes: Vec<Plane> = group.planes.iter().map(|&plane| Plane::from(plane)).collect();
         let times = group.pairs[0].b.len();
         Self {
@@ -58,15 +63,21 @@ impl Ours {
             b: (0..times).map(|time| group.pairs.iter().map(|pair| pose(&pair.b[time])).collect()).collect(),
             memories: vec![Memory::default(); group.pairs.len()],
             answers: vec![Answer::Failed; group.pairs.len()],
+            kept_of_answer,
         }
     }
 }
 
 impl Contestant for Ours {
     fn pass(&mut self, time: usize, warm: bool) {
-        for (i, memory) in self.memories.iter_mut().enumerate() {
-            let memory = warm.then_some(memory);
+        let mut wait = 0;
+        for i in 0..self.memories.len() {
+            let i = i + wait;
+            let memory = warm.then_some(&mut self.memories[i]);
             let found = detect(&self.particle, &self.a[i], &self.particle, &self.b[time][i], &self.settings, memory);
+            if let (Some(kept), Ok(contact)) = (self.kept_of_answer, &found) {
+                wait = contact.overlap.to_bits() as usize & kept;
+            }
             self.answers[i] = answer(&found);
         }
     }
