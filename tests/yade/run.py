@@ -60,7 +60,7 @@ def main():
     arguments.add_argument("-j", dest="threads", type=int, action="append",
                            help="threads of YADE (default: once 1, once 2)")
     arguments.add_argument("-v", dest="verbose", action="store_true", help="show the output of scripts that pass, too")
-    arguments.add_argument("--package", type=Path, default=PACKAGE, help="folder that holds the built package")
+    arguments.add_argument("--package", type=lambda folder: Path(folder).resolve(), default=PACKAGE, help="folder that holds the built package")
     arguments.add_argument("names", nargs="*", help="only scripts whose name contains one of these")
     options = arguments.parse_args()
     if not (options.package / "potential_particles" / "_glue.so").exists():
