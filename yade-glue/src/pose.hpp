@@ -9,6 +9,9 @@
 
 namespace potential_particles {
 
+// Of local axes.
+constexpr pp_pose identity = { { 0, 0, 0 }, { 1, 0, 0, 0 } };
+
 // shift: of the periodic image in which the body is met.
 inline pp_pose poseOf(const yade::State& state, const yade::Vector3r& shift)
 {
