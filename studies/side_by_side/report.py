@@ -171,7 +171,7 @@ def _print_targets(rows):
     print()
     table = [["what", "target", "measured", "met"]]
     for row in rows:
-        table.append([row["what"], row["target"], f"{row['measured']:.3g}", "yes" if row["met"] else "NO"])
+        table.append([row["name"], f"{row['sense']} {row['target']:g}", f"{row['measured']:.3g}", "yes" if row["met"] else "NO"])
     _columns(table)
 
 

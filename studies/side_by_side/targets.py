@@ -8,16 +8,16 @@ ENERGY_DRIFT = 1e-4
 
 
 def targets(rows, bounces, stages):
-    """A list of what, target, measured (the worst of its kind), met; parts that did not run are left out."""
+    """A list of name, sense, target, measured (the worst of its kind), met; parts that did not run are left out."""
     result = []
 
-    def at_least(what, target, values):
+    def at_least(name, target, values):
         if values:
-            result.append(_row(what, f"at least {target:g}", min(values), min(values) >= target))
+            result.append(_row(name, "at least", target, min(values), min(values) >= target))
 
-    def at_most(what, target, values):
+    def at_most(name, target, values):
         if values:
-            result.append(_row(what, f"at most {target:g}", max(values), max(values) <= target))
+            result.append(_row(name, "at most", target, max(values), max(values) <= target))
 
     def ratios(name, springs):
         return [row[name] for row in rows if row["springs"] == springs]
@@ -38,8 +38,8 @@ def targets(rows, bounces, stages):
     return result
 
 
-def _row(what, target, measured, met):
-    return {"what": what, "target": target, "measured": measured, "met": bool(met)}
+def _row(name, sense, target, measured, met):
+    return {"name": name, "sense": sense, "target": target, "measured": measured, "met": bool(met)}
 
 
 def _named(values, name):
