@@ -203,7 +203,8 @@ impl Extended<'_> {
         None
     }
 
-    /// α > 0 at which a·S_A + b·S_B is least along v: a root of its slope, which grows with α and is piecewise linear.
+    /// α at which a·S_A + b·S_B is least along v: a root of its slope, which grows with α and is piecewise linear. 0 where the slope
+    /// rises through zero at once, below what the trials resolve: a plane comes on there.
     fn best_step(&self, delta: &Wide, v: &Wide, (a, b): (f64, f64)) -> f64 {
         let lines = [self.bodies[0].line(delta, v), self.bodies[1].line(delta, v)];
         let at = |alpha: f64| {
@@ -215,7 +216,7 @@ impl Extended<'_> {
         for _ in 0..MOST_TRIALS {
             let (slope, curvature) = at(alpha);
             if slope.abs() <= FLAT * first.abs() {
-                break;
+                return alpha;
             }
             if slope < 0.0 {
                 low = alpha
@@ -231,7 +232,7 @@ impl Extended<'_> {
                 2.0 * alpha
             };
         }
-        alpha
+        if low > 0.0 { alpha } else { 0.0 }
     }
 
     fn model(&mut self, delta: &Wide, undecided: Undecided, lambda: DoubleDouble) -> WideModel {

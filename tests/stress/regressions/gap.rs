@@ -183,10 +183,27 @@ fn the_gap_is_small_at_the_tip_of_a_wedge() {
     judged("tip_of_a_wedge", &[LooseBound]);
 }
 
+/// Bodies without a plane on one side, or nearly so, have their optimum 10³ to 10¹¹ sizes away, where a turn that is rounded changes s by
+/// that lever arm. The judge knew the distance of the centres alone.
+#[test]
+fn s_is_that_of_the_pair_turned_however_far_the_point() {
+    judged_by("far_point_of_edges", &[RigidMotion], 178_870_341, 10_000_028_219_586);
+    judged_by("far_point_of_open_planes", &[RigidMotion], 178_870_341, 10_000_044_776_449);
+    judged_by("far_point_of_two_plates", &[RigidMotion], 178_870_341, 10_000_036_594_833);
+}
+
 /// k = 0: at the minimum for one λ a plane's depth is below the last of 32 digits. Taken for off, it came on at the first part of
 /// every step, and the search ended there with a gap of 0.14, and of 13 beside s of 1.7e6.
 #[test]
 fn the_gap_is_small_where_a_plane_is_at_its_switch() {
     judged_by("a_plane_at_its_switch", &[LooseBound], 870_677_402, 168_837);
     judged_by("a_plane_at_its_switch_far_apart", &[LooseBound], 22_896_182, 104_192);
+}
+
+/// The same, but the line search ended at the last of its trials, 10⁻¹⁸ of a step of 10⁻¹⁰: more than the last of 32 digits, so that the step
+/// was taken, again and again, and no minimum was found. The gaps were 3·10⁻⁶ and 9·10⁻⁵.
+#[test]
+fn the_gap_is_small_where_a_plane_comes_on_below_the_last_trial() {
+    judged_by("search_below_the_last_trial", &[LooseBound], 178_870_341, 10_000_084_502_295);
+    judged_by("search_below_the_last_trial_on_a_plate", &[LooseBound], 178_870_341, 10_000_086_003_342);
 }
