@@ -395,15 +395,21 @@ impl Problem<'_> {
         let gradient = a.gradient.plus(&b.gradient.times(lambda)).norm().f64();
         let plain = x.f64();
         let midway = self.wanted == Wanted::Midway;
-        let level = a.value.f64().max(b.value.f64()).max(1.0);
+        // Of a point that is allowed: at the optimum neither S is larger, or than 1. At x itself, outside the body that holds it, either may be less.
+        let most = match self.wanted {
+            Wanted::Midway => a.value.max(b.value),
+            Wanted::OnB => self.a.at(&self.b.inward(&x, &b)).value,
+            Wanted::OnA => self.b.at(&self.a.inward(&x, &a)).value,
+        };
+        let level = most.f64().max(1.0);
         let distance = |body: &Body| (plain - body.centre()).norm() + body.reach(level);
         let reach = distance(self.a).min(distance(self.b));
         let slack = Wide::from(gradient * reach * (1.0 + 1e-10));
         let phi = Self::phi(&a, &b, lambda);
-        let (dual, most) = match self.wanted {
-            Wanted::Midway => ((phi - slack) / (Wide::ONE + lambda), a.value.max(b.value)),
-            Wanted::OnB => (phi - slack - lambda, self.a.at(&self.b.inward(&x, &b)).value),
-            Wanted::OnA => ((phi - slack - Wide::ONE) / lambda, self.b.at(&self.a.inward(&x, &a)).value),
+        let dual = match self.wanted {
+            Wanted::Midway => (phi - slack) / (Wide::ONE + lambda),
+            Wanted::OnB => phi - slack - lambda,
+            Wanted::OnA => (phi - slack - Wide::ONE) / lambda,
         };
         let soft = self.a.softest() + lambda.f64() * self.b.softest();
         let curve = solve(&sum(&a.hessian, &b.hessian, lambda), &b.gradient);
