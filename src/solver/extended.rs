@@ -203,8 +203,8 @@ impl Extended<'_> {
         None
     }
 
-    /// α at which a·S_A + b·S_B is least along v: a root of its slope, which grows with α and is piecewise linear. 0 where the slope
-    /// rises through zero at once, below what the trials resolve: a plane comes on there.
+    /// α at which a·S_A + b·S_B is least along v: a root of its slope, which grows with α and is piecewise linear. 0 where all
+    /// trials find it positive: a plane comes on at the start of the step.
     fn best_step(&self, delta: &Wide, v: &Wide, (a, b): (f64, f64)) -> f64 {
         let lines = [self.bodies[0].line(delta, v), self.bodies[1].line(delta, v)];
         let at = |alpha: f64| {

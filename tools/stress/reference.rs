@@ -395,7 +395,7 @@ impl Problem<'_> {
         let gradient = a.gradient.plus(&b.gradient.times(lambda)).norm().f64();
         let plain = x.f64();
         let midway = self.wanted == Wanted::Midway;
-        // Of a point that is allowed: at the optimum neither S is larger, or than 1. At x itself, outside the body that holds it, either may be less.
+        // At a feasible point: both S are at most this, or 1, at the optimum. x itself may be infeasible, and S of the free body smaller there.
         let most = match self.wanted {
             Wanted::Midway => a.value.max(b.value),
             Wanted::OnB => self.a.at(&self.b.inward(&x, &b)).value,

@@ -87,9 +87,9 @@ fn a_closest_point_whose_weight_is_lost_in_rounding_is_on_its_surface() {
     assert!((contact.s - 9.3376e-6).abs() < 1e-9 + contact.gap && contact.gap < 1e-6, "{contact:?}");
 }
 
-/// A body of 10⁻⁴ with r of 10⁻¹² beside one of 1: the judge's search stayed outside A, where S of B is 1 and at P1 10⁷, and its lower bound took the
-/// distance to P1 from the lesser. The cone program agrees with the answer.
+/// B has a size of 10⁻⁴ and r = 10⁻¹², A a size of 1. The judge's search ended at an infeasible point, outside A, where S of B is 1; at P1 it is 10⁷. From
+/// the smaller value it bounded the distance to P1, which made its lower bound of s too high. The cone program agrees with the answer.
 #[test]
-fn the_judge_bounds_the_way_by_a_point_that_is_allowed() {
+fn the_judge_bounds_the_distance_by_a_feasible_point() {
     judged_by("small_body_far_from_the_point_on_a", &[BoundOfS], 875_949_039, 20_881);
 }

@@ -183,8 +183,8 @@ fn the_gap_is_small_at_the_tip_of_a_wedge() {
     judged("tip_of_a_wedge", &[LooseBound]);
 }
 
-/// Bodies without a plane on one side, or nearly so, have their optimum 10³ to 10¹¹ sizes away, where a turn that is rounded changes s by
-/// that lever arm. The judge knew the distance of the centres alone.
+/// Without a plane on one side, or with faces that all but oppose each other, bodies have their optimum 10⁴ to 10¹⁴ sizes away. The rounding of a
+/// turn moves it in proportion to that lever arm; the judge counted the distance of the centres only.
 #[test]
 fn s_is_that_of_the_pair_turned_however_far_the_point() {
     judged_by("far_point_of_edges", &[RigidMotion], 178_870_341, 10_000_028_219_586);
@@ -200,8 +200,8 @@ fn the_gap_is_small_where_a_plane_is_at_its_switch() {
     judged_by("a_plane_at_its_switch_far_apart", &[LooseBound], 22_896_182, 104_192);
 }
 
-/// The same, but the line search ended at the last of its trials, 10⁻¹⁸ of a step of 10⁻¹⁰: more than the last of 32 digits, so that the step
-/// was taken, again and again, and no minimum was found. The gaps were 3·10⁻⁶ and 9·10⁻⁵.
+/// A plane comes on at the very start of the step, so that the line search ran out of halvings at 10⁻¹⁸ of it. That is still above the rounding of 32
+/// digits: the step counted as progress and was repeated up to the limit of steps. The gaps were 3·10⁻⁶ and 9·10⁻⁵.
 #[test]
 fn the_gap_is_small_where_a_plane_comes_on_below_the_last_trial() {
     judged_by("search_below_the_last_trial", &[LooseBound], 178_870_341, 10_000_084_502_295);

@@ -73,8 +73,8 @@ fn a_needle_is_crossed_however_far_along_the_normal_that_is() {
     }
 }
 
-/// The line along the normal leaves a body where it meets a plane that lies along it but for 0.002, and is on by 10⁻¹². The coordinates of
-/// the point, rounded to 10⁻¹⁰, are off that plane, 9·10⁻¹⁰ inside: the judge looked for the surface along the normal alone.
+/// The line along the normal leaves the body where it meets a plane at an angle of 0.002 to it, which is active by 10⁻¹². The coordinates of the surface
+/// point are rounded to 10⁻¹⁰: there the plane is inactive, and the point 9·10⁻¹⁰ inside. The judge looked for the surface along the normal only.
 #[test]
 fn a_plane_along_the_normal_holds_the_surface() {
     judged_by("plane_along_the_normal", &[OffSurface], 178_870_341, 10_000_011_232_814);

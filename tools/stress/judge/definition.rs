@@ -130,7 +130,7 @@ pub(super) fn surfaces(verdict: &mut Verdict, scene: &Scene, contact: &Contact) 
             let outside = steps.map(|step| point + step * outwards).find(|p| !inside(*p))?;
             body.at(&Wide3::from(outside)).gradient.f64().try_normalize(0.0)
         };
-        // A plane along the line, by less than the rounding of the point, may hold the surface that the point lost.
+        // A plane nearly parallel to the line may bound the body at the exact point and be inactive at the rounded one.
         let beside = || inside(point) && body.inset(allowed).at(&Wide3::from(point)).value.f64() > 1.0;
         let between = off <= allowed || straddles(outwards) || across().is_some_and(straddles) || beside();
         verdict.check(between, Failure::OffSurface, || {
@@ -269,9 +269,10 @@ pub(super) fn carried(verdict: &mut Verdict, case: &Case, scene: &Scene, before:
     let (at_a, at_b) = (carry(&case.at_a), carry(&case.at_b));
     match (scene.solver)(scene.a, &at_a, scene.b, &at_b, &FULL, None) {
         Ok(after) => {
-            // A turn that is rounded moves a point by its distance from the centres: without a plane on one side, that is any length.
-            let arms = [before, &after].map(|contact| contact.branch_a.norm().max(contact.branch_b.norm()));
-            let lever = scene.length.max(arms[0]).max(arms[1]);
+            // The rounding of a turn moves a point in proportion to its distance from the centres, which can be any length where a body has no plane on
+            // one side.
+            let branches = [before.branch_a, before.branch_b, after.branch_a, after.branch_b];
+            let lever = branches.iter().map(|branch| branch.norm()).fold(scene.length, f64::max);
             let rounding = 16.0 * EPS * (lever + scene.far);
             // Deep inside nothing is steep; a wall that rounding carries over the point is.
             let there = turn.inverse() * after.branch_b;
