@@ -96,6 +96,22 @@ fn no_surface_is_further_off_than_the_bounding_radius() {
     }
 }
 
+/// Found by fuzzing: of planes that rise by 1e-193 along a ray, the slope of S was lost, and the surface lay at -1e99.
+#[test]
+fn a_rounding_radius_too_small_for_the_bounding_radius_is_refused() {
+    let planes =
+        [[1e-150, 0.0, 1e-8, 1e-150], [1e-150, 1e-8, 1e-150, 1e-150], [-1.0, 1e-150, 0.0, 1e-8]].map(Plane::from);
+    let error = Particle::new(&planes, 1e-150, 1e-150, 1e-8).unwrap_err();
+    assert!(
+        matches!(error, ParticleError::RoundingTooSmall { r: 1e-150, radius } if (0.99e67..1.01e67).contains(&radius)),
+        "{error}"
+    );
+    // Within the limit a plane that rises by 1e-138 along a ray bounds the particle where it should: at r/1e-138.
+    let half_ball = Particle::new(&[Plane::from([0.0, 0.0, 1.0, 0.0])], 1e-140, 1e-6, 1.0).unwrap();
+    let distance = half_ball.surface_distance(&Vector3::zeros(), &Vector3::new(1.0, 0.0, 1e-138)).unwrap();
+    assert!((distance - 1e-2).abs() < 1e-8, "{distance:e}");
+}
+
 #[test]
 fn planes_that_leave_a_way_out_are_told_from_those_that_enclose() {
     let encloses = |planes: &[Plane], scale: f64| {

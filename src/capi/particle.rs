@@ -153,7 +153,9 @@ fn particle_status(error: &ParticleError) -> pp_status {
         ParticleError::ZeroNormal { .. } | ParticleError::ZeroLineNormal { .. } => PP_PLANE_ZERO_NORMAL,
         ParticleError::NormalLength { .. } | ParticleError::LineNormalLength { .. } => PP_PLANE_ZERO_NORMAL,
         ParticleError::Sphericity(_) => PP_BAD_SPHERICITY,
-        ParticleError::RoundingRadius(_) | ParticleError::RoundingTooLarge { .. } => PP_BAD_ROUNDING_RADIUS,
+        ParticleError::RoundingRadius(_)
+        | ParticleError::RoundingTooLarge { .. }
+        | ParticleError::RoundingTooSmall { .. } => PP_BAD_ROUNDING_RADIUS,
         ParticleError::ShadowRadius(_) => PP_BAD_SHADOW_RADIUS,
         ParticleError::CentreOutside { .. } | ParticleError::CentreOutsideLines { .. } => PP_CENTRE_OUTSIDE,
         ParticleError::Unbounded | ParticleError::OpenLines | ParticleError::FlatVertices(_) => PP_UNBOUNDED,

@@ -63,6 +63,11 @@ pub enum ParticleError {
         "rounding radius r={r:?} is too large for these vertices: it must be below {limit:?}, the least distance of a side from the centroid"
     )]
     RoundingTooLarge { r: f64, limit: f64 },
+    #[error(
+        "rounding radius r={r:?} is too small for a particle that reaches {radius:?} from its centre, more than 1e150 times r/√(1−k): squares \
+         of depths leave the range of numbers; take a larger r, or what encloses a smaller volume"
+    )]
+    RoundingTooSmall { r: f64, radius: f64 },
 }
 
 impl ParticleError {

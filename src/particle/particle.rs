@@ -43,7 +43,8 @@ impl Particle {
     ///
     /// # Errors
     /// Non-finite numbers, k outside [0, 1], r ≤ 0 (unless k = 1), R ≤ 0 (unless k = 0), a normal that is zero or whose
-    /// square leaves the range of f64, an origin that is not inside (f(0) ≥ 0), and for k = 0 an unbounded shape.
+    /// square leaves the range of f64, an origin that is not inside (f(0) ≥ 0), for k = 0 an unbounded shape, and one that
+    /// reaches more than 1e150·r/√(1−k) from its centre.
     pub fn new(planes: &[Plane], r: f64, k: f64, shadow_radius: f64) -> Result<Self, ParticleError> {
         Ok(Self::of(Shape::new(planes, r, k, shadow_radius, 3)?))
     }

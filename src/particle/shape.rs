@@ -16,6 +16,10 @@ use crate::particle::plane::{MAX_PLANES, Plane};
 use crate::particle::plane_clusters::PlaneClusters;
 use nalgebra::Vector3;
 
+/// Most bounding radii in units of r/√(1−k). A plane that bounds the particle along a ray rises by at least the inverse of this along
+/// the ray; depth times rise and the square of the rise, at the surface, are then no smaller than 1e-304 and 1e-300, normal numbers.
+const MOST_RADII: f64 = 1e150;
+
 /// A validated definition with its bounding volumes.
 #[derive(Clone, Debug)]
 pub struct Shape {
@@ -60,6 +64,9 @@ impl Shape {
         }
         let extent = Extent::new(plane_weight, sphere_weight, at_origin, dimensions);
         let bounds = Bounds::of(&rows, &extent).ok_or(ParticleError::Unbounded)?;
+        if !rows.is_empty() && plane_weight.sqrt() * bounds.radius > MOST_RADII {
+            return Err(ParticleError::RoundingTooSmall { r, radius: bounds.radius });
+        }
         Ok(Self {
             rows,
             dimensions,
