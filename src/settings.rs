@@ -28,7 +28,7 @@ impl fmt::Display for Formulation {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "lowercase"))]
 #[non_exhaustive]
 pub enum BackEnd {
-    /// This library's solver, with the conic one (where it was built in) as its last resort.
+    /// This library's solver: Newton's method in doubles, and in extended precision where those do not settle a pair.
     #[default]
     Fast,
     /// The paper's second-order cone programs through clarabel; only with the Cargo feature `conic`.
@@ -71,12 +71,12 @@ pub struct Settings {
     pub gap_tolerance: f64,
     /// Weight of the point on A in the contact point of [`Formulation::Closest`], in [0, 1].
     pub weight_on_a: f64,
-    /// Sphericity below which the position on a flat face is regularised, in [0, 0.1].
+    /// Sphericity below which the position on a flat face is regularised, in [0, 0.1]; less than the default of 1e-13 counts as that.
     ///
     /// With k below this value the minimiser is chosen as if k were this value (about a sphere of
     /// the bounding radius); s, overlap and normal stay those of the given k within the gap, which
     /// grows by at most this value. 1e-13 is the smallest value whose pull on a flat face of unit
-    /// size still exceeds rounding; for exactly parallel faces any positive value gives the limit
+    /// size still exceeds rounding; for exactly parallel faces any value gives the limit
     /// k → 0⁺, the point nearest to the centres. Where the choice would leave open whether the particles overlap at all,
     /// the default value decides, and its contact is the answer ([`crate::Flags::DEFAULT_REGULARISATION`]).
     pub flat_regularisation: f64,
@@ -126,12 +126,9 @@ impl Settings {
     /// Sphericity that replaces smaller ones: the regularisation of flat faces, or less where it would add more to the gap
     /// than is asked for. A raised one is a choice that stays.
     pub(crate) fn least_sphericity(&self) -> f64 {
+        let chosen = self.flat_regularisation.max(Self::default().flat_regularisation);
         let precise = self.gap_tolerance < LEAST_OF_DOUBLES;
-        if precise && !self.raises_regularisation() {
-            self.flat_regularisation.min(SHARE_OF_REGULARISATION * self.gap_tolerance)
-        } else {
-            self.flat_regularisation
-        }
+        if precise && !self.raises_regularisation() { SHARE_OF_REGULARISATION * self.gap_tolerance } else { chosen }
     }
 
     /// Whether the regularisation of flat faces is more than the default: it then shapes the answer on purpose.

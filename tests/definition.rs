@@ -329,3 +329,62 @@ fn a_regularisation_that_was_overridden_is_told() {
     }
     assert!(told > 5 && untold > 30, "{told} overridden, {untold} not");
 }
+
+/// Two cubes that overlap corner to corner, so that their planes alone fix the point.
+#[test]
+fn a_regularisation_below_the_default_counts_as_the_default() {
+    let cube = cuboid([0.5; 3], 0.05, 0.0, 0.0);
+    let at_a = pose([0.0; 3], [1.0, 0.0, 0.0, 0.0]);
+    for at_b in [pose([0.93; 3], [1.0, 0.0, 0.0, 0.0]), pose([0.2, 0.1, 0.98], [1.0, 0.0, 0.0, 0.0])] {
+        let of = |flat_regularisation: f64| {
+            let settings = Settings { flat_regularisation, ..Settings::default() };
+            detect(&cube, &at_a, &cube, &at_b, &settings, None).unwrap()
+        };
+        let default = of(Settings::default().flat_regularisation);
+        for least in [0.0, 1e-300, 1e-20] {
+            let contact = of(least);
+            assert_eq!((contact.s, contact.gap, contact.point), (default.s, default.gap, default.point), "{least:e}");
+        }
+    }
+}
+
+/// (n, d) and r times any number are the same body: the answer and its bounds are the same but for rounding.
+#[test]
+fn the_length_of_normals_changes_nothing() {
+    // Faces that are not those of the local axes, in which the curvature of a plane is spread over all entries.
+    let aside = UnitQuaternion::from_euler_angles(0.4, -0.7, 1.1);
+    let body = |half: f64, r: f64, k: f64, length: f64| {
+        let faces = (0..3).flat_map(|axis| [1.0, -1.0].map(|sign| aside * Vector3::ith(axis, sign)));
+        let planes: Vec<Plane> = faces.map(|n| Plane { normal: length * n, offset: length * (half - r) }).collect();
+        Particle::new(&planes, length * r, k, 2.0 * half).unwrap()
+    };
+    let placed = |position: [f64; 3], turn: UnitQuaternion<f64>| {
+        let q = turn * aside.inverse();
+        pose(position, [q.w, q.i, q.j, q.k])
+    };
+    let turns = [(0.0, 0.0, 0.0), (1e-9, 2e-9, 0.3), (0.8, 0.3, -0.2)];
+    for (r, k) in [(1e-3, 1e-8), (1e-3, 1e-10), (1e-5, 1e-5), (0.05, 0.0), (1e-3, 0.5)] {
+        for (roll, pitch, yaw) in turns {
+            for height in [1.5 - 1e-4, 1.6] {
+                let at_a = placed([0.0; 3], UnitQuaternion::identity());
+                let at_b = placed([0.3, 0.1, height], UnitQuaternion::from_euler_angles(roll, pitch, yaw));
+                let answer = |of_a: f64, of_b: f64| {
+                    solve(&body(1.0, r, k, of_a), &at_a, &body(0.5, r, k, of_b), &at_b, Formulation::Midway)
+                };
+                let one = answer(1.0, 1.0);
+                for (of_a, of_b) in [(1e4, 1e4), (1e-4, 1e-4), (1e4, 1e-4), (3.0, 3e2), (1e-2, 1e-3)] {
+                    let case = format!("r={r:e}, k={k:e}, roll {roll}, height {height}, |n|={of_a:e} and {of_b:e}");
+                    let other = answer(of_a, of_b);
+                    assert!((one.s - other.s).abs() <= one.gap + other.gap, "{case}: {:e} {:e}", one.s, other.s);
+                    let apart = (one.point - other.point).norm();
+                    assert!(apart <= one.point_bound + other.point_bound, "{case}: points {apart:e} apart");
+                    // Within the tolerance either may stop a step earlier.
+                    let most = 4.0 * one.gap + Settings::default().gap_tolerance;
+                    assert!(other.gap <= most, "{case}: gaps {:e} and {:e}", one.gap, other.gap);
+                    let extended = |contact: &Contact| contact.flags.contains(Flags::EXTENDED);
+                    assert_eq!(extended(&other), extended(&one), "{case}");
+                }
+            }
+        }
+    }
+}

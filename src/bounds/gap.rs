@@ -32,17 +32,18 @@ impl Scale {
         let level = larger(solution.upper, 1.0);
         let most = weighted(a.most_surplus(level), b.most_surplus(level));
         let square = larger(solution.estimate - weighted(a.surplus(&solution.x), b.surplus(&solution.x)), 0.0);
-        let high = larger(larger(solution.upper, solution.lower), square) + solution.rounding;
+        let high = larger(square, larger(solution.lower, solution.upper)) + solution.rounding;
         Self::between(square, solution.lower - most - solution.rounding, high)
     }
 
-    /// From an estimate of S that is not negative and bounds of it.
+    /// From an estimate of S that is not negative and bounds of it. The gap is no number where `high` is none: the larger of two numbers
+    /// is the second where either is NaN.
     #[inline(always)]
     pub fn between(square: f64, low: f64, high: f64) -> Self {
         let low = smaller(larger(low, 0.0), square);
         let s = square.sqrt();
         let low = low.sqrt() * (1.0 - ROUNDING);
-        Self { s, gap: larger(high.sqrt() - s, s - low) + ROUNDING * s + UNDERFLOW, low }
+        Self { s, gap: larger(s - low, high.sqrt() - s) + ROUNDING * s + UNDERFLOW, low }
     }
 
     /// Whether s cannot be told from 0, as where a constraint is slack.

@@ -7,6 +7,7 @@ use crate::linalg::number::smaller;
 use crate::model::kkt_check::Change;
 use crate::model::local_model::{self, LocalModel, Step};
 use crate::model::problem::Problem;
+use crate::pair::active_set::LocalPoint;
 use crate::pair::placed_particle::Body;
 use nalgebra::Vector3;
 
@@ -21,7 +22,7 @@ pub(crate) struct Solution {
     /// ∇S_A and ∇S_B at the optimum, and their lengths.
     pub gradients: [Vector3<f64>; 2],
     pub gradient_norms: [f64; 2],
-    /// S_A and S_B at x, which differ by rounding.
+    /// S_A and S_B at x: midway equal but for rounding; closest, that of the held body 1 but for rounding.
     pub values: [f64; 2],
     /// Best estimate of the optimal S.
     pub estimate: f64,
@@ -147,13 +148,15 @@ impl Solution {
         self.lower - self.rounding - flat > 1.0
     }
 
-    /// What rounding leaves at the optimum itself, with the least that it can do to the places of the planes: the change of S when
-    /// the body moves by the rounding of a length. The blur alone is a bound for the longest normal, and too large where a shorter
-    /// one is active.
+    /// Least effect of rounding on the optimum: the weighted change of S when each body moves by the rounding of a length.
     #[inline(always)]
-    pub fn least_rounding(&self, model: &LocalModel, problem: Problem) -> f64 {
-        // Planes of unit normals have a blur of at most twice the shift: rounding of their offsets adds less than that of the point.
-        let place = |i: usize| smaller(model.points[i].blur, 2.0 * model.points[i].shift);
+    pub fn least_rounding(&self, bodies: [&Body; 2], model: &LocalModel, problem: Problem) -> f64 {
+        // How far rounding moves the planes of the longest normal. At most twice the shift, since their offsets are rounded less
+        // than the point; without planes 0/0, which is not smaller.
+        let place = |i: usize| {
+            let LocalPoint { blur, shift, .. } = model.points[i];
+            smaller(blur / bodies[i].particle.bounds.longest_normal, 2.0 * shift)
+        };
         let of = |i: usize| place(i) * self.gradient_norms[i];
         problem.weighted(of(0), of(1), self.lambda)
     }

@@ -149,7 +149,7 @@ impl Freedom {
         let first = match self {
             Self::Line(along) => *along,
             Self::Plane(normal) => {
-                let graded = body.plane_curvature() > GRADED_FROM * body.sphere_curvature();
+                let graded = body.stiffest_curvature() > GRADED_FROM * body.sphere_curvature();
                 let stiffest = if graded { stiffest_in_plane(normal, body, point) } else { None };
                 stiffest.unwrap_or_else(|| graded_basis::any_across(normal))
             }

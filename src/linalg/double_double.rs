@@ -49,10 +49,10 @@ impl DoubleDouble {
         self.high.is_finite() && self.low.is_finite()
     }
 
-    /// Square root of a number that is not negative; 0 for a negative one. One step of Newton's method on the double root
+    /// Square root of a number that is not negative; 0 for a negative one, NaN for NaN. One step of Newton's method on the double root
     /// squares its error.
     pub fn sqrt(self) -> Self {
-        if !(self.high > 0.0) {
+        if self.high <= 0.0 {
             return Self::default();
         }
         let root = self.high.sqrt();

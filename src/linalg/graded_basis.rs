@@ -13,9 +13,9 @@ pub(crate) const PARALLEL: f64 = 1e-30;
 /// Most normals that are kept from the first look at the planes for the second: few points have more planes on.
 const MOST_KEPT: usize = 16;
 
-/// The normals of planes that are on, each with the curvature that its plane gives the weighted sum.
+/// The normals of planes that are on, each with the weighted 2w of its plane; times |n|² that is its curvature in the sum.
 pub(crate) trait StiffNormals {
-    /// Calls `visit` with each normal and curvature, in the same order each time.
+    /// Calls `visit` with each normal and weight, in the same order each time.
     fn visit(&self, visit: impl FnMut(Vector3<f64>, f64));
 }
 

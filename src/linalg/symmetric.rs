@@ -120,7 +120,8 @@ impl Symmetric {
         ];
         let (determinant, trace) = (self.xx * minors[0] - self.yx * minors[1] + self.zx * minors[2], self.trace());
         let least = 4.0 * determinant / (trace * trace) * (1.0 - DETERMINANT_ROUNDING);
-        if least > LEAST_TOLD * trace { least } else { 0.0 }
+        // More than the trace is the infinity of a determinant beyond the range of numbers.
+        if least > LEAST_TOLD * trace && least <= trace { least } else { 0.0 }
     }
 
     /// Sum of the squares of all nine entries.
@@ -154,18 +155,21 @@ pub(crate) struct Factor<N = f64> {
 
 impl<N: Number> Factor<N> {
     /// `least` bounds the eigenvalues from below, and so every pivot: rounding may not take it further.
-    /// `None` when something is not finite.
+    /// `None` where a number is not finite, or `least` not positive.
     #[inline]
     pub fn of(h: &Symmetric<N>, least: N) -> Option<Self> {
         let one = N::of(1.0);
         let i0 = one / h.xx.larger(least);
         let (l10, l20) = (h.yx * i0, h.zx * i0);
-        let i1 = one / (h.yy - l10 * h.yx).larger(least);
+        let d1 = h.yy - l10 * h.yx;
+        let i1 = one / d1.larger(least);
         let c21 = h.zy - l20 * h.yx;
         let l21 = c21 * i1;
-        let i2 = one / (h.zz - l20 * h.zx - l21 * c21).larger(least);
-        // A sum is finite only if all its terms are.
-        (least.is_positive() && (i0 + i1 + i2).is_finite()).then_some(Self { l10, l20, l21, inverse_d: [i0, i1, i2] })
+        let d2 = h.zz - l20 * h.zx - l21 * c21;
+        let i2 = one / d2.larger(least);
+        // A sum is finite only if all its terms are; the larger of NaN and `least` is `least`, so that pivots are summed as well.
+        let finite = (h.xx + d1 + d2 + (i0 + i1 + i2)).is_finite();
+        (least.is_positive() && finite).then_some(Self { l10, l20, l21, inverse_d: [i0, i1, i2] })
     }
 
     #[inline]
@@ -233,5 +237,40 @@ mod tests {
         let step = Factor::of(&flat, 0.5).unwrap().solve(&Vector3::new(0.0, 0.0, 1.0));
         assert_eq!(step, Vector3::new(0.0, 0.0, 2.0));
         assert!(Factor::of(&flat, f64::NAN).is_none() && Factor::of(&flat, 0.0).is_none());
+    }
+
+    #[test]
+    fn a_matrix_with_an_entry_that_is_no_number_has_no_factor() {
+        let h = Symmetric { xx: 4.0, yx: -1.0, yy: 3.0, zx: 0.5, zy: 0.25, zz: 2.0 };
+        let nan = f64::NAN;
+        let infinite = f64::INFINITY;
+        let broken = [
+            Symmetric { xx: nan, ..h },
+            Symmetric { yx: nan, ..h },
+            Symmetric { yy: nan, ..h },
+            Symmetric { zx: nan, ..h },
+            Symmetric { zy: nan, ..h },
+            Symmetric { zz: nan, ..h },
+            Symmetric { xx: infinite, yx: infinite, ..h },
+        ];
+        for h in broken {
+            assert!(Factor::of(&h, 1e-3).is_none(), "{h:?}");
+        }
+    }
+
+    #[test]
+    fn the_least_eigenvalue_is_told_in_any_unit_or_not_at_all() {
+        let regular = Symmetric { xx: 4.0, yx: -1.0, yy: 3.0, zx: 0.5, zy: 0.25, zz: 2.0 };
+        let soft = Symmetric { xx: 1.0, yx: 1.0, yy: 1.0, zx: 0.0, zy: 0.0, zz: 1e-8 };
+        for exponent in [-1000, -400, -90, 0, 90, 340, 500, 1000] {
+            let unit = 2f64.powi(exponent);
+            let (of_regular, of_soft) =
+                (regular.scaled(unit, 0.0).least_eigenvalue(), soft.scaled(unit, 0.0).least_eigenvalue());
+            assert!(
+                of_regular == 0.0 || of_regular == unit * regular.least_eigenvalue(),
+                "2^{exponent}: {of_regular:e}"
+            );
+            assert_eq!(of_soft, 0.0, "2^{exponent}");
+        }
     }
 }

@@ -50,7 +50,7 @@ pub(crate) struct LocalModel {
 impl Axes {
     /// The axes that the shapes of a pair call for.
     pub fn of([a, b]: [&Body; 2]) -> Self {
-        let stiff = larger(a.plane_curvature(), b.plane_curvature());
+        let stiff = larger(a.stiffest_curvature(), b.stiffest_curvature());
         let soft = smaller(a.sphere_curvature(), b.sphere_curvature());
         if stiff <= GRADED_FROM * soft { Self::OfB } else { Self::Graded }
     }
@@ -211,7 +211,7 @@ impl StiffNormals for ActiveNormals<'_> {
 /// A potential along a vector, as the particle has it: without what the regularisation adds.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Piece {
-    /// Its second derivative; of a vector without unit, 1/length².
+    /// Second derivative along the vector, which has no unit; 1/length².
     pub curvature: f64,
     /// What the regularisation adds where the line begins, and its gradient there, solver's frame.
     pub surplus: f64,

@@ -77,7 +77,7 @@ pub(crate) struct ExtendedBody<'a> {
     reach: f64,
     plane_weight: DoubleDouble,
     sphere_weight: DoubleDouble,
-    /// Bound on |x₀| + |centre|.
+    /// |x₀| + 2|centre|, the lengths that ROUNDING multiplies (docs/theory.md, 4.9).
     lengths: f64,
 }
 
@@ -169,7 +169,10 @@ impl<'a> ExtendedBody<'a> {
         }
         let (particle, axes) = (self.body.particle, &self.axes);
         self.reach = MARGIN * distance;
-        let early = particle.bounds.longest_normal * self.reach;
+        let from = rounded(&self.local).norm();
+        // The excess is compared in doubles: it is off by 3ε of its terms, and 8ε are taken.
+        let blur = 8.0 * f64::EPSILON * (particle.bounds.longest_normal * from + particle.bounds.offset_within(from));
+        let early = particle.bounds.longest_normal * self.reach + blur;
         let (planes, local) = (&mut self.planes, &self.local);
         planes.clear();
         particle.visit_near(&rounded(local), early, |place, n, excess| {

@@ -208,9 +208,15 @@ impl<'a> Body<'a> {
         self.sphere_weight
     }
 
-    /// Largest curvature that one plane can give S.
+    /// 2w with the weight w of the planes, 1/length²: times |n|² it is the curvature that a plane gives S across itself.
     pub fn plane_curvature(&self) -> f64 {
         2.0 * self.plane_weight()
+    }
+
+    /// Largest curvature that one plane can give S, 1/length².
+    pub fn stiffest_curvature(&self) -> f64 {
+        let length = self.particle.bounds.longest_normal;
+        self.plane_curvature() * length * length
     }
 
     /// Curvature of the shadow sphere's share of S, the least in any direction.

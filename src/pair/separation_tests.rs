@@ -78,15 +78,14 @@ pub(crate) fn still_apart(
     let lengths = 2.0 * (to_a + to_b + particle_a.bounds.offset_within(to_a) + particle_b.bounds.offset_within(to_b));
     let blur = MARGIN * lengths;
     // Of a plane whose normal is longer than 1 it does that much more.
-    let doubt = |t: &potential::Tangent, particle: &Particle| {
-        blur * (larger(particle.bounds.longest_normal, 1.0) * t.pull + t.stiffness * (blur + reach)) + MARGIN * t.value
-    };
-    let least = a.value + lambda * b.value - slope * reach - doubt(&a, particle_a) - lambda * doubt(&b, particle_b);
+    let [blur_a, blur_b] = [particle_a, particle_b].map(|particle| blur * larger(particle.bounds.longest_normal, 1.0));
+    let doubt = |t: &potential::Tangent, blur: f64| blur * (t.pull + t.stiffness * (blur + reach)) + MARGIN * t.value;
+    let least = a.value + lambda * b.value - slope * reach - doubt(&a, blur_a) - lambda * doubt(&b, blur_b);
     if !(lambda > 0.0 && least > 1.0 + lambda) {
         return None;
     }
     // λ|∇S_B| is the projection of ∇S_A, and no longer.
-    let steepest = gradient_a.norm() + blur * larger(a.stiffness, lambda * b.stiffness);
+    let steepest = gradient_a.norm() + larger(blur_a * a.stiffness, lambda * (blur_b * b.stiffness));
     Some(Apart::new(Flags::BY_MEMORY, (least - (1.0 + lambda)) / steepest))
 }
 

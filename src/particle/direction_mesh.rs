@@ -68,7 +68,7 @@ pub(crate) fn plain(shape: &Shape) -> Vec<Patch> {
     patches(shape, 0)
 }
 
-/// What overlaps and gaps between patches may add to the volume or leave out: the difference of their solid angles from 4π, times
+/// Net effect of overlaps and gaps between patches on the volume: the difference of their solid angles from 4π, times
 /// a third of the cube of their farthest corner. All after the linear map `map`, of whose volume it is.
 pub(crate) fn missing_volume(patches: &[Patch], map: &Matrix3<f64>) -> f64 {
     let (mut covered, mut farthest) = (0.0, 0.0_f64);
@@ -93,7 +93,7 @@ fn patches(shape: &Shape, count: usize) -> Vec<Patch> {
     let mut patches = Vec::new();
     for (normal, height, plane) in cube.chain(planes) {
         let mut face = Face::square(normal, height, half);
-        face.clip_by_cube(half);
+        face.clip_by_cube(half, plane.is_none());
         if count > 0 {
             face.clip_by_planes(shape);
         }
@@ -120,10 +120,11 @@ impl Face {
         Self { normal, height, beyond: vec![None; corners.len()], corners }
     }
 
-    fn clip_by_cube(&mut self, half: f64) {
+    /// Clips by the faces of the cube, but not one of them by itself.
+    fn clip_by_cube(&mut self, half: f64, is_of_cube: bool) {
         for axis in 0..3 {
             for sign in [1.0, -1.0] {
-                if sign * self.normal[axis] < 1.0 {
+                if !(is_of_cube && sign * self.normal[axis] == 1.0) {
                     self.clip(|x| sign * x[axis] - half, None);
                 }
             }

@@ -63,7 +63,8 @@ pub(crate) fn half_cube(faces: &[(Vector3<f64>, f64)], dimensions: usize) -> Opt
         let before = faces.len();
         // A face further off than the cube's corners plays no part: not in the scale either.
         if half < TINY * scale {
-            faces.retain(|(_, h)| *h < 2.0 * half);
+            // In those units `half` may be too small for a number; TINY is not.
+            faces.retain(|(_, h)| *h < (2.0 * half).max(TINY * scale));
         }
         if faces.len() == before {
             return Some(half);

@@ -56,7 +56,7 @@ pub(crate) struct Tangent {
     pub gradient: Vector3<f64>,
     /// As in [`Quadratic`].
     pub pull: f64,
-    /// 2(1-k)/r² · Σ |n_i| over the active planes: a bound on the derivative of ∇S for a change of all
+    /// 2(1-k)/r² · max |n_i| · number of active planes: a bound on the derivative of ∇S for a change of all
     /// offsets.
     pub stiffness: f64,
 }

@@ -137,7 +137,7 @@ impl<'a> Call<'a> {
         let [a, b] = self.bodies();
         let level = solution.upper.max(1.0);
         let flat = goal.problem.weighted(a.most_surplus(level), b.most_surplus(level), solution.lambda);
-        let explained = solution.least_rounding(model, goal.problem) + flat + goal.tolerance * level;
+        let explained = solution.least_rounding([a, b], model, goal.problem) + flat + goal.tolerance * level;
         match solution.ending {
             Ending::Separated => false,
             Ending::Unsettled => true,
@@ -173,7 +173,9 @@ impl<'a> Call<'a> {
             Problem::OnA => reference::closest(self.pair, Role::A)?,
         };
         self.iterations += found.iterations;
-        let lambda = found.weight / (1.0 - found.weight);
+        // A weight rounded to 1 stands for a λ of 2/ε or more.
+        let weight = found.weight.min(1.0 - 0.5 * f64::EPSILON);
+        let lambda = weight / (1.0 - weight);
         let solution = judged(&found.x, lambda, found.s, self.bodies(), problem);
         *model = self.model(&Start { x: solution.x, lambda }, problem);
         Ok(solution)

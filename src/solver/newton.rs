@@ -57,7 +57,7 @@ pub(crate) fn accepted(bodies: [&Body; 2], goal: &Goal, model: &LocalModel, step
     if goal.stop_when_separated && solution.separates(flat(bodies)) {
         return Some(Solution { ending: Ending::Separated, ..solution });
     }
-    let quality = Quality::of(&solution, goal, model);
+    let quality = Quality::of(&solution, bodies, goal, model);
     let good = quality.precise || (quality.rounded && quality.telling && goal.takes_rounding());
     (good && solution.linear).then_some(Solution { ending: quality.ending(), ..solution })
 }
@@ -79,11 +79,11 @@ struct Quality {
 
 impl Quality {
     #[inline(always)]
-    fn of(solution: &Solution, goal: &Goal, model: &LocalModel) -> Self {
+    fn of(solution: &Solution, bodies: [&Body; 2], goal: &Goal, model: &LocalModel) -> Self {
         let gap = solution.gap();
         Self {
             precise: gap <= goal.tolerance * solution.upper,
-            rounded: gap <= AS_SHARP * solution.least_rounding(model, goal.problem),
+            rounded: gap <= AS_SHARP * solution.least_rounding(bodies, model, goal.problem),
             telling: gap <= SHARP * solution.upper,
         }
     }
@@ -191,7 +191,7 @@ impl Search<'_> {
         if !optimal {
             return None;
         }
-        let quality = Quality::of(&solution, self.goal, self.model);
+        let quality = Quality::of(&solution, self.bodies, self.goal, self.model);
         let solution = Solution { ending: quality.ending(), ..solution };
         let short = step.length <= SHORT * local_model::smallest(self.bodies);
         if quality.precise || ((short || quality.rounded) && quality.telling) {
