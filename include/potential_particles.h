@@ -14,27 +14,35 @@
  *             Codes are integers; numbers are never reused. A failed solve is a status of its own
  *             and never reads as "separated".
  *   Order     Inputs first, then memory, then outputs.
- *   Outputs   Written only when the call returns PP_OK (message buffers are the exception: they
- *             are written on failure, and always end with a zero byte).
+ *   Outputs   Written only when the call returns PP_OK. Exceptions: message buffers, which are written
+ *             on failure and always end with a zero byte; counts, and the error of pp_particle_mesh,
+ *             also with PP_BUFFER_TOO_SMALL; the arrays of a batch, pair by pair.
  *   Ownership What pp_..._new gives, pp_..._free takes back, once. Everything else stays the
  *             caller's: the library keeps no pointer after a call returns.
  *   NULL      Refused with PP_NULL_POINTER unless a parameter says that it may be NULL; an array of no
  *             elements may be NULL. "Pointers" names what else a caller must hold to; any pointer that
  *             is not NULL points to as many valid, aligned objects as the call says.
- *   Numbers   NaN and infinity are refused with a status that says where they were.
- *   Units     Any consistent length unit. Angles by quaternion w, x, y, z, local to world.
+ *   Numbers   NaN and infinity are refused with a status that says where they were, except in values that
+ *             are not used (r for k = 1, R for k = 0) and in what the library fills itself (memories,
+ *             carries, frames).
+ *   Units     Any consistent length unit. Rotations by quaternion w, x, y, z, local to world; in the
+ *             plane by an angle in radians.
  *   Threads   Particles never change after creation: any number of threads may share them. A
  *             pp_memory or an output belongs to one call at a time. No state is shared between calls.
  *             Only pp_contact_detect_batch (and _carried, _2d) and pp_pack start threads, and end
  *             them before they return.
- *   Errors    No panic, exception or signal leaves the library, and nothing is printed.
+ *   Errors    No panic and no exception leaves the library, and nothing is printed. Where memory runs
+ *             out the process is aborted, as by all of Rust.
  *   Layout    Structs have the same layout on every platform with 8-byte doubles; reserved fields
  *             must be 0. pp_abi_version and pp_struct_size tell whether a loaded library fits.
  *
  * In short
- *     pp_particle *cube;
+ *     pp_particle *cube = NULL;
  *     char why[PP_MESSAGE_SIZE];
- *     if (pp_particle_new(planes, 6, r, k, R, &cube, why, sizeof why) != PP_OK) puts(why);
+ *     if (pp_particle_new(planes, 6, r, k, R, &cube, why, sizeof why) != PP_OK) {
+ *         puts(why);
+ *         return 1;
+ *     }
  *     pp_contact contact;
  *     pp_memory memory = {{0}};
  *     if (pp_contact_detect(cube, &pose_a, cube, &pose_b, NULL, &memory, &contact) == PP_OK &&
@@ -156,8 +164,8 @@
 // The library's own solver, in doubles and, where those do not settle a pair, in extended precision.
 #define PP_FAST 0
 
-// The paper's second-order cone programs, solved by clarabel: slow, independent, the judge. Refused with
-// PP_NO_CONIC by a library built without it (Cargo feature conic).
+// The paper's second-order cone programs, solved by clarabel: slow; independent of PP_FAST, to check it.
+// Refused with PP_NO_CONIC by a library built without it (Cargo feature conic).
 #define PP_CONIC 1
 
 // The two particles share no interior point: s >= 1.
@@ -170,14 +178,15 @@
 // lies inside the other, so that |P1 - P2| is no overlap distance. All fields are those of midway.
 #define PP_FLAG_SLACK 1
 
-// Separation was proved without solving to the end: s is a proved lower bound >= 1, no more is set.
+// Separation was proved without solving to the end: s is a proved lower bound >= 1; of the geometry only
+// distance is set.
 #define PP_FLAG_REJECTED 2
 
 // Both gradients vanish at the contact point, as when the centres coincide: no normal is right, and
 // the one given is the line of centres, or the x axis of B.
 #define PP_FLAG_NORMAL_BY_CENTRES 4
 
-// The remembered point of pp_memory was used as the start.
+// Started from a remembered solution: that of pp_memory or, with PP_FLAG_CARRIED, of pp_carry.
 #define PP_FLAG_WARM 8
 
 // Answered in extended precision (about 32 digits): doubles did not settle it, or not to the gap asked for.
@@ -251,7 +260,7 @@ typedef struct pp_settings {
     double weight_on_a;
     // Smallest sphericity that the solver treats as given; below it, the point on a flat face
     // is chosen as if k were this value (shape, s and overlap stay those of the given k).
-    // In [0, 0.1], default 1e-13. Raise it (1e-4, say) when flat faces rattle in dynamics. Whether
+    // In [0, 0.1], default 1e-13; less counts as that. Raise it (1e-4, say) when flat faces jitter. Whether
     // the particles overlap at all is never left to it: where it would be, the default decides
     // (PP_FLAG_DEFAULT_REGULARISATION).
     double flat_regularisation;
@@ -288,16 +297,17 @@ typedef struct pp_contact {
     double s;
     // Closest: s_B at P1; NaN for midway.
     double s_b;
-    // Weight u of B, in [0, 1]: (1-u) grad S_A + u grad S_B = 0 at the solution.
+    // Weight u of B, in [0, 1]: (1-u) grad S_A + u grad S_B = 0 at the solution (closest: at P2).
     double weight;
-    // Bound on the error of s, from this answer's own numbers: |s - s*| <= gap. Every constant in it is
+    // Bound on the error of s, and of s_b: |s - s*| <= gap. Every constant in it is
     // derived (docs/theory.md). In extended precision it is proved; in doubles it counts rounding to first
     // order: estimated.
     double gap;
     // Estimated bound on the distance of the point (closest: of each of P1 and P2) to the exact optimum,
     // length: of first order in the rounding of the data.
     double point_bound;
-    // Overlap (YADE: penetrationDepth), length, > 0 when overlapping; NaN when separated.
+    // Overlap (YADE: penetrationDepth), length, >= 0 when overlapping (0 where s < 1 by rounding alone); NaN
+    // when separated.
     double overlap;
     // Unit contact normal, from A to B (positive force on B pushes it along +normal), from the gradients
     // of S_A and S_B; for k below flat_regularisation from those of the regularised shapes, so that it is
@@ -313,9 +323,9 @@ typedef struct pp_contact {
     double point_on_a[3];
     // Point on the surface of B inside A, world frame; P2 of closest. NaN when separated.
     double point_on_b[3];
-    // Separated: lower bound on the distance between the two particles, length, as right as their bounding
-    // volumes (estimated); 0 when the proof of separation knows none. Until their surfaces have come closer
-    // to each other by as much, they stay separated. NaN when overlapping.
+    // Separated: lower bound on the distance between the two particles, length, with the rounding of their
+    // bounding volumes estimated; 0 when none is known, as for every pair that was solved. NaN when
+    // overlapping.
     double distance;
 } pp_contact;
 
@@ -340,8 +350,8 @@ typedef struct pp_frame {
 
 // One closest point alone; frames and units as in struct pp_contact.
 typedef struct pp_closest {
-    // 1 when there is no such point, because the other particle's centre (for k = 0, its core) lies inside
-    // this one: the numbers below are NaN then. Else 0.
+    // 1 when there is no such point: for PP_ON_A because the centre of B (for k = 0, its core) lies inside A,
+    // for PP_ON_B the reverse. The numbers below are NaN then. Else 0.
     uint32_t slack;
     // Always 0.
     uint32_t reserved;
@@ -374,17 +384,17 @@ typedef struct pp_flat_contact {
     // Quadratics solved.
     uint32_t iterations;
     // Scale of A at x*, the least on T, of A as regularised (flat_regularisation). Rejected: a lower bound,
-    // no less than 1. The same bits for the same particle, pose and boundary, and on an edge or vertex for
-    // every triangle that has it: of the triangles of a mesh the one with the least s (of equal ones, the
-    // first) owns the contact at a seam. With k = 0 and a flat face on several triangles,
-    // flat_regularisation alone tells them apart: at the default to some percent of the size, at 1e-4 to
-    // 1e-6 of it.
+    // no less than 1. Triangles that share the edge or vertex on which x* lies get the same bits: so the
+    // contact at a seam can be given to the triangle with the least s, and ties broken by the caller's own
+    // numbering. Under a flat face (k = 0) on several triangles s differs by flat_regularisation only, and
+    // the place of the contact is known to some percent of the size with the default, to 1e-6 of the size
+    // with 1e-4.
     double s;
     // Bound on the error of s, with rounding to first order (as in struct pp_contact for doubles).
     double gap;
     // Estimated bound on the distance of on_boundary to the exact x*, length.
     double point_bound;
-    // Distance from x* along the normal to the surface of A (YADE: penetrationDepth), length, > 0 when
+    // Distance from x* along the normal to the surface of A (YADE: penetrationDepth), length, >= 0 when
     // overlapping; NaN when separated.
     double overlap;
     // Separated: lower bound on the distance between A and T, length; 0 when none is known. NaN when
@@ -416,8 +426,8 @@ typedef struct pp_packing {
     double lower[3];
     // Highest corner of it.
     double upper[3];
-    // Least distance between two bodies, and twice that of a body to the container, length. Bodies are a
-    // millionth of their size apart in any case.
+    // Least distance between two bodies, length; that of a body to the container is half of it. Bodies are
+    // a millionth of their size apart in any case.
     double margin;
     // The same seed gives the same packing, whatever the number of threads.
     uint64_t seed;
@@ -437,9 +447,12 @@ typedef struct pp_placement {
     uint32_t reserved;
 } pp_placement;
 
-// Receives bodies that have found their places, in the calling thread, several times during pp_pack; also
-// with a count of 0, when none has for a while. Returns 0 to go on; anything else ends the packing, and
-// what was handed over is it. context: as given to pp_pack. No exception may leave it.
+// Receives bodies that have found their places, each once, in the calling thread, several times during
+// pp_pack; also with a count of 0, when none has for a while. Returns 0 to go on; anything else ends the
+// packing with the bodies handed over so far.
+//
+// context: as given to pp_pack. placements: valid during this call only, and not to be read when count is
+// 0. It may call functions of this library; no exception and no longjmp may leave it.
 typedef int32_t (*pp_placed)(void *context, const struct pp_placement *placements, size_t count);
 
 // Where a body of the plane is: world = rotation(angle) * local + position.
@@ -471,16 +484,17 @@ typedef struct pp_contact_2d {
     double s;
     // Closest: s_B at P1; NaN for midway.
     double s_b;
-    // Weight u of B, in [0, 1]: (1-u) grad S_A + u grad S_B = 0 at the solution.
+    // Weight u of B, in [0, 1]: (1-u) grad S_A + u grad S_B = 0 at the solution (closest: at P2).
     double weight;
-    // Bound on the error of s, from this answer's own numbers: |s - s*| <= gap. Every constant in it is
+    // Bound on the error of s, and of s_b: |s - s*| <= gap. Every constant in it is
     // derived (docs/theory.md). In extended precision it is proved; in doubles it counts rounding to first
     // order: estimated.
     double gap;
     // Estimated bound on the distance of the point (closest: of each of P1 and P2) to the exact optimum,
     // length: of first order in the rounding of the data.
     double point_bound;
-    // Overlap (YADE: penetrationDepth), length, > 0 when overlapping; NaN when separated.
+    // Overlap (YADE: penetrationDepth), length, >= 0 when overlapping (0 where s < 1 by rounding alone); NaN
+    // when separated.
     double overlap;
     // Unit contact normal, from A to B (positive force on B pushes it along +normal).
     double normal[2];
@@ -494,16 +508,16 @@ typedef struct pp_contact_2d {
     double point_on_a[2];
     // Point on the boundary of B inside A, world frame; P2 of closest. NaN when separated.
     double point_on_b[2];
-    // Separated: lower bound on the distance between the two particles, length, as right as their bounding
-    // volumes (estimated); 0 when the proof of separation knows none. Until their surfaces have come closer
-    // to each other by as much, they stay separated. NaN when overlapping.
+    // Separated: lower bound on the distance between the two particles, length, with the rounding of their
+    // bounding volumes estimated; 0 when none is known, as for every pair that was solved. NaN when
+    // overlapping.
     double distance;
 } pp_contact_2d;
 
 // One closest point of the plane alone: the fields of struct pp_closest, with vectors of two.
 typedef struct pp_closest_2d {
-    // 1 when there is no such point, because the other particle's centre (for k = 0, its core) lies inside
-    // this one: the numbers below are NaN then. Else 0.
+    // 1 when there is no such point: for PP_ON_A because the centre of B (for k = 0, its core) lies inside A,
+    // for PP_ON_B the reverse. The numbers below are NaN then. Else 0.
     uint32_t slack;
     // Always 0.
     uint32_t reserved;
@@ -557,7 +571,7 @@ typedef struct pp_mass_properties {
 // A pose holds a position that is not finite.
 #define PP_BAD_POSITION 2
 
-// A pose holds a quaternion that is not finite or too short to be normalised.
+// A pose holds a quaternion that is not finite, or of a length outside [1e-150, 1e150].
 #define PP_BAD_ORIENTATION 3
 
 // A point or direction is not finite, or a direction has no length.
@@ -569,7 +583,7 @@ typedef struct pp_mass_properties {
 // The settings name a back end that does not exist.
 #define PP_UNKNOWN_BACK_END 6
 
-// A tolerance or weight in the settings is outside its documented range.
+// A setting or a tolerance argument is outside its documented range, or a reserved field is not 0.
 #define PP_BAD_SETTING 7
 
 // No solver reached an answer: the contact is unknown, which is not "no contact".
@@ -596,16 +610,18 @@ typedef struct pp_mass_properties {
 // A plane holds a coefficient that is not finite.
 #define PP_PLANE_NOT_FINITE 20
 
-// A plane has a normal (a, b, c) of length zero, or whose square is no number.
+// A plane has a normal (a, b, c) of length zero, or so short or long that its square, or the square over
+// r^2, leaves the range of doubles.
 #define PP_PLANE_ZERO_NORMAL 21
 
 // k is not a number in [0, 1].
 #define PP_BAD_SPHERICITY 22
 
-// r is not a positive finite number, and k < 1 needs it.
+// r is not a positive finite number, or so small that squares of depths leave the range of doubles, and
+// k < 1 needs it.
 #define PP_BAD_ROUNDING_RADIUS 23
 
-// R is not a positive finite number, and k > 0 needs it.
+// R is not a positive finite number, or k/R^2 leaves the range of doubles, and k > 0 needs it.
 #define PP_BAD_SHADOW_RADIUS 24
 
 // f(0) >= 0: the origin of the local frame is not inside the particle.
@@ -694,8 +710,8 @@ pp_status pp_settings_default(struct pp_settings *settings);
 
 // Finds the contact of particle A at pose_a with particle B at pose_b.
 //
-// settings: may be NULL (defaults). memory: may be NULL; else what this ordered pair remembers,
-// read and updated. out: the answer; see struct pp_contact for frames, units and signs.
+// settings: may be NULL (defaults). memory: may be NULL; else what this ordered pair remembers, read, and
+// updated when the call returns PP_OK. out: the answer; see struct pp_contact for frames, units and signs.
 // Pointers: memory and out are not used by another call at the same time.
 // Errors: PP_NULL_POINTER, PP_BAD_POSITION, PP_BAD_ORIENTATION, PP_UNKNOWN_FORMULATION,
 // PP_UNKNOWN_BACK_END, PP_NO_CONIC, PP_BAD_SETTING, PP_SOLVER_FAILED.
@@ -720,9 +736,12 @@ pp_status pp_frame_from_pose(const struct pp_pose *pose, struct pp_frame *frame)
 // carry_tolerance: in [0, 0.1]; to what part of the smaller bounding radius the contact point of a
 // contact that is carried on has to be known (1e-9, say); 0 solves always. PP_CLOSEST and PP_CONIC are
 // never carried on.
-// settings: may be NULL (defaults). memory: may be NULL. carry: what the pair carries on, read and updated.
+// settings: may be NULL (defaults). memory: may be NULL. carry: what the pair carries on, read and updated;
+// emptied when the solve fails.
 // Pointers: memory, carry and out are not used by another call at the same time.
-// Errors: those of pp_contact_detect.
+// Errors: PP_NULL_POINTER, PP_UNKNOWN_FORMULATION, PP_UNKNOWN_BACK_END, PP_NO_CONIC, PP_BAD_SETTING
+// (carry_tolerance, too), PP_SOLVER_FAILED. A frame that pp_frame_from_pose did not fill is not recognised:
+// the answer is then without meaning.
 pp_status pp_contact_detect_carried(const struct pp_particle *a,
                                     const struct pp_frame *frame_a,
                                     const struct pp_particle *b,
@@ -771,7 +790,8 @@ pp_status pp_contact_area(const struct pp_particle *a,
 // (of any length). A may touch it from either side; where its centre lies on the plane to rounding, A counts
 // as in front of it (PP_FLAG_NORMAL_BY_BOUNDARY).
 //
-// settings: may be NULL (defaults); gap_tolerance, flat_regularisation and solve_separated count.
+// settings: may be NULL (defaults); gap_tolerance, flat_regularisation and solve_separated count. The answer
+// is always in doubles.
 // Pointers: point and normal hold 3 numbers each.
 // Errors: PP_NULL_POINTER, PP_BAD_POSITION, PP_BAD_ORIENTATION, PP_BAD_POINT, PP_UNKNOWN_FORMULATION,
 // PP_UNKNOWN_BACK_END, PP_NO_CONIC, PP_BAD_SETTING, PP_SOLVER_FAILED.
@@ -787,7 +807,8 @@ pp_status pp_contact_plane(const struct pp_particle *a,
 // vertices: three points, world frame, one after the other; seen from the front they run
 // counter-clockwise. Where the centre of A lies on the triangle to rounding, A counts as in front of it
 // (PP_FLAG_NORMAL_BY_BOUNDARY).
-// settings: may be NULL (defaults); gap_tolerance, flat_regularisation and solve_separated count.
+// settings: may be NULL (defaults); gap_tolerance, flat_regularisation and solve_separated count. The answer
+// is always in doubles.
 // Pointers: vertices holds 9 numbers.
 // Errors: those of pp_contact_plane, and PP_DEGENERATE_TRIANGLE.
 pp_status pp_contact_triangle(const struct pp_particle *a,
@@ -801,8 +822,8 @@ pp_status pp_contact_triangle(const struct pp_particle *a,
 //
 // contact: an overlapping answer of pp_contact_plane or pp_contact_triangle for the same particle and pose.
 // relative_tolerance: in [1e-12, 0.1], as for pp_contact_area. area: receives length^2; 0 when separated.
-// Errors: PP_NULL_POINTER, PP_BAD_POSITION, PP_BAD_ORIENTATION, PP_BAD_POINT (the contact was not filled, or
-// its point is outside the particle), PP_BAD_SETTING.
+// Errors: PP_NULL_POINTER, PP_BAD_POSITION, PP_BAD_ORIENTATION, PP_BAD_POINT (the contact has no kind, or its
+// point is outside the particle), PP_BAD_SETTING.
 pp_status pp_flat_contact_area(const struct pp_particle *a,
                                const struct pp_pose *pose_a,
                                const struct pp_flat_contact *contact,
@@ -820,7 +841,7 @@ pp_status pp_flat_contact_area(const struct pp_particle *a,
 // message: receives, on failure, a sentence that names the value (may be NULL).
 // Pointers: shapes points to shape_count particles, sizes to 2*size_count doubles, message to message_size
 // bytes; placed is a function.
-// Errors: PP_NULL_POINTER, PP_BAD_PACKING.
+// Errors: PP_NULL_POINTER, PP_BAD_PACKING, PP_BAD_INDEX (a count that no memory could hold).
 pp_status pp_pack(const struct pp_particle *const *shapes,
                   size_t shape_count,
                   const double *sizes,
@@ -834,7 +855,8 @@ pp_status pp_pack(const struct pp_particle *const *shapes,
 // Creates a particle from count planes.
 //
 // planes: count rows of a, b, c, d (outward normal and offset; local frame; the normal is used as
-// given). May be NULL when count is 0.
+// given). They are the planes of the core: for k = 0 a face lies at a x + b y + c z = d + r. May be
+// NULL when count is 0.
 // r: rounding radius, length. k: sphericity, in [0, 1]. shadow_radius: R, length.
 // out: receives the particle; release it with pp_particle_free.
 // message: receives, on failure, a sentence that names the plane or value (may be NULL).
@@ -851,7 +873,8 @@ pp_status pp_particle_new(const double *planes,
                           char *message,
                           size_t message_size);
 
-// Releases a particle; NULL is allowed and does nothing. No pair may still be using it.
+// Releases a particle; NULL is allowed and does nothing. No call that uses it may still be running;
+// memories and carries of its pairs may stay.
 // Pointers: particle is NULL or came from pp_particle_new and was not released yet.
 void pp_particle_free(struct pp_particle *particle);
 
@@ -948,7 +971,8 @@ pp_status pp_contact_length_2d(const struct pp_particle_2d *a,
 // With S(x) = (1-k)/r^2 * sum <a x + b y - d>^2 + k/R^2 * |x|^2 all else is as in
 // pp_particle_new, and the codes of planes stand for lines.
 // lines: count rows of a, b, d (outward normal and offset; local frame; the normal is used as
-// given). May be NULL when count is 0.
+// given). They are the lines of the core: for k = 0 a side lies at a x + b y = d + r. May be NULL when
+// count is 0.
 // r: rounding radius, length. k: sphericity, in [0, 1]. shadow_radius: R, length.
 // out: receives the particle; release it with pp_particle_free_2d.
 // message: receives, on failure, a sentence that names the line or value (may be NULL).
@@ -975,7 +999,8 @@ pp_status pp_particle_new_2d(const double *lines,
 // out: receives the particle; release it with pp_particle_free_2d.
 // message: receives, on failure, a sentence that names the point or value (may be NULL).
 // Errors: PP_NULL_POINTER, PP_PLANE_NOT_FINITE (a point is not), PP_UNBOUNDED (the points enclose
-// no area), PP_BAD_SPHERICITY, PP_BAD_ROUNDING_RADIUS, PP_TOO_MANY_PLANES.
+// no area), PP_BAD_SPHERICITY, PP_BAD_ROUNDING_RADIUS, PP_TOO_MANY_PLANES, PP_BAD_INDEX (a count that no
+// memory could hold).
 // Pointers: points points to 2*count doubles, out to one pointer, message to message_size bytes.
 pp_status pp_particle_new_polygon_2d(const double *points,
                                      size_t count,
@@ -985,27 +1010,29 @@ pp_status pp_particle_new_polygon_2d(const double *points,
                                      char *message,
                                      size_t message_size);
 
-// Releases a particle of the plane; NULL is allowed and does nothing. No pair may still be using it.
-// Pointers: particle is NULL or came from pp_particle_new_2d and was not released yet.
+// Releases a particle of the plane; NULL is allowed and does nothing. No call that uses it may still be
+// running.
+// Pointers: particle is NULL or came from pp_particle_new_2d or pp_particle_new_polygon_2d and was not
+// released yet.
 void pp_particle_free_2d(struct pp_particle_2d *particle);
 
-// Rounding radius r as given to pp_particle_new_2d, length.
+// Rounding radius r as given, length.
 //
 // Errors: PP_NULL_POINTER.
 pp_status pp_particle_rounding_radius_2d(const struct pp_particle_2d *particle, double *r);
 
-// Sphericity k as given to pp_particle_new_2d, no unit.
+// Sphericity k as given, no unit.
 //
 // Errors: PP_NULL_POINTER.
 pp_status pp_particle_sphericity_2d(const struct pp_particle_2d *particle, double *k);
 
-// Radius R of the shadow circle as given to pp_particle_new_2d, length.
+// Radius R of the shadow circle as given, or that through the outermost corner of a polygon, length.
 //
 // Errors: PP_NULL_POINTER.
 pp_status pp_particle_shadow_radius_2d(const struct pp_particle_2d *particle,
                                        double *shadow_radius);
 
-// Lines as given to pp_particle_new_2d: rows of a, b, d, local frame.
+// Lines as given, or the sides of a polygon less r: rows of a, b, d, local frame.
 //
 // lines: room for capacity rows; may be NULL when capacity is 0. count: receives the number of
 // lines, also when the buffer is too small (PP_BUFFER_TOO_SMALL), so that one call asks the size.
@@ -1070,8 +1097,9 @@ pp_status pp_particle_area_properties_2d(const struct pp_particle_2d *particle,
                                          double tolerance,
                                          struct pp_area_properties *properties);
 
-// Points of the boundary, local frame, in order: rows of x, y. No chord between two of them is farther than
-// tolerance (length, above 0) from the boundary; there are about a million at most.
+// Points of the boundary, local frame, in order: rows of x, y. The chord between neighbouring points is
+// nowhere farther than tolerance (length, above 0) from the boundary, unless that takes more than about a
+// million points: refinement ends there.
 //
 // points: room for capacity rows; may be NULL when capacity is 0. count: receives the number of
 // points, also when the buffer is too small (PP_BUFFER_TOO_SMALL), so that one call asks the size.
@@ -1131,7 +1159,7 @@ pp_status pp_particle_corners(const struct pp_particle *particle,
 
 // Distance from the centre to the surface along a direction (3 doubles, local frame, any length).
 //
-// With it, direction * distance walks over the true surface: for meshes and pictures.
+// The surface point is distance * direction / |direction|, local frame: for meshes and pictures.
 // Errors: PP_NULL_POINTER, PP_BAD_POINT.
 // Pointers: Pointers are NULL or valid; direction for reading 3 doubles.
 pp_status pp_particle_surface_distance(const struct pp_particle *particle,

@@ -7,8 +7,8 @@
 //! ```
 //!
 //! S is convex, once continuously differentiable and piecewise quadratic. The contact of two particles is the solution
-//! of a convex program in S_A and S_B ([`Formulation`]), found here by an active-set Newton method with a certified
-//! error bound. Data flows one way, and the folders are read in that order:
+//! of a convex program in S_A and S_B ([`Formulation`]), found here by an active-set Newton method with a bound
+//! on its error (proved in extended precision, estimated in doubles: docs/theory.md). Data flows one way, and the folders are read in that order:
 //!
 //! | folder | holds |
 //! |---|---|

@@ -90,9 +90,7 @@ impl Pose {
             return Err(PoseError::Rotation(off));
         }
         let quaternion = UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(*rotation));
-        let pose = Self::new(position, [quaternion.w, quaternion.i, quaternion.j, quaternion.k])?;
-        // A matrix that is orthonormal to rounding is itself the best rotation there is.
-        Ok(if off <= 8.0 * f64::EPSILON { Self { rotation: *rotation, ..pose } } else { pose })
+        Self::new(position, [quaternion.w, quaternion.i, quaternion.j, quaternion.k])
     }
 
     /// Centre of the particle, world frame.

@@ -11,8 +11,8 @@ use crate::model::local_model::{self, LocalModel, Step};
 use crate::model::problem::Problem;
 use crate::pair::placed_particle::Body;
 
-/// Bound, in units of ε, on the turn of both forces at once: that of A alone is turned, by at most twice as much, and carries half
-/// of their sum (docs/theory.md, "Rounding").
+/// Bound on the error of the slope by the rounding of A's rotation, in units of ε·(a|∇S_A| + b|∇S_B|): 26.4ε of a|∇S_A|, which is half
+/// of that sum where forces balance (docs/theory.md, "Rounding").
 pub(crate) const TURN: f64 = 14.0;
 
 /// What a step leaves open.

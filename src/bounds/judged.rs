@@ -22,7 +22,7 @@ pub(crate) fn judged(x: &Vector3<f64>, lambda: f64, s: f64, bodies: [&Body; 2], 
     let of = |i: usize, q| bodies[i].rounding(&plain.points[i], q);
     let rounding = problem.weighted(of(0, &plain.q_a), of(1, &plain.q_b), lambda);
     let weights = problem.weights(lambda);
-    // Away from the optimum the force of A may be the larger one: its turn is counted alone.
+    // Away from the optimum a|∇S_A| may be nearly all of the sum, not half of it: TURN is doubled.
     let force = problem.weighted(gradients[0].norm(), gradients[1].norm(), lambda);
     let sums = [&plain.q_a, &plain.q_b].map(|q| of_slope(q, &Vector3::zeros()));
     let doubt = 2.0 * TURN * f64::EPSILON * force + problem.weighted(sums[0], sums[1], lambda);
@@ -42,7 +42,7 @@ pub(crate) fn judged(x: &Vector3<f64>, lambda: f64, s: f64, bodies: [&Body; 2], 
     }
 }
 
-/// The dual value of the local model at the given λ, less all that is in doubt about it. Planes that only seem to be on are dropped
+/// The dual value of the local model at its own optimal λ, sought from the given one, less all that is in doubt about it. Planes that only seem to be on are dropped
 /// one by one, as in the solver.
 fn dual_value(bodies: [&Body; 2], start: &Start, problem: Problem, upper: f64) -> Option<f64> {
     let weights = problem.weights(start.lambda);

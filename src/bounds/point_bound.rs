@@ -41,8 +41,8 @@ pub(crate) fn point_bound(solution: &Solution, model: &LocalModel, bodies: [&Bod
         sides[i] =
             SIDES * f64::EPSILON * q.expansion + solution.sums[i] + bodies[i].sphere_slope(solution.values[i]) * shift;
     }
-    // The two sides meet to what was left, and to the rounding of what they are summed from. The centre of a sphere that is
-    // off by the shift moves the slope by its share, less than the shift moves the point, but S by more.
+    // What is left of the mismatch, and the rounding of both sides. A shift of the sphere's centre enters S with its full slope
+    // 2m|y|.
     let left = problem.mismatch(solution.values[0], solution.values[1]);
     let (side_a, side_b) = problem.changes(sides[0], sides[1]);
     sum += sensitivity.to_value(left + side_a + side_b + SIDES * f64::EPSILON * larger(solution.upper, 1.0));

@@ -40,7 +40,7 @@ impl Rounding {
         for (i, q) in [&model.q_a, &model.q_b].into_iter().enumerate() {
             let (body, point, check) = (bodies[i], &model.points[i], &step.checks[i]);
             let (shift, blur) = body.after(point, step.length);
-            // The rounding of the sums at the point of expansion is carried along.
+            // The last term: the step adds to the blur of the depths at the point of expansion, too.
             let of_places = check.pull * blur + gradients[i] * shift + q.pull * (blur - point.blur);
             sums[i] = body.rounding_of_value(values[i], q.count) + of_sums(q, &step.optimum);
             // A plane that is left out at a depth of one blur may be on by two.

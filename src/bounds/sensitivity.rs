@@ -40,13 +40,13 @@ impl Sensitivity {
     /// both sides do not part with λ.
     #[inline(always)]
     pub fn of(optimum: &Optimum, problem: Problem, soft: (f64, f64), pushes: [f64; 2]) -> Option<Self> {
-        if !(optimum.rate_of_weight > 0.0) {
+        if !(optimum.mismatch_rate > 0.0) {
             return None;
         }
         let inverse = optimum.factor.inverse();
         let mut squares = Symmetric::default();
         squares.add_square(&optimum.along);
-        let to_slope = squares.weighted(1.0 / optimum.rate_of_weight, &inverse, -1.0);
+        let to_slope = squares.weighted(1.0 / optimum.mismatch_rate, &inverse, -1.0);
         let (a, b) = problem.weights(optimum.factored);
         // tr(M H M) = −tr M, less the spheres' share of H; the difference is known to the rounding of its terms.
         let (trace, traces) = (-to_slope.trace(), [inverse.trace(), inverse.xx + inverse.yy]);
@@ -54,7 +54,7 @@ impl Sensitivity {
         Some(Self {
             to_slope,
             traces,
-            per_value: optimum.along.norm() / optimum.rate_of_weight,
+            per_value: optimum.along.norm() / optimum.mismatch_rate,
             to_all_planes: larger(of_planes, 0.0),
             slope: optimum.slope(problem),
             values: optimum.values.into(),
@@ -74,10 +74,10 @@ impl Sensitivity {
         holds(0) && holds(1)
     }
 
-    /// How α·q_A + β·q_B moves the point when S of A (0) or B (1) grows: |α|·|along|/rate, or that of β.
+    /// Bound on the move per unit of S_A (0) or S_B (1): |α|·|along|/rate, or that of β.
     #[inline]
     pub fn to_body_value(&self, body: usize, problem: Problem) -> f64 {
-        let (alpha, beta): (f64, f64) = problem.turning();
+        let (alpha, beta): (f64, f64) = problem.weight_rates();
         self.per_value * if body == 0 { alpha.abs() } else { beta.abs() }
     }
 
@@ -87,6 +87,7 @@ impl Sensitivity {
         let m = &self.to_slope;
         let square = |x: f64, y: f64, z: f64| x * x + y * y + z * z;
         let moves = Vector3::new(square(m.xx, m.yx, m.zx), square(m.yx, m.yy, m.zy), square(m.zx, m.zy, m.zz));
+        // 3: Cauchy's inequality over three axes.
         sums(q.count) * weight * (3.0 * terms * q.hessian.diagonal().dot(&moves)).sqrt()
     }
 

@@ -32,11 +32,11 @@ pub(crate) struct Solution {
     pub upper: f64,
     /// Bound on the rounding of both.
     pub rounding: f64,
-    /// Whether that is of first order, with the weights where they are.
+    /// Whether rounding moves λ by so little that `rounding` holds to first order.
     pub linear: bool,
     pub iterations: u32,
     pub ending: Ending,
-    /// How fast the two sides of the problem part with ln λ, where known; else 0.
+    /// Rate of the mismatch with ln λ, where known; else 0.
     pub rate: f64,
     /// How the optimum answers to changes of its data, where it is that of known quadratics.
     pub sensitivity: Option<Sensitivity>,
@@ -124,14 +124,14 @@ impl Solution {
     /// The λ of a closest point, as seen from midway.
     ///
     /// Where a single curvature decides along their common path, as for two spheres or two faces, 1/√S of the held body is
-    /// linear in its weight μ beside the other's: this is Newton's step to where it is 1.
+    /// linear in the ratio μ of its weight to the other's: this is Newton's step to where it is 1.
     pub fn towards(&self, problem: Problem) -> f64 {
         let weights = Problem::Midway.weights(self.lambda);
         let (rate_a, rate_b) = Problem::Midway.apart(0.0, -self.rate, weights);
         let on_b = problem == Problem::OnB;
         // S and dS/d ln μ.
-        let (s, rate) = if on_b { (self.values[1], rate_b) } else { (self.values[0], -rate_a) };
-        let change = 1.0 + 2.0 * (1.0 - s.sqrt()) * s / rate;
+        let (value, rate) = if on_b { (self.values[1], rate_b) } else { (self.values[0], -rate_a) };
+        let change = 1.0 + 2.0 * (1.0 - value.sqrt()) * value / rate;
         // NaN and what is far fail the test.
         if !(change > 1.0 / FAR && change < FAR) {
             self.lambda

@@ -24,8 +24,8 @@ pub unsafe extern "C" fn pp_settings_default(settings: *mut pp_settings) -> pp_s
 
 /// Finds the contact of particle A at pose_a with particle B at pose_b.
 ///
-/// settings: may be NULL (defaults). memory: may be NULL; else what this ordered pair remembers,
-/// read and updated. out: the answer; see struct pp_contact for frames, units and signs.
+/// settings: may be NULL (defaults). memory: may be NULL; else what this ordered pair remembers, read, and
+/// updated when the call returns PP_OK. out: the answer; see struct pp_contact for frames, units and signs.
 /// Pointers: memory and out are not used by another call at the same time.
 /// Errors: PP_NULL_POINTER, PP_BAD_POSITION, PP_BAD_ORIENTATION, PP_UNKNOWN_FORMULATION,
 /// PP_UNKNOWN_BACK_END, PP_NO_CONIC, PP_BAD_SETTING, PP_SOLVER_FAILED.
@@ -71,9 +71,12 @@ pub unsafe extern "C" fn pp_frame_from_pose(pose: *const pp_pose, frame: *mut pp
 /// carry_tolerance: in [0, 0.1]; to what part of the smaller bounding radius the contact point of a
 /// contact that is carried on has to be known (1e-9, say); 0 solves always. PP_CLOSEST and PP_CONIC are
 /// never carried on.
-/// settings: may be NULL (defaults). memory: may be NULL. carry: what the pair carries on, read and updated.
+/// settings: may be NULL (defaults). memory: may be NULL. carry: what the pair carries on, read and updated;
+/// emptied when the solve fails.
 /// Pointers: memory, carry and out are not used by another call at the same time.
-/// Errors: those of pp_contact_detect.
+/// Errors: PP_NULL_POINTER, PP_UNKNOWN_FORMULATION, PP_UNKNOWN_BACK_END, PP_NO_CONIC, PP_BAD_SETTING
+/// (carry_tolerance, too), PP_SOLVER_FAILED. A frame that pp_frame_from_pose did not fill is not recognised:
+/// the answer is then without meaning.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pp_contact_detect_carried(
     a: *const pp_particle,

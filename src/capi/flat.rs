@@ -32,17 +32,17 @@ pub struct pp_flat_contact {
     /// Quadratics solved.
     pub iterations: u32,
     /// Scale of A at x*, the least on T, of A as regularised (flat_regularisation). Rejected: a lower bound,
-    /// no less than 1. The same bits for the same particle, pose and boundary, and on an edge or vertex for
-    /// every triangle that has it: of the triangles of a mesh the one with the least s (of equal ones, the
-    /// first) owns the contact at a seam. With k = 0 and a flat face on several triangles,
-    /// flat_regularisation alone tells them apart: at the default to some percent of the size, at 1e-4 to
-    /// 1e-6 of it.
+    /// no less than 1. Triangles that share the edge or vertex on which x* lies get the same bits: so the
+    /// contact at a seam can be given to the triangle with the least s, and ties broken by the caller's own
+    /// numbering. Under a flat face (k = 0) on several triangles s differs by flat_regularisation only, and
+    /// the place of the contact is known to some percent of the size with the default, to 1e-6 of the size
+    /// with 1e-4.
     pub s: f64,
     /// Bound on the error of s, with rounding to first order (as in struct pp_contact for doubles).
     pub gap: f64,
     /// Estimated bound on the distance of on_boundary to the exact x*, length.
     pub point_bound: f64,
-    /// Distance from x* along the normal to the surface of A (YADE: penetrationDepth), length, > 0 when
+    /// Distance from x* along the normal to the surface of A (YADE: penetrationDepth), length, >= 0 when
     /// overlapping; NaN when separated.
     pub overlap: f64,
     /// Separated: lower bound on the distance between A and T, length; 0 when none is known. NaN when
@@ -64,7 +64,8 @@ pub struct pp_flat_contact {
 /// (of any length). A may touch it from either side; where its centre lies on the plane to rounding, A counts
 /// as in front of it (PP_FLAG_NORMAL_BY_BOUNDARY).
 ///
-/// settings: may be NULL (defaults); gap_tolerance, flat_regularisation and solve_separated count.
+/// settings: may be NULL (defaults); gap_tolerance, flat_regularisation and solve_separated count. The answer
+/// is always in doubles.
 /// Pointers: point and normal hold 3 numbers each.
 /// Errors: PP_NULL_POINTER, PP_BAD_POSITION, PP_BAD_ORIENTATION, PP_BAD_POINT, PP_UNKNOWN_FORMULATION,
 /// PP_UNKNOWN_BACK_END, PP_NO_CONIC, PP_BAD_SETTING, PP_SOLVER_FAILED.
@@ -92,7 +93,8 @@ pub unsafe extern "C" fn pp_contact_plane(
 /// vertices: three points, world frame, one after the other; seen from the front they run
 /// counter-clockwise. Where the centre of A lies on the triangle to rounding, A counts as in front of it
 /// (PP_FLAG_NORMAL_BY_BOUNDARY).
-/// settings: may be NULL (defaults); gap_tolerance, flat_regularisation and solve_separated count.
+/// settings: may be NULL (defaults); gap_tolerance, flat_regularisation and solve_separated count. The answer
+/// is always in doubles.
 /// Pointers: vertices holds 9 numbers.
 /// Errors: those of pp_contact_plane, and PP_DEGENERATE_TRIANGLE.
 #[unsafe(no_mangle)]
@@ -118,8 +120,8 @@ pub unsafe extern "C" fn pp_contact_triangle(
 ///
 /// contact: an overlapping answer of pp_contact_plane or pp_contact_triangle for the same particle and pose.
 /// relative_tolerance: in [1e-12, 0.1], as for pp_contact_area. area: receives length^2; 0 when separated.
-/// Errors: PP_NULL_POINTER, PP_BAD_POSITION, PP_BAD_ORIENTATION, PP_BAD_POINT (the contact was not filled, or
-/// its point is outside the particle), PP_BAD_SETTING.
+/// Errors: PP_NULL_POINTER, PP_BAD_POSITION, PP_BAD_ORIENTATION, PP_BAD_POINT (the contact has no kind, or its
+/// point is outside the particle), PP_BAD_SETTING.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pp_flat_contact_area(
     a: *const pp_particle,

@@ -1,7 +1,7 @@
 //! Packings over the C boundary: bodies are handed over as they find their places.
 
 use super::fence::{array, borrow, fenced};
-use super::particle::{pp_particle, write_message};
+use super::particle::{explain_status, pp_particle, write_message};
 use super::status::*;
 use super::types::pp_pose;
 use crate::Particle;
@@ -42,8 +42,8 @@ pub struct pp_packing {
     pub lower: [f64; 3],
     /// Highest corner of it.
     pub upper: [f64; 3],
-    /// Least distance between two bodies, and twice that of a body to the container, length. Bodies are a
-    /// millionth of their size apart in any case.
+    /// Least distance between two bodies, length; that of a body to the container is half of it. Bodies are
+    /// a millionth of their size apart in any case.
     pub margin: f64,
     /// The same seed gives the same packing, whatever the number of threads.
     pub seed: u64,
@@ -65,11 +65,17 @@ pub struct pp_placement {
     pub reserved: u32,
 }
 
-/// Receives bodies that have found their places, in the calling thread, several times during pp_pack; also
-/// with a count of 0, when none has for a while. Returns 0 to go on; anything else ends the packing, and
-/// what was handed over is it. context: as given to pp_pack. No exception may leave it.
+/// Receives bodies that have found their places, each once, in the calling thread, several times during
+/// pp_pack; also with a count of 0, when none has for a while. Returns 0 to go on; anything else ends the
+/// packing with the bodies handed over so far.
+///
+/// context: as given to pp_pack. placements: valid during this call only, and not to be read when count is
+/// 0. It may call functions of this library; no exception and no longjmp may leave it.
 pub type pp_placed =
     Option<unsafe extern "C" fn(context: *mut c_void, placements: *const pp_placement, count: usize) -> i32>;
+
+/// What pp_pack says of a pointer that is NULL.
+const NOT_NULL: &str = "shapes and each of them, sizes (unless size_count is 0), how and placed must not be NULL";
 
 /// Fills a box or an upright cylinder with bodies of random orientation that do not overlap, as
 /// pp_contact_detect decides.
@@ -82,7 +88,7 @@ pub type pp_placed =
 /// message: receives, on failure, a sentence that names the value (may be NULL).
 /// Pointers: shapes points to shape_count particles, sizes to 2*size_count doubles, message to message_size
 /// bytes; placed is a function.
-/// Errors: PP_NULL_POINTER, PP_BAD_PACKING.
+/// Errors: PP_NULL_POINTER, PP_BAD_PACKING, PP_BAD_INDEX (a count that no memory could hold).
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pp_pack(
     shapes: *const *const pp_particle,
@@ -117,10 +123,8 @@ pub unsafe extern "C" fn pp_pack(
             PP_BAD_PACKING
         })
     });
-    if status == PP_NULL_POINTER {
-        // SAFETY: the caller promised message_size bytes.
-        unsafe { write_message("shapes, how and placed must not be NULL", message, message_size) };
-    }
+    // SAFETY: the caller promised message_size bytes.
+    unsafe { explain_status(status, NOT_NULL, message, message_size) };
     status
 }
 
@@ -145,7 +149,10 @@ fn packing_from(how: &pp_packing) -> Result<Packing, String> {
             PP_SETTLED => Arrangement::Settled,
             other => return Err(format!("arrangement {other} is unknown: use PP_SCATTERED or PP_SETTLED")),
         },
-        number: usize::try_from(how.number).ok().filter(|&number| number > 0),
+        number: match how.number {
+            0 => None,
+            number => Some(usize::try_from(number).unwrap_or(usize::MAX)),
+        },
         margin: how.margin,
         seed: how.seed,
         threads: how.threads as usize,

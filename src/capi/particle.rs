@@ -19,7 +19,8 @@ pub const PP_MESSAGE_SIZE: usize = 512;
 /// Creates a particle from count planes.
 ///
 /// planes: count rows of a, b, c, d (outward normal and offset; local frame; the normal is used as
-/// given). May be NULL when count is 0.
+/// given). They are the planes of the core: for k = 0 a face lies at a x + b y + c z = d + r. May be
+/// NULL when count is 0.
 /// r: rounding radius, length. k: sphericity, in [0, 1]. shadow_radius: R, length.
 /// out: receives the particle; release it with pp_particle_free.
 /// message: receives, on failure, a sentence that names the plane or value (may be NULL).
@@ -51,7 +52,8 @@ pub unsafe extern "C" fn pp_particle_new(
     unsafe { create(make, "planes and out must not be NULL", out, message, message_size) }
 }
 
-/// Releases a particle; NULL is allowed and does nothing. No pair may still be using it.
+/// Releases a particle; NULL is allowed and does nothing. No call that uses it may still be running;
+/// memories and carries of its pairs may stay.
 /// Pointers: particle is NULL or came from pp_particle_new and was not released yet.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pp_particle_free(particle: *mut pp_particle) {
@@ -118,8 +120,8 @@ pub unsafe extern "C" fn pp_particle_planes(
     })
 }
 
-/// Hands what `make` makes to the caller. Why it could not is written to the message: the error's own sentence, or `null` for a
-/// pointer that is NULL.
+/// Hands what `make` makes to the caller. Why it could not is written to the message: the error's own sentence, `null` for a
+/// pointer that is NULL, else that of the status.
 /// Pointers: out is NULL or valid for writing, message is NULL or valid for writing size bytes.
 pub(super) unsafe fn create<T>(
     make: impl FnOnce() -> Result<Result<T, ParticleError>, pp_status>,
@@ -139,10 +141,21 @@ pub(super) unsafe fn create<T>(
         out.write(Box::into_raw(Box::new(made)));
         Ok(())
     });
-    if status == PP_NULL_POINTER {
-        explain(null);
-    }
+    // SAFETY: by contract.
+    unsafe { explain_status(status, null, message, message_size) };
     status
+}
+
+/// Writes the message of a status whose cause is no value: `null` for a pointer that is NULL, else the status's own sentence.
+/// Pointers: message is NULL or valid for writing size bytes.
+pub(super) unsafe fn explain_status(status: pp_status, null: &str, message: *mut c_char, size: usize) {
+    let text = match status {
+        PP_NULL_POINTER => null,
+        PP_BAD_INDEX | PP_INTERNAL_ERROR => sentence(status),
+        _ => return,
+    };
+    // SAFETY: by contract.
+    unsafe { write_message(text, message, size) };
 }
 
 fn particle_status(error: &ParticleError) -> pp_status {

@@ -107,7 +107,7 @@ pub unsafe extern "C" fn pp_particle_corners(
 
 /// Distance from the centre to the surface along a direction (3 doubles, local frame, any length).
 ///
-/// With it, direction * distance walks over the true surface: for meshes and pictures.
+/// The surface point is distance * direction / |direction|, local frame: for meshes and pictures.
 /// Errors: PP_NULL_POINTER, PP_BAD_POINT.
 /// Pointers: Pointers are NULL or valid; direction for reading 3 doubles.
 #[unsafe(no_mangle)]

@@ -14,7 +14,7 @@ pub const PP_OK: pp_status = 0;
 pub const PP_NULL_POINTER: pp_status = 1;
 /// A pose holds a position that is not finite.
 pub const PP_BAD_POSITION: pp_status = 2;
-/// A pose holds a quaternion that is not finite or too short to be normalised.
+/// A pose holds a quaternion that is not finite, or of a length outside [1e-150, 1e150].
 pub const PP_BAD_ORIENTATION: pp_status = 3;
 /// A point or direction is not finite, or a direction has no length.
 pub const PP_BAD_POINT: pp_status = 4;
@@ -22,7 +22,7 @@ pub const PP_BAD_POINT: pp_status = 4;
 pub const PP_UNKNOWN_FORMULATION: pp_status = 5;
 /// The settings name a back end that does not exist.
 pub const PP_UNKNOWN_BACK_END: pp_status = 6;
-/// A tolerance or weight in the settings is outside its documented range.
+/// A setting or a tolerance argument is outside its documented range, or a reserved field is not 0.
 pub const PP_BAD_SETTING: pp_status = 7;
 /// No solver reached an answer: the contact is unknown, which is not "no contact".
 pub const PP_SOLVER_FAILED: pp_status = 8;
@@ -41,13 +41,15 @@ pub const PP_BAD_TOLERANCE: pp_status = 14;
 
 /// A plane holds a coefficient that is not finite.
 pub const PP_PLANE_NOT_FINITE: pp_status = 20;
-/// A plane has a normal (a, b, c) of length zero, or whose square is no number.
+/// A plane has a normal (a, b, c) of length zero, or so short or long that its square, or the square over
+/// r^2, leaves the range of doubles.
 pub const PP_PLANE_ZERO_NORMAL: pp_status = 21;
 /// k is not a number in [0, 1].
 pub const PP_BAD_SPHERICITY: pp_status = 22;
-/// r is not a positive finite number, and k < 1 needs it.
+/// r is not a positive finite number, or so small that squares of depths leave the range of doubles, and
+/// k < 1 needs it.
 pub const PP_BAD_ROUNDING_RADIUS: pp_status = 23;
-/// R is not a positive finite number, and k > 0 needs it.
+/// R is not a positive finite number, or k/R^2 leaves the range of doubles, and k > 0 needs it.
 pub const PP_BAD_SHADOW_RADIUS: pp_status = 24;
 /// f(0) >= 0: the origin of the local frame is not inside the particle.
 pub const PP_CENTRE_OUTSIDE: pp_status = 25;
@@ -64,11 +66,14 @@ const MESSAGES: &[(pp_status, &CStr)] = &[
     (PP_OK, c"success"),
     (PP_NULL_POINTER, c"a pointer that must not be NULL was NULL"),
     (PP_BAD_POSITION, c"a position is not finite"),
-    (PP_BAD_ORIENTATION, c"an orientation quaternion (w, x, y, z) is not finite or too short to be normalised"),
+    (
+        PP_BAD_ORIENTATION,
+        c"an orientation quaternion (w, x, y, z) is not finite, or of a length outside [1e-150, 1e150]",
+    ),
     (PP_BAD_POINT, c"a point or direction is not finite, or a direction has no length"),
     (PP_UNKNOWN_FORMULATION, c"unknown formulation: use PP_MIDWAY or PP_CLOSEST"),
     (PP_UNKNOWN_BACK_END, c"unknown back end: use PP_FAST or PP_CONIC"),
-    (PP_BAD_SETTING, c"a setting is outside its range: see struct pp_settings"),
+    (PP_BAD_SETTING, c"a setting or tolerance is outside its documented range, or a reserved field is not 0"),
     (PP_SOLVER_FAILED, c"no solver reached an answer; the contact is unknown (this does not mean separated)"),
     (PP_INTERNAL_ERROR, c"internal error caught at the library boundary: please report it"),
     (PP_BUFFER_TOO_SMALL, c"the output buffer is too small; the needed size was written"),
@@ -80,7 +85,10 @@ const MESSAGES: &[(pp_status, &CStr)] = &[
         c"the tolerance of a mesh must lie in [1e-5, 1]: the distance to the surface over the bounding radius",
     ),
     (PP_PLANE_NOT_FINITE, c"a plane coefficient is not finite"),
-    (PP_PLANE_ZERO_NORMAL, c"a plane normal (a, b, c) has no length, or none that can be squared"),
+    (
+        PP_PLANE_ZERO_NORMAL,
+        c"a plane normal (a, b, c) has no length, or its square (over r^2, too) leaves the range of doubles",
+    ),
     (PP_BAD_SPHERICITY, c"sphericity k must lie in [0, 1]"),
     (PP_BAD_ROUNDING_RADIUS, c"rounding radius r must be positive and finite when k < 1"),
     (PP_BAD_SHADOW_RADIUS, c"shadow radius R must be positive and finite when k > 0"),
@@ -90,10 +98,20 @@ const MESSAGES: &[(pp_status, &CStr)] = &[
     (PP_BAD_PACKING, c"nothing can be packed with these values; the message of pp_pack names the one at fault"),
 ];
 
+/// The sentence of a status code, if it is one.
+fn text_of(status: pp_status) -> Option<&'static CStr> {
+    MESSAGES.iter().find(|(code, _)| *code == status).map(|(_, text)| *text)
+}
+
+/// The same for messages.
+pub(super) fn sentence(status: pp_status) -> &'static str {
+    text_of(status).and_then(|text| text.to_str().ok()).unwrap_or_default()
+}
+
 /// The sentence for a status code, in English, without a full stop.
 ///
 /// Never NULL; an unknown code gives "unknown status code". The text is static: do not free it.
 #[unsafe(no_mangle)]
 pub extern "C" fn pp_status_message(status: pp_status) -> *const c_char {
-    MESSAGES.iter().find(|(code, _)| *code == status).map_or(c"unknown status code", |(_, text)| text).as_ptr()
+    text_of(status).unwrap_or(c"unknown status code").as_ptr()
 }

@@ -7,8 +7,8 @@ pub const PP_CLOSEST: u32 = 1;
 
 /// The library's own solver, in doubles and, where those do not settle a pair, in extended precision.
 pub const PP_FAST: u32 = 0;
-/// The paper's second-order cone programs, solved by clarabel: slow, independent, the judge. Refused with
-/// PP_NO_CONIC by a library built without it (Cargo feature conic).
+/// The paper's second-order cone programs, solved by clarabel: slow; independent of PP_FAST, to check it.
+/// Refused with PP_NO_CONIC by a library built without it (Cargo feature conic).
 pub const PP_CONIC: u32 = 1;
 
 /// The two particles share no interior point: s >= 1.
@@ -19,12 +19,13 @@ pub const PP_OVERLAPPING: i32 = 2;
 /// "closest" was asked for, but its constraint is slack: a centre (for k = 0, the core) of one particle
 /// lies inside the other, so that |P1 - P2| is no overlap distance. All fields are those of midway.
 pub const PP_FLAG_SLACK: u32 = 1;
-/// Separation was proved without solving to the end: s is a proved lower bound >= 1, no more is set.
+/// Separation was proved without solving to the end: s is a proved lower bound >= 1; of the geometry only
+/// distance is set.
 pub const PP_FLAG_REJECTED: u32 = 2;
 /// Both gradients vanish at the contact point, as when the centres coincide: no normal is right, and
 /// the one given is the line of centres, or the x axis of B.
 pub const PP_FLAG_NORMAL_BY_CENTRES: u32 = 4;
-/// The remembered point of pp_memory was used as the start.
+/// Started from a remembered solution: that of pp_memory or, with PP_FLAG_CARRIED, of pp_carry.
 pub const PP_FLAG_WARM: u32 = 8;
 /// Answered in extended precision (about 32 digits): doubles did not settle it, or not to the gap asked for.
 pub const PP_FLAG_EXTENDED: u32 = 16;
@@ -82,7 +83,7 @@ pub struct pp_settings {
     pub weight_on_a: f64,
     /// Smallest sphericity that the solver treats as given; below it, the point on a flat face
     /// is chosen as if k were this value (shape, s and overlap stay those of the given k).
-    /// In [0, 0.1], default 1e-13. Raise it (1e-4, say) when flat faces rattle in dynamics. Whether
+    /// In [0, 0.1], default 1e-13; less counts as that. Raise it (1e-4, say) when flat faces jitter. Whether
     /// the particles overlap at all is never left to it: where it would be, the default decides
     /// (PP_FLAG_DEFAULT_REGULARISATION).
     pub flat_regularisation: f64,
@@ -146,16 +147,17 @@ pub struct pp_contact {
     pub s: f64,
     /// Closest: s_B at P1; NaN for midway.
     pub s_b: f64,
-    /// Weight u of B, in [0, 1]: (1-u) grad S_A + u grad S_B = 0 at the solution.
+    /// Weight u of B, in [0, 1]: (1-u) grad S_A + u grad S_B = 0 at the solution (closest: at P2).
     pub weight: f64,
-    /// Bound on the error of s, from this answer's own numbers: |s - s*| <= gap. Every constant in it is
+    /// Bound on the error of s, and of s_b: |s - s*| <= gap. Every constant in it is
     /// derived (docs/theory.md). In extended precision it is proved; in doubles it counts rounding to first
     /// order: estimated.
     pub gap: f64,
     /// Estimated bound on the distance of the point (closest: of each of P1 and P2) to the exact optimum,
     /// length: of first order in the rounding of the data.
     pub point_bound: f64,
-    /// Overlap (YADE: penetrationDepth), length, > 0 when overlapping; NaN when separated.
+    /// Overlap (YADE: penetrationDepth), length, >= 0 when overlapping (0 where s < 1 by rounding alone); NaN
+    /// when separated.
     pub overlap: f64,
     /// Unit contact normal, from A to B (positive force on B pushes it along +normal), from the gradients
     /// of S_A and S_B; for k below flat_regularisation from those of the regularised shapes, so that it is
@@ -171,9 +173,9 @@ pub struct pp_contact {
     pub point_on_a: [f64; 3],
     /// Point on the surface of B inside A, world frame; P2 of closest. NaN when separated.
     pub point_on_b: [f64; 3],
-    /// Separated: lower bound on the distance between the two particles, length, as right as their bounding
-    /// volumes (estimated); 0 when the proof of separation knows none. Until their surfaces have come closer
-    /// to each other by as much, they stay separated. NaN when overlapping.
+    /// Separated: lower bound on the distance between the two particles, length, with the rounding of their
+    /// bounding volumes estimated; 0 when none is known, as for every pair that was solved. NaN when
+    /// overlapping.
     pub distance: f64,
 }
 
@@ -181,8 +183,8 @@ pub struct pp_contact {
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct pp_closest {
-    /// 1 when there is no such point, because the other particle's centre (for k = 0, its core) lies inside
-    /// this one: the numbers below are NaN then. Else 0.
+    /// 1 when there is no such point: for PP_ON_A because the centre of B (for k = 0, its core) lies inside A,
+    /// for PP_ON_B the reverse. The numbers below are NaN then. Else 0.
     pub slack: u32,
     /// Always 0.
     pub reserved: u32,

@@ -42,7 +42,7 @@ pub struct Contact {
     pub s: f64,
     /// Closest: s_B at P1; NaN for midway.
     pub s_b: f64,
-    /// Weight u of B: (1−u)∇S_A + u∇S_B = 0.
+    /// Weight u of B: (1−u)∇S_A + u∇S_B = 0 at the solution (closest: at P2).
     pub weight: f64,
     /// |s − s*| ≤ gap (and the same for s_b). Every constant in it is derived (docs/theory.md). In extended precision it is proved;
     /// in doubles it counts rounding to first order: estimated.
@@ -50,9 +50,10 @@ pub struct Contact {
     /// Estimated bound on the distance of the point (of closest: of each of P1 and P2) to the optimum, length: of first order in
     /// the rounding of the data.
     pub point_bound: f64,
-    /// Overlap, > 0 when overlapping; NaN when separated.
+    /// Overlap, length, ≥ 0 when overlapping (0 where s < 1 by rounding alone); NaN when separated.
     pub overlap: f64,
-    /// Separated: the particles are at least this far from each other, as far as the proof knows; NaN when overlapping.
+    /// Separated: lower bound on the distance between the particles, length, with the rounding of their bounding volumes estimated; 0 when
+    /// none is known, as for every pair that was solved. NaN when overlapping.
     pub distance: f64,
     /// Unit normal from A to B.
     pub normal: Vector3<f64>,

@@ -30,7 +30,7 @@ impl Bracket {
     }
 }
 
-/// Most steps; bisection alone leaves nothing of a bracket after 64.
+/// Most steps: halving alone leaves 2⁻¹⁰⁰ of the bracket.
 const MOST_STEPS: usize = 100;
 
 /// The root of a function that changes its sign once on a finite bracket, from below to above, by Newton's method.

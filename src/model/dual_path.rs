@@ -18,7 +18,7 @@ use crate::linalg::symmetric::{Factor, Symmetric};
 use crate::model::problem::Problem;
 use nalgebra::Vector3;
 
-/// Slope relative to either force that is but rounding, in units of it.
+/// |a·g_A + b·g_B| that counts as zero, in units of rounding of either force.
 const BALANCED: f64 = 32.0;
 
 /// One of the two quadratics: value, gradient and curvature where the step begins.
@@ -33,15 +33,16 @@ pub(crate) struct Side<'a, N> {
 
 /// The pair of quadratics and the problem: what stays the same while λ is searched.
 ///
-/// Rare parts take it and the probes by value: whose address is known has to stay in memory on the common way, too.
+/// Functions that are rarely called take it and the probes by value: an address passed on would keep them in memory on the common
+/// path.
 #[derive(Clone, Copy)]
 pub(crate) struct Curve<'a, N> {
     a: Side<'a, N>,
     b: Side<'a, N>,
     problem: Problem,
     /// D, and α·q_A + β·q_B at the point of expansion.
-    turning: Symmetric<N>,
-    turned: N,
+    rate_hessian: Symmetric<N>,
+    rate_value: N,
 }
 
 /// Optimum of the two quadratics for a weight ratio λ.
@@ -64,7 +65,7 @@ pub(crate) struct Optimum<N = f64> {
     pub factored: N,
     /// dv/dθ and dm/dθ.
     pub along: Vector3<N>,
-    pub rate_of_weight: N,
+    pub mismatch_rate: N,
 }
 
 /// The point of the curve at some λ: as much as the search for λ takes.
@@ -78,7 +79,7 @@ pub(crate) struct Probe<N> {
     pub rate: N,
     /// m.
     pub mismatch: N,
-    /// q_A and q_B, to what a·q_A + b·q_B loses.
+    /// q_A and q_B, with the absolute rounding of a·q_A + b·q_B.
     pub values: (N, N),
 }
 
@@ -98,10 +99,10 @@ pub(crate) struct Series<N> {
 impl<'a, N: Number> Curve<'a, N> {
     #[inline(always)]
     pub fn new(a: Side<'a, N>, b: Side<'a, N>, problem: Problem) -> Self {
-        let (alpha, beta) = problem.turning();
-        let turning = a.hessian.weighted(alpha, b.hessian, beta);
-        let turned = alpha * a.value + beta * b.value;
-        Self { a, b, problem, turning, turned }
+        let (alpha, beta) = problem.weight_rates();
+        let rate_hessian = a.hessian.weighted(alpha, b.hessian, beta);
+        let rate_value = alpha * a.value + beta * b.value;
+        Self { a, b, problem, rate_hessian, rate_value }
     }
 
     /// With H v = −g the weighted sum is ½ g·v more than at the point of expansion, and D v gives the other sum: q_A and
@@ -113,18 +114,18 @@ impl<'a, N: Number> Curve<'a, N> {
         let factor = Factor::of(&h, a * self.a.soft + b * self.b.soft)?;
         let g = self.a.gradient * a + self.b.gradient * b;
         let step = -factor.solve(&g);
-        let before = self.of_turning(self.a.gradient, self.b.gradient);
-        let w0 = before + self.turning.times(&step);
+        let before = self.rate_of(self.a.gradient, self.b.gradient);
+        let w0 = before + self.rate_hessian.times(&step);
         let along = -factor.solve(&w0);
-        let turning = self.turned + half * step.dot(&(before + w0));
+        let rate = self.rate_value + half * step.dot(&(before + w0));
         let fixed = a * self.a.value + b * self.b.value + half * step.dot(&g);
-        let (values, mismatch) = (self.problem.apart(fixed, turning, weights), self.problem.level::<N>() - turning);
+        let (values, mismatch) = (self.problem.apart(fixed, rate, weights), self.problem.level::<N>() - rate);
         Some(Probe { lambda, weights, step, factor, along, rate: -w0.dot(&along), mismatch, values })
     }
 
     /// α·x + β·y.
     #[inline(always)]
-    fn of_turning(&self, x: &Vector3<N>, y: &Vector3<N>) -> Vector3<N> {
+    fn rate_of(&self, x: &Vector3<N>, y: &Vector3<N>) -> Vector3<N> {
         match self.problem {
             Problem::Midway => y - x,
             Problem::OnB => *y,
@@ -145,8 +146,8 @@ impl<'a, N: Number> Curve<'a, N> {
         let gradients = [gradient(&self.a), gradient(&self.b)];
         let value = |side: &Side<N>, g: &Vector3<N>| side.value + N::of(0.5) * step.dot(&(side.gradient + g));
         let values = (value(&self.a, &gradients[0]), value(&self.b, &gradients[1]));
-        let Probe { factor, along, rate: rate_of_weight, lambda: factored, .. } = *near;
-        Optimum { step, gradients, values, lambda, settled: false, factor, factored, along, rate_of_weight }
+        let Probe { factor, along, rate: mismatch_rate, lambda: factored, .. } = *near;
+        Optimum { step, gradients, values, lambda, settled: false, factor, factored, along, mismatch_rate }
     }
 
     /// Root of m(δ) to the fourth order, by reversion of the series; `None` where it would move a weight by more
@@ -154,15 +155,15 @@ impl<'a, N: Number> Curve<'a, N> {
     #[inline(always)]
     pub fn series(&self, found: &Probe<N>) -> Option<Series<N>> {
         let (v1, inverse, (a, b)) = (&found.along, N::of(1.0) / found.rate, found.weights);
-        let w1 = self.turning.times(v1);
+        let w1 = self.rate_hessian.times(v1);
         let v2 = -found.factor.solve(&w1);
-        let w2 = self.turning.times(&v2);
+        let w2 = self.rate_hessian.times(&v2);
         let of = N::of;
         let (m2, m3, m4) = (of(-1.5) * v1.dot(&w1), of(-2.0) * v2.dot(&w1), of(-2.5) * v2.dot(&w2));
         let y = -found.mismatch * inverse;
         let (c2, c3, c4) = (m2 * inverse * y, m3 * inverse * y * y, m4 * inverse * y * y * y);
         let delta = y * (of(1.0) - c2 + (of(2.0) * c2 * c2 - c3) + (of(5.0) * c2 * (c3 - c2 * c2) - c4));
-        let (alpha, beta) = self.problem.turning::<N>();
+        let (alpha, beta) = self.problem.weight_rates::<N>();
         let stays =
             (alpha * delta).magnitude().is_at_most(of(0.5) * a) && (beta * delta).magnitude().is_at_most(of(0.5) * b);
         let lambda = self.lambda_after(found, delta);
@@ -172,7 +173,7 @@ impl<'a, N: Number> Curve<'a, N> {
 
     #[inline(always)]
     fn lambda_after(&self, found: &Probe<N>, delta: N) -> N {
-        let ((alpha, beta), (a, b)) = (self.problem.turning::<N>(), found.weights);
+        let ((alpha, beta), (a, b)) = (self.problem.weight_rates::<N>(), found.weights);
         (b + beta * delta) / (a + alpha * delta)
     }
 
@@ -197,8 +198,9 @@ impl<'a, N: Number> Curve<'a, N> {
 
 /// The λ of P1 and of P2 as seen from a point between them where S_A and S_B have these values, and the λ of midway.
 ///
-/// Where a single curvature decides along the curve, √S_A and √S_B are linear on it, with slopes whose ratio is λ. At P2
-/// √S_A is s_a = √S_A + λ·(√S_B − 1), at P1 √S_B is s_b = √S_B + (√S_A − 1)/λ, and what is sought is λ/s_b and λ·s_a.
+/// Where a single curvature decides along the curve, √S_A and √S_B are linear on it, with slopes whose ratio is λ. With s_a, s_b for
+/// √S_A, √S_B here, √S_A at P2 is s_a + λ·(s_b − 1) and √S_B at P1 is s_b + (s_a − 1)/λ; their λ are λ times the first, and λ over the
+/// second.
 #[inline(always)]
 pub(crate) fn closest_from_between([value_a, value_b]: [f64; 2], lambda: f64) -> [f64; 2] {
     let (s_a, s_b) = (value_a.sqrt(), value_b.sqrt());
@@ -220,8 +222,8 @@ impl<N: Number> Optimum<N> {
 }
 
 impl Optimum {
-    /// How fast the two sides part with ln λ.
+    /// dm/d ln λ; negative for the closest point on A.
     pub fn rate(&self, problem: Problem) -> f64 {
-        self.rate_of_weight * problem.per_logarithm(problem.weights(self.lambda))
+        self.mismatch_rate * problem.per_logarithm(problem.weights(self.lambda))
     }
 }

@@ -8,7 +8,7 @@ use nalgebra::Vector3;
 /// Bound on the rounding of a depth n·x − d + n·v after a step, relative to the terms of its sum (docs/theory.md, "Rounding").
 pub(crate) const DEPTH_ROUNDING: f64 = 14.0 * f64::EPSILON;
 
-/// Less than 1 by more than the rounding of a distance to a plane, relative to the terms of its sum.
+/// Factor on a distance to a plane: so far below 1 that the rounding of the distance does not hide that the plane switches.
 pub(crate) const CLEAR: f64 = 1.0 - 4.0 * DEPTH_ROUNDING;
 
 /// What a step does to the active set of one body.
@@ -17,7 +17,7 @@ pub(crate) struct KktCheck {
     pub change: Change,
     /// The plane to be dropped before the model is solved again.
     pub drop: Option<usize>,
-    /// Σ |n|·depth over planes of doubtful sign: the depth by which each may pull after all.
+    /// Σ |n|·(doubt + ⟨−depth⟩) over planes of doubtful sign: how far each may pull after all.
     pub doubtful: f64,
     /// A lower bound of |n|·depth over the active planes, after the step.
     pub least_push: f64,
@@ -116,8 +116,8 @@ impl KktCheck {
 struct Planes<'a> {
     body: &'a Body<'a>,
     point: &'a LocalPoint,
-    /// Bound on the rounding of the turned step, and of a depth by it.
-    turned: f64,
+    /// Bound on the rounding of the step in the body's axes, and of a depth by it.
+    step_rounding: f64,
     doubt_of_all: f64,
     /// The plane that pulls most of those that were on by no more than their rounding, and its depth.
     worst: Option<(usize, f64)>,
@@ -135,13 +135,13 @@ impl<'a> Planes<'a> {
     /// None yet, after the step e of the particle's own frame.
     #[inline(always)]
     fn after(body: &'a Body<'a>, point: &'a LocalPoint, e: &Vector3<f64>) -> Self {
-        // The step was turned: what is left of a long one across a plane is but rounding.
-        let turned = DEPTH_ROUNDING * (e.x.abs() + e.y.abs() + e.z.abs());
+        // In the body's axes, what is left of a long step across a plane may be rounding alone.
+        let step_rounding = DEPTH_ROUNDING * (e.x.abs() + e.y.abs() + e.z.abs());
         Self {
             body,
             point,
-            turned,
-            doubt_of_all: turned * body.particle.bounds.longest_normal,
+            step_rounding,
+            doubt_of_all: step_rounding * body.particle.bounds.longest_normal,
             worst: None,
             pulling: false,
             entering: false,
@@ -175,7 +175,7 @@ impl<'a> Planes<'a> {
         }
         // The longest normal may be that of another plane.
         let length = n.norm();
-        let doubt = self.turned * length + DEPTH_ROUNDING * excess.abs();
+        let doubt = self.step_rounding * length + DEPTH_ROUNDING * excess.abs();
         if depth >= -doubt {
             if depth < doubt {
                 self.doubtful += length * (doubt + (-depth).max(0.0));

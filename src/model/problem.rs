@@ -37,7 +37,7 @@ impl Problem {
 
     /// (da/dθ, db/dθ).
     #[inline]
-    pub fn turning<N: Number>(self) -> (N, N) {
+    pub fn weight_rates<N: Number>(self) -> (N, N) {
         let (alpha, beta) = match self {
             Self::Midway => (-1.0, 1.0),
             Self::OnB => (0.0, 1.0),
@@ -95,7 +95,8 @@ impl Problem {
         a * error_a + b * error_b
     }
 
-    /// The two numbers that are equal at the wanted point; the first grows with λ.
+    /// The two numbers that are equal at the wanted point. Their difference, first less second, grows with λ; one of the two may be the
+    /// constant 1.
     #[inline]
     pub fn sides<N: Number>(self, s_a: N, s_b: N) -> (N, N) {
         match self {
@@ -128,11 +129,11 @@ impl Problem {
 
     /// S_A and S_B from a·S_A + b·S_B and α·S_A + β·S_B.
     #[inline]
-    pub fn apart<N: Number>(self, fixed: N, turning: N, (a, b): (N, N)) -> (N, N) {
+    pub fn apart<N: Number>(self, fixed: N, rate: N, (a, b): (N, N)) -> (N, N) {
         match self {
-            Self::Midway => (fixed - b * turning, fixed + a * turning),
-            Self::OnB => (fixed - b * turning, turning),
-            Self::OnA => (turning, fixed - a * turning),
+            Self::Midway => (fixed - b * rate, fixed + a * rate),
+            Self::OnB => (fixed - b * rate, rate),
+            Self::OnA => (rate, fixed - a * rate),
         }
     }
 

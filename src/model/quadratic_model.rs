@@ -15,24 +15,24 @@ use nalgebra::{SimdValue, Vector3};
 pub(crate) struct Model<'a, N = f64> {
     curve: Curve<'a, N>,
     problem: Problem,
-    /// What the values at the point of expansion make of the mismatch.
+    /// Sum of those values at the point of expansion that enter the mismatch.
     expanded: f64,
 }
 
-/// Bound on the rounding of a mismatch in numbers of this unit, from what the values at the point of expansion make of it and from
-/// its larger side.
+/// Mismatch at which λ counts as settled (chosen), in numbers of this unit: 4 units of the values at the point of expansion and 8 of
+/// the larger side.
 #[inline(always)]
 fn noise<N: Number>(unit: f64, expanded: N, larger: N) -> N {
     N::of(4.0 * unit) * expanded + N::of(8.0 * unit) * larger
 }
 
-/// Most searches for λ; a handful is enough where rounding does not interfere.
-const MOST_SEARCHES: usize = 40;
+/// Most values of λ tried in one solve; a handful is enough where rounding does not interfere.
+const MOST_TRIALS: usize = 40;
 
-/// λ stays in this range: beyond it one particle's weight is lost in rounding altogether.
+/// A guess of λ is kept in this range, which a solve may leave by [`FARTHEST`]: beyond it one particle's weight is lost in rounding altogether.
 pub(crate) const LAMBDA_RANGE: (f64, f64) = (1e-30, 1e30);
 
-/// One search moves λ by at most this factor: quadratics that miss the planes further on may not
+/// One solve moves λ by at most this factor: quadratics that miss the planes further on may not
 /// reach the problem at all.
 const FARTHEST: f64 = 1e6;
 
@@ -40,7 +40,7 @@ const FARTHEST: f64 = 1e6;
 /// out then is some 1e-3 of the mismatch.
 const NEAR: f64 = 0.1;
 
-/// The same share at which what is left out is below the rounding of a double, of a point that is taken to the third order.
+/// The same share at which a point is taken to the third order: some share⁴ = 8e-15 of it is left out, and `is_balanced` decides.
 const VERY_NEAR: f64 = 3e-4;
 
 /// Points of both curves from which P1 and P2 are looked for before each is searched alone: where λ was guessed, and where the
@@ -113,7 +113,7 @@ impl<'a, N: Single> Model<'a, N> {
         let kept = approximate.clamp(LAMBDA_RANGE.0, LAMBDA_RANGE.1);
         let mut found = self.curve.probe(if kept == approximate { guess } else { N::of(kept) })?;
         let mut bracket = Bracket::about(found.lambda);
-        for _ in 0..MOST_SEARCHES {
+        for _ in 0..MOST_TRIALS {
             let (growing, falling) = self.sides(&found.values);
             let (difference, larger) =
                 (self.problem.difference(found.mismatch.approximate()), larger(growing, falling));
@@ -162,8 +162,7 @@ impl<'a, N: Single> Model<'a, N> {
     /// How far the two sides are from being equal.
     #[inline(always)]
     fn mismatch(&self, optimum: &Optimum<N>) -> f64 {
-        let (growing, falling) = self.problem.sides(optimum.values.0, optimum.values.1);
-        (growing - falling).approximate().abs()
+        self.problem.mismatch(optimum.values.0, optimum.values.1).approximate()
     }
 
     /// The next λ where the series is of no use: far off, the logarithms of both sides are nearly linear in ln λ.
@@ -179,6 +178,7 @@ impl<'a, N: Single> Model<'a, N> {
         } else {
             (falling - growing) / (rate_growing - rate_falling)
         };
+        // Only so that exp stays a number: the bracket allows ln FARTHEST, 14.
         found.lambda.approximate() * change.clamp(-60.0, 60.0).exp()
     }
 }
@@ -248,7 +248,7 @@ impl Optimum<Twin> {
             factor: self.factor.lane(i),
             factored: self.factored.0[i],
             along: vector(&self.along),
-            rate_of_weight: self.rate_of_weight.0[i],
+            mismatch_rate: self.mismatch_rate.0[i],
         }
     }
 }

@@ -10,15 +10,19 @@ pub(crate) struct Grid {
     cells: Vec<Vec<u32>>,
 }
 
-/// More cells than this are not made, however small the bodies.
+/// More cells than this are not made, however small the bodies and however flat the region.
 const MOST_CELLS: f64 = 4e6;
 
 impl Grid {
     /// Of a region, with cells of about this edge.
     pub fn new(lower: Vector3<f64>, upper: Vector3<f64>, edge: f64) -> Self {
         let widths = upper - lower;
-        let edge = edge.max((widths.product() / MOST_CELLS).cbrt()).max(widths.max() / MOST_CELLS);
-        let counts: [usize; 3] = widths.map(|width| (width / edge).ceil().max(1.0) as usize).into();
+        let counts = |edge: f64| widths.map(|width| (width / edge).ceil().max(1.0));
+        let mut edge = edge;
+        while counts(edge).product() > MOST_CELLS {
+            edge *= 1.25;
+        }
+        let counts: [usize; 3] = counts(edge).map(|count| count as usize).into();
         Self { lower, edge, counts, cells: vec![Vec::new(); counts.iter().product()] }
     }
 
@@ -67,6 +71,14 @@ impl Grid {
 mod tests {
     use super::*;
     use crate::packing::random::Random;
+
+    #[test]
+    fn cells_are_few_in_regions_of_any_shape() {
+        for upper in [[100.0, 100.0, 1e-4], [1e9, 1e-9, 1e-9], [1e100, 1e100, 1e100], [1.0, 1.0, 1.0]] {
+            let grid = Grid::new(Vector3::zeros(), upper.into(), 1e-4);
+            assert!(grid.cells.len() as f64 <= MOST_CELLS && grid.counts.iter().product::<usize>() == grid.cells.len());
+        }
+    }
 
     #[test]
     fn every_box_that_meets_one_is_near_it() {

@@ -32,7 +32,7 @@ pub struct Packing {
     pub arrangement: Arrangement,
     /// How many bodies; `None`: as many as fit (settled only).
     pub number: Option<usize>,
-    /// Least distance between two bodies, and twice that of a body to the container, length. Bodies are a millionth
+    /// Least distance between two bodies, length; that of a body to the container is half of it. Bodies are a millionth
     /// of their size apart in any case.
     pub margin: f64,
     /// The same seed gives the same packing, whatever the number of threads.
@@ -100,7 +100,7 @@ pub fn pack(
     let width = supply.typical_width();
     let at_once = (container.area() / (ROOM * width * width)).clamp(1.0, MOST_AT_ONCE) as usize;
     let mut rounds = Rounds { pile: Pile::new(*container, width), placements: Vec::new(), failures: 0 };
-    let mut queue = queue(&supply, how);
+    let mut queue = queue(&supply, container, how);
     let (mut looking, mut stopped) = (Vec::new(), false);
     while !stopped && rounds.failures < GIVE_UP {
         let missing = at_once.saturating_sub(looking.len());
@@ -123,8 +123,10 @@ pub fn pack(
 }
 
 /// The bodies in the order in which they are to look for a place.
-fn queue<'a>(supply: &'a Supply, how: &Packing) -> Box<dyn Iterator<Item = Wanted> + 'a> {
-    let bodies = supply.bodies(how.seed).take(how.number.unwrap_or(usize::MAX));
+fn queue<'a>(supply: &'a Supply, container: &Container, how: &Packing) -> Box<dyn Iterator<Item = Wanted> + 'a> {
+    // More bodies than the smallest would fill the container with need no place, nor memory.
+    let most = container.volume() / (std::f64::consts::FRAC_PI_6 * supply.least_diameter().powi(3));
+    let bodies = supply.bodies(how.seed).take(how.number.unwrap_or(usize::MAX).min(most.ceil() as usize));
     match how.arrangement {
         Arrangement::Settled => Box::new(bodies),
         Arrangement::Scattered => {

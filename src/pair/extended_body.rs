@@ -257,7 +257,7 @@ impl<'a> ExtendedBody<'a> {
         })
     }
 
-    /// Slope and curvature of S at x₀ + δ + α·v along v, in doubles, from [`ExtendedBody::line`].
+    /// S at x₀ + δ + α·v as depths and rates in doubles: [`Line::at`] gives slope and curvature.
     pub fn line(&self, delta: &Wide, v: &Wide) -> Line {
         let y = self.from_centre + delta;
         let (m2, v64, quick) = (2.0 * self.sphere_weight.rounded(), rounded(v), rounded(delta));
@@ -265,7 +265,7 @@ impl<'a> ExtendedBody<'a> {
         let on_line = |plane: &Plane| {
             let (depth, rounding) = plane.quick_depth(&quick, length);
             let depth = if depth < -rounding { depth } else { plane.depth(delta).rounded() };
-            // A long step along a face moves its planes by what is left of large terms.
+            // n·v cancels for a long step along a face.
             let rate = rounded(&plane.normal).dot(&v64);
             let clear = rate.abs() > CANCELLED * plane.length * v64.norm();
             (depth, if clear { rate } else { plane.normal.dot(v).rounded() })
@@ -359,7 +359,7 @@ const CANCELLED: f64 = 1e-8;
 /// How much farther planes are gathered than they are needed.
 const MARGIN: f64 = 2.0;
 
-/// S of one body along a line, in doubles.
+/// S of one body along δ + α·v, as depths and rates in doubles.
 pub(crate) struct Line {
     /// Depth and its change for each plane.
     planes: Vec<(f64, f64)>,

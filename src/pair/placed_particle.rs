@@ -15,12 +15,12 @@ pub(crate) struct Body<'a> {
     /// Local to solver frame.
     rotation: Matrix3<f64>,
     /// Whether that is more than the identity: the axes of B are the solver's own.
-    turned: bool,
+    is_rotated: bool,
     /// Centre in the solver frame.
     centre: Vector3<f64>,
-    /// Share of the distance of the centre from the origin that its rounding adds to that of a point.
-    share_of_centre: f64,
-    /// Bound on the rounding of a point, relative to its distance from the centre and that share.
+    /// Length added to |y| for the rounding of the centre, before `rounding` multiplies it.
+    of_centre: f64,
+    /// Bound on the rounding of a point, relative to its distance from the centre and that length.
     rounding: f64,
     /// Weight of the shadow sphere that the solver uses: the particle's own, or the regularised one.
     sphere_weight: f64,
@@ -47,13 +47,13 @@ pub(crate) fn shift_in_b(length: f64) -> f64 {
 impl<'a> Body<'a> {
     /// Both bodies of a pair; k below `least_sphericity` is raised to it (see `Settings`).
     pub fn both(pair: &Pair<'a>, least_sphericity: f64) -> (Self, Self) {
-        let body = |particle: &'a Particle, rotation, turned, centre: Vector3<f64>| Self {
+        let body = |particle: &'a Particle, rotation, is_rotated, centre: Vector3<f64>| Self {
             particle,
             rotation,
-            turned,
+            is_rotated,
             centre,
-            share_of_centre: OF_CENTRE * centre.norm(),
-            rounding: f64::EPSILON * if turned { IN_A } else { IN_B },
+            of_centre: OF_CENTRE * centre.norm(),
+            rounding: f64::EPSILON * if is_rotated { IN_A } else { IN_B },
             sphere_weight: larger(particle.sphere_weight, least_sphericity / particle.bounding_radius().powi(2)),
         };
         (body(pair.a, pair.rotation, true, pair.centre), body(pair.b, Matrix3::identity(), false, Vector3::zeros()))
@@ -64,9 +64,9 @@ impl<'a> Body<'a> {
         Self {
             particle,
             rotation: Matrix3::identity(),
-            turned: false,
+            is_rotated: false,
             centre: Vector3::zeros(),
-            share_of_centre: 0.0,
+            of_centre: 0.0,
             rounding: f64::EPSILON * IN_B,
             sphere_weight: larger(particle.sphere_weight, least_sphericity / particle.bounding_radius().powi(2)),
         }
@@ -75,24 +75,24 @@ impl<'a> Body<'a> {
     /// Solver frame to local frame.
     #[inline]
     pub fn local(&self, x: &Vector3<f64>) -> Vector3<f64> {
-        if self.turned { self.rotation.tr_mul(&(x - self.centre)) } else { *x }
+        if self.is_rotated { self.rotation.tr_mul(&(x - self.centre)) } else { *x }
     }
 
     /// A direction of the solver frame in the local frame.
     #[inline]
     pub fn turn(&self, v: &Vector3<f64>) -> Vector3<f64> {
-        if self.turned { self.rotation.tr_mul(v) } else { *v }
+        if self.is_rotated { self.rotation.tr_mul(v) } else { *v }
     }
 
     /// A direction of the local frame in the solver frame.
     #[inline]
     pub fn to_solver(&self, n: Vector3<f64>) -> Vector3<f64> {
-        if self.turned { self.rotation * n } else { n }
+        if self.is_rotated { self.rotation * n } else { n }
     }
 
     /// A symmetric matrix of the solver frame in the local frame.
     pub fn turn_matrix(&self, h: &Symmetric) -> Symmetric {
-        if self.turned { h.turned(&self.rotation.transpose()) } else { *h }
+        if self.is_rotated { h.turned(&self.rotation.transpose()) } else { *h }
     }
 
     /// Centre in the solver frame.
@@ -116,7 +116,7 @@ impl<'a> Body<'a> {
     pub fn locate(&self, x: &Vector3<f64>) -> LocalPoint {
         let bounds = &self.particle.bounds;
         // |y|, without waiting for the rotation.
-        let lengths = (x - self.centre).norm() + self.share_of_centre;
+        let lengths = (x - self.centre).norm() + self.of_centre;
         let shift = self.rounding * lengths;
         let blur = bounds.longest_normal * shift + f64::EPSILON * bounds.offset_within(lengths);
         LocalPoint::new(self.local(x), shift, blur)
@@ -127,9 +127,9 @@ impl<'a> Body<'a> {
     #[inline(always)]
     pub fn at(&self, point: &LocalPoint, frame: Option<&Matrix3<f64>>) -> Quadratic {
         match frame {
-            Some(axes) if self.turned => self.in_axes(point, &axes.tr_mul(&self.rotation)),
+            Some(axes) if self.is_rotated => self.in_axes(point, &axes.tr_mul(&self.rotation)),
             Some(axes) => self.in_axes(point, &axes.transpose()),
-            None if self.turned => self.in_axes(point, &self.rotation),
+            None if self.is_rotated => self.in_axes(point, &self.rotation),
             None => self.in_its_own(point),
         }
     }

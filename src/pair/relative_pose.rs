@@ -1,4 +1,4 @@
-//! Two particles in one frame: the only place where poses are combined.
+//! Two particles in one frame: the relative pose in doubles.
 
 use crate::particle::particle::Particle;
 use crate::pose::Pose;

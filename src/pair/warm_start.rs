@@ -42,7 +42,7 @@ impl Memory {
     /// Marks a filled memory in its raw form; all-zero bytes are an empty one.
     const FILLED: f64 = 1.0;
 
-    /// From the eight numbers of the C interface; whatever is not a filled memory is an empty one.
+    /// From the eight numbers of [`Self::into_raw`]; whatever is not a filled memory is an empty one.
     pub fn from_raw(state: [f64; 8]) -> Self {
         let [tag, x, y, z, lambda, overlapping, of_p1, of_p2] = state;
         let usable =
@@ -59,7 +59,8 @@ impl Memory {
         }
     }
 
-    /// To the eight numbers of the C interface.
+    /// As eight numbers: 1 if filled, else 0; x, y, z of the midway point in the local frame of B, length; λ = u/(1−u); 1 if the pair
+    /// overlapped, else 0; factors on λ for P1 and P2.
     pub fn into_raw(self) -> [f64; 8] {
         match self.last {
             Some(Remembered { x, lambda, overlapping, closest: [of_p1, of_p2] }) => {

@@ -1,8 +1,8 @@
 //! A polyhedron, a ball and a box that hold a particle: what the cheap tests rely on.
 //!
 //! They are estimated, not proved: corners are exact to the relative error [`SLACK`] if the three normals that meet there
-//! have a condition number κ ≤ 1e8 (the error of a 3×3 solve by cofactors is some 10·κ·ε), and [`MARGIN`] covers that
-//! twice over. Three planes closer to a common direction than this may give a corner that is lost.
+//! have a condition number κ ≤ 1e8 (the error of a 3×3 solve by cofactors is some 10·κ·ε), and [`MARGIN`] is ten times
+//! as much, for that and for merged corners. Three planes closer to a common direction than this may give a corner that is lost.
 
 use crate::linalg::number::{larger, smaller};
 use crate::particle::linear_program;

@@ -6,6 +6,7 @@
 //! wide as the rounding, which are cut at their ends where a third plane becomes active. For k = 0 these are exactly the places
 //! where the second derivatives of the surface jump, but for those in the corners; for k > 0 they are near them.
 
+use crate::linalg::graded_basis;
 use crate::particle::shape::Shape;
 use nalgebra::{Matrix3, Vector3};
 
@@ -108,7 +109,7 @@ impl Face {
     /// A square that holds the cut of the cube with the plane n·x = height.
     fn square(normal: Vector3<f64>, height: f64, half: f64) -> Self {
         let side = 4.0 * half;
-        let first = normal.cross(&Vector3::ith(normal.iamin(), 1.0)).normalize();
+        let first = graded_basis::any_across(&normal);
         let second = normal.cross(&first);
         let corners = if height <= 2.0 * half {
             [(1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0), (1.0, -1.0)]

@@ -12,15 +12,17 @@ pub enum ParticleError {
     #[error("plane {index} has a normal of length zero (d={d:?}): give it a direction or remove it")]
     ZeroNormal { index: usize, d: f64 },
     #[error(
-        "plane {index} has a normal of length {length:?}, too short or too long for its square, by r² or not, to be a \
-         number: scale it to about unit length, and d with it"
+        "plane {index} has a normal with a largest component of {length:?}: its square, or the square over r², leaves the range of \
+         numbers; scale it to about unit length, and d with it"
     )]
     NormalLength { index: usize, length: f64 },
     #[error("sphericity k={0:?} is outside [0, 1]")]
     Sphericity(f64),
-    #[error("rounding radius r={0:?} must be positive and finite (it may be anything only when k=1)")]
+    #[error(
+        "rounding radius r={0:?} must be positive and finite, and (1-k)/r² a number (r above 1e-154); it may be anything only when k=1"
+    )]
     RoundingRadius(f64),
-    #[error("shadow radius R={0:?} must be positive and finite (it may be anything only when k=0)")]
+    #[error("shadow radius R={0:?} must be positive and finite, and k/R² a number; it may be anything only when k=0")]
     ShadowRadius(f64),
     #[error(
         "the centre is not inside: f(0)={f:?} must be negative; plane {worst} (d={d:?}) lies furthest behind \
@@ -39,8 +41,8 @@ pub enum ParticleError {
     #[error("line {index} has a normal of length zero (d={d:?}): give it a direction or remove it")]
     ZeroLineNormal { index: usize, d: f64 },
     #[error(
-        "line {index} has a normal of length {length:?}, too short or too long for its square, by r² or not, to be a \
-         number: scale it to about unit length, and d with it"
+        "line {index} has a normal with a largest component of {length:?}: its square, or the square over r², leaves the range of \
+         numbers; scale it to about unit length, and d with it"
     )]
     LineNormalLength { index: usize, length: f64 },
     #[error(

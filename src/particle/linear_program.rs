@@ -1,6 +1,6 @@
 //! Whether half-spaces enclose a volume (half-planes an area), and how large it is: linear programs in 3 or 2 unknowns.
 //!
-//! Only particles with k = 0 need them, once, when they are made. A program max e·x subject to n_i·x ≤ h_i is solved by
+//! Used where a particle with k = 0 is made whose corners do not show at once that it is bounded, and by `planes_enclose`. A program max e·x subject to n_i·x ≤ h_i is solved by
 //! Seidel's randomised incremental algorithm (1991): half-spaces are added in random order, and only when one cuts off the
 //! optimum so far is the program solved again on its plane, with one unknown less. The expected time is proportional to
 //! the number of half-spaces.

@@ -138,7 +138,8 @@ impl Particle {
         self.shape.bounds.radius
     }
 
-    /// Corners of a polyhedron that holds the whole particle, local frame.
+    /// Corners of a polyhedron, local frame, length. Corners nearer to each other than 1e-6 of the distance of the farthest one are
+    /// merged: enlarged by as much, the polyhedron holds the whole particle. [`Self::support`] counts that.
     pub fn bounding_corners(&self) -> &[Vector3<f64>] {
         &self.shape.bounds.corners
     }

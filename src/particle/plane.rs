@@ -7,11 +7,11 @@ use nalgebra::Vector3;
 pub struct Plane {
     /// Outward normal (a, b, c); unit length is usual, not required.
     pub normal: Vector3<f64>,
-    /// Offset d, length. A face of the finished particle lies near d + r.
+    /// Offset d, length·|n|: the plane lies at d/|n| from the origin; for k = 0 the flat part of the face at (d + r)/|n|.
     pub offset: f64,
 }
 
-/// Most planes that a particle may have.
+/// Most planes that a particle may have: their places are stored in 16 bits.
 pub const MAX_PLANES: usize = 65_536;
 
 impl From<[f64; 4]> for Plane {

@@ -1,7 +1,7 @@
 //! S, its gradient and its Hessian, in the local frame of the particle.
 //!
 //! S is piecewise quadratic: value, gradient and Hessian at a point describe it exactly as long as the active set, the
-//! planes with n·y > d, does not change.
+//! planes with n·y > d, does not change. (The solver counts those above −blur, [`crate::pair::active_set`].)
 
 use crate::linalg::number::{larger, smaller};
 use crate::linalg::symmetric::Symmetric;
@@ -16,9 +16,9 @@ pub struct Quadratic {
     pub value: f64,
     /// The quadratic at x; more than `value` only by planes that were counted and are not active at x.
     pub expansion: f64,
-    /// ∇S(x), 1/length.
+    /// Gradient of the quadratic at x, 1/length: ∇S(x) if the planes that were counted are the active ones.
     pub gradient: Vector3<f64>,
-    /// ∇²S(x), 1/length²; a plane with n·x = d is not counted.
+    /// Its Hessian, 1/length²; for ∇²S(x) a plane with n·x = d is not counted.
     pub hessian: Symmetric,
     /// 2(1-k)/r² · Σ ⟨n_i·x − d_i⟩, the derivative of S for a change of all offsets: times the rounding of an excess it
     /// bounds, to first order, what that does to S.

@@ -155,7 +155,8 @@ impl Particle {
         self.0.bounding_radius()
     }
 
-    /// Corners of a polygon that holds the whole particle, local frame, in no order.
+    /// Corners of a polygon, local frame, length, in no order. Corners nearer to each other than 1e-6 of the distance of the farthest one
+    /// are merged: enlarged by as much, the polygon holds the whole particle.
     pub fn bounding_corners(&self) -> impl ExactSizeIterator<Item = Vector2<f64>> + '_ {
         self.0.bounding_corners().iter().map(|corner| corner.xy())
     }

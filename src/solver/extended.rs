@@ -387,6 +387,6 @@ fn approximate(optimum: &Optimum<DoubleDouble>) -> Optimum {
         factor: optimum.factor.map(scalar),
         factored: scalar(optimum.factored),
         along: rounded(&optimum.along),
-        rate_of_weight: scalar(optimum.rate_of_weight),
+        mismatch_rate: scalar(optimum.mismatch_rate),
     }
 }

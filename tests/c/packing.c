@@ -84,7 +84,7 @@ static void bad_arguments_hand_nothing_over(void) {
 #define PACK(shapes, count, sizes, rows, how, placed) \
     pp_pack(shapes, count, sizes, rows, how, placed, &all, why, sizeof why)
     CHECK_STATUS(PACK(NULL, 1, NULL, 0, &good, receive), PP_NULL_POINTER);
-    CHECK_TEXT(why, "shapes, how and placed must not be NULL");
+    CHECK_TEXT(why, "shapes and each of them, sizes (unless size_count is 0), how and placed must not be NULL");
     CHECK_STATUS(PACK(none, 1, NULL, 0, &good, receive), PP_NULL_POINTER);
     CHECK_STATUS(PACK(shapes, 1, NULL, 1, &good, receive), PP_NULL_POINTER);
     CHECK_STATUS(PACK(shapes, 1, NULL, 0, NULL, receive), PP_NULL_POINTER);
@@ -115,11 +115,28 @@ static void bad_arguments_hand_nothing_over(void) {
     how.number = 0;
     CHECK_STATUS(PACK(shapes, 1, sizes, 1, &how, receive), PP_BAD_PACKING);
     CHECK(all.count == 0 && all.calls == 0);
+    CHECK_STATUS(PACK(shapes, SIZE_MAX, sizes, 1, &good, receive), PP_BAD_INDEX);
+    CHECK(strstr(why, pp_status_message(PP_BAD_INDEX)) != NULL);
 #undef PACK
     pp_particle_free((pp_particle *)shapes[0]);
 }
 
+/* No memory is asked for that the container could not use. */
+static void more_bodies_than_fit(void) {
+    const pp_particle *shapes[] = {new_sphere(0.5)};
+    const uint64_t numbers[] = {1000000000000, UINT64_MAX};
+    for (int i = 0; i < 2; i++) {
+        pp_packing how = box_of_balls(numbers[i]);
+        how.arrangement = PP_SCATTERED;
+        packed all = {.enough = MOST};
+        CHECK_STATUS(pp_pack(shapes, 1, NULL, 0, &how, receive, &all, NULL, 0), PP_OK);
+        CHECK(all.count >= 16 && all.count < MOST);
+    }
+    pp_particle_free((pp_particle *)shapes[0]);
+}
+
 void test_packing(void) {
+    more_bodies_than_fit();
     balls_lie_apart_in_the_container(PP_BOX);
     balls_lie_apart_in_the_container(PP_CYLINDER);
     the_caller_may_end_it();

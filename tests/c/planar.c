@@ -420,6 +420,9 @@ static void polygon_from_points(void) {
     CHECK_STATUS(pp_particle_new_polygon_2d(not_finite, 3, r, 0.0, &none, message, sizeof message), PP_PLANE_NOT_FINITE);
     CHECK(strstr(message, "vertex 1") != NULL);
     CHECK_STATUS(pp_particle_new_polygon_2d(points, 4, 2.0, 0.0, &none, message, sizeof message), PP_BAD_ROUNDING_RADIUS);
+    memset(message, 'x', sizeof message);
+    CHECK_STATUS(pp_particle_new_polygon_2d(points, SIZE_MAX, r, 0.0, &none, message, sizeof message), PP_BAD_INDEX);
+    CHECK(strcmp(message, pp_status_message(PP_BAD_INDEX)) == 0);
     CHECK_STATUS(pp_particle_new_polygon_2d(points, 4, r, -1.0, &none, NULL, 0), PP_BAD_SPHERICITY);
     CHECK_STATUS(pp_particle_new_polygon_2d(NULL, 4, r, 0.0, &none, message, sizeof message), PP_NULL_POINTER);
     CHECK_STATUS(pp_particle_new_polygon_2d(points, 4, r, 0.0, NULL, NULL, 0), PP_NULL_POINTER);

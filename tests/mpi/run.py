@@ -97,6 +97,10 @@ def lonely_workers(folder):
     check(status == 0 and text.count("meets no other worker") == 2, f"workers apart end with {status}:\n{text}")
     sound(1, "apart", folder)
     same(folder, "apart1", "apart3")
+    for ranks in (1, 3):
+        found = report(folder, f"apart{ranks}")
+        pairs, walls = (sum(calls[i] for calls in found["calls"]) for i in (0, 1))
+        check(found["counters"]["calls"] == pairs + walls and walls > 0, f"counters of {ranks} ranks leave a functor out: {found}")
 
 
 def recorders(folder):

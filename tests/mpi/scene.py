@@ -23,11 +23,18 @@ SIZE, STEPS, VERLET = 1.0, 400, 0.05
 CASE, FOLDER = sys.argv[1], Path(sys.argv[2])
 
 
-def build(gap=0.0):
-    """A floor, and 4 x 3 x 3 cubes above it, of which each touches some; ids of the cubes."""
+def build(gap=0.0, wall=False):
+    """A floor, or a wall in its place, and 4 x 3 x 3 cubes above it, of which each touches some; ids of the cubes."""
     contact = yade.Ig2_ConicPP_ConicPP_ScGeom(calContactArea=False)
     fresh_scene(contact, dt=1e-3, damping=0.1, gravity=(0, 0, -9.81), stiffness=1e6, friction=0.5)
-    add(floor(), (0, 0, -0.5), fixed=True)
+    if wall:
+        loop = next(engine for engine in O.engines if isinstance(engine, yade.InteractionLoop))
+        loop.geomDispatcher.functors = [contact, yade.Ig2_Wall_ConicPP_ScGeom(calContactArea=False)]
+        collider = next(engine for engine in O.engines if isinstance(engine, yade.InsertionSortCollider))
+        collider.boundDispatcher.functors = collider.boundDispatcher.functors + [yade.Bo1_Wall_Aabb()]
+        O.bodies.append(yade.utils.wall(0.0, axis=2))
+    else:
+        add(floor(), (0, 0, -0.5), fixed=True)
     ids, draw = [], np.random.default_rng(7)
     for x in range(4):
         for y in range(3):
@@ -102,9 +109,11 @@ def resumed():
 
 def apart():
     """The two halves of the scene lie far from each other: YADE's own exchange aborts here."""
-    start(gap=8.0)
+    start(gap=8.0, wall=True)
     mpi.run(50)
-    result(f"apart{mpi.ranks()}")
+    loop = next(engine for engine in O.engines if isinstance(engine, yade.InteractionLoop))
+    calls = mpi.gather([functor.calls for functor in loop.geomDispatcher.functors])
+    result(f"apart{mpi.ranks()}", calls=calls)
 
 
 def recorders():

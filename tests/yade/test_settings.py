@@ -39,6 +39,16 @@ def answers():
     return [(c.geom.penetrationDepth, c.phys.contactArea) for c in pairs]
 
 
+# A refused update leaves everything as it was, what was set before the refusal too.
+before = contacts.dict()
+for wrong in ({"tolerance": 1e-6, "nonsense": 1}, {"tolerance": -1.0, "nonsense": 1}, {"unitWidth2D": 3.0, "areaTolerance": "a word"}):
+    try:
+        contacts.updateAttrs(wrong)
+        check.true(False, f"{wrong} is accepted")
+    except Exception:
+        check.true(contacts.dict() == before, f"after {wrong}: {contacts.dict()}")
+contacts.measureTime = contacts.measureTime
+
 whole = []
 for settings in (ONE, OTHER):
     contacts.updateAttrs(settings)

@@ -61,9 +61,9 @@ namespace {
 void Bo1_ConicPP_Aabb::go(const boost::shared_ptr<yade::Shape>& shape, boost::shared_ptr<yade::Bound>& bound,
                           const yade::Se3r& at, const yade::Body*)
 {
-    if (!bound)
-        bound = boost::make_shared<yade::Aabb>();
     try {
+        if (!bound)
+            bound = boost::make_shared<yade::Aabb>();
         // Not `scene`: a shape keeps the functor that first served it, also when it goes into another scene, and that one's pointer
         // is to a scene that may be gone.
         const yade::Scene& stepping = *Singleton<yade::Omega>::instance().getScene();
@@ -73,7 +73,9 @@ void Bo1_ConicPP_Aabb::go(const boost::shared_ptr<yade::Shape>& shape, boost::sh
         bound->min = box.lower;
         bound->max = box.upper;
     } catch (...) {
-        // Out of memory. A box that is too large misses nothing.
+        // Out of memory. A box that is too large misses nothing; a body that has none yet is tried again when the collider runs next.
+        if (!bound)
+            return;
         bound->max.setConstant(std::numeric_limits<double>::max());
         bound->min = -bound->max;
     }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The contact loop that lets pairs sleep.
+// The contact loop, which skips pairs that cannot have met.
 #pragma once
 
 #include "../abi/archive.hpp"

@@ -23,9 +23,8 @@ namespace {
         return text.str();
     }
 
-    // Two overlapping unit spheres, to ask the library itself whether it accepts a setting: the
-    // ranges are written down there and nowhere else. (Whether it also finds this contact is
-    // another question, which does not matter here.)
+    // Two overlapping unit spheres, to ask the library itself whether it accepts a setting: it decides, and
+    // the messages below only name its ranges. (Whether it also finds this contact does not matter here.)
     class Trial {
     public:
         Trial() { requireOk(pp_particle_new(nullptr, 0, 1, 1, 1, &sphere, nullptr, 0)); }
@@ -33,10 +32,11 @@ namespace {
         Trial(const Trial&) = delete;
         Trial& operator=(const Trial&) = delete;
 
-        bool accepts(const pp_settings& settings)
+        pp_status status(const pp_settings& settings)
         {
-            return pp_contact_detect(sphere, &left, sphere, &right, &settings, nullptr, &found) != PP_BAD_SETTING;
+            return pp_contact_detect(sphere, &left, sphere, &right, &settings, nullptr, &found);
         }
+        bool accepts(const pp_settings& settings) { return status(settings) != PP_BAD_SETTING; }
         bool acceptsForArea(double tolerance)
         {
             requireOk(pp_contact_detect(sphere, &left, sphere, &right, nullptr, nullptr, &found));
@@ -93,17 +93,19 @@ pp_settings ContactSettings::parsed() const
         settings.back_end = PP_CONIC;
     else
         refuse("backEnd", "'" + backEnd + "'", "choose 'fast' or 'conic'");
+    if (trial.status(settings) == PP_NO_CONIC)
+        refuse("backEnd", "'conic'", pp_status_message(PP_NO_CONIC));
 
     settings.gap_tolerance = tolerance;
     if (!trial.accepts(settings))
-        refuse("tolerance", shown(tolerance), pp_status_message(PP_BAD_SETTING));
+        refuse("tolerance", shown(tolerance), "it must lie in (0, 0.1]");
     settings.flat_regularisation = flatRegularisation;
     if (!trial.accepts(settings))
-        refuse("flatRegularisation", shown(flatRegularisation), pp_status_message(PP_BAD_SETTING));
+        refuse("flatRegularisation", shown(flatRegularisation), "it must lie in [0, 0.1]");
     if (!trial.acceptsForCarry(carryTolerance))
-        refuse("carryTolerance", shown(carryTolerance), pp_status_message(PP_BAD_SETTING));
+        refuse("carryTolerance", shown(carryTolerance), "it must lie in [0, 0.1]");
     if (!trial.acceptsForArea(areaTolerance))
-        refuse("areaTolerance", shown(areaTolerance), pp_status_message(PP_BAD_SETTING));
+        refuse("areaTolerance", shown(areaTolerance), "it must lie in [1e-12, 0.1]");
 
     if (!(std::isfinite(unitWidth2D) && unitWidth2D > 0))
         refuse("unitWidth2D", shown(unitWidth2D), "give a positive length");

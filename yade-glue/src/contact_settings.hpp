@@ -40,12 +40,12 @@ struct ContactSettings {
               "'midway' (the point that minimises the larger of both potentials, as Ig2_PP_PP_ScGeom does) or 'closest' "
               "(the deepest point of each particle in the other, paper eqs 34-43).");
         visit("backEnd", &S::backEnd,
-              "'fast' (the library's own solver, which falls back by itself) or 'conic' (the second-order cone "
+              "'fast' (the library's own solver) or 'conic' (the second-order cone "
               "programs of the paper: slow, for comparison).");
         visit("tolerance", &S::tolerance, "Relative gap of the squared scale at which the solver may stop.");
         visit("flatRegularisation", &S::flatRegularisation,
               "Smallest sphericity that the solver takes as given; below it, the contact point on a flat face is chosen "
-              "as if k were this. Raise it (1e-4, say) when flat faces rattle.");
+              "as if k were this. Raise it (1e-4, say) when flat faces jitter.");
         visit("carryTolerance", &S::carryTolerance,
               "To what part of the smaller particle's size the point of a contact has to be known that is carried on from the "
               "last step without a look at the planes; 0: every contact is solved in every step.");

@@ -45,8 +45,6 @@ namespace {
         return shape1 && shape2 && shape1->isBoundary && shape2->isBoundary;
     }
 
-    void copyTo(double (&array)[3], const Vector3r& vector) { std::copy_n(vector.data(), 3, array); }
-
 } // namespace
 
 struct Ig2_ConicPP_ConicPP_ScGeom::Pair : PairInScene {

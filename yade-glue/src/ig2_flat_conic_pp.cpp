@@ -24,8 +24,6 @@ namespace {
         return found.flags & PP_FLAG_BY_FACE ? Count::face : Count::cold;
     }
 
-    void copyTo(double (&array)[3], const Vector3r& vector) { std::copy_n(vector.data(), 3, array); }
-
 } // namespace
 
 bool Ig2_Flat_ConicPP::go(const boost::shared_ptr<Shape>& cm1, const boost::shared_ptr<Shape>& cm2, const State& state1,

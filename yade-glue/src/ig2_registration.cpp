@@ -78,15 +78,21 @@ void Ig2_ConicPP_ConicPP_ScGeom::callPostLoad()
 
 void Ig2_ConicPP_ConicPP_ScGeom::pySetAttr(const std::string& key, const py::object& value)
 {
-    bool own = false;
-    ContactSettings::eachAttribute([&](const char* name, auto member, const char*) {
-        if (key != name)
-            return;
-        written.*member = py::extract<typename Pointed<decltype(member)>::type>(value)();
-        own = true;
-    });
-    if (!own)
-        IGeomFunctor::pySetAttr(key, value);
+    try {
+        bool own = false;
+        ContactSettings::eachAttribute([&](const char* name, auto member, const char*) {
+            if (key != name)
+                return;
+            written.*member = py::extract<typename Pointed<decltype(member)>::type>(value)();
+            own = true;
+        });
+        if (!own)
+            IGeomFunctor::pySetAttr(key, value);
+    } catch (...) {
+        // updateAttrs sets one after the other and checks at its end, to which it does not come now.
+        written = accepted.held()->given;
+        throw;
+    }
 }
 
 py::dict Ig2_ConicPP_ConicPP_ScGeom::pyDict() const
@@ -130,7 +136,7 @@ void Ig2_ConicPP_ConicPP_ScGeom::pyRegisterClass(py::object scope)
     count("overlapping", Count::overlapping, "Pairs found in contact.");
     count("areas", Count::areas, "Contact areas computed.");
     count("extended", Count::extended, "Pairs answered in extended precision, because doubles did not settle them.");
-    count("failures", Count::failures, "Failed calls: no answer by any back end, or no valid particle or pose.");
+    count("failures", Count::failures, "Failed calls: no answer by the back end asked for, or no valid particle or pose.");
     registered
         .add_property("answers", &Functor::pyAnswers,
                       "How many pairs were answered in which way: without a solve, apart because their 'motion' was less than "

@@ -13,6 +13,7 @@
 
 #include <boost/make_shared.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <typeinfo>
 
@@ -28,6 +29,8 @@ template <class Usual, class Wanted, class Object> Wanted* castTo(Object* object
         return static_cast<Usual*>(object);
     return dynamic_cast<Wanted*>(object);
 }
+
+inline void copyTo(double (&array)[3], const yade::Vector3r& vector) { std::copy_n(vector.data(), 3, array); }
 
 inline bool isUnit(const yade::Vector3r& vector) { return std::abs(vector.squaredNorm() - 1) < 1e-6; }
 

@@ -15,14 +15,6 @@ namespace potential_particles {
 
 namespace {
 
-    bool sameBits(const std::vector<double>& left, const std::vector<double>& right)
-    {
-        return left.size() == right.size()
-            && (left.empty() || std::memcmp(left.data(), right.data(), left.size() * sizeof(double)) == 0);
-    }
-
-    bool sameBits(double left, double right) { return std::memcmp(&left, &right, sizeof left) == 0; }
-
     // All seven attributes, of a Definition or a shape.
     template <class Other> bool sameAttributes(const Definition& one, const Other& other)
     {

@@ -9,11 +9,20 @@
 #include <potential_particles.h>
 
 #include <cstdint>
+#include <cstring>
 #include <memory>
 #include <string>
 #include <vector>
 
 namespace potential_particles {
+
+// NaN is itself, and -0 is not 0.
+inline bool sameBits(double left, double right) { return std::memcmp(&left, &right, sizeof left) == 0; }
+inline bool sameBits(const std::vector<double>& left, const std::vector<double>& right)
+{
+    return left.size() == right.size()
+        && (left.empty() || std::memcmp(left.data(), right.data(), left.size() * sizeof(double)) == 0);
+}
 
 // The attributes of a shape that say which particle it is.
 struct Definition {

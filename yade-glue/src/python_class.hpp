@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What a class needs to stand beside YADE's own in Python: keyword constructor, properties, dict.
-//
-// A class lists its attributes once, in a static member template
-//     template <class Visit> static void eachAttribute(Visit&& visit)
-//     { visit("name", &Attributes::name, "documentation"); ... }
-// and everything else (properties, dict, updateAttrs, pickle, archives) follows from that list.
+// What a class needs to stand beside YADE's own in Python: keyword constructor, docstring style, archived vectors.
+// (The contact functors list their attributes in ContactSettings::eachAttribute; see ig2_registration.cpp.)
 #pragma once
 
 #include "../abi/serializable.hpp"

@@ -29,9 +29,9 @@ public:
     pp_memory memory = { { 0 } };
     // Not saved: made again by the first look after loading, and after saving.
     KeptApart apart;
-    // Of a pair that touches; nor is this.
+    // Not saved: what is carried on from the last contact, while the pair touches.
     std::unique_ptr<pp_carry> carry;
-    // Of a particle and a flat boundary, which use none of the above; nor is this.
+    // Not saved: separation of a particle from a flat boundary; the members above serve pairs of particles only.
     std::unique_ptr<KeptOff> off;
 
     // At each look, first: drops what is not saved if the pair was saved since the last, so that a run goes on from a save as

@@ -4,9 +4,9 @@
 //
 // The scale s of a particle is convex, and so is each facet. The point of a facet where s is least is therefore one of the
 // mesh around it exactly if no facet that shares its edge or vertex has a lower s: a facet whose point lies inside it keeps
-// its contact, one whose point lies on a seam yields to a neighbour with less. Where both may have their least point on
-// the seam for all that is known of it, in one place, they have one contact: that of the lower s, or, in the very same
-// place, of the lower number of the body.
+// its contact, one whose point lies on a seam yields to a neighbour with less. If the least points of both lie on the seam and
+// coincide within their uncertainty, there is one contact: of the facet with the lower s, or, if they coincide to rounding, of
+// the body with the lower id.
 #pragma once
 
 #include "kept_off.hpp"
@@ -23,20 +23,20 @@ struct FacetContact {
     const BoundaryPoints& vertices;
     const pp_flat_contact& found;
     int id;
-    double least; // to which points are told apart at all: rounding
-    double doubt; // how far this one may be from where it says
+    double rounding; // distance below which two points count as one
+    double uncertainty; // bound on the distance of its point to the exact one
 
     yade::Vector3r point() const { return yade::Vector3r(found.on_boundary); }
 };
 
 // In the particle's size.
-constexpr double leastDoubt = 1e-9, mostDoubt = 0.1;
+constexpr double pointRounding = 1e-9, mostUncertainty = 0.1;
 
 inline FacetContact facetContact(const BoundaryPoints& vertices, const pp_flat_contact& found, int id, double radius)
 {
-    const double bound = found.point_bound >= 0 ? found.point_bound : mostDoubt * radius;
-    const double least = leastDoubt * radius;
-    return { vertices, found, id, least, least + std::min(bound, mostDoubt * radius) };
+    const double bound = found.point_bound >= 0 ? found.point_bound : mostUncertainty * radius;
+    const double rounding = pointRounding * radius;
+    return { vertices, found, id, rounding, rounding + std::min(bound, mostUncertainty * radius) };
 }
 
 inline double distanceToSegment(const yade::Vector3r& x, const yade::Vector3r& from, const yade::Vector3r& to)
@@ -61,9 +61,9 @@ inline Parts partsAt(const FacetContact& facet)
     for (unsigned i = 0; i < 3; ++i) {
         const yade::Vector3r& from = facet.vertices[i];
         const yade::Vector3r& to = facet.vertices[(i + 1) % 3];
-        if (facet.found.feature == PP_ON_EDGE + i || distanceToSegment(x, from, to) <= facet.doubt)
+        if (facet.found.feature == PP_ON_EDGE + i || distanceToSegment(x, from, to) <= facet.uncertainty)
             parts.edges |= 1u << i;
-        if (facet.found.feature == PP_ON_VERTEX + i || (x - from).norm() <= facet.doubt)
+        if (facet.found.feature == PP_ON_VERTEX + i || (x - from).norm() <= facet.uncertainty)
             parts.vertices |= 1u << i;
     }
     return parts;
@@ -99,7 +99,7 @@ inline Slope slopeInto(const BoundaryPoints& neighbour, const FacetContact& own)
     for (const yade::Vector3r& vertex : neighbour) {
         const yade::Vector3r way = vertex - own.point();
         const double length = way.norm(), slope = gradient.dot(way);
-        if (length <= own.least)
+        if (length <= own.rounding)
             continue;
         if (slope < -clear * length)
             return Slope::falls;
@@ -133,18 +133,18 @@ inline bool yieldsTo(const FacetContact& other, const FacetContact& own, const P
 {
     bool inOnePlace = false;
     const yade::Vector3r x = own.point(), y = other.point();
-    const bool close = (x - y).norm() <= own.doubt + other.doubt;
+    const bool close = (x - y).norm() <= own.uncertainty + other.uncertainty;
     for (unsigned i = 0; i < 3; ++i) {
         const yade::Vector3r& from = own.vertices[i];
         if (common.edges >> i & 1) {
             const yade::Vector3r& to = own.vertices[(i + 1) % 3];
             inOnePlace = inOnePlace
-                || (close && distanceToSegment(x, from, to) <= own.doubt && distanceToSegment(y, from, to) <= other.doubt);
+                || (close && distanceToSegment(x, from, to) <= own.uncertainty && distanceToSegment(y, from, to) <= other.uncertainty);
         }
         if (common.vertices >> i & 1)
-            inOnePlace = inOnePlace || (close && (x - from).norm() <= own.doubt && (y - from).norm() <= other.doubt);
+            inOnePlace = inOnePlace || (close && (x - from).norm() <= own.uncertainty && (y - from).norm() <= other.uncertainty);
     }
-    if (inOnePlace && (x - y).norm() <= own.least + other.least)
+    if (inOnePlace && (x - y).norm() <= own.rounding + other.rounding)
         return other.id < own.id;
     return (inOnePlace || isOn(own, common)) && isLower(other, own);
 }

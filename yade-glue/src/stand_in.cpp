@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "stand_in.hpp"
 
-#include <cstring>
-
 namespace potential_particles {
 
 namespace {
-
-    bool sameBits(double left, double right) { return std::memcmp(&left, &right, sizeof left) == 0; }
 
     double roundingOf(const yade::Box& box) { return boxRounding * box.extents.minCoeff(); }
 

@@ -16,7 +16,8 @@ pub struct pp_particle_2d(pub(super) Particle);
 /// With S(x) = (1-k)/r^2 * sum <a x + b y - d>^2 + k/R^2 * |x|^2 all else is as in
 /// pp_particle_new, and the codes of planes stand for lines.
 /// lines: count rows of a, b, d (outward normal and offset; local frame; the normal is used as
-/// given). May be NULL when count is 0.
+/// given). They are the lines of the core: for k = 0 a side lies at a x + b y = d + r. May be NULL when
+/// count is 0.
 /// r: rounding radius, length. k: sphericity, in [0, 1]. shadow_radius: R, length.
 /// out: receives the particle; release it with pp_particle_free_2d.
 /// message: receives, on failure, a sentence that names the line or value (may be NULL).
@@ -58,7 +59,8 @@ pub unsafe extern "C" fn pp_particle_new_2d(
 /// out: receives the particle; release it with pp_particle_free_2d.
 /// message: receives, on failure, a sentence that names the point or value (may be NULL).
 /// Errors: PP_NULL_POINTER, PP_PLANE_NOT_FINITE (a point is not), PP_UNBOUNDED (the points enclose
-/// no area), PP_BAD_SPHERICITY, PP_BAD_ROUNDING_RADIUS, PP_TOO_MANY_PLANES.
+/// no area), PP_BAD_SPHERICITY, PP_BAD_ROUNDING_RADIUS, PP_TOO_MANY_PLANES, PP_BAD_INDEX (a count that no
+/// memory could hold).
 /// Pointers: points points to 2*count doubles, out to one pointer, message to message_size bytes.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pp_particle_new_polygon_2d(
@@ -79,8 +81,10 @@ pub unsafe extern "C" fn pp_particle_new_polygon_2d(
     unsafe { create(make, "points and out must not be NULL", out, message, message_size) }
 }
 
-/// Releases a particle of the plane; NULL is allowed and does nothing. No pair may still be using it.
-/// Pointers: particle is NULL or came from pp_particle_new_2d and was not released yet.
+/// Releases a particle of the plane; NULL is allowed and does nothing. No call that uses it may still be
+/// running.
+/// Pointers: particle is NULL or came from pp_particle_new_2d or pp_particle_new_polygon_2d and was not
+/// released yet.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pp_particle_free_2d(particle: *mut pp_particle_2d) {
     if !particle.is_null() {
@@ -89,7 +93,7 @@ pub unsafe extern "C" fn pp_particle_free_2d(particle: *mut pp_particle_2d) {
     }
 }
 
-/// Rounding radius r as given to pp_particle_new_2d, length.
+/// Rounding radius r as given, length.
 ///
 /// Errors: PP_NULL_POINTER.
 #[unsafe(no_mangle)]
@@ -101,7 +105,7 @@ pub unsafe extern "C" fn pp_particle_rounding_radius_2d(particle: *const pp_part
     })
 }
 
-/// Sphericity k as given to pp_particle_new_2d, no unit.
+/// Sphericity k as given, no unit.
 ///
 /// Errors: PP_NULL_POINTER.
 #[unsafe(no_mangle)]
@@ -113,7 +117,7 @@ pub unsafe extern "C" fn pp_particle_sphericity_2d(particle: *const pp_particle_
     })
 }
 
-/// Radius R of the shadow circle as given to pp_particle_new_2d, length.
+/// Radius R of the shadow circle as given, or that through the outermost corner of a polygon, length.
 ///
 /// Errors: PP_NULL_POINTER.
 #[unsafe(no_mangle)]
@@ -128,7 +132,7 @@ pub unsafe extern "C" fn pp_particle_shadow_radius_2d(
     })
 }
 
-/// Lines as given to pp_particle_new_2d: rows of a, b, d, local frame.
+/// Lines as given, or the sides of a polygon less r: rows of a, b, d, local frame.
 ///
 /// lines: room for capacity rows; may be NULL when capacity is 0. count: receives the number of
 /// lines, also when the buffer is too small (PP_BUFFER_TOO_SMALL), so that one call asks the size.

@@ -140,8 +140,9 @@ pub unsafe extern "C" fn pp_particle_area_properties_2d(
     })
 }
 
-/// Points of the boundary, local frame, in order: rows of x, y. No chord between two of them is farther than
-/// tolerance (length, above 0) from the boundary; there are about a million at most.
+/// Points of the boundary, local frame, in order: rows of x, y. The chord between neighbouring points is
+/// nowhere farther than tolerance (length, above 0) from the boundary, unless that takes more than about a
+/// million points: refinement ends there.
 ///
 /// points: room for capacity rows; may be NULL when capacity is 0. count: receives the number of
 /// points, also when the buffer is too small (PP_BUFFER_TOO_SMALL), so that one call asks the size.

@@ -33,16 +33,17 @@ pub struct pp_contact_2d {
     pub s: f64,
     /// Closest: s_B at P1; NaN for midway.
     pub s_b: f64,
-    /// Weight u of B, in [0, 1]: (1-u) grad S_A + u grad S_B = 0 at the solution.
+    /// Weight u of B, in [0, 1]: (1-u) grad S_A + u grad S_B = 0 at the solution (closest: at P2).
     pub weight: f64,
-    /// Bound on the error of s, from this answer's own numbers: |s - s*| <= gap. Every constant in it is
+    /// Bound on the error of s, and of s_b: |s - s*| <= gap. Every constant in it is
     /// derived (docs/theory.md). In extended precision it is proved; in doubles it counts rounding to first
     /// order: estimated.
     pub gap: f64,
     /// Estimated bound on the distance of the point (closest: of each of P1 and P2) to the exact optimum,
     /// length: of first order in the rounding of the data.
     pub point_bound: f64,
-    /// Overlap (YADE: penetrationDepth), length, > 0 when overlapping; NaN when separated.
+    /// Overlap (YADE: penetrationDepth), length, >= 0 when overlapping (0 where s < 1 by rounding alone); NaN
+    /// when separated.
     pub overlap: f64,
     /// Unit contact normal, from A to B (positive force on B pushes it along +normal).
     pub normal: [f64; 2],
@@ -56,9 +57,9 @@ pub struct pp_contact_2d {
     pub point_on_a: [f64; 2],
     /// Point on the boundary of B inside A, world frame; P2 of closest. NaN when separated.
     pub point_on_b: [f64; 2],
-    /// Separated: lower bound on the distance between the two particles, length, as right as their bounding
-    /// volumes (estimated); 0 when the proof of separation knows none. Until their surfaces have come closer
-    /// to each other by as much, they stay separated. NaN when overlapping.
+    /// Separated: lower bound on the distance between the two particles, length, with the rounding of their
+    /// bounding volumes estimated; 0 when none is known, as for every pair that was solved. NaN when
+    /// overlapping.
     pub distance: f64,
 }
 
@@ -66,8 +67,8 @@ pub struct pp_contact_2d {
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct pp_closest_2d {
-    /// 1 when there is no such point, because the other particle's centre (for k = 0, its core) lies inside
-    /// this one: the numbers below are NaN then. Else 0.
+    /// 1 when there is no such point: for PP_ON_A because the centre of B (for k = 0, its core) lies inside A,
+    /// for PP_ON_B the reverse. The numbers below are NaN then. Else 0.
     pub slack: u32,
     /// Always 0.
     pub reserved: u32,

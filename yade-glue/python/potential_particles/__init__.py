@@ -14,11 +14,14 @@ Then these classes stand beside YADE's own:
     Ig2_Sphere_ConicPP_ScGeom, Ig2_Box_ConicPP_ScGeom, Ig2_Wall_ConicPP_ScGeom, Ig2_Facet_ConicPP_ScGeom
                                  contacts of either with YADE's own shapes
     ScGeomConicPP                the ScGeom that they fill
+    ConicInteractionLoop         the contact loop that skips pairs which cannot have met
+    BoundWatch, Bo1_ConicPP_Aabb, Bo1_PP_Aabb_Conic
+                                 boxes for verletDist > 0
 
 potential_particles.shapes makes shapes from planes, points, files and names of solids, and body() a YADE body of one.
 pack() fills a container with many, add_packing() makes bodies of them; potential_particles.boundaries has walls and funnels.
 
-Before, the classes of the YADE that runs are compared with what the plugin was compiled for. One that
+Before they are registered, the classes of the YADE that runs are compared with what the plugin was compiled for. One that
 differs is refused with AbiError, which lists the differences, and nothing is registered; one that fits
 and was never tested is taken, with a warning of one line.
 

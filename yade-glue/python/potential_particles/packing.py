@@ -52,7 +52,7 @@ def pack(container, shapes, sizes=None, number=None, dense=False, seed=0, margin
     curve: of the mass, in bodies below that size, growing from 0 to 1 and linear between rows.
     dense: False scatters `number` bodies in the container, the largest first; True lays each as low as it gets, from the bottom
     upwards, `number` of them or, with None, as many as fit.
-    margin: least distance between two bodies, and twice that to the container, length.
+    margin: least distance between two bodies, length; that to the container is half of it.
     seed: the same one gives the same packing, whatever `threads` (by default the number of cores) is.
     progress: a bar on the terminal; where standard error is none, a line at the end.
 

@@ -4,7 +4,7 @@
     from potential_particles import potential_utils
 
 Theirs make PotentialBlocks, which Debian's YADE does not have. As there, faces are where the arguments say, k = 0, r is a length, half of the
-least distance of a face from the centre if it is 0; the frame of a body is at its centroid along principal axes. R has no effect for k = 0. Each
+least distance of a face from the centre if it is 0 (potentialblock, whose planes are those of the core, needs r > 0); the frame of a body is at its centroid along principal axes. R has no effect for k = 0. Each
 returns a Body, or a list of them, to be appended to O.bodies.
 """
 import math

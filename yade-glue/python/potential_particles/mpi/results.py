@@ -62,9 +62,9 @@ def counters():
 
     A pair across a border is asked on both sides, and counted twice.
     """
-    functor = _functor()
-    mine = {name: getattr(functor, name) for name in _COUNTS}
-    mine["answers"] = dict(functor.answers)
+    functors = _functors()
+    mine = {name: sum(getattr(functor, name) for functor in functors) for name in _COUNTS}
+    mine["answers"] = {name: sum(functor.answers[name] for functor in functors) for name in functors[0].answers}
     gathered = gather(mine)
     if gathered is None:
         return None
@@ -75,18 +75,18 @@ def counters():
 
 def failures():
     """The failure reports of all ranks on rank 0, each with the rank that wrote it; None elsewhere. Collective."""
-    gathered = gather([{**report, "rank": rank()} for report in _functor().failureReport])
+    gathered = gather([{**report, "rank": rank()} for functor in _functors() for report in functor.failureReport])
     return None if gathered is None else [report for reports in gathered for report in reports]
 
 
-def _functor():
-    """The contact functor of this rank: each has one of its own once the scene is divided."""
+def _functors():
+    """The contact functors of this rank, those of walls, facets and spheres among them: each rank has its own once the scene is divided."""
     # By kind, since a ConicInteractionLoop is one.
-    for engine in O.engines:
-        for functor in engine.geomDispatcher.functors if isinstance(engine, yade.wrapper.InteractionLoop) else ():
-            if hasattr(functor, "failureReport"):
-                return functor
-    raise ValueError("the InteractionLoop has no contact functor of potential_particles")
+    loops = [engine for engine in O.engines if isinstance(engine, yade.wrapper.InteractionLoop)]
+    found = [functor for loop in loops for functor in loop.geomDispatcher.functors if hasattr(functor, "failureReport")]
+    if not found:
+        raise ValueError("the InteractionLoop has no contact functor of potential_particles")
+    return found
 
 
 def _wxyz(orientation):

@@ -21,8 +21,7 @@ def split():
     for first, second, geometry, physics in contacts:
         if _here(first) and _here(second):
             _make(first, second, geometry, physics)
-    if hasattr(yade, "BoundWatch"):
-        _collide_after_the_first_step()
+    _collide_after_the_first_step()
 
 
 def _collide_after_the_first_step():
