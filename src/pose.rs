@@ -80,7 +80,8 @@ impl Pose {
         Self::new(position, [1.0, 0.0, 0.0, 0.0])
     }
 
-    /// From a rotation matrix, local to world; the pose is that of the nearest quaternion.
+    /// From a rotation matrix, local to world. One that is orthonormal to rounding is kept as it is, and extended precision takes the
+    /// quaternion nearest to it, a few ε away; of any other, the pose is that of the nearest quaternion.
     ///
     /// # Errors
     /// A position that is not finite, or a matrix that is no rotation to six digits.
@@ -90,7 +91,8 @@ impl Pose {
             return Err(PoseError::Rotation(off));
         }
         let quaternion = UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(*rotation));
-        Self::new(position, [quaternion.w, quaternion.i, quaternion.j, quaternion.k])
+        let pose = Self::new(position, [quaternion.w, quaternion.i, quaternion.j, quaternion.k])?;
+        Ok(if off <= 8.0 * f64::EPSILON { Self { rotation: *rotation, ..pose } } else { pose })
     }
 
     /// Centre of the particle, world frame.

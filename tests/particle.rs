@@ -28,8 +28,8 @@ fn each_violation_is_its_own_error_and_names_the_value() {
         (with(&|p| p[3].offset = f64::NAN), "plane 3 is not finite"),
         (with(&|p| p[2].normal.y = f64::INFINITY), "plane 2 is not finite"),
         (with(&|p| p[4].normal = Vector3::zeros()), "plane 4 has a normal of length zero"),
-        (with(&|p| p[4].normal.z = -1e-160), "plane 4 has a normal of length 1e-160, too short or too long"),
-        (with(&|p| p[4].normal.z = -1e160), "plane 4 has a normal of length 1e160, too short or too long"),
+        (with(&|p| p[4].normal.z = -1e-160), "plane 4 has a normal with a largest component of 1e-160: its square"),
+        (with(&|p| p[4].normal.z = -1e160), "plane 4 has a normal with a largest component of 1e160: its square"),
         (
             Particle::new(
                 &planes.iter().map(|p| Plane { normal: 1e100 * p.normal, offset: p.offset }).collect::<Vec<_>>(),
@@ -38,7 +38,7 @@ fn each_violation_is_its_own_error_and_names_the_value() {
                 0.9,
             )
             .unwrap_err(),
-            "plane 0 has a normal of length 1e100",
+            "plane 0 has a normal with a largest component of 1e100",
         ),
         (with(&|p| p[1].offset = -0.06), "plane 1 (d=-0.06)"),
         (Particle::new(&planes, 0.05, -0.1, 0.9).unwrap_err(), "k=-0.1"),
