@@ -112,6 +112,26 @@ fn a_rounding_radius_too_small_for_the_bounding_radius_is_refused() {
     assert!((distance - 1e-2).abs() < 1e-8, "{distance:e}");
 }
 
+/// Found by fuzzing: normals of 1e150, whose planes lie 1e143 times as near as the bounding ball says; the search from the ball lost the
+/// crossing, and where n·x cancels, a slope without digits led to -1e248.
+#[test]
+fn planes_far_nearer_than_the_bounding_radius_are_found() {
+    let planes = [[1e150, 1e150, 1e150, 1.0], [1e150, 0.23, 0.0, 0.0]].map(Plane::from);
+    let particle = Particle::new(&planes, 0.5, 1e-3, 1e-8).unwrap();
+    let distance = |x: f64, y: f64, z: f64| {
+        let way = Vector3::new(x, y, z).normalize();
+        (particle.surface_distance(&Vector3::zeros(), &way).unwrap(), way)
+    };
+    let (along_second, way) = distance(1.0, 0.0, -1.0);
+    let depth = 0.5 / (1.0 - 1e-3_f64).sqrt();
+    assert!((along_second * 1e150 * way.x / depth - 1.0).abs() < 1e-12, "{along_second:e}");
+    let (along_first, way) = distance(-1e-3, 1.0, 1.0);
+    assert!((along_first * 1e150 * (way.x + way.y + way.z) / (1.0 + depth) - 1.0).abs() < 1e-12, "{along_first:e}");
+    // Across the first normal but for rounding.
+    let (across, _) = distance(-0.784_464_540_552_736_2, 0.588_348_405_414_552_1, 0.196_116_135_138_184_04);
+    assert!((0.0..=particle.bounding_radius()).contains(&across), "{across:e}");
+}
+
 #[test]
 fn planes_that_leave_a_way_out_are_told_from_those_that_enclose() {
     let encloses = |planes: &[Plane], scale: f64| {

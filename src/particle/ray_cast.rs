@@ -14,6 +14,9 @@ use nalgebra::Vector3;
 /// Most steps; every Newton step from outside passes a plane at least, so that only rounding leads here.
 const MOST_STEPS: usize = 100;
 
+/// Surface points are no further off than this, in the largest distance that the bounding ball allows: that is rounded, too.
+const REACH: f64 = 1.0 + 1e-9;
+
 /// Distance τ ≥ 0 with S(from + τ·direction) = 1, for a local point and a local unit direction.
 ///
 /// `from` should be inside (S ≤ 1). From a point that rounding has put outside, the answer is a small negative number if the
@@ -45,7 +48,9 @@ pub(crate) fn distance_near(shape: &Shape, from: &Vector3<f64>, direction: &Vect
         // the way. From inside others may become active, and only a step below rounding is the last.
         let step = newton - tau;
         let outside_and_close = line.value >= 0.0 && 0.5 * line.curvature * step * step <= rounding * line.slope;
-        if line.slope > 0.0 && (step.abs() <= rounding || outside_and_close) {
+        // A slope that has lost its digits may lead anywhere.
+        let in_reach = newton >= bracket.low - rounding && newton.abs() <= REACH * ray.farthest;
+        if line.slope > 0.0 && in_reach && (step.abs() <= rounding || outside_and_close) {
             return Some(newton);
         }
         if line.value < least {
@@ -77,7 +82,9 @@ pub(crate) fn distance_near(shape: &Shape, from: &Vector3<f64>, direction: &Vect
         }
         if !(bracket.contains(next) && next.is_finite()) {
             if least <= 0.0 {
-                return next.is_finite().then_some(next);
+                // The step leaves the bracket by rounding, or the slope has lost its digits.
+                let nearest = next.max(bracket.low).min(bracket.high);
+                return nearest.is_finite().then_some(nearest);
             }
             // Newton steps from outside end at the root if there is one. If not, the ray touches the particle, to the rounding
             // of S near 1, or misses it.
@@ -145,7 +152,8 @@ impl Ray<'_> {
 
     /// A distance at which one plane alone gives S = 1, near the least such; at most `farthest`.
     ///
-    /// Newton's method from outside on the largest n·x − d, which is convex along the ray.
+    /// Newton's method from outside on the largest n·x − d, which is convex along the ray: from plane to plane, to where each gives
+    /// S = 1, taken from the start of the ray, since a crossing may be many orders nearer than the point before.
     #[cold]
     fn beyond_a_plane(&self) -> f64 {
         if self.shape.is_sphere() {
@@ -156,7 +164,7 @@ impl Ray<'_> {
         for _ in 0..MOST_STEPS {
             let (excess, place) = self.shape.farthest_excess(&self.point(tau));
             let rate = self.shape.normal(place).dot(self.direction);
-            let next = tau - (excess - depth) / rate;
+            let next = (depth + self.shape.offset(place) - self.shape.normal(place).dot(self.from)) / rate;
             if !(excess > depth && rate > 0.0 && next < tau) {
                 break;
             }
