@@ -126,9 +126,17 @@ impl Settings {
     /// Sphericity that replaces smaller ones: the regularisation of flat faces, or less where it would add more to the gap
     /// than is asked for. A raised one is a choice that stays.
     pub(crate) fn least_sphericity(&self) -> f64 {
-        let chosen = self.flat_regularisation.max(Self::default().flat_regularisation);
         let precise = self.gap_tolerance < LEAST_OF_DOUBLES;
-        if precise && !self.raises_regularisation() { SHARE_OF_REGULARISATION * self.gap_tolerance } else { chosen }
+        if precise && !self.raises_regularisation() {
+            SHARE_OF_REGULARISATION * self.gap_tolerance
+        } else {
+            self.regularisation()
+        }
+    }
+
+    /// The regularisation of flat faces as it counts in doubles: the default at least.
+    pub(crate) fn regularisation(&self) -> f64 {
+        self.flat_regularisation.max(Self::default().flat_regularisation)
     }
 
     /// Whether the regularisation of flat faces is more than the default: it then shapes the answer on purpose.

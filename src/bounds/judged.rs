@@ -42,8 +42,8 @@ pub(crate) fn judged(x: &Vector3<f64>, lambda: f64, s: f64, bodies: [&Body; 2], 
     }
 }
 
-/// The dual value of the local model at its own optimal λ, sought from the given one, less all that is in doubt about it. Planes that only seem to be on are dropped
-/// one by one, as in the solver.
+/// The dual value of the local model at its own optimal λ, sought from the given one, less all that is in doubt about it. Planes that
+/// only seem to be on are dropped one by one, as in the solver.
 fn dual_value(bodies: [&Body; 2], start: &Start, problem: Problem, upper: f64) -> Option<f64> {
     let weights = problem.weights(start.lambda);
     let mut model = LocalModel::at(bodies, start, problem, Axes::Graded);

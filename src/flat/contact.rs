@@ -123,11 +123,9 @@ impl Call<'_> {
                 return Ok(FlatContact::apart(&apart));
             }
         }
-        let least = Settings::default().flat_regularisation;
         let goal = Goal {
             particle: self.particle,
-            // Less is lost in doubles.
-            least_sphericity: larger(self.settings.flat_regularisation, least),
+            least_sphericity: self.settings.regularisation(),
             tolerance: self.settings.gap_tolerance,
         };
         let body = goal.body();
@@ -138,9 +136,10 @@ impl Call<'_> {
         if !(closest.settled || scale.low >= 1.0 || scale.s + scale.gap < 1.0) {
             return Err(DetectError::Failed { reason: "the search on the boundary did not settle".into() });
         }
-        if scale.s >= 1.0 && scale.low < 1.0 && self.settings.flat_regularisation > least {
+        if scale.s >= 1.0 && scale.low < 1.0 && self.settings.raises_regularisation() {
             // Where the bulge of a raised regularisation may hide an overlap, the particle as it is decides.
-            let settings = Settings { flat_regularisation: least, ..*self.settings };
+            let flat_regularisation = Settings::default().flat_regularisation;
+            let settings = Settings { flat_regularisation, ..*self.settings };
             let contact = Call { settings: &settings, ..*self }.contact(boundary)?;
             return Ok(FlatContact { flags: contact.flags.with(Flags::DEFAULT_REGULARISATION), ..contact });
         }

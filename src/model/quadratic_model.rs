@@ -29,7 +29,8 @@ fn noise<N: Number>(unit: f64, expanded: N, larger: N) -> N {
 /// Most values of λ tried in one solve; a handful is enough where rounding does not interfere.
 const MOST_TRIALS: usize = 40;
 
-/// A guess of λ is kept in this range, which a solve may leave by [`FARTHEST`]: beyond it one particle's weight is lost in rounding altogether.
+/// A guess of λ is kept in this range, which a solve may leave by [`FARTHEST`]: beyond it one particle's weight is lost in rounding
+/// altogether.
 pub(crate) const LAMBDA_RANGE: (f64, f64) = (1e-30, 1e30);
 
 /// One solve moves λ by at most this factor: quadratics that miss the planes further on may not
@@ -170,8 +171,8 @@ impl<'a, N: Single> Model<'a, N> {
     fn far(self, found: Probe<N>, growing: f64, falling: f64) -> f64 {
         let weights = (found.weights.0.approximate(), found.weights.1.approximate());
         // The weighted sum stays what it is on the curve, to first order.
-        let turning = -self.problem.per_logarithm(weights) * found.rate.approximate();
-        let (rate_a, rate_b) = self.problem.apart(0.0, turning, weights);
+        let rate = -self.problem.per_logarithm(weights) * found.rate.approximate();
+        let (rate_a, rate_b) = self.problem.apart(0.0, rate, weights);
         let (rate_growing, rate_falling) = self.problem.changes(rate_a, rate_b);
         let change = if growing.min(falling) > 0.0 {
             (falling / growing).ln() / (rate_growing / growing - rate_falling / falling)

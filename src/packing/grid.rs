@@ -15,10 +15,9 @@ const MOST_CELLS: f64 = 4e6;
 
 impl Grid {
     /// Of a region, with cells of about this edge.
-    pub fn new(lower: Vector3<f64>, upper: Vector3<f64>, edge: f64) -> Self {
+    pub fn new(lower: Vector3<f64>, upper: Vector3<f64>, mut edge: f64) -> Self {
         let widths = upper - lower;
         let counts = |edge: f64| widths.map(|width| (width / edge).ceil().max(1.0));
-        let mut edge = edge;
         while counts(edge).product() > MOST_CELLS {
             edge *= 1.25;
         }

@@ -19,6 +19,9 @@ pub(crate) type Wide = Vector3<DoubleDouble>;
 /// (docs/theory.md, "Rounding").
 const ROUNDING: f64 = 64.0;
 
+/// Bound on the rounding of a depth in doubles, relative to its terms: 3ε are derived.
+const OF_DEPTH: f64 = 8.0 * f64::EPSILON;
+
 /// Bound on the relative rounding of a sum over so many planes.
 fn rounding_of_sums(count: u32) -> f64 {
     (ROUNDING + f64::from(count)) * DoubleDouble::UNIT
@@ -60,7 +63,7 @@ impl Plane {
     fn quick_depth(&self, delta: &Vector3<f64>, length: f64) -> (f64, f64) {
         let excess = self.excess.rounded();
         let depth = excess + rounded(&self.normal).dot(delta);
-        (depth, 8.0 * f64::EPSILON * (excess.abs() + self.length * length))
+        (depth, OF_DEPTH * (excess.abs() + self.length * length))
     }
 }
 
@@ -170,8 +173,8 @@ impl<'a> ExtendedBody<'a> {
         let (particle, axes) = (self.body.particle, &self.axes);
         self.reach = MARGIN * distance;
         let from = rounded(&self.local).norm();
-        // The excess is compared in doubles: it is off by 3ε of its terms, and 8ε are taken.
-        let blur = 8.0 * f64::EPSILON * (particle.bounds.longest_normal * from + particle.bounds.offset_within(from));
+        // The excess is compared in doubles.
+        let blur = OF_DEPTH * (particle.bounds.longest_normal * from + particle.bounds.offset_within(from));
         let early = particle.bounds.longest_normal * self.reach + blur;
         let (planes, local) = (&mut self.planes, &self.local);
         planes.clear();

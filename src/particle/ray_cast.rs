@@ -83,8 +83,8 @@ pub(crate) fn distance_near(shape: &Shape, from: &Vector3<f64>, direction: &Vect
         if !(bracket.contains(next) && next.is_finite()) {
             if least <= 0.0 {
                 // The step leaves the bracket by rounding, or the slope has lost its digits.
-                let nearest = next.max(bracket.low).min(bracket.high);
-                return nearest.is_finite().then_some(nearest);
+                let kept = next.max(bracket.low).min(bracket.high);
+                return kept.is_finite().then_some(kept);
             }
             // Newton steps from outside end at the root if there is one. If not, the ray touches the particle, to the rounding
             // of S near 1, or misses it.

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Each field that Python shows is written on one side and read on the other (the others are covered by the sizes that are
-// compared at build time): set from Python (that is, by YADE's own
-// code) to a value no other field has and read through our declaration, or, where Python may not
-// set it, the other way round.
+// Each field that Python shows is written on one side and read on the other: set from Python (that is, by YADE's own code) to
+// a value no other field has and read through our declaration, or, where Python may not set it, the other way round. Fields that
+// Python does not show are covered by the sizes compared at build time.
 #include "load_check.hpp"
 
 #include "../abi/functor.hpp"
