@@ -4,7 +4,7 @@
 //! 2(1−k)/r² Σ⟨n_i·x − d_i⟩ of the planes it is that of S. To first order it moves the optimum by its weighted sum, as long as
 //! it leaves the weights where they are.
 
-use crate::linalg::number::larger;
+use crate::linalg::number::{larger, smaller};
 use crate::model::dual_path::Optimum;
 use crate::model::local_model::{LocalModel, Step};
 use crate::model::problem::Problem;
@@ -27,6 +27,8 @@ pub(crate) fn sums(count: u32) -> f64 {
 pub(crate) struct Rounding {
     /// In all.
     all: [f64; 2],
+    /// What planes may add on the way by which the point makes up for it.
+    on_the_way: [f64; 2],
     /// Of the sums alone.
     pub sums: [f64; 2],
 }
@@ -34,8 +36,8 @@ pub(crate) struct Rounding {
 impl Rounding {
     /// After a step to where ∇S_A and ∇S_B are as long as `gradients`.
     #[inline(always)]
-    pub fn after(model: &LocalModel, bodies: [&Body; 2], step: &Step, gradients: [f64; 2]) -> Self {
-        let (mut all, mut sums) = ([0.0; 2], [0.0; 2]);
+    pub fn after(model: &LocalModel, bodies: [&Body; 2], problem: Problem, step: &Step, gradients: [f64; 2]) -> Self {
+        let (mut all, mut sums, mut blurs) = ([0.0; 2], [0.0; 2], [0.0; 2]);
         let values = [step.optimum.values.0, step.optimum.values.1];
         for (i, q) in [&model.q_a, &model.q_b].into_iter().enumerate() {
             let (body, point, check) = (bodies[i], &model.points[i], &step.checks[i]);
@@ -46,8 +48,10 @@ impl Rounding {
             // A plane that is left out at a depth of one blur may be on by two.
             let of_second_order = 4.0 * check.near * body.plane_weight() * blur * blur;
             all[i] = of_places + sums[i] + of_second_order;
+            blurs[i] = blur;
         }
-        Self { all, sums }
+        let on_the_way = on_the_way(bodies, problem, step, [all, gradients, blurs]);
+        Self { all, on_the_way, sums }
     }
 
     /// Bound on what it does to the optimum; `None` where it moves the weights.
@@ -56,7 +60,11 @@ impl Rounding {
         let [of_a, of_b] = self.all;
         let (change_a, change_b) = problem.changes(of_a, of_b);
         let swing = larger(change_a, change_b) / optimum.rate(problem).abs();
-        (swing < UNMOVED).then(|| problem.weighted(of_a, of_b, optimum.lambda) * (1.0 + 4.0 * swing))
+        let [way_a, way_b] = self.on_the_way;
+        let bound = problem.weighted(of_a + way_a, of_b + way_b, optimum.lambda) * (1.0 + 4.0 * swing);
+        // Midway the point may as well stay where it is.
+        let bound = if problem == Problem::Midway { smaller(bound, larger(of_a, of_b)) } else { bound };
+        (swing < UNMOVED).then_some(bound)
     }
 
     /// Bound on the rounding of the merit of the point, whatever the weights do.
@@ -64,6 +72,28 @@ impl Rounding {
     pub fn of_merit(&self, problem: Problem, lambda: f64) -> f64 {
         problem.merit_rounding(self.all[0], self.all[1], lambda)
     }
+}
+
+/// What planes may add to S_A and S_B, of which so much may be rounding, while the point makes up for it: along the gradients, which
+/// balance, the side that is too high falls at their rate, and planes come on that are no farther than the blur and that way.
+#[inline(always)]
+fn on_the_way(
+    bodies: [&Body; 2],
+    problem: Problem,
+    step: &Step,
+    [rounding, gradients, blurs]: [[f64; 2]; 3],
+) -> [f64; 2] {
+    let (high_a, high_b) = problem.changes(rounding[0], rounding[1]);
+    let (fall_a, fall_b) = problem.changes(gradients[0], gradients[1]);
+    // Where both gradients vanish with all rounding, the point stays.
+    let way = larger((high_a + high_b) / (fall_a + fall_b), 0.0);
+    [0, 1].map(|i| {
+        let (body, check, blur) = (bodies[i], &step.checks[i], blurs[i]);
+        let moved = body.particle.bounds.longest_normal * way;
+        let near = if blur + moved <= check.clear { check.near } else { body.particle.plane_count() as f64 };
+        // w(2·blur + moved)², less the second order of the blur.
+        near * body.plane_weight() * moved * (4.0 * blur + moved)
+    })
 }
 
 /// Bound on the rounding of the sums by which S of one body is taken along the step.

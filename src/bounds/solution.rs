@@ -94,7 +94,7 @@ impl Solution {
             _ => model.merit(problem, lambda),
         };
         let gradient_norms = [optimum.gradients[0].norm(), optimum.gradients[1].norm()];
-        let rounding = Rounding::after(model, bodies, step, gradient_norms);
+        let rounding = Rounding::after(model, bodies, problem, step, gradient_norms);
         let of_optimum = rounding.of_optimum(problem, optimum);
         let force = problem.weighted(gradient_norms[0], gradient_norms[1], lambda);
         let DualBound { height, certain } = DualBound::after(model, bodies, problem, step, (upper, force));

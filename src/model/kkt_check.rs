@@ -1,5 +1,6 @@
 //! Whether the active set of a local model is still right after a step: the KKT check.
 
+use crate::linalg::number::smaller;
 use crate::pair::active_set::LocalPoint;
 use crate::pair::placed_particle::Body;
 use crate::particle::potential::Quadratic;
@@ -25,6 +26,8 @@ pub(crate) struct KktCheck {
     pub pull: f64,
     /// Number of planes that are active after the step, or may be by rounding.
     pub near: f64,
+    /// A lower bound of how far below 0 the depth of every other plane is after the step.
+    pub clear: f64,
     /// Whether an inactive plane may be on by rounding.
     pub near_inactive: bool,
 }
@@ -70,6 +73,7 @@ impl KktCheck {
             least_push: (q.clear - moved) * body.particle.bounds.shortest_normal_at(&point.y),
             pull: q.pull + near * body.plane_curvature() * moved,
             near,
+            clear: q.clear - moved,
             near_inactive: false,
         }
     }
@@ -78,13 +82,10 @@ impl KktCheck {
     fn plane_by_plane(body: &Body, point: &LocalPoint, v: Vector3<f64>) -> Self {
         let (e, particle) = (body.turn(&v), body.particle);
         // Active planes are near y, entering ones near y + e: no other plane is within reach of either.
-        let far = if particle.clusters.is_single() {
-            0.0
-        } else {
-            point.blur + particle.bounds.longest_normal * e.norm() * (1.0 + DEPTH_ROUNDING)
-        };
+        let moved = particle.bounds.longest_normal * e.norm() * (1.0 + DEPTH_ROUNDING);
+        let far = if particle.clusters.is_single() { 0.0 } else { point.blur + moved };
         let mut planes = Planes::after(body, point, &e);
-        particle.visit_near(&point.y, far, |place, n, excess| {
+        let most_left_out = particle.visit_near(&point.y, far, |place, n, excess| {
             let depth = excess + n.dot(&e);
             if point.is_active(place, excess) {
                 planes.add_active(place, &n, excess, depth);
@@ -92,6 +93,7 @@ impl KktCheck {
                 planes.add_inactive(depth);
             }
         });
+        planes.clear = smaller(planes.clear, -most_left_out - moved);
         planes.check()
     }
 
@@ -128,6 +130,7 @@ struct Planes<'a> {
     doubtful: f64,
     depths: f64,
     near: f64,
+    clear: f64,
     least_push: f64,
 }
 
@@ -149,6 +152,7 @@ impl<'a> Planes<'a> {
             doubtful: 0.0,
             depths: 0.0,
             near: 0.0,
+            clear: f64::INFINITY,
             least_push: f64::INFINITY,
         }
     }
@@ -160,6 +164,8 @@ impl<'a> Planes<'a> {
             self.near += 1.0;
             self.near_inactive = true;
             self.entering |= depth > blur;
+        } else {
+            self.clear = smaller(self.clear, -depth);
         }
     }
 
@@ -205,6 +211,7 @@ impl<'a> Planes<'a> {
             least_push: self.least_push,
             pull: self.body.plane_curvature() * self.depths,
             near: self.near,
+            clear: self.clear,
             near_inactive: self.near_inactive,
         }
     }

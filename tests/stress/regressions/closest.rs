@@ -94,10 +94,9 @@ fn the_judge_bounds_the_distance_by_a_feasible_point() {
     judged_by("small_body_far_from_the_point_on_a", &[BoundOfS], 875_949_039, 20_881);
 }
 
-/// B is a plate with r = 5·10⁻¹⁶, and the rounding of a point of A, 10⁻¹⁵, moves P1 across that rounding: s_B there is 4·10⁻⁴ or 0.86. The bound takes S_B to be
+/// B is a plate with r = 5·10⁻¹⁶, and the rounding of a point of A, 10⁻¹⁵, moves P1 across that rounding: s_B there is 4·10⁻⁴ or 0.86. The bound took S_B to be
 /// the same quadratic on that way, on which a plane of B comes on.
 #[test]
-#[ignore = "open: see docs/reliability.md"]
 fn the_bound_counts_planes_of_one_body_within_the_rounding_of_the_other() {
     judged_by("plate_whose_face_lies_within_the_rounding_of_the_other_body", &[BoundOfS], 635_189_490, 874_165);
 }
