@@ -153,8 +153,7 @@ impl<'a> Call<'a> {
         let start = if known { Start { x: first.x, lambda: first.lambda } } else { self.cold() };
         let solution = extended::solve(self.pair, self.bodies(), goal, &start);
         let settled = solution.ending != Ending::Unsettled;
-        // A bound of first order that does not hold is not compared.
-        if known && !(settled && (!first.linear || solution.gap() < first.gap())) {
+        if known && !(settled && solution.gap() < first.gap()) {
             return Ok(first);
         }
         if !settled {
