@@ -74,8 +74,8 @@ impl Rounding {
     }
 }
 
-/// What planes may add to S_A and S_B, of which so much may be rounding, while the point makes up for it: along the gradients, which
-/// balance, the side that is too high falls at their rate, and planes come on that are no farther than the blur and that way.
+/// What planes may add to S_A and S_B while the point moves to make up for `rounding`. The weighted gradients balance, so that the
+/// side that is too high falls at their rate; on that way planes come on that are no farther from it than the way and the blur.
 #[inline(always)]
 fn on_the_way(
     bodies: [&Body; 2],

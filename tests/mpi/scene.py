@@ -28,9 +28,8 @@ def build(gap=0.0, wall=False):
     contact = yade.Ig2_ConicPP_ConicPP_ScGeom(calContactArea=False)
     fresh_scene(contact, dt=1e-3, damping=0.1, gravity=(0, 0, -9.81), stiffness=1e6, friction=0.5)
     if wall:
-        loop = next(engine for engine in O.engines if isinstance(engine, yade.InteractionLoop))
-        loop.geomDispatcher.functors = [contact, yade.Ig2_Wall_ConicPP_ScGeom(calContactArea=False)]
-        collider = next(engine for engine in O.engines if isinstance(engine, yade.InsertionSortCollider))
+        engine_of(yade.InteractionLoop).geomDispatcher.functors = [contact, yade.Ig2_Wall_ConicPP_ScGeom(calContactArea=False)]
+        collider = engine_of(yade.InsertionSortCollider)
         collider.boundDispatcher.functors = collider.boundDispatcher.functors + [yade.Bo1_Wall_Aabb()]
         O.bodies.append(yade.utils.wall(0.0, axis=2))
     else:
@@ -45,6 +44,10 @@ def build(gap=0.0, wall=False):
                 O.bodies[number].state.vel = Vector3(0.5 * (y - 1.0) - 0.5 * place[0], 0.0, 0.0)
                 ids.append(number)
     return ids
+
+
+def engine_of(kind):
+    return next(engine for engine in O.engines if isinstance(engine, kind))
 
 
 def floor():
@@ -111,8 +114,7 @@ def apart():
     """The two halves of the scene lie far from each other: YADE's own exchange aborts here."""
     start(gap=8.0, wall=True)
     mpi.run(50)
-    loop = next(engine for engine in O.engines if isinstance(engine, yade.InteractionLoop))
-    calls = mpi.gather([functor.calls for functor in loop.geomDispatcher.functors])
+    calls = mpi.gather([functor.calls for functor in engine_of(yade.InteractionLoop).geomDispatcher.functors])
     result(f"apart{mpi.ranks()}", calls=calls)
 
 
