@@ -27,8 +27,8 @@ pub(crate) fn sums(count: u32) -> f64 {
 pub(crate) struct Rounding {
     /// In all.
     all: [f64; 2],
-    /// What planes may add on the way by which the point makes up for it.
-    on_the_way: [f64; 2],
+    /// What the curvature of the planes may add while the point moves to make up for it.
+    by_curvature: [f64; 2],
     /// Of the sums alone.
     pub sums: [f64; 2],
 }
@@ -50,8 +50,8 @@ impl Rounding {
             all[i] = of_places + sums[i] + of_second_order;
             blurs[i] = blur;
         }
-        let on_the_way = on_the_way(bodies, problem, step, [all, gradients, blurs]);
-        Self { all, on_the_way, sums }
+        let by_curvature = by_curvature(bodies, problem, step, [all, gradients, blurs]);
+        Self { all, by_curvature, sums }
     }
 
     /// Bound on what it does to the optimum; `None` where it moves the weights.
@@ -60,8 +60,8 @@ impl Rounding {
         let [of_a, of_b] = self.all;
         let (change_a, change_b) = problem.changes(of_a, of_b);
         let swing = larger(change_a, change_b) / optimum.rate(problem).abs();
-        let [way_a, way_b] = self.on_the_way;
-        let bound = problem.weighted(of_a + way_a, of_b + way_b, optimum.lambda) * (1.0 + 4.0 * swing);
+        let [more_a, more_b] = self.by_curvature;
+        let bound = problem.weighted(of_a + more_a, of_b + more_b, optimum.lambda) * (1.0 + 4.0 * swing);
         // Midway the point may as well stay where it is.
         let bound = if problem == Problem::Midway { smaller(bound, larger(of_a, of_b)) } else { bound };
         (swing < UNMOVED).then_some(bound)
@@ -74,10 +74,10 @@ impl Rounding {
     }
 }
 
-/// What planes may add to S_A and S_B while the point moves to make up for `rounding`. The weighted gradients balance, so that the
-/// side that is too high falls at their rate; on that way planes come on that are no farther from it than the way and the blur.
+/// What the curvature of the planes may add to S_A and S_B while the point moves to make up for `rounding`: against the gradient of the
+/// side that is too high, as far as rounding over slope. Inactive planes within that way and the blur of their switch count, too.
 #[inline(always)]
-fn on_the_way(
+fn by_curvature(
     bodies: [&Body; 2],
     problem: Problem,
     step: &Step,

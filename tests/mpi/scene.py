@@ -14,7 +14,7 @@ from pathlib import Path
 import numpy as np
 import potential_particles  # noqa: F401 (a saved scene holds its classes)
 import yade
-from harness import add, cube, fresh_scene, turned
+from harness import add, cube, engine_of, fresh_scene, turned
 from potential_particles import mpi
 from potential_particles.mpi import stepping
 from yade import O, Vector3
@@ -44,10 +44,6 @@ def build(gap=0.0, wall=False):
                 O.bodies[number].state.vel = Vector3(0.5 * (y - 1.0) - 0.5 * place[0], 0.0, 0.0)
                 ids.append(number)
     return ids
-
-
-def engine_of(kind):
-    return next(engine for engine in O.engines if isinstance(engine, kind))
 
 
 def floor():

@@ -132,10 +132,14 @@ def halt():
         time.sleep(0.0005)
 
 
+def engine_of(kind):
+    """The first engine of a class in the present scene."""
+    return next(engine for engine in O.engines if isinstance(engine, kind))
+
+
 def functor():
     """The contact functor of the present scene (after O.load the script's own object is another)."""
-    loop = next(engine for engine in O.engines if isinstance(engine, yade.InteractionLoop))
-    return loop.geomDispatcher.functors[0]
+    return engine_of(yade.InteractionLoop).geomDispatcher.functors[0]
 
 
 def momentum():

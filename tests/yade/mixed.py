@@ -70,8 +70,7 @@ def touching():
 
 
 def failures():
-    loop = next(engine for engine in O.engines if isinstance(engine, yade.InteractionLoop))
-    return sum(f.failures for f in loop.geomDispatcher.functors if hasattr(f, "failures"))
+    return sum(f.failures for f in engine_of(yade.InteractionLoop).geomDispatcher.functors if hasattr(f, "failures"))
 
 
 def look():
