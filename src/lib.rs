@@ -88,8 +88,8 @@ pub use contact::contact::{Contact, Kind};
 pub use contact::detect::{DetectError, detect, detect_carried};
 pub use flags::Flags;
 pub use flat::{BoundaryError, Feature, FlatContact, Triangle, Wall, contact_with_plane, contact_with_triangle};
+pub use pair::memory::Memory;
 pub use pair::role::Role;
-pub use pair::warm_start::Memory;
 pub use particle::mass_properties::{MASS_TOLERANCE, MassProperties};
 pub use particle::particle::{MAX_PLANES, Particle, ParticleError, Plane};
 pub use pose::{Pose, PoseError};
@@ -100,8 +100,8 @@ pub use surface::surface_mesh::{MeshError, SurfaceMesh};
 /// Stages of the solver for benchmarks; no part of the public interface, and changed without notice.
 #[doc(hidden)]
 pub mod internals {
-    pub use crate::pair::relative_pose::Pair;
-    pub use crate::pair::separation_tests as reject;
+    pub use crate::pair::pair::Pair;
+    pub use crate::pair::separation as reject;
     pub use crate::particle::potential;
 }
 

@@ -3,7 +3,7 @@
 //! [`crate::Settings::validate`] refuses the conic back end by name before any of this is reached; what remains is the last
 //! resort of the fast solver.
 
-use crate::pair::relative_pose::Pair;
+use crate::pair::pair::Pair;
 pub use crate::pair::role::Role;
 use nalgebra::Vector3;
 use thiserror::Error;

@@ -9,7 +9,7 @@ use crate::bounds::rounding;
 use crate::linalg::number::smaller;
 use crate::model::local_model::{self, LocalModel, Step};
 use crate::model::problem::Problem;
-use crate::pair::placed_particle::Body;
+use crate::pair::body::Body;
 
 /// Bound on the error of the slope by the rounding of A's rotation, in units of ε·(a|∇S_A| + b|∇S_B|): 26.4ε of a|∇S_A|, which is half
 /// of that sum where forces balance (docs/theory.md, "Rounding").

@@ -6,7 +6,7 @@ use crate::bounds::solution::{Ending, Solution};
 use crate::model::kkt_check::Change;
 use crate::model::local_model::{self, Axes, LocalModel, Start};
 use crate::model::problem::Problem;
-use crate::pair::placed_particle::Body;
+use crate::pair::body::Body;
 use nalgebra::Vector3;
 
 /// The solution at x with the ratio of weights λ that came with it.

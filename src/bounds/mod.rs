@@ -5,9 +5,9 @@
 //! optimum to its data ([`sensitivity`], [`point_bound`]). docs/theory.md derives each bound.
 
 pub(crate) mod dual_bound;
-pub(crate) mod gap;
 pub(crate) mod judged;
 pub(crate) mod point_bound;
 pub(crate) mod rounding;
+pub(crate) mod scale;
 pub(crate) mod sensitivity;
 pub(crate) mod solution;

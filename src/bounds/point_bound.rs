@@ -5,7 +5,7 @@ use crate::bounds::solution::Solution;
 use crate::linalg::number::larger;
 use crate::model::local_model::{self, LocalModel};
 use crate::model::problem::Problem;
-use crate::pair::placed_particle::Body;
+use crate::pair::body::Body;
 
 /// Units in the last place by which two sides that meet may still differ (estimated).
 const SIDES: f64 = 8.0;
@@ -65,7 +65,7 @@ pub(crate) fn by_convexity(solution: &Solution, bodies: [&Body; 2], problem: Pro
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::pair::relative_pose::Pair;
+    use crate::pair::pair::Pair;
     use crate::particle::particle::Particle;
     use crate::pose::Pose;
     use nalgebra::Vector3;

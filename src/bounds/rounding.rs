@@ -8,7 +8,7 @@ use crate::linalg::number::{larger, smaller};
 use crate::model::dual_path::Optimum;
 use crate::model::local_model::{LocalModel, Step};
 use crate::model::problem::Problem;
-use crate::pair::placed_particle::Body;
+use crate::pair::body::Body;
 use crate::particle::potential::Quadratic;
 use nalgebra::Vector3;
 

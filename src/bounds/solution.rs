@@ -7,8 +7,8 @@ use crate::linalg::number::smaller;
 use crate::model::kkt_check::Change;
 use crate::model::local_model::{self, LocalModel, Step};
 use crate::model::problem::Problem;
-use crate::pair::active_set::LocalPoint;
-use crate::pair::placed_particle::Body;
+use crate::pair::body::Body;
+use crate::pair::local_point::LocalPoint;
 use nalgebra::Vector3;
 
 /// Largest factor by which a first guess changes λ.

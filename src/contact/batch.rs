@@ -3,7 +3,7 @@
 use crate::contact::carried::Carried;
 use crate::contact::contact::Contact;
 use crate::contact::detect::{Carrying, DetectError, detect};
-use crate::pair::warm_start::Memory;
+use crate::pair::memory::Memory;
 use crate::particle::particle::Particle;
 use crate::pose::Pose;
 use crate::settings::Settings;

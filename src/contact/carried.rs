@@ -6,7 +6,7 @@
 //! it, with one 3×3 factorisation for all its rounds; what a further round would change, from the slope and the mismatch that
 //! are left, bounds the error (docs/theory.md, "Carrying a contact on").
 
-use crate::bounds::gap::Scale;
+use crate::bounds::scale::Scale;
 use crate::bounds::solution::Solution;
 use crate::contact::contact::{Contact, Kind};
 use crate::contact::geometry::LocalContact;
@@ -15,8 +15,8 @@ use crate::linalg::number::{larger, smaller};
 use crate::linalg::symmetric::{Factor, Symmetric};
 use crate::model::local_model::{self, LocalModel, Piece};
 use crate::model::problem::Problem;
-use crate::pair::placed_particle::Body;
-use crate::pair::relative_pose::Pair;
+use crate::pair::body::Body;
+use crate::pair::pair::Pair;
 use crate::particle::particle::Particle;
 use crate::pose::Pose;
 use crate::settings::Settings;

@@ -2,7 +2,7 @@
 
 use crate::contact::detect::DetectError;
 use crate::model::problem::Problem;
-use crate::pair::relative_pose::Pair;
+use crate::pair::pair::Pair;
 use crate::pair::role::Role;
 use crate::particle::particle::Particle;
 use crate::pose::Pose;

@@ -8,9 +8,9 @@ use crate::flags::Flags;
 use crate::model::dual_path;
 use crate::model::local_model::{LocalModel, Start};
 use crate::model::problem::Problem;
-use crate::pair::relative_pose::Pair;
-use crate::pair::separation_tests::{self, Apart};
-use crate::pair::warm_start::{Memory, Remembered};
+use crate::pair::memory::{Memory, Remembered};
+use crate::pair::pair::Pair;
+use crate::pair::separation::{self, Apart};
 use crate::particle::particle::Particle;
 use crate::pose::Pose;
 use crate::settings::{BackEnd, Formulation, Settings, SettingsError};
@@ -321,15 +321,15 @@ fn begin<T>(
 ) -> T {
     let overlapped = last.is_some_and(|last| last.overlapping);
     let known = last.filter(|_| !overlapped && !settings.solve_separated);
-    if let Some(proof) = known.and_then(|last| separation_tests::still_apart(a, b, &last.x)) {
+    if let Some(proof) = known.and_then(|last| separation::still_apart(a, b, &last.x)) {
         return rejected(proof);
     }
     let pair = Pair::new(a.0, a.1, b.0, b.1);
     let proof = match overlapped {
         _ if settings.solve_separated => None,
         // Of a pair that overlapped, only the cheapest proof is worth a try.
-        true => separation_tests::balls_apart(&pair),
-        false => separation_tests::proof_of_separation(&pair),
+        true => separation::balls_apart(&pair),
+        false => separation::proof_of_separation(&pair),
     };
     match proof {
         Some(proof) => rejected(proof),

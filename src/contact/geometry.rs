@@ -1,13 +1,13 @@
 //! Point, normal and overlap from a solution.
 
-use crate::bounds::gap::Scale;
+use crate::bounds::scale::Scale;
 use crate::bounds::solution::Solution;
 use crate::contact::contact::{Contact, Kind};
 use crate::flags::Flags;
 use crate::linalg::number::larger;
 use crate::model::local_model::Piece;
-use crate::pair::placed_particle;
-use crate::pair::relative_pose::Pair;
+use crate::pair::body;
+use crate::pair::pair::Pair;
 use crate::particle::particle::Particle;
 use crate::particle::{potential, ray_cast};
 use crate::pose::Pose;
@@ -193,12 +193,12 @@ struct Ray<'a> {
 impl<'a> Ray<'a> {
     fn of_a(pair: &Pair<'a>, x: &Vector3<f64>, normal: &Vector3<f64>) -> Self {
         let from = pair.in_a(x);
-        let shift = placed_particle::shift_in_a(from.norm(), pair.centre.norm());
+        let shift = body::shift_in_a(from.norm(), pair.centre.norm());
         Self { particle: pair.a, from, outwards: pair.rotation.tr_mul(normal), shift }
     }
 
     fn of_b(pair: &Pair<'a>, x: &Vector3<f64>, normal: &Vector3<f64>) -> Self {
-        Self { particle: pair.b, from: *x, outwards: -normal, shift: placed_particle::shift_in_b(x.norm()) }
+        Self { particle: pair.b, from: *x, outwards: -normal, shift: body::shift_in_b(x.norm()) }
     }
 
     /// How far the surface is, near a guess.

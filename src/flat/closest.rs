@@ -4,10 +4,10 @@ use super::boundary::Feature;
 use super::minimum::Minimum;
 use super::placed::{Corners, Edge, Placed};
 use super::search::{Found, Freedom, minimise};
-use crate::bounds::gap::Scale;
+use crate::bounds::scale::Scale;
 use crate::linalg::number::{larger, smaller};
-use crate::pair::placed_particle::{Body, shift_in_a};
-use crate::pair::separation_tests::MARGIN;
+use crate::pair::body::{Body, shift_in_a};
+use crate::pair::separation::MARGIN;
 use crate::particle::particle::Particle;
 use nalgebra::Vector3;
 

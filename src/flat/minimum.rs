@@ -4,8 +4,8 @@ use crate::bounds::rounding;
 use crate::linalg::number::{larger, smaller};
 use crate::linalg::symmetric::Symmetric;
 use crate::model::kkt_check::KktCheck;
-use crate::pair::active_set::LocalPoint;
-use crate::pair::placed_particle::Body;
+use crate::pair::body::Body;
+use crate::pair::local_point::LocalPoint;
 use crate::particle::potential::Quadratic;
 use nalgebra::{Matrix3, Vector3};
 

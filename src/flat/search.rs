@@ -9,8 +9,8 @@ use crate::linalg::graded_basis;
 use crate::linalg::root::{self, Bracket};
 use crate::linalg::symmetric::{Factor, Symmetric};
 use crate::model::kkt_check::{Change, KktCheck};
-use crate::pair::active_set::LocalPoint;
-use crate::pair::placed_particle::Body;
+use crate::pair::body::Body;
+use crate::pair::local_point::LocalPoint;
 use nalgebra::{Matrix3, Vector3};
 
 /// Where a point may move, by unit vectors of the local frame.

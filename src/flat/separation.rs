@@ -3,8 +3,8 @@
 use super::placed::Placed;
 use crate::flags::Flags;
 use crate::linalg::number::larger;
-use crate::pair::placed_particle::shift_in_a;
-use crate::pair::separation_tests::{Apart, MARGIN};
+use crate::pair::body::shift_in_a;
+use crate::pair::separation::{Apart, MARGIN};
 use crate::particle::particle::Particle;
 use nalgebra::Vector3;
 

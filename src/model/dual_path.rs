@@ -3,7 +3,7 @@
 //! For weights a, b ≥ 0 let v minimise a·q_A + b·q_B, that is H v = −g with H = a H_A + b H_B, g = a g_A + b g_B. As
 //! the weight θ of the problem changes, v runs along a curve from the minimum of one particle to that of the other;
 //! the wanted point is where the mismatch m(θ) = c − (α q_A + β q_B) is zero, with α, β the rates of a, b and
-//! c = 0 for midway, 1 for the two closest points. One search in one variable serves all three (`quadratic_model`).
+//! c = 0 for midway, 1 for the two closest points. One search in one variable serves all three (`dual_search`).
 //!
 //! One factorisation of H gives the curve's whole Taylor series: with D = α H_A + β H_B and w₀ = α g_A + β g_B at v₀,
 //!
@@ -36,7 +36,7 @@ pub(crate) struct Side<'a, N> {
 /// Functions that are rarely called take it and the probes by value: an address passed on would keep them in memory on the common
 /// path.
 #[derive(Clone, Copy)]
-pub(crate) struct Curve<'a, N> {
+pub(crate) struct DualPath<'a, N> {
     a: Side<'a, N>,
     b: Side<'a, N>,
     problem: Problem,
@@ -96,7 +96,7 @@ pub(crate) struct Series<N> {
     pub share: N,
 }
 
-impl<'a, N: Number> Curve<'a, N> {
+impl<'a, N: Number> DualPath<'a, N> {
     #[inline(always)]
     pub fn new(a: Side<'a, N>, b: Side<'a, N>, problem: Problem) -> Self {
         let (alpha, beta) = problem.weight_rates();

@@ -1,8 +1,8 @@
 //! Whether the active set of a local model is still right after a step: the KKT check.
 
 use crate::linalg::number::smaller;
-use crate::pair::active_set::LocalPoint;
-use crate::pair::placed_particle::Body;
+use crate::pair::body::Body;
+use crate::pair::local_point::LocalPoint;
 use crate::particle::potential::Quadratic;
 use nalgebra::Vector3;
 

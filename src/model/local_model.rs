@@ -3,11 +3,11 @@
 use crate::linalg::graded_basis::{self, StiffNormals};
 use crate::linalg::number::{larger, smaller};
 use crate::model::dual_path::Optimum;
+use crate::model::dual_search::{DualSearch, side};
 use crate::model::kkt_check::{CLEAR, Change, KktCheck};
 use crate::model::problem::Problem;
-use crate::model::quadratic_model::{Model, side};
-use crate::pair::active_set::LocalPoint;
-use crate::pair::placed_particle::Body;
+use crate::pair::body::Body;
+use crate::pair::local_point::LocalPoint;
 use crate::particle::potential::Quadratic;
 use nalgebra::{Matrix3, Vector3};
 
@@ -156,9 +156,9 @@ impl LocalModel {
 
     /// Both quadratics, to be solved.
     #[inline(always)]
-    pub fn quadratics(&self, bodies: [&Body; 2], problem: Problem) -> Model<'_> {
+    pub fn quadratics(&self, bodies: [&Body; 2], problem: Problem) -> DualSearch<'_> {
         let soft = softest(bodies);
-        Model::new(side(&self.q_a, soft.0), side(&self.q_b, soft.1), problem)
+        DualSearch::new(side(&self.q_a, soft.0), side(&self.q_b, soft.1), problem)
     }
 
     /// The step to the optimum of both quadratics, sought from a guess of λ.

@@ -4,7 +4,7 @@ use crate::contact::contact::Kind;
 use crate::contact::detect::detect;
 use crate::packing::container::Container;
 use crate::packing::grid::Grid;
-use crate::pair::warm_start::Memory;
+use crate::pair::memory::Memory;
 use crate::particle::particle::Particle;
 use crate::pose::Pose;
 use crate::settings::Settings;

@@ -7,8 +7,8 @@
 use crate::linalg::double_double::DoubleDouble;
 use crate::linalg::number::{Number, smaller};
 use crate::linalg::symmetric::Symmetric;
-use crate::pair::placed_particle::Body;
-use crate::pair::relative_pose::Pair;
+use crate::pair::body::Body;
+use crate::pair::pair::Pair;
 use crate::pose::Pose;
 use nalgebra::{Matrix3, Vector3};
 

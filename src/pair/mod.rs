@@ -1,9 +1,9 @@
 //! Two particles in one frame.
 
-pub mod active_set;
+pub mod body;
 pub mod extended_body;
-pub mod placed_particle;
-pub mod relative_pose;
+pub mod local_point;
+pub mod memory;
+pub mod pair;
 pub mod role;
-pub mod separation_tests;
-pub mod warm_start;
+pub mod separation;

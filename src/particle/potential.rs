@@ -1,7 +1,7 @@
 //! S, its gradient and its Hessian, in the local frame of the particle.
 //!
 //! S is piecewise quadratic: value, gradient and Hessian at a point describe it exactly as long as the active set, the
-//! planes with n·y > d, does not change. (The solver counts those above −blur, `pair::active_set`.)
+//! planes with n·y > d, does not change. (The solver counts those above −blur, `pair::local_point`.)
 
 use crate::linalg::number::{larger, smaller};
 use crate::linalg::symmetric::Symmetric;

@@ -5,7 +5,7 @@ use super::particle::Particle;
 use super::pose::Pose;
 use crate::contact::batch::{self, Placed};
 use crate::contact::detect::DetectError;
-use crate::pair::warm_start::Memory;
+use crate::pair::memory::Memory;
 use crate::settings::Settings;
 
 /// Contacts of many pairs of bodies of the plane: [`crate::detect_batch`] with two coordinates.

@@ -5,7 +5,7 @@ use super::pose::Pose;
 use crate::contact::contact::{self, Kind};
 use crate::contact::detect::{self, DetectError};
 use crate::flags::Flags;
-use crate::pair::warm_start::Memory;
+use crate::pair::memory::Memory;
 use crate::settings::{BackEnd, Formulation, Settings};
 use nalgebra::Vector2;
 

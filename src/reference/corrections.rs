@@ -4,7 +4,7 @@ use super::goal::{Goal, both};
 use super::program::{Answer, Program, Tuning};
 use super::solution::{ConicError, ConicSolution};
 use crate::linalg::root::Bracket;
-use crate::pair::relative_pose::Pair;
+use crate::pair::pair::Pair;
 use clarabel::solver::SolverStatus;
 use nalgebra::Vector3;
 

@@ -1,7 +1,7 @@
 //! What is minimised, and what is held.
 
 use super::solution::Role;
-use crate::pair::relative_pose::Pair;
+use crate::pair::pair::Pair;
 use crate::particle::potential;
 use nalgebra::Vector3;
 

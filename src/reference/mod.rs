@@ -59,7 +59,7 @@ mod goal;
 mod program;
 mod solution;
 
-use crate::pair::relative_pose::Pair;
+use crate::pair::pair::Pair;
 use corrections::solve;
 use goal::Goal;
 pub use solution::{ConicError, ConicSolution, Role};

@@ -17,7 +17,7 @@
 
 use super::goal::Goal;
 use super::solution::ConicError;
-use crate::pair::relative_pose::Pair;
+use crate::pair::pair::Pair;
 use clarabel::algebra::CscMatrix;
 use clarabel::solver::{DefaultSettings, DefaultSolver, IPSolver, SolverStatus, SupportedConeT};
 use nalgebra::Vector3;

@@ -5,19 +5,19 @@
 //! 3. The extended tier, where that did not settle, where its bound is looser than rounding explains, or where the caller asks for
 //!    a smaller gap than doubles can give ([`extended`]).
 
-use crate::bounds::gap::Scale;
 use crate::bounds::judged::judged;
 use crate::bounds::point_bound::point_bound;
+use crate::bounds::scale::Scale;
 use crate::bounds::solution::{Ending, Solution};
 use crate::flags::Flags;
 use crate::model::dual_path;
+use crate::model::dual_search;
 use crate::model::local_model::{self, Axes, LocalModel, Piece, Start, Step};
 use crate::model::problem::Problem;
-use crate::model::quadratic_model;
-use crate::pair::placed_particle::Body;
-use crate::pair::relative_pose::Pair;
+use crate::pair::body::Body;
+use crate::pair::memory::Remembered;
+use crate::pair::pair::Pair;
 use crate::pair::role::Role;
-use crate::pair::warm_start::Remembered;
 use crate::reference::{self, ConicError};
 use crate::settings::{BackEnd, Settings};
 use crate::solver::newton::{self, Goal};
@@ -257,7 +257,7 @@ impl<'a> Call<'a> {
         }
         let bodies = self.bodies();
         let soft = local_model::softest(bodies);
-        let [p1, p2] = quadratic_model::both_closest([&model.q_a, &model.q_b], soft, lambdas)?;
+        let [p1, p2] = dual_search::both_closest([&model.q_a, &model.q_b], soft, lambdas)?;
         let on_a = newton::accepted(bodies, &self.goal(Problem::OnA), model, &model.step(bodies, p1))?;
         let on_b = newton::accepted(bodies, &self.goal(Problem::OnB), model, &model.step(bodies, p2))?;
         let points = [self.certified(Problem::OnA, &on_a, model), self.certified(Problem::OnB, &on_b, model)];

@@ -16,12 +16,12 @@ use crate::linalg::graded_basis::{self, StiffNormals};
 use crate::linalg::number::{Number, Single, larger, smaller};
 use crate::linalg::symmetric::{Factor, Symmetric};
 use crate::model::dual_path::{Optimum, Side};
+use crate::model::dual_search::DualSearch;
 use crate::model::local_model::{self, Start};
 use crate::model::problem::Problem;
-use crate::model::quadratic_model::Model;
+use crate::pair::body::Body;
 use crate::pair::extended_body::{ExtendedBody, Undecided, Wide, WideQuadratic, WideValue, rounded, wide};
-use crate::pair::placed_particle::Body;
-use crate::pair::relative_pose::Pair;
+use crate::pair::pair::Pair;
 use crate::solver::newton::{self, Goal};
 use nalgebra::{Matrix3, Vector3};
 
@@ -343,12 +343,12 @@ const PLACED: f64 = 16.0;
 const LESS: f64 = 1.0 - 1e-12;
 
 impl WideModel {
-    fn quadratics(&self, problem: Problem) -> Model<'_, DoubleDouble> {
+    fn quadratics(&self, problem: Problem) -> DualSearch<'_, DoubleDouble> {
         let side = |i: usize| {
             let WideQuadratic { value, gradient, hessian } = &self.sides[i];
             Side { value: *value, gradient, hessian, soft: self.soft[i] }
         };
-        Model::new(side(0), side(1), problem)
+        DualSearch::new(side(0), side(1), problem)
     }
 
     /// A step in the graded axes in the solver's frame.

@@ -17,8 +17,8 @@
 
 use crate::linalg::number::larger;
 use crate::model::local_model::Start;
-use crate::pair::placed_particle::Body;
-use crate::pair::relative_pose::Pair;
+use crate::pair::body::Body;
+use crate::pair::pair::Pair;
 use nalgebra::Vector3;
 
 /// Most planes that take over, one after the other, and most trials for each. A start need not be perfect.

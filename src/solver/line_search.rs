@@ -5,7 +5,7 @@
 
 use crate::linalg::number::larger;
 use crate::model::problem::{PRICE, Problem};
-use crate::pair::placed_particle::Body;
+use crate::pair::body::Body;
 use crate::particle::potential::OnLine;
 use nalgebra::Vector3;
 

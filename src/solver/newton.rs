@@ -1,6 +1,6 @@
 //! Newton's method on the exact quadratic pieces, with a dual bound at every step.
 //!
-//! Each iteration makes both quadratics at x, solves the pair exactly ([`crate::model::quadratic_model`]) and steps to their
+//! Each iteration makes both quadratics at x, solves the pair exactly ([`crate::model::dual_search`]) and steps to their
 //! optimum. If the active set is unchanged after the step, the point is optimal and the dual value is a lower bound. A step that
 //! does not reduce the merit (planes became active on the way) is shortened by an exact line search.
 
@@ -9,7 +9,7 @@ use crate::linalg::number::larger;
 use crate::model::kkt_check::Change;
 use crate::model::local_model::{self, Axes, LocalModel, Step};
 use crate::model::problem::Problem;
-use crate::pair::placed_particle::Body;
+use crate::pair::body::Body;
 use crate::settings::LEAST_OF_DOUBLES;
 use crate::solver::line_search::{self, Merit};
 use nalgebra::Vector3;

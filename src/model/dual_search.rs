@@ -5,15 +5,15 @@
 
 use crate::linalg::number::{Number, Single, Twin, larger};
 use crate::linalg::symmetric::Symmetric;
-use crate::model::dual_path::{Curve, Optimum, Probe, Side};
+use crate::model::dual_path::{DualPath, Optimum, Probe, Side};
 use crate::model::problem::Problem;
 use crate::particle::potential::Quadratic;
 use nalgebra::{SimdValue, Vector3};
 
 /// The curve, and what the search along it has to know besides.
 #[derive(Clone, Copy)]
-pub(crate) struct Model<'a, N = f64> {
-    curve: Curve<'a, N>,
+pub(crate) struct DualSearch<'a, N = f64> {
+    curve: DualPath<'a, N>,
     problem: Problem,
     /// Sum of those values at the point of expansion that enter the mismatch.
     expanded: f64,
@@ -100,11 +100,11 @@ impl<N: Single> Bracket<N> {
     }
 }
 
-impl<'a, N: Single> Model<'a, N> {
+impl<'a, N: Single> DualSearch<'a, N> {
     #[inline(always)]
     pub fn new(a: Side<'a, N>, b: Side<'a, N>, problem: Problem) -> Self {
         let (of_a, of_b) = problem.changes(a.value.approximate(), b.value.approximate());
-        Self { curve: Curve::new(a, b, problem), problem, expanded: of_a + of_b }
+        Self { curve: DualPath::new(a, b, problem), problem, expanded: of_a + of_b }
     }
 
     /// Searches λ from a guess until the two sides meet as well as rounding allows. `None` when a factorisation breaks down.
@@ -207,7 +207,7 @@ pub(crate) fn both_closest([q_a, q_b]: [&Quadratic; 2], soft: (f64, f64), lambda
     let free = Side { value, gradient: &g_free, hessian: &h_free, soft: Twin::new(soft.0, soft.1) };
     let value = Twin::new(q_b.expansion, q_a.expansion);
     let held = Side { value, gradient: &g_held, hessian: &h_held, soft: Twin::new(soft.1, soft.0) };
-    let curve = Curve::new(free, held, Problem::OnB);
+    let curve = DualPath::new(free, held, Problem::OnB);
     let mut lambda = Twin::new(lambdas[1], 1.0 / lambdas[0]);
     for _ in 0..MOST_PROBES {
         let probe = curve.probe(lambda)?;
@@ -272,7 +272,7 @@ mod tests {
         let q_b = about([0.95, -0.2, 0.1], Symmetric { xx: 1.8, yx: -0.1, yy: 2.0, zx: 0.4, zy: 0.5, zz: 5.0 });
         let soft = (1.0, 1.0);
         let alone = [Problem::OnA, Problem::OnB]
-            .map(|problem| Model::new(side(&q_a, soft.0), side(&q_b, soft.1), problem).solve(1.0).unwrap());
+            .map(|problem| DualSearch::new(side(&q_a, soft.0), side(&q_b, soft.1), problem).solve(1.0).unwrap());
         let guesses = |off: f64| [alone[0].lambda * (1.0 + off), alone[1].lambda * (1.0 - off)];
         // By one probe, and by two.
         for off in [1e-4, 1e-2] {

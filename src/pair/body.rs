@@ -2,8 +2,8 @@
 
 use crate::linalg::number::larger;
 use crate::linalg::symmetric::Symmetric;
-use crate::pair::active_set::LocalPoint;
-use crate::pair::relative_pose::Pair;
+use crate::pair::local_point::LocalPoint;
+use crate::pair::pair::Pair;
 use crate::particle::particle::Particle;
 use crate::particle::potential::{self, OnLine, Quadratic};
 use nalgebra::{Matrix3, Vector3};

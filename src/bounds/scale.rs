@@ -3,7 +3,7 @@
 use crate::bounds::solution::Solution;
 use crate::linalg::number::{larger, smaller};
 use crate::model::problem::Problem;
-use crate::pair::placed_particle::Body;
+use crate::pair::body::Body;
 
 /// s with its error bound.
 #[derive(Clone, Copy, Debug)]

@@ -2,7 +2,7 @@
 
 use crate::flags::Flags;
 use crate::linalg::number::{larger, smaller};
-use crate::pair::relative_pose::Pair;
+use crate::pair::pair::Pair;
 use crate::particle::particle::Particle;
 use crate::particle::potential;
 use crate::pose::Pose;
