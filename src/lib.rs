@@ -56,12 +56,12 @@
 
 #![deny(missing_docs)]
 
+mod boundary;
 mod bounds;
 #[cfg(feature = "capi")]
 pub mod capi;
 mod contact;
 mod flags;
-mod flat;
 mod linalg;
 mod model;
 pub mod packing;
@@ -81,13 +81,13 @@ mod settings;
 mod solver;
 mod surface;
 
+pub use boundary::{BoundaryError, Feature, FlatContact, Triangle, Wall, contact_with_plane, contact_with_triangle};
 pub use contact::batch::{detect_batch, detect_batch_carried};
 pub use contact::carried::Carried;
 pub use contact::closest_point::{ClosestPoint, closest_point};
 pub use contact::contact::{Contact, Kind};
 pub use contact::detect::{DetectError, detect, detect_carried};
 pub use flags::Flags;
-pub use flat::{BoundaryError, Feature, FlatContact, Triangle, Wall, contact_with_plane, contact_with_triangle};
 pub use pair::memory::Memory;
 pub use pair::role::Role;
 pub use particle::mass_properties::{MASS_TOLERANCE, MassProperties};

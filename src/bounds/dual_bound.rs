@@ -11,13 +11,11 @@ use crate::model::local_model::{self, LocalModel, Step};
 use crate::model::problem::Problem;
 use crate::pair::body::Body;
 
-/// Bound on the error of the slope by the rounding of A's rotation, in units of ε·(a|∇S_A| + b|∇S_B|): 26.4ε of a|∇S_A|, which is half
-/// of that sum where forces balance (docs/theory.md, "Rounding").
-pub(crate) const TURN: f64 = 14.0;
-
 /// What a step leaves open.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct DualBound {
+    /// The slope that is left, with all that is in doubt about it.
+    pub slope: f64,
     /// How far the dual value may lie above a lower bound.
     pub height: f64,
     /// Whether each active plane pushes by more than the slope that is in doubt, and none but they can be on: then the active set
@@ -43,7 +41,7 @@ impl DualBound {
             a * rounding::of_slope(&model.q_a, &optimum.step) + b * rounding::of_slope(&model.q_b, &optimum.step);
         let doubtful = check_a.doubtful_slope(bodies[0], a, rounding) + check_b.doubtful_slope(bodies[1], b, rounding);
         // Forces balance to the rounding of their directions and of their sums only.
-        let turned = TURN * f64::EPSILON * force;
+        let turned = problem.turn() * f64::EPSILON * force;
         let slope = optimum.slope(problem).norm() + rounding + doubtful + turned;
         let by_curvature = 0.5 * slope * slope / (a * soft.0 + b * soft.1);
         let height = smaller(slope * local_model::farthest(bodies, &(model.x + step.v), upper), by_curvature);
@@ -52,6 +50,6 @@ impl DualBound {
             && !check_b.near_inactive
             && check_a.pushes_more(bodies[0], a, turned)
             && check_b.pushes_more(bodies[1], b, turned);
-        Self { height, certain }
+        Self { slope, height, certain }
     }
 }

@@ -1,11 +1,11 @@
 //! Bounds for a point and a scale s that another solver found.
 
-use crate::bounds::dual_bound::{DualBound, TURN};
+use crate::bounds::dual_bound::DualBound;
 use crate::bounds::rounding::{of_slope, of_sums};
 use crate::bounds::solution::{Ending, Solution};
 use crate::model::kkt_check::Change;
 use crate::model::local_model::{self, Axes, LocalModel, Start};
-use crate::model::problem::Problem;
+use crate::model::problem::{Problem, TURN};
 use crate::pair::body::Body;
 use nalgebra::Vector3;
 

@@ -1,10 +1,9 @@
 //! How far the point of a solution can be from the optimum.
 
-use crate::bounds::dual_bound::TURN;
 use crate::bounds::solution::Solution;
 use crate::linalg::number::larger;
 use crate::model::local_model::{self, LocalModel};
-use crate::model::problem::Problem;
+use crate::model::problem::{Problem, TURN};
 use crate::pair::body::Body;
 
 /// Units in the last place by which two sides that meet may still differ (estimated).
@@ -30,13 +29,13 @@ pub(crate) fn point_bound(solution: &Solution, model: &LocalModel, bodies: [&Bod
     };
     let weights = problem.weights(solution.lambda);
     let in_axes = model.to_axes(&step);
-    let turn = TURN * f64::EPSILON * sensitivity.per_slope(bodies[0].particle.dimensions);
+    let turn = problem.turn() * f64::EPSILON * sensitivity.per_slope();
     let (mut sum, mut sides) = (sensitivity.unsolved(), [0.0; 2]);
     for (i, (q, weight)) in [(&model.q_a, weights.0), (&model.q_b, weights.1)].into_iter().enumerate() {
         let (shift, blur) = bodies[i].after(&model.points[i], length);
         let planes = sensitivity.to_planes(i, q.count, problem, solution.lambda, bodies[i].plane_weight());
         // The force, rounded at either end of the step.
-        let force = weight * (solution.gradient_norms[i] + q.gradient.norm());
+        let force = weight * solution.forces[i];
         sum += shift + blur * planes + force * turn + sensitivity.to_sums(q, weight, q.terms(&in_axes));
         sides[i] =
             SIDES * f64::EPSILON * q.expansion + solution.sums[i] + bodies[i].sphere_slope(solution.values[i]) * shift;

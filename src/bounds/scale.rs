@@ -23,6 +23,9 @@ const ROUNDING: f64 = 2.0 * f64::EPSILON;
 /// Root of the least normal number: an s below it has a square that is lost.
 const UNDERFLOW: f64 = 1.5e-154;
 
+/// Largest gap of an answer that leaves open whether s is below 1.
+const WIDE: f64 = 1e-2;
+
 impl Scale {
     /// With the regularisation taken out again.
     #[inline(always)]
@@ -44,6 +47,12 @@ impl Scale {
         let s = square.sqrt();
         let low = low.sqrt() * (1.0 - ROUNDING);
         Self { s, gap: larger(s - low, high.sqrt() - s) + ROUNDING * s + UNDERFLOW, low }
+    }
+
+    /// Whether it is no answer: it does not say on which side of 1 s lies, and by far.
+    pub fn is_undecided(&self) -> bool {
+        // Not a number is no answer either.
+        !(self.s - self.gap >= 1.0 || self.s + self.gap <= 1.0 || self.gap <= WIDE)
     }
 
     /// Whether s cannot be told from 0, as where a constraint is slack.

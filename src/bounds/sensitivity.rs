@@ -21,8 +21,8 @@ pub(crate) struct Sensitivity {
     /// M = (along ⊗ along)/rate − H⁻¹
     /// ```
     to_slope: Symmetric,
-    /// Traces of H⁻¹: over all three axes, and over the first two.
-    traces: [f64; 2],
+    /// Trace of H⁻¹ over the axes along which a point may move.
+    trace: f64,
     /// |dv/dθ| / (dm/dθ), with dv/dθ = −H⁻¹w and dm/dθ = wᵀH⁻¹w.
     per_value: f64,
     /// Σ of weight·2w·tr(M N M) over both bodies, N = Σ n nᵀ over the planes of one.
@@ -36,24 +36,31 @@ pub(crate) struct Sensitivity {
 }
 
 impl Sensitivity {
-    /// Of the optimum of two quadratics with least curvatures `soft` of A and B, whose planes push by at least so much; `None` where
+    /// Of the optimum of two quadratics with least curvatures `soft` of A and B, whose planes push by at least so much, of points with so
+    /// many coordinates; `None` where
     /// both sides do not part with λ.
     #[inline(always)]
-    pub fn of(optimum: &Optimum, problem: Problem, soft: (f64, f64), pushes: [f64; 2]) -> Option<Self> {
+    pub fn of(
+        optimum: &Optimum,
+        problem: Problem,
+        soft: (f64, f64),
+        pushes: [f64; 2],
+        dimensions: usize,
+    ) -> Option<Self> {
         if !(optimum.mismatch_rate > 0.0) {
             return None;
         }
-        let inverse = optimum.factor.inverse();
+        let inverse = optimum.factor.inverse().within(dimensions);
         let mut squares = Symmetric::default();
         squares.add_square(&optimum.along);
         let to_slope = squares.weighted(1.0 / optimum.mismatch_rate, &inverse, -1.0);
         let (a, b) = problem.weights(optimum.factored);
         // tr(M H M) = −tr M, less the spheres' share of H; the difference is known to the rounding of its terms.
-        let (trace, traces) = (-to_slope.trace(), [inverse.trace(), inverse.xx + inverse.yy]);
-        let of_planes = trace - (a * soft.0 + b * soft.1) * to_slope.square() + TRACE_ROUNDING * traces[0];
+        let trace = inverse.trace();
+        let of_planes = -to_slope.trace() - (a * soft.0 + b * soft.1) * to_slope.square() + TRACE_ROUNDING * trace;
         Some(Self {
             to_slope,
-            traces,
+            trace,
             per_value: optimum.along.norm() / optimum.mismatch_rate,
             to_all_planes: larger(of_planes, 0.0),
             slope: optimum.slope(problem),
@@ -114,8 +121,8 @@ impl Sensitivity {
         turned + 2.0 * raised
     }
 
-    /// Bound on the move per unit of slope, in whatever direction (in the plane: of its first two axes).
-    pub fn per_slope(&self, dimensions: usize) -> f64 {
-        self.traces[usize::from(dimensions == 2)]
+    /// Bound on the move per unit of slope, in whatever direction.
+    pub fn per_slope(&self) -> f64 {
+        self.trace
     }
 }

@@ -22,10 +22,14 @@ pub(crate) struct Solution {
     /// ∇S_A and ∇S_B at the optimum, and their lengths.
     pub gradients: [Vector3<f64>; 2],
     pub gradient_norms: [f64; 2],
+    /// Sums of those lengths at both ends of the last step.
+    pub forces: [f64; 2],
     /// S_A and S_B at x: midway equal but for rounding; closest, that of the held body 1 but for rounding.
     pub values: [f64; 2],
     /// Best estimate of the optimal S.
     pub estimate: f64,
+    /// Bound on what is left of the weighted slope, with all that is in doubt about it.
+    pub slope: f64,
     /// Lower bound up to `rounding`.
     pub lower: f64,
     /// Upper bound up to `rounding`.
@@ -68,8 +72,10 @@ impl Solution {
             lambda,
             gradients: [unknown; 2],
             gradient_norms: [f64::NAN; 2],
+            forces: [f64::NAN; 2],
             values: [f64::NAN; 2],
             estimate: f64::NAN,
+            slope: f64::INFINITY,
             lower: f64::NEG_INFINITY,
             upper: f64::INFINITY,
             rounding: f64::INFINITY,
@@ -93,21 +99,25 @@ impl Solution {
             Change::None => problem.merit(s_a, s_b, lambda),
             _ => model.merit(problem, lambda),
         };
-        let gradient_norms = [optimum.gradients[0].norm(), optimum.gradients[1].norm()];
+        let [of_a, of_b] = model.gradients(bodies, step);
+        let gradient_norms = [of_a.length, of_b.length];
         let rounding = Rounding::after(model, bodies, problem, step, gradient_norms);
         let of_optimum = rounding.of_optimum(problem, optimum);
         let force = problem.weighted(gradient_norms[0], gradient_norms[1], lambda);
-        let DualBound { height, certain } = DualBound::after(model, bodies, problem, step, (upper, force));
+        let DualBound { slope, height, certain } = DualBound::after(model, bodies, problem, step, (upper, force));
         let pushes = [step.checks[0].least_push, step.checks[1].least_push];
         let soft = local_model::softest(bodies);
-        let sensitivity = if certain { Sensitivity::of(optimum, problem, soft, pushes) } else { None };
+        let dimensions = bodies[0].particle.dimensions.min(bodies[1].particle.dimensions);
+        let sensitivity = if certain { Sensitivity::of(optimum, problem, soft, pushes, dimensions) } else { None };
         Self {
             x: model.x + step.v,
             lambda,
-            gradients: [model.to_solver(&optimum.gradients[0]), model.to_solver(&optimum.gradients[1])],
+            gradients: [of_a.gradient, of_b.gradient],
             gradient_norms,
+            forces: [of_a.both_ends, of_b.both_ends],
             values: [s_a, s_b],
             estimate,
+            slope,
             lower: estimate - height,
             upper,
             rounding: of_optimum.unwrap_or_else(|| rounding.of_merit(problem, lambda)),

@@ -220,8 +220,7 @@ fn moved_by_regularisation(bodies: [&Body; 2], solution: &Solution, settings: &S
     let (a, b) = Problem::Midway.weights(solution.lambda);
     let slope = |body: &Body| body.surplus_gradient(&solution.x).norm();
     let value = larger(bodies[0].surplus(&solution.x), bodies[1].surplus(&solution.x));
-    let dimensions = bodies[0].particle.dimensions;
-    (a * slope(bodies[0]) + b * slope(bodies[1])) * sensitivity.per_slope(dimensions) + sensitivity.to_value(value)
+    (a * slope(bodies[0]) + b * slope(bodies[1])) * sensitivity.per_slope() + sensitivity.to_value(value)
 }
 
 impl Carried {

@@ -52,6 +52,13 @@ pub enum DetectError {
     },
 }
 
+impl DetectError {
+    /// Where the bounds of an answer say nothing.
+    pub(crate) fn not_settled() -> Self {
+        Self::Failed { reason: "the bounds of s leave open whether it is below 1".into() }
+    }
+}
+
 impl From<SolveError> for DetectError {
     fn from(error: SolveError) -> Self {
         Self::Failed { reason: error.to_string() }

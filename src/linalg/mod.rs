@@ -5,3 +5,4 @@ pub(crate) mod graded_basis;
 pub(crate) mod number;
 pub(crate) mod root;
 pub(crate) mod symmetric;
+pub(crate) mod wide;

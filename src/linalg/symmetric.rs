@@ -124,6 +124,18 @@ impl Symmetric {
         if least > LEAST_TOLD * trace && least <= trace { least } else { 0.0 }
     }
 
+    /// With zeros but for the first `dimensions` rows and columns.
+    #[inline]
+    pub(crate) fn within(self, dimensions: usize) -> Self {
+        let (x, y, z) = match dimensions {
+            3 => return self,
+            2 => (self.xx, self.yy, 0.0),
+            1 => (self.xx, 0.0, 0.0),
+            _ => (0.0, 0.0, 0.0),
+        };
+        Self { xx: x, yx: if dimensions == 2 { self.yx } else { 0.0 }, yy: y, zx: 0.0, zy: 0.0, zz: z }
+    }
+
     /// Sum of the squares of all nine entries.
     #[inline]
     pub(crate) fn square(&self) -> f64 {

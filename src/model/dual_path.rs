@@ -120,7 +120,7 @@ impl<'a, N: Number> DualPath<'a, N> {
         let rate = self.rate_value + half * step.dot(&(before + w0));
         let fixed = a * self.a.value + b * self.b.value + half * step.dot(&g);
         let (values, mismatch) = (self.problem.apart(fixed, rate, weights), self.problem.level::<N>() - rate);
-        Some(Probe { lambda, weights, step, factor, along, rate: -w0.dot(&along), mismatch, values })
+        Some(Probe { lambda, weights, step, factor, along, rate: self.problem.rate(-w0.dot(&along)), mismatch, values })
     }
 
     /// α·x + β·y.
@@ -130,6 +130,7 @@ impl<'a, N: Number> DualPath<'a, N> {
             Problem::Midway => y - x,
             Problem::OnB => *y,
             Problem::OnA => *x,
+            Problem::OnBoundary => x - x,
         }
     }
 

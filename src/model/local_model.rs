@@ -18,6 +18,10 @@ pub(crate) enum Axes {
     OfB,
     /// Aligned with the stiffest planes, chosen anew at each point where those that are on leave a soft direction; else those of B.
     Graded,
+    /// Of a boundary: its own, as many as a point of it has coordinates.
+    OfBoundary(usize),
+    /// The same, aligned with the planes that are stiffest along it.
+    GradedOnBoundary(usize),
 }
 
 /// Ratio of plane to sphere curvature above which the axes of B may lose a soft direction: its relative error
@@ -50,9 +54,15 @@ pub(crate) struct LocalModel {
 impl Axes {
     /// The axes that the shapes of a pair call for.
     pub fn of([a, b]: [&Body; 2]) -> Self {
+        let is_boundary = b.particle.is_boundary();
         let stiff = larger(a.stiffest_curvature(), b.stiffest_curvature());
-        let soft = smaller(a.sphere_curvature(), b.sphere_curvature());
-        if stiff <= GRADED_FROM * soft { Self::OfB } else { Self::Graded }
+        let soft = if is_boundary { a.sphere_curvature() } else { smaller(a.sphere_curvature(), b.sphere_curvature()) };
+        match (stiff <= GRADED_FROM * soft, is_boundary) {
+            (true, false) => Self::OfB,
+            (false, false) => Self::Graded,
+            (true, true) => Self::OfBoundary(b.particle.dimensions),
+            (false, true) => Self::GradedOnBoundary(b.particle.dimensions),
+        }
     }
 }
 
@@ -84,12 +94,57 @@ impl LocalModel {
     /// At a point with its active sets. The stiffest planes are those of the sum with these weights.
     #[inline(always)]
     pub fn of(bodies: [&Body; 2], x: Vector3<f64>, points: [LocalPoint; 2], weights: (f64, f64), axes: Axes) -> Self {
+        if let Axes::OfBoundary(dimensions) | Axes::GradedOnBoundary(dimensions) = axes {
+            let graded = matches!(axes, Axes::GradedOnBoundary(_));
+            return Self::on_boundary(bodies, x, points, dimensions, graded);
+        }
         let (q_a, q_b) = (bodies[0].at(&points[0], None), bodies[1].at(&points[1], None));
         let mut model = Self { x, axes: None, points, q_a, q_b };
         if axes == Axes::Graded && model.has_soft_direction(weights) {
             model.grade(bodies, weights);
         }
         model
+    }
+
+    /// On a boundary the other axes are columns of zeros: so the quadratics have neither slope nor planes across it, and no step
+    /// leads off it.
+    #[inline(never)]
+    fn on_boundary(
+        bodies: [&Body; 2],
+        x: Vector3<f64>,
+        points: [LocalPoint; 2],
+        dimensions: usize,
+        graded: bool,
+    ) -> Self {
+        let normals = ActiveNormals { bodies, points: &points, weights: (1.0, 0.0), dimensions };
+        let mut axes = if graded && dimensions > 1 { graded_basis::aligned(&normals) } else { Matrix3::identity() };
+        (dimensions..3).for_each(|i| axes.column_mut(i).fill(0.0));
+        let [q_a, q_b] = [0, 1].map(|i| bodies[i].at(&points[i], Some(&axes)));
+        Self { x, axes: Some(axes), points, q_a, q_b }
+    }
+
+    /// ∇S_A and ∇S_B after a step to an optimum, solver's frame: on a boundary, what they have across it as well, which the
+    /// quadratics leave out, and bounds on their lengths at both ends of the step together.
+    #[inline(always)]
+    pub fn gradients(&self, bodies: [&Body; 2], step: &Step) -> [Force; 2] {
+        if bodies[1].particle.is_boundary() {
+            return self.gradients_on_boundary(bodies, &step.v);
+        }
+        let of = |q: &Quadratic, gradient: &Vector3<f64>| {
+            let length = gradient.norm();
+            Force { gradient: self.to_solver(gradient), length, both_ends: length + q.gradient.norm() }
+        };
+        [of(&self.q_a, &step.optimum.gradients[0]), of(&self.q_b, &step.optimum.gradients[1])]
+    }
+
+    #[inline(never)]
+    fn gradients_on_boundary(&self, bodies: [&Body; 2], v: &Vector3<f64>) -> [Force; 2] {
+        [0, 1].map(|i| {
+            let whole = bodies[i].at(&self.points[i], None);
+            let gradient = whole.gradient + whole.hessian.times(v);
+            let length = gradient.norm();
+            Force { gradient, length, both_ends: length + whole.gradient.norm() }
+        })
     }
 
     /// Whether the planes of the sum with these weights leave a direction without resistance, or nearly.
@@ -100,7 +155,7 @@ impl LocalModel {
     /// Takes the quadratics in axes aligned with the stiffest planes of that sum instead.
     #[inline(never)]
     fn grade(&mut self, bodies: [&Body; 2], weights: (f64, f64)) {
-        let axes = graded_basis::aligned(&ActiveNormals { bodies, points: &self.points, weights });
+        let axes = graded_basis::aligned(&ActiveNormals { bodies, points: &self.points, weights, dimensions: 3 });
         self.q_a = bodies[0].at(&self.points[0], Some(&axes));
         self.q_b = bodies[1].at(&self.points[1], Some(&axes));
         self.axes = Some(axes);
@@ -196,6 +251,8 @@ struct ActiveNormals<'a> {
     bodies: [&'a Body<'a>; 2],
     points: &'a [LocalPoint; 2],
     weights: (f64, f64),
+    /// The coordinates of the normals that count: the others are taken as 0.
+    dimensions: usize,
 }
 
 impl StiffNormals for ActiveNormals<'_> {
@@ -203,9 +260,22 @@ impl StiffNormals for ActiveNormals<'_> {
     fn visit(&self, mut visit: impl FnMut(Vector3<f64>, f64)) {
         for (i, weight) in [self.weights.0, self.weights.1].into_iter().enumerate() {
             let curvature = weight * self.bodies[i].plane_curvature();
-            self.bodies[i].active_normals(&self.points[i], |n| visit(n, curvature));
+            self.bodies[i].active_normals(&self.points[i], |mut n| {
+                (self.dimensions..3).for_each(|axis| n[axis] = 0.0);
+                visit(n, curvature);
+            });
         }
     }
+}
+
+/// ∇S of a body at the end of a step.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Force {
+    /// Solver's frame.
+    pub gradient: Vector3<f64>,
+    pub length: f64,
+    /// Sum of the lengths where the step begins and ends.
+    pub both_ends: f64,
 }
 
 /// A potential along a vector, as the particle has it: without what the regularisation adds.

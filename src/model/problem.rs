@@ -1,7 +1,7 @@
 //! Which point of two bodies is wanted, and what that makes of the two potentials.
 //!
 //! Every problem is a dual problem in one weight θ: minimise a(θ)·S_A + b(θ)·S_B, a and b linear in θ. Midway:
-//! a = 1 − θ, b = θ; on B: a = 1, b = θ; on A: a = θ, b = 1. What is passed around is the ratio λ = b/a, which keeps
+//! a = 1 − θ, b = θ; on B: a = 1, b = θ; on A: a = θ, b = 1; on a boundary: a = 1, b = 0. What is passed around is the ratio λ = b/a, which keeps
 //! its digits where one weight is all but zero.
 
 use crate::linalg::number::{Number, larger};
@@ -15,12 +15,24 @@ pub(crate) enum Problem {
     OnB,
     /// S_A = 1: the point P1 on A closest to B, minimising S_B.
     OnA,
+    /// The point of a boundary where S_A is least. S_B, of the boundary, is 0 on all of it, and no weight is sought.
+    OnBoundary,
 }
 
 /// Price of infeasibility in units of the multiplier; anything above 1 makes the penalty exact.
 pub(crate) const PRICE: f64 = 2.0;
 
+/// Bound on the error of the slope by the rounding of A's rotation, in units of ε·(a|∇S_A| + b|∇S_B|): 26.4ε of a|∇S_A|, which is half
+/// of that sum where forces balance (docs/theory.md, "Rounding").
+pub(crate) const TURN: f64 = 14.0;
+
 impl Problem {
+    /// [`TURN`]; on a boundary a|∇S_A| is all of the sum, and the frame of the boundary is rounded as a rotation is.
+    #[inline(always)]
+    pub fn turn(self) -> f64 {
+        if self == Self::OnBoundary { 2.0 * TURN } else { TURN }
+    }
+
     /// Weights (a, b) at λ.
     #[inline]
     pub fn weights<N: Number>(self, lambda: N) -> (N, N) {
@@ -32,6 +44,7 @@ impl Problem {
             }
             Self::OnB => (one, lambda),
             Self::OnA => (one / lambda, one),
+            Self::OnBoundary => (one, N::of(0.0)),
         }
     }
 
@@ -42,6 +55,7 @@ impl Problem {
             Self::Midway => (-1.0, 1.0),
             Self::OnB => (0.0, 1.0),
             Self::OnA => (1.0, 0.0),
+            Self::OnBoundary => (0.0, 0.0),
         };
         (N::of(alpha), N::of(beta))
     }
@@ -53,6 +67,7 @@ impl Problem {
             Self::Midway => a * b,
             Self::OnB => b,
             Self::OnA => -a,
+            Self::OnBoundary => 1.0,
         }
     }
 
@@ -64,6 +79,7 @@ impl Problem {
             Self::Midway => larger(s_a, s_b),
             Self::OnB => s_a + PRICE * lambda * larger(s_b - 1.0, 0.0),
             Self::OnA => s_b + PRICE / lambda * larger(s_a - 1.0, 0.0),
+            Self::OnBoundary => s_a,
         }
     }
 
@@ -74,6 +90,7 @@ impl Problem {
             Self::Midway => larger(error_a, error_b),
             Self::OnB => error_a + PRICE * lambda * error_b,
             Self::OnA => error_b + PRICE / lambda * error_a,
+            Self::OnBoundary => error_a,
         }
     }
 
@@ -85,6 +102,7 @@ impl Problem {
             Self::Midway => a * s_a + b * s_b,
             Self::OnB => s_a + b * (s_b - N::of(1.0)),
             Self::OnA => a * (s_a - N::of(1.0)) + s_b,
+            Self::OnBoundary => s_a,
         }
     }
 
@@ -103,13 +121,14 @@ impl Problem {
             Self::Midway => (s_a, s_b),
             Self::OnB => (N::of(1.0), s_b),
             Self::OnA => (s_a, N::of(1.0)),
+            Self::OnBoundary => (s_a, s_a),
         }
     }
 
-    /// The body held at S = 1 and the other one; `None` for midway, which holds neither.
+    /// The body held at S = 1 and the other one; `None` where neither is held.
     pub fn held(self) -> Option<(usize, usize)> {
         match self {
-            Self::Midway => None,
+            Self::Midway | Self::OnBoundary => None,
             Self::OnB => Some((1, 0)),
             Self::OnA => Some((0, 1)),
         }
@@ -118,7 +137,7 @@ impl Problem {
     /// c in the mismatch m = c − (α·S_A + β·S_B).
     #[inline]
     pub fn level<N: Number>(self) -> N {
-        N::of(if self == Self::Midway { 0.0 } else { 1.0 })
+        N::of(if matches!(self, Self::Midway | Self::OnBoundary) { 0.0 } else { 1.0 })
     }
 
     /// The first of the two numbers less the second, from m: λ falls as θ grows for a point on A.
@@ -134,6 +153,7 @@ impl Problem {
             Self::Midway => (fixed - b * rate, fixed + a * rate),
             Self::OnB => (fixed - b * rate, rate),
             Self::OnA => (rate, fixed - a * rate),
+            Self::OnBoundary => (fixed, N::of(0.0)),
         }
     }
 
@@ -151,6 +171,14 @@ impl Problem {
             Self::Midway => (of_a, of_b),
             Self::OnB => (0.0, of_b),
             Self::OnA => (of_a, 0.0),
+            Self::OnBoundary => (0.0, 0.0),
         }
+    }
+
+    /// How fast the mismatch changes with θ, from what the quadratics make of it. Infinite where there is no θ: then nothing
+    /// that is off is made up for by another weight.
+    #[inline(always)]
+    pub fn rate<N: Number>(self, of_quadratics: N) -> N {
+        if self == Self::OnBoundary { N::of(f64::INFINITY) } else { of_quadratics }
     }
 }

@@ -47,16 +47,19 @@ pub(crate) fn shift_in_b(length: f64) -> f64 {
 impl<'a> Body<'a> {
     /// Both bodies of a pair; k below `least_sphericity` is raised to it (see `Settings`).
     pub fn both(pair: &Pair<'a>, least_sphericity: f64) -> (Self, Self) {
-        let body = |particle: &'a Particle, rotation, is_rotated, centre: Vector3<f64>| Self {
+        let body = |particle: &'a Particle, rotation, is_rotated, centre: Vector3<f64>, lengths: f64| Self {
             particle,
             rotation,
             is_rotated,
             centre,
-            of_centre: OF_CENTRE * centre.norm(),
+            of_centre: OF_CENTRE * lengths,
             rounding: f64::EPSILON * if is_rotated { IN_A } else { IN_B },
             sphere_weight: larger(particle.sphere_weight, least_sphericity / particle.bounding_radius().powi(2)),
         };
-        (body(pair.a, pair.rotation, true, pair.centre), body(pair.b, Matrix3::identity(), false, Vector3::zeros()))
+        (
+            body(pair.a, pair.rotation, true, pair.centre, pair.lengths),
+            body(pair.b, Matrix3::identity(), false, Vector3::zeros(), 0.0),
+        )
     }
 
     /// One body alone, in its own frame as B is; k below `least_sphericity` is raised to it.
@@ -263,7 +266,8 @@ impl<'a> Body<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::pair::extended_body::{ExtendedBody, rounded, wide};
+    use crate::linalg::wide::{rounded, wide};
+    use crate::pair::extended_body::ExtendedBody;
     use crate::pose::Pose;
 
     /// Numbers in (−1, 1) that look like chance.

@@ -5,15 +5,13 @@
 //! rounding is a shift of the plane, the same for every δ.
 
 use crate::linalg::double_double::DoubleDouble;
-use crate::linalg::number::{Number, smaller};
+use crate::linalg::number::{Number, larger, smaller};
 use crate::linalg::symmetric::Symmetric;
+use crate::linalg::wide::{Wide, difference, rounded, wide};
 use crate::pair::body::Body;
-use crate::pair::pair::Pair;
+use crate::pair::pair::{Given, Pair};
 use crate::pose::Pose;
 use nalgebra::{Matrix3, Vector3};
-
-/// A vector of 32 digits.
-pub(crate) type Wide = Vector3<DoubleDouble>;
 
 /// Bound on the rounding of e and of a rotated normal, in units of [`DoubleDouble::UNIT`] and of the lengths that enter
 /// (docs/theory.md, "Rounding").
@@ -122,28 +120,26 @@ fn of(value: f64) -> DoubleDouble {
     DoubleDouble::from(value)
 }
 
-/// A vector of doubles.
-pub(crate) fn wide(v: &Vector3<f64>) -> Wide {
-    v.map(of)
-}
-
-/// The nearest vector of doubles.
-pub(crate) fn rounded(v: &Wide) -> Vector3<f64> {
-    v.map(DoubleDouble::rounded)
-}
-
 impl<'a> ExtendedBody<'a> {
     /// Both bodies of a pair about x₀, solver frame.
     pub fn both(pair: &Pair, bodies: [&'a Body<'a>; 2], x: &Vector3<f64>) -> [Self; 2] {
-        let [pose_a, pose_b] = pair.poses;
-        let (of_b, identity) = (axes(pose_b), [0, 1, 2].map(|i| wide(&Vector3::ith(i, 1.0))));
-        let difference = pose_a.position().zip_map(pose_b.position(), |a, b| DoubleDouble::sum(a, -b));
-        let centre = Vector3::from(of_b.map(|axis| axis.dot(&difference)));
+        let (pose_a, of_b, centre) = match pair.given {
+            Given::Poses([pose_a, pose_b]) => {
+                let (of_b, to_a) = (axes(pose_b), difference(pose_a.position(), pose_b.position()));
+                (pose_a, of_b, Vector3::from(of_b.map(|axis| axis.dot(&to_a))))
+            }
+            Given::Boundary(pose_a, part) => {
+                let (of_part, centre) = part.wide_frame(pose_a);
+                (pose_a, of_part, centre)
+            }
+        };
+        let identity = [0, 1, 2].map(|i| wide(&Vector3::ith(i, 1.0)));
         let of_a = axes(pose_a).map(|axis| Vector3::from(of_b.map(|b| b.dot(&axis))));
-        [Self::new(bodies[0], of_a, centre, x), Self::new(bodies[1], identity, wide(&Vector3::zeros()), x)]
+        let at_origin = wide(&Vector3::zeros());
+        [Self::new(bodies[0], of_a, (centre, pair.lengths), x), Self::new(bodies[1], identity, (at_origin, 0.0), x)]
     }
 
-    fn new(body: &'a Body<'a>, axes: [Wide; 3], centre: Wide, x: &Vector3<f64>) -> Self {
+    fn new(body: &'a Body<'a>, axes: [Wide; 3], (centre, lengths): (Wide, f64), x: &Vector3<f64>) -> Self {
         let particle = body.particle;
         let (r, k, shadow) = (particle.rounding_radius(), particle.sphericity(), particle.shadow_radius());
         let from_centre = wide(x) - centre;
@@ -156,12 +152,12 @@ impl<'a> ExtendedBody<'a> {
             planes: Vec::new(),
             reach: 0.0,
             plane_weight: if k == 1.0 { of(0.0) } else { DoubleDouble::sum(1.0, -k) / DoubleDouble::product(r, r) },
-            sphere_weight: if body.is_plain() {
+            sphere_weight: if body.is_plain() && body.sphere_weight() > 0.0 {
                 of(k) / DoubleDouble::product(shadow, shadow)
             } else {
                 of(body.sphere_weight())
             },
-            lengths: x.norm() + 2.0 * rounded(&centre).norm(),
+            lengths: x.norm() + 2.0 * larger(rounded(&centre).norm(), lengths),
         }
     }
 

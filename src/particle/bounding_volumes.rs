@@ -122,6 +122,22 @@ impl Bounds {
         })
     }
 
+    /// Of a set without planes and without an end.
+    pub fn unbounded() -> Self {
+        Self {
+            radius: f64::INFINITY,
+            corners: Box::default(),
+            merged: 0.0,
+            longest_offset: 0.0,
+            least_offset: f64::INFINITY,
+            longest_normal: 0.0,
+            shortest_normal: f64::INFINITY,
+            shortest_nearby: f64::INFINITY,
+            face_reach: f64::INFINITY,
+            growth: 0.0,
+        }
+    }
+
     /// Radius of a ball about the origin that holds {S ≤ level}, level ≥ 1.
     ///
     /// s = √S is convex with s(0) < 1, so that along a ray it needs at most (s − s(0))/(1 − s(0)) times the distance to the

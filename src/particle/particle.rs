@@ -8,6 +8,7 @@ use crate::particle::{potential, ray_cast};
 use crate::pose::Pose;
 use nalgebra::{Matrix3, Vector3};
 use std::ops::Deref;
+use std::sync::LazyLock;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 /// A validated potential particle, immutable; share it freely between threads and bodies.
@@ -56,6 +57,20 @@ impl Particle {
     pub(crate) fn in_plane(planes: &[Plane], r: f64, k: f64, shadow_radius: f64) -> Result<Self, ParticleError> {
         let shape = Shape::new(planes, r, k, shadow_radius, 2).map_err(ParticleError::of_lines)?;
         Ok(Self::of(shape))
+    }
+
+    /// What stands in place of the second particle where the first one touches a plane, a line or a point of a boundary, which
+    /// leave it so many dimensions: S = 0 on all of it.
+    pub(crate) fn boundary(dimensions: usize) -> &'static Self {
+        static BOUNDARIES: LazyLock<[Particle; 3]> =
+            LazyLock::new(|| [0, 1, 2].map(|d| Particle::of(Shape::boundary(d))));
+        &BOUNDARIES[dimensions]
+    }
+
+    /// Whether it is one of those.
+    #[inline]
+    pub(crate) fn is_boundary(&self) -> bool {
+        self.shape.rows_are_none() && self.shape.sphere_weight == 0.0
     }
 
     fn of(shape: Shape) -> Self {

@@ -25,7 +25,8 @@ const MOST_RADII: f64 = 1e150;
 pub struct Shape {
     /// (a, b, c, d) of each plane in the order of `clusters`, which evaluation reads one after the other.
     rows: Box<[[f64; 4]]>,
-    /// Number of coordinates: 3, or 2 where only the cut at z = 0 is meant (`planar`).
+    /// Number of coordinates in which a point of it may move: 3, or 2 where only the cut at z = 0 is meant (`planar`); of a
+    /// boundary 2, 1 or 0.
     pub(crate) dimensions: usize,
     pub(crate) rounding_radius: f64,
     pub(crate) sphericity: f64,
@@ -81,9 +82,30 @@ impl Shape {
         })
     }
 
+    /// A plane, a line or a point through the origin along the first `dimensions` axes: S = 0 on all of it.
+    pub(super) fn boundary(dimensions: usize) -> Self {
+        let (clusters, order) = PlaneClusters::none(0);
+        Self {
+            rows: Box::default(),
+            dimensions,
+            rounding_radius: 0.0,
+            sphericity: 1.0,
+            shadow_radius: f64::INFINITY,
+            plane_weight: 0.0,
+            sphere_weight: 0.0,
+            bounds: Bounds::unbounded(),
+            clusters,
+            order,
+        }
+    }
+
     /// Number of planes.
     pub(crate) fn len(&self) -> usize {
         self.rows.len()
+    }
+
+    pub(super) fn rows_are_none(&self) -> bool {
+        self.rows.is_empty()
     }
 
     /// Whether the planes alone enclose a volume.

@@ -98,7 +98,7 @@ impl<'a> Call<'a> {
         lambda: f64,
         model: &LocalModel,
     ) -> ControlFlow<Solution, Option<Step>> {
-        if self.settings.back_end != BackEnd::Fast {
+        if self.settings.back_end != BackEnd::Fast && problem != Problem::OnBoundary {
             return Continue(None);
         }
         let (bodies, goal) = (self.bodies(), self.goal(problem));
@@ -119,7 +119,7 @@ impl<'a> Call<'a> {
         model: &mut LocalModel,
         first: Option<Step>,
     ) -> Result<Solution, SolveError> {
-        if self.settings.back_end == BackEnd::Conic {
+        if self.settings.back_end == BackEnd::Conic && problem != Problem::OnBoundary {
             return self.by_cone_program(problem, model);
         }
         let goal = self.goal(problem);
@@ -168,9 +168,9 @@ impl<'a> Call<'a> {
     #[cold]
     fn by_cone_program(&mut self, problem: Problem, model: &mut LocalModel) -> Result<Solution, SolveError> {
         let found = match problem {
-            Problem::Midway => reference::midway(self.pair)?,
             Problem::OnB => reference::closest(self.pair, Role::B)?,
             Problem::OnA => reference::closest(self.pair, Role::A)?,
+            Problem::Midway | Problem::OnBoundary => reference::midway(self.pair)?,
         };
         self.iterations += found.iterations;
         // A weight rounded to 1 stands for a λ of 2/ε or more.

@@ -15,12 +15,13 @@ use crate::linalg::double_double::DoubleDouble;
 use crate::linalg::graded_basis::{self, StiffNormals};
 use crate::linalg::number::{Number, Single, larger, smaller};
 use crate::linalg::symmetric::{Factor, Symmetric};
+use crate::linalg::wide::{Wide, rounded, wide};
 use crate::model::dual_path::{Optimum, Side};
 use crate::model::dual_search::DualSearch;
 use crate::model::local_model::{self, Start};
 use crate::model::problem::Problem;
 use crate::pair::body::Body;
-use crate::pair::extended_body::{ExtendedBody, Undecided, Wide, WideQuadratic, WideValue, rounded, wide};
+use crate::pair::extended_body::{ExtendedBody, Undecided, WideQuadratic, WideValue};
 use crate::pair::pair::Pair;
 use crate::solver::newton::{self, Goal};
 use nalgebra::{Matrix3, Vector3};
@@ -47,6 +48,8 @@ struct Extended<'a> {
     bodies: [ExtendedBody<'a>; 2],
     problem: Problem,
     x: Vector3<f64>,
+    /// The number of coordinates in which a point may move.
+    dimensions: usize,
     /// Quadratics made so far.
     steps: u32,
 }
@@ -105,8 +108,13 @@ impl Bracket {
 
 /// Solves for the goal from a start.
 pub(crate) fn solve(pair: &Pair, bodies: [&Body; 2], goal: &Goal, start: &Start) -> Solution {
-    let mut extended =
-        Extended { bodies: ExtendedBody::both(pair, bodies, &start.x), problem: goal.problem, x: start.x, steps: 0 };
+    let mut extended = Extended {
+        bodies: ExtendedBody::both(pair, bodies, &start.x),
+        problem: goal.problem,
+        x: start.x,
+        dimensions: pair.dimensions(),
+        steps: 0,
+    };
     let first = FIRST_REACH * local_model::smallest(bodies);
     extended.bodies.iter_mut().for_each(|body| body.cover(first));
     let found = extended.search(DoubleDouble::from(start.lambda));
@@ -141,7 +149,7 @@ impl Extended<'_> {
             }
             let Some(model) = self.minimise(&mut found.delta, found.lambda) else { break };
             let Some(optimum) = model.quadratics(self.problem).solve(found.lambda) else { break };
-            if self.accept(&mut found, &model, optimum) {
+            if self.accept(&mut found, &model, optimum) || self.problem == Problem::OnBoundary {
                 break;
             }
             let (growing, falling) = self.problem.sides(model.sides[0].value.rounded(), model.sides[1].value.rounded());
@@ -240,7 +248,11 @@ impl Extended<'_> {
         let reach = rounded(delta).norm();
         self.bodies.iter_mut().for_each(|body| body.cover(reach));
         let (a, b) = self.problem.weights(lambda.rounded());
-        let axes = graded_basis::aligned(&ActiveNormals { bodies: &self.bodies, delta, undecided, weights: [a, b] });
+        let dimensions = self.dimensions;
+        let normals = ActiveNormals { bodies: &self.bodies, delta, undecided, weights: [a, b], dimensions };
+        let mut axes = graded_basis::aligned(&normals);
+        // Zeros in place of the others: no step leads off a boundary.
+        (dimensions..3).for_each(|i| axes.column_mut(i).fill(0.0));
         // Doubles are orthonormal to rounding only; the metric says by how much they are off.
         let mut metric = Symmetric::default();
         for i in 0..3 {
@@ -262,7 +274,7 @@ impl Extended<'_> {
         let dual = problem.dual(of_a.value, of_b.value, *lambda);
         let upper = self.upper(delta, &values);
         let error = values.map(|of| of.rounding());
-        let slope = rounded(&(of_a.gradient * weights.0 + of_b.gradient * weights.1)).norm();
+        let slope = rounded(&(of_a.gradient * weights.0 + of_b.gradient * weights.1)).rows(0, self.dimensions).norm();
         let slope = slope + a * of_a.turn + b * of_b.turn;
         let height = 0.5 * slope * slope / (LESS * (a * self.bodies[0].soft() + b * self.bodies[1].soft()));
         let (estimate, gradients) = (dual.rounded(), values.map(|of| rounded(&of.gradient)));
@@ -271,6 +283,7 @@ impl Extended<'_> {
             gradient_norms: gradients.map(|g| g.norm()),
             values: values.map(|of| of.value.rounded()),
             estimate,
+            slope,
             lower: estimate - height,
             // The difference is taken before it is rounded.
             upper: estimate + larger((upper - dual).rounded(), 0.0),
@@ -318,13 +331,13 @@ impl Extended<'_> {
         let values = [self.bodies[0].value(delta), self.bodies[1].value(delta)];
         let soft = (self.bodies[0].soft(), self.bodies[1].soft());
         // Whether planes still push is seen below, once it is known how far the point may move.
-        let sensitivity = Sensitivity::of(optimum, self.problem, soft, [f64::INFINITY; 2])?;
+        let sensitivity = Sensitivity::of(optimum, self.problem, soft, [f64::INFINITY; 2], self.dimensions)?;
         let (a, b) = self.problem.weights(optimum.lambda);
         let (mut sum, mut sides) = (sensitivity.unsolved(), [0.0; 2]);
         for (i, (of, weight)) in values.iter().zip([a, b]).enumerate() {
             let body = &self.bodies[i];
             let planes = sensitivity.to_planes(i, of.count, self.problem, optimum.lambda, body.plane_weight());
-            sum += body.shift(delta) + of.blur * planes + weight * of.turn * sensitivity.per_slope(3);
+            sum += body.shift(delta) + of.blur * planes + weight * of.turn * sensitivity.per_slope();
             sides[i] = of.rounding();
         }
         let left = self.problem.mismatch(values[0].value, values[1].value).approximate();
@@ -364,13 +377,18 @@ struct ActiveNormals<'a> {
     delta: &'a Wide,
     undecided: Undecided,
     weights: [f64; 2],
+    /// The coordinates of the normals that count: the others are taken as 0.
+    dimensions: usize,
 }
 
 impl StiffNormals for ActiveNormals<'_> {
     fn visit(&self, mut visit: impl FnMut(Vector3<f64>, f64)) {
         for (body, weight) in self.bodies.iter().zip(self.weights) {
             let curvature = 2.0 * weight * body.plane_weight();
-            body.active_normals(self.delta, self.undecided, |n| visit(n, curvature));
+            body.active_normals(self.delta, self.undecided, |mut n| {
+                (self.dimensions..3).for_each(|axis| n[axis] = 0.0);
+                visit(n, curvature);
+            });
         }
     }
 }

@@ -61,6 +61,7 @@ impl Merit {
             Problem::Midway => [a, b],
             Problem::OnB => [a, sum(a, 1.0, b, PRICE * lambda, 1.0)],
             Problem::OnA => [b, sum(b, 1.0, a, PRICE / lambda, 1.0)],
+            Problem::OnBoundary => [a, a],
         }
     }
 }

@@ -7,27 +7,23 @@
 //! x* = argmin S(x) over x in T,    s = √S(x*),    contact if s < 1
 //! ```
 //!
-//! S is convex and piecewise quadratic, so is its restriction to a plane or a line, and Newton's method with an exact line
-//! search finds its minimum there ("Flat boundaries" in docs/theory.md). Everything is solved in the frame of the particle.
-//! Each file uses only those above it:
+//! A part of T, its plane, an edge or a corner, takes the place of the second particle of a pair: a body with S = 0, on which a point
+//! has two, one or no coordinates ([`crate::pair::boundary_part`]). All else is the solver of pairs, with its bounds and its
+//! extended tier ("Boundaries" in docs/theory.md). Each file uses only those above it:
 //!
 //! | file | holds |
 //! |---|---|
 //! | `boundary` | planes and triangles as given, checked |
-//! | `placed` | the same in the frame of a particle |
+//! | `triangle` | a triangle in the frame of its plane |
 //! | `separation` | cheap proofs that the particle does not reach the boundary |
-//! | `minimum` | the least S on a plane, a line or at a point, with what rounding does to it |
-//! | `search` | Newton's method for it |
-//! | `closest` | the least S on a whole boundary, and the bound on its error |
+//! | `closest` | the least S on a whole boundary: on its plane, an edge or a corner |
 //! | `contact` | point, normal and overlap; [`contact_with_plane`], [`contact_with_triangle`] |
 
 mod boundary;
 mod closest;
 mod contact;
-mod minimum;
-mod placed;
-mod search;
 mod separation;
+mod triangle;
 
 pub use boundary::{BoundaryError, Feature, Triangle, Wall};
 pub use contact::{FlatContact, contact_with_plane, contact_with_triangle};

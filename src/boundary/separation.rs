@@ -1,28 +1,31 @@
-//! Cheap proofs that a particle does not reach a flat boundary. Each is one-sided: `None` means nothing.
+//! Cheap proofs that a particle does not reach a boundary. Each is one-sided: `None` means nothing.
 
-use super::placed::Placed;
+use super::triangle::PlacedTriangle;
 use crate::flags::Flags;
 use crate::linalg::number::larger;
 use crate::pair::body::shift_in_a;
+use crate::pair::pair::Pair;
 use crate::pair::separation::{Apart, MARGIN};
 use crate::particle::particle::Particle;
-use nalgebra::Vector3;
+use nalgebra::{Vector2, Vector3};
 
 /// By the bounding ball, or by the plane of the boundary and the corners of the particle's bounding polyhedron, with the larger
-/// distance of both; else by a face of the particle.
-pub(super) fn proof_of_separation(particle: &Particle, boundary: &Placed) -> Option<Apart> {
-    let nearest = boundary.nearest();
-    let slack = shift_in_a(nearest.norm(), boundary.farthest);
+/// distance of both; else by a face of the particle. `pair` is that of the particle and the plane.
+pub(super) fn proof_of_separation(pair: &Pair, triangle: Option<&PlacedTriangle>) -> Option<Apart> {
+    let particle = pair.a;
+    let nearest = pair.in_a(&triangle.map_or_else(Vector2::zeros, |triangle| triangle.nearest()).push(0.0));
+    let slack = shift_in_a(nearest.norm(), pair.lengths);
     let by_ball = nearest.norm() * (1.0 - MARGIN) - slack - particle.bounding_radius();
-    let towards = boundary.normal * boundary.offset.signum();
-    let by_plane = boundary.offset.abs() * (1.0 - MARGIN) - slack - particle.support(&towards);
+    // From the centre to the plane.
+    let towards = -pair.centre.z.signum() * pair.rotation.row(2).transpose();
+    let by_plane = pair.centre.z.abs() * (1.0 - MARGIN) - slack - particle.support(&towards);
     let distance = larger(by_ball, by_plane);
     if distance > 0.0 {
         let by = if by_ball > 0.0 { Flags::BY_SPHERES } else { Flags::BY_FACE };
         return Some(Apart::new(by, distance));
     }
-    let corners = boundary.corners.as_ref()?;
-    beyond_a_face(particle, &corners.at, &nearest, slack).map(|distance| Apart::new(Flags::BY_FACE, distance))
+    let vertices = triangle?.in_particle(pair);
+    beyond_a_face(particle, &vertices, &nearest, slack).map(|distance| Apart::new(Flags::BY_FACE, distance))
 }
 
 /// How far all vertices lie beyond the face of the particle that the nearest point lies farthest beyond.

@@ -1,6 +1,8 @@
 //! Planes and triangles as given, checked.
 
 use crate::contact::geometry::direction;
+use crate::linalg::wide::{difference, rounded};
+use crate::pair::boundary_part::BoundaryPart;
 use nalgebra::Vector3;
 use thiserror::Error;
 
@@ -35,8 +37,9 @@ pub enum Feature {
 pub struct Wall {
     /// Any point of it, world frame.
     pub(super) point: Vector3<f64>,
-    /// Unit normal, world frame.
+    /// Unit normal, world frame, and as it was given.
     pub(super) normal: Vector3<f64>,
+    given: Vector3<f64>,
 }
 
 impl Wall {
@@ -46,8 +49,13 @@ impl Wall {
     /// A point or normal that is not finite, or a normal of length zero.
     pub fn new(point: [f64; 3], normal: [f64; 3]) -> Result<Self, BoundaryError> {
         let [x, y, z] = normal;
-        let normal = direction(&normal.into()).ok_or(BoundaryError::Normal(x, y, z))?;
-        Ok(Self { point: finite(point)?, normal })
+        let given = normal.into();
+        let normal = direction(&given).ok_or(BoundaryError::Normal(x, y, z))?;
+        Ok(Self { point: finite(point)?, normal, given })
+    }
+
+    pub(super) fn part(&self) -> BoundaryPart {
+        BoundaryPart::Plane { point: self.point, normal: self.normal, given: self.given }
     }
 }
 
@@ -58,15 +66,14 @@ pub struct Triangle {
     pub(super) vertices: [Vector3<f64>; 3],
     /// Unit normal, world frame: from its front the vertices run counter-clockwise.
     pub(super) normal: Vector3<f64>,
-    /// The vertex between the two shorter sides, from which the normal is known best.
-    pub(super) base: usize,
-    /// What the sides at `base` make of the rounding of the normal: 1/sin of their angle.
-    pub(super) condition: f64,
 }
 
 /// Sine of the angle between the two shorter sides, below which it is rounding: each side is off by a unit of rounding, and so
 /// is each product of their components.
 const FLAT: f64 = 16.0 * f64::EPSILON;
+
+/// The same sine below which the normal is taken from numbers of 32 digits: the rounding of the sides, over the sine, turns it.
+const NARROW: f64 = 0.1;
 
 impl Triangle {
     /// With these vertices.
@@ -88,8 +95,32 @@ impl Triangle {
         if !(area > FLAT * product && product.is_finite()) {
             return Err(BoundaryError::Area(0.5 * area * unit * unit));
         }
-        Ok(Self { vertices, normal: cross / area, base, condition: product / area })
+        let normal = if area > NARROW * product { cross / area } else { precise_normal(&vertices, base, unit) };
+        Ok(Self { vertices, normal })
     }
+
+    /// Its plane.
+    pub(super) fn inside(&self) -> BoundaryPart {
+        BoundaryPart::Inside { vertices: self.vertices, normal: self.normal }
+    }
+
+    /// Edge i, between the vertices i and i + 1, in the order of their coordinates; and whether that is the other way round.
+    pub(super) fn edge(&self, i: usize) -> (BoundaryPart, bool) {
+        let (from, to) = (self.vertices[i], self.vertices[(i + 1) % 3]);
+        let reversed = to.iter().partial_cmp(from.iter()) == Some(std::cmp::Ordering::Less);
+        (BoundaryPart::Edge(if reversed { [to, from] } else { [from, to] }), reversed)
+    }
+
+    pub(super) fn corner(&self, i: usize) -> BoundaryPart {
+        BoundaryPart::Corner(self.vertices[i])
+    }
+}
+
+/// The unit normal of a narrow triangle, from its sides at `base` in units of its longest one.
+fn precise_normal(vertices: &[Vector3<f64>; 3], base: usize, unit: f64) -> Vector3<f64> {
+    let side = |i: usize| difference(&vertices[(base + i) % 3], &vertices[base]).map(|c| c * (1.0 / unit));
+    let normal = rounded(&side(1).cross(&side(2)));
+    normal / normal.norm()
 }
 
 fn finite(point: [f64; 3]) -> Result<Vector3<f64>, BoundaryError> {

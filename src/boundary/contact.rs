@@ -1,18 +1,19 @@
 //! Point, normal and overlap of a particle and a flat boundary.
 
 use super::boundary::{Feature, Triangle, Wall};
-use super::closest::{Closest, Goal};
-use super::placed::Placed;
+use super::closest::{Closest, Search};
 use super::separation;
+use super::triangle::PlacedTriangle;
 use crate::bounds::scale::Scale;
 use crate::contact::contact::Kind;
 use crate::contact::detect::DetectError;
 use crate::flags::Flags;
-use crate::linalg::number::larger;
-use crate::pair::body::{Body, shift_in_a};
+use crate::linalg::number::{larger, smaller};
+use crate::pair::body::shift_in_a;
+use crate::pair::pair::Pair;
 use crate::pair::separation::Apart;
 use crate::particle::particle::Particle;
-use crate::particle::ray_cast;
+use crate::particle::{potential, ray_cast};
 use crate::pose::Pose;
 use crate::section::Section;
 use crate::settings::Settings;
@@ -82,7 +83,11 @@ pub fn contact_with_plane(
     settings: &Settings,
 ) -> Result<FlatContact, DetectError> {
     settings.validate()?;
-    Call { particle: a, pose, normal: wall.normal, settings }.contact(&Placed::wall(wall, pose))
+    let plane = wall.part();
+    let frame = plane.frame(pose);
+    let call = Call { particle: a, pose, normal: wall.normal, settings };
+    let pair = Pair::on_boundary(a, pose, &plane, &frame);
+    call.contact(separation::proof_of_separation(&pair, None), |search| search.on_plane(plane))
 }
 
 /// Contact of A at a pose with a closed triangle, which it may touch from either side; otherwise as [`contact_with_plane`].
@@ -96,10 +101,16 @@ pub fn contact_with_triangle(
     settings: &Settings,
 ) -> Result<FlatContact, DetectError> {
     settings.validate()?;
-    Call { particle: a, pose, normal: triangle.normal, settings }.contact(&Placed::triangle(triangle, pose))
+    let plane = triangle.inside();
+    let frame = plane.frame(pose);
+    let call = Call { particle: a, pose, normal: triangle.normal, settings };
+    let pair = Pair::on_boundary(a, pose, &plane, &frame);
+    let placed = PlacedTriangle::of(triangle, pose, &pair);
+    let apart = separation::proof_of_separation(&pair, Some(&placed));
+    call.contact(apart, |search| search.on_triangle(triangle, &placed))
 }
 
-/// What a call is about, beside the boundary in the particle's frame.
+/// What a call is about.
 #[derive(Clone, Copy)]
 struct Call<'a> {
     particle: &'a Particle,
@@ -109,128 +120,98 @@ struct Call<'a> {
     settings: &'a Settings,
 }
 
-/// A unit normal, world and local, and whether the gradient tells none.
-struct Normal {
-    world: Vector3<f64>,
-    local: Vector3<f64>,
-    by_boundary: bool,
-}
-
 impl Call<'_> {
-    fn contact(&self, boundary: &Placed) -> Result<FlatContact, DetectError> {
-        if !self.settings.solve_separated {
-            if let Some(apart) = separation::proof_of_separation(self.particle, boundary) {
-                return Ok(FlatContact::apart(&apart));
-            }
+    /// Rejects, or searches and describes.
+    fn contact(
+        &self,
+        apart: Option<Apart>,
+        closest: impl Fn(&mut Search) -> Result<Closest, DetectError>,
+    ) -> Result<FlatContact, DetectError> {
+        if let Some(apart) = apart.filter(|_| !self.settings.solve_separated) {
+            return Ok(FlatContact::apart(&apart));
         }
-        let goal = Goal {
-            particle: self.particle,
-            least_sphericity: self.settings.regularisation(),
-            tolerance: self.settings.gap_tolerance,
-        };
-        let body = goal.body();
-        let Some(closest) = goal.closest(boundary) else {
-            return Err(DetectError::Failed { reason: "the scale on the boundary is not finite".into() });
-        };
-        let scale = closest.scale(&body);
-        if !(closest.settled || scale.low >= 1.0 || scale.s + scale.gap < 1.0) {
-            return Err(DetectError::Failed { reason: "the search on the boundary did not settle".into() });
+        let (particle, pose, settings) = (self.particle, self.pose, self.settings);
+        let mut search = Search { particle, pose, settings, flags: Flags::NONE, iterations: 0 };
+        let found = closest(&mut search)?;
+        let scale = found.scale(&search.body());
+        if scale.is_undecided() {
+            return Err(DetectError::not_settled());
         }
-        if scale.s >= 1.0 && scale.low < 1.0 && self.settings.raises_regularisation() {
+        if found.may_hide_an_overlap(&search.body()) && settings.raises_regularisation() {
             // Where the bulge of a raised regularisation may hide an overlap, the particle as it is decides.
             let flat_regularisation = Settings::default().flat_regularisation;
-            let settings = Settings { flat_regularisation, ..*self.settings };
-            let contact = Call { settings: &settings, ..*self }.contact(boundary)?;
+            let settings = Settings { flat_regularisation, ..*settings };
+            let contact = Call { settings: &settings, ..*self }.contact(None, closest)?;
             return Ok(FlatContact { flags: contact.flags.with(Flags::DEFAULT_REGULARISATION), ..contact });
         }
-        self.described(boundary, &body, &closest, scale)
+        self.described(&search, &found, scale)
     }
 
-    fn described(
-        &self,
-        boundary: &Placed,
-        body: &Body,
-        closest: &Closest,
-        scale: Scale,
-    ) -> Result<FlatContact, DetectError> {
-        let minimum = &closest.minimum;
-        let normal = self.normal(boundary, body, closest);
-        let mut flags = if normal.by_boundary { Flags::NORMAL_BY_BOUNDARY } else { Flags::NONE };
-        let open = minimum.value - closest.lower + 2.0 * minimum.rounding;
-        if open > self.settings.gap_tolerance * minimum.value {
-            flags.insert(Flags::ROUNDING_LIMITED);
-        }
-        let to_boundary = self.pose.rotate(&minimum.x);
-        let position = self.pose.position();
+    fn described(&self, search: &Search, found: &Closest, scale: Scale) -> Result<FlatContact, DetectError> {
+        let (least, position) = (&found.least, self.pose.position());
+        let (normal, by_boundary) = self.normal(search, found);
+        let to_boundary = least.rotation * least.from_centre();
         let contact = FlatContact {
             kind: Kind::Separated,
-            feature: closest.feature,
-            flags,
-            iterations: closest.models,
+            feature: found.feature,
+            flags: search.flags.with(if by_boundary { Flags::NORMAL_BY_BOUNDARY } else { Flags::NONE }),
+            iterations: search.iterations,
             s: scale.s,
             gap: scale.gap,
-            point_bound: closest.point_bound(body, boundary),
-            normal: normal.world,
+            point_bound: smaller(least.point_bound, found.within(&search.body())),
+            normal,
             point: position + to_boundary,
             branch: to_boundary,
             on_boundary: position + to_boundary,
             ..FlatContact::UNKNOWN
         };
         if scale.s >= 1.0 {
-            return Ok(FlatContact { distance: closest.distance(body, boundary), ..contact });
+            return Ok(FlatContact { distance: found.distance(&search.body()), ..contact });
         }
-        let overlap = self
-            .overlap(closest, &normal.local, shift_in_a(minimum.x.norm(), boundary.farthest))
-            .ok_or_else(|| DetectError::Failed { reason: "the surface was not found along the normal".into() })?;
-        let branch = to_boundary + 0.5 * overlap * normal.world;
+        let overlap = self.overlap(found, &normal)?;
+        let branch = to_boundary + 0.5 * overlap * normal;
         Ok(FlatContact {
             kind: Kind::Overlapping,
             overlap,
             distance: f64::NAN,
             point: position + branch,
             branch,
-            on_particle: position + (to_boundary + overlap * normal.world),
+            on_particle: position + (to_boundary + overlap * normal),
             ..contact
         })
     }
 
-    /// Along the gradient; inside the boundary along its normal, at an edge at right angles to that.
-    fn normal(&self, boundary: &Placed, body: &Body, closest: &Closest) -> Normal {
-        let Closest { minimum, feature, .. } = closest;
-        let shift = shift_in_a(minimum.x.norm(), boundary.farthest);
-        let doubt = minimum.slope + body.sphere_curvature() * shift;
-        let by_boundary = Normal { world: -self.normal, local: -boundary.normal, by_boundary: true };
-        let gradient = match (feature, &boundary.corners) {
-            (Feature::Interior, _) | (_, None) => {
-                let slope = minimum.gradient.dot(&boundary.normal);
-                let (world, local) = (self.normal, boundary.normal);
-                return match () {
-                    _ if slope > doubt => Normal { world, local, by_boundary: false },
-                    _ if slope < -doubt => Normal { by_boundary: false, ..by_boundary },
-                    _ => by_boundary,
-                };
-            }
-            (Feature::Edge(i), Some(corners)) => {
-                let along = corners.edges[usize::from(*i)].along;
-                minimum.gradient - minimum.gradient.dot(&along) * along
-            }
-            (Feature::Vertex(_), Some(_)) => minimum.gradient,
+    /// Along the gradient; inside the boundary along its normal, at an edge at right angles to that. And whether the gradient vanishes
+    /// to its rounding, so that it is minus the normal of the boundary.
+    fn normal(&self, search: &Search, found: &Closest) -> (Vector3<f64>, bool) {
+        let (least, solution) = (&found.least, &found.least.solution);
+        let shift = shift_in_a(least.from_centre().norm(), least.lengths);
+        let doubt = solution.slope + search.body().sphere_curvature() * shift;
+        let mut across = solution.gradients[0];
+        // What it has along the part is rounding.
+        (0..least.part.dimensions()).for_each(|i| across[i] = 0.0);
+        let steep = across.norm() > doubt;
+        let normal = match found.feature {
+            _ if !steep => -self.normal,
+            Feature::Interior => across.z.signum() * self.normal,
+            Feature::Edge(_) | Feature::Vertex(_) => (least.rotation * across).normalize(),
         };
-        match gradient.try_normalize(doubt) {
-            Some(local) => Normal { world: self.pose.rotate(&local).normalize(), local, by_boundary: false },
-            None => by_boundary,
-        }
+        (normal, !steep)
     }
 
     /// The way along the normal from the boundary to the surface of A.
-    fn overlap(&self, closest: &Closest, normal: &Vector3<f64>, shift: f64) -> Option<f64> {
-        let minimum = &closest.minimum;
-        let guess =
-            ray_cast::root_of_piece(minimum.value - 1.0, minimum.gradient.dot(normal), minimum.curvature(normal));
-        let way = ray_cast::distance_near(self.particle, &minimum.x, normal, guess)
-            .or_else(|| ray_cast::distance_beside(self.particle, &minimum.x, normal, shift))?;
+    fn overlap(&self, found: &Closest, normal: &Vector3<f64>) -> Result<f64, DetectError> {
+        let (particle, rotation) = (self.particle, self.pose.rotation());
+        let from = rotation.tr_mul(&(found.least.rotation * found.least.from_centre()));
+        let outwards = rotation.tr_mul(normal);
+        let line = potential::on_line(particle, particle.sphere_weight, &from, &outwards);
+        let guess = ray_cast::root_of_piece(line.value - 1.0, line.slope, line.curvature);
+        let shift = shift_in_a(from.norm(), found.least.lengths);
+        let way = ray_cast::distance_near(particle, &from, &outwards, guess)
+            .or_else(|| ray_cast::distance_beside(particle, &from, &outwards, shift))
+            .ok_or_else(|| DetectError::Failed { reason: "the surface was not found along the normal".into() })?;
         // Where s < 1 by rounding alone, it may be behind.
-        Some(larger(way, 0.0))
+        Ok(larger(way, 0.0))
     }
 }
 

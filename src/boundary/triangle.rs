@@ -1,0 +1,64 @@
+//! A triangle in the frame of its plane, seen from the point that is nearest to the centre of a particle.
+
+use super::boundary::Triangle;
+use crate::pair::pair::Pair;
+use crate::pose::Pose;
+use nalgebra::{Vector2, Vector3};
+
+/// Its vertices by two coordinates, anticlockwise.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct PlacedTriangle([Vector2<f64>; 3]);
+
+impl PlacedTriangle {
+    /// `pair` is that of the particle at this pose and the plane of the triangle.
+    pub fn of(triangle: &Triangle, pose: &Pose, pair: &Pair) -> Self {
+        let rotation = pair.rotation * pose.rotation().transpose();
+        Self(triangle.vertices.map(|vertex| (rotation * (vertex - pose.position()) + pair.centre).xy()))
+    }
+
+    /// Whether a point lies beyond edge i, outside the triangle.
+    pub fn is_beyond(&self, i: usize, x: &Vector2<f64>) -> bool {
+        let along = self.0[(i + 1) % 3] - self.0[i];
+        along.perp(&(x - self.0[i])) < 0.0
+    }
+
+    /// The point nearest to the origin.
+    pub fn nearest(&self) -> Vector2<f64> {
+        let origin = Vector2::zeros();
+        let (mut nearest, mut least) = (origin, f64::INFINITY);
+        for i in (0..3).filter(|i| self.is_beyond(*i, &origin)) {
+            let (from, along) = (self.0[i], self.0[(i + 1) % 3] - self.0[i]);
+            // Of an edge that is lost beside its distance, its beginning.
+            let share = (-from.dot(&along) / along.norm_squared()).clamp(0.0, 1.0);
+            let on_edge = if share > 0.0 { from + share * along } else { from };
+            if on_edge.norm_squared() < least {
+                (nearest, least) = (on_edge, on_edge.norm_squared());
+            }
+        }
+        nearest
+    }
+
+    /// Bound on the distance from a point to any other of the triangle.
+    pub fn extent(&self, from: &Vector2<f64>) -> f64 {
+        self.0.iter().map(|vertex| (vertex - from).norm()).fold(0.0, f64::max)
+    }
+
+    /// The vertices in the local frame of the particle.
+    pub fn in_particle(&self, pair: &Pair) -> [Vector3<f64>; 3] {
+        self.0.map(|vertex| pair.in_a(&vertex.push(0.0)))
+    }
+
+    /// How steeply a function with this gradient descends at most from edge i to the inside.
+    pub fn descent_from_edge(&self, i: usize, gradient: &Vector2<f64>) -> f64 {
+        let along = self.0[(i + 1) % 3] - self.0[i];
+        (-along.perp(gradient) / along.norm()).max(0.0)
+    }
+
+    /// The same from vertex i: along the negative gradient if that points into the triangle, else along one of its sides.
+    pub fn descent_from_vertex(&self, i: usize, gradient: &Vector2<f64>) -> f64 {
+        let [left, right] = [(i + 1) % 3, (i + 2) % 3].map(|j| self.0[j] - self.0[i]);
+        let along = |side: &Vector2<f64>| -gradient.dot(side) / side.norm();
+        let inside = left.perp(gradient) <= 0.0 && gradient.perp(&right) <= 0.0;
+        if inside { gradient.norm() } else { along(&left).max(along(&right)).max(0.0) }
+    }
+}

@@ -1,0 +1,170 @@
+//! A plane, an edge or a corner of a boundary: the set on which the point of a contact lies, with its own frame.
+//!
+//! In its frame a plane is z = 0, an edge the x axis and a corner the origin, so that a point of it has the first two, the first
+//! or none of its coordinates. The origin is the point that is nearest to the centre of the particle: coordinates are no longer
+//! than the particle, wherever the scene lies.
+
+use crate::linalg::double_double::DoubleDouble;
+use crate::linalg::graded_basis::any_across;
+use crate::linalg::wide::{Wide, difference, wide};
+use crate::pose::Pose;
+use nalgebra::{Matrix3, Vector3};
+
+/// A part of a boundary as the caller gave it, world frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum BoundaryPart {
+    /// A plane through a point, by its unit normal and by a normal of any length that is exact.
+    Plane {
+        point: Vector3<f64>,
+        normal: Vector3<f64>,
+        given: Vector3<f64>,
+    },
+    /// The plane of three points, which have this unit normal.
+    Inside {
+        vertices: [Vector3<f64>; 3],
+        normal: Vector3<f64>,
+    },
+    /// The line through two points. They come in an order of their own, so that all triangles that share an edge find the same bits.
+    Edge([Vector3<f64>; 2]),
+    Corner(Vector3<f64>),
+}
+
+/// The frame of a part beside a particle, in doubles.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct PartFrame {
+    /// Part to world.
+    pub rotation: Matrix3<f64>,
+    /// Centre of the particle in the frame of the part.
+    pub centre: Vector3<f64>,
+    /// Length that the rounding of the place of the part is proportional to: that of the farthest point by which it is given.
+    pub lengths: f64,
+}
+
+impl BoundaryPart {
+    /// The number of coordinates that a point of it has.
+    pub fn dimensions(&self) -> usize {
+        match self {
+            Self::Plane { .. } | Self::Inside { .. } => 2,
+            Self::Edge(_) => 1,
+            Self::Corner(_) => 0,
+        }
+    }
+
+    /// Its frame beside a particle, whose pose is subtracted before anything is turned.
+    pub fn frame(&self, pose: &Pose) -> PartFrame {
+        let from_centre = |point: &Vector3<f64>| point - pose.position();
+        match self {
+            Self::Plane { point, normal, .. } => plane_frame(normal, &from_centre(point), from_centre(point).norm()),
+            Self::Inside { vertices, normal } => {
+                let farthest = vertices.iter().map(|v| from_centre(v).norm()).fold(0.0, f64::max);
+                plane_frame(normal, &from_centre(&vertices[0]), farthest)
+            }
+            Self::Edge([from, to]) => {
+                let (start, along) = (from_centre(from), unit(&(to - from)));
+                let across = any_across(&along);
+                let rotation = Matrix3::from_columns(&[along, across, along.cross(&across)]);
+                let lengths = start.norm().max(from_centre(to).norm());
+                let centre = -rotation.tr_mul(&start);
+                PartFrame { rotation, centre: Vector3::new(0.0, centre.y, centre.z), lengths }
+            }
+            Self::Corner(point) => {
+                let start = from_centre(point);
+                PartFrame { rotation: Matrix3::identity(), centre: -start, lengths: start.norm() }
+            }
+        }
+    }
+
+    /// The same in numbers of 32 digits: the axes of the part (columns, world frame), and the centre of the particle in it.
+    pub fn wide_frame(&self, pose: &Pose) -> ([Wide; 3], Wide) {
+        let zero = DoubleDouble::default();
+        match self {
+            Self::Plane { point, given, normal } => {
+                let axes = plane_axes(&wide_unit(&wide(given)), normal);
+                (axes, Vector3::new(zero, zero, axes[2].dot(&difference(pose.position(), point))))
+            }
+            Self::Inside { vertices: [a, b, c], normal } => {
+                let axes = plane_axes(&wide_unit(&difference(b, a).cross(&difference(c, a))), normal);
+                (axes, Vector3::new(zero, zero, axes[2].dot(&difference(pose.position(), a))))
+            }
+            Self::Edge([from, to]) => {
+                let along = wide_unit(&difference(to, from));
+                let across = wide_across(&along, &any_across(&unit(&(to - from))));
+                let axes = [along, across, along.cross(&across)];
+                let centre = difference(pose.position(), from);
+                (axes, Vector3::new(zero, axes[1].dot(&centre), axes[2].dot(&centre)))
+            }
+            Self::Corner(point) => ([0, 1, 2].map(|i| wide(&Vector3::ith(i, 1.0))), difference(pose.position(), point)),
+        }
+    }
+}
+
+fn plane_frame(normal: &Vector3<f64>, to_point: &Vector3<f64>, farthest: f64) -> PartFrame {
+    let first = any_across(normal);
+    let rotation = Matrix3::from_columns(&[first, normal.cross(&first), *normal]);
+    PartFrame { rotation, centre: Vector3::new(0.0, 0.0, -normal.dot(to_point)), lengths: farthest }
+}
+
+/// The axes of a plane, of which the first is that of [`plane_frame`] to rounding.
+fn plane_axes(normal: &Wide, rounded: &Vector3<f64>) -> [Wide; 3] {
+    let first = wide_across(normal, &any_across(rounded));
+    [first, normal.cross(&first), *normal]
+}
+
+/// At unit length; of an edge that is lost beside its distance, any direction is as good.
+fn unit(v: &Vector3<f64>) -> Vector3<f64> {
+    let scaled = v / v.amax();
+    scaled.try_normalize(0.0).filter(|v| v.iter().all(|c| c.is_finite())).unwrap_or_else(Vector3::x)
+}
+
+fn wide_unit(v: &Wide) -> Wide {
+    // In units of the largest component no square leaves the range of numbers.
+    let largest = DoubleDouble::from(v.iter().fold(0.0, |largest: f64, c| largest.max(c.rounded().abs())));
+    let scaled = v.map(|c| c / largest);
+    let length = scaled.dot(&scaled).sqrt();
+    scaled.map(|c| c / length)
+}
+
+/// The unit vector at right angles to one that is nearest to another.
+fn wide_across(n: &Wide, near: &Vector3<f64>) -> Wide {
+    let near = wide(near);
+    wide_unit(&(near - n * near.dot(n)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::linalg::wide::rounded;
+
+    #[test]
+    fn both_frames_agree_and_hold_the_part() {
+        let [a, b, c] = [[0.3, -1.0, 0.2], [2.0, 0.7, -0.4], [-0.6, 0.8, 1.1]].map(Vector3::from);
+        let normal = (b - a).cross(&(c - a)).normalize();
+        let pose = Pose::new([0.4, 0.1, 0.9], [1.0, 0.2, -0.3, 0.5]).unwrap();
+        let parts = [
+            BoundaryPart::Plane { point: a, normal, given: normal },
+            BoundaryPart::Inside { vertices: [a, b, c], normal },
+            BoundaryPart::Edge([a, b]),
+            BoundaryPart::Corner(c),
+        ];
+        for part in parts {
+            let (frame, (axes, centre)) = (part.frame(&pose), part.wide_frame(&pose));
+            assert!((frame.centre - rounded(&centre)).norm() < 1e-15, "{part:?}");
+            for i in 0..3 {
+                assert!((frame.rotation.column(i) - rounded(&axes[i])).norm() < 1e-15, "{part:?}");
+                let square = (axes[i].dot(&axes[i]) - DoubleDouble::from(1.0)).rounded();
+                assert!(square.abs() < 16.0 * DoubleDouble::UNIT, "{part:?}");
+            }
+            // The first coordinates of the points that give the part are all that they have.
+            let points: &[Vector3<f64>] = match &part {
+                BoundaryPart::Plane { .. } => &[a],
+                BoundaryPart::Inside { .. } => &[a, b, c],
+                BoundaryPart::Edge(_) => &[a, b],
+                BoundaryPart::Corner(_) => &[c],
+            };
+            for point in points {
+                let x = frame.rotation.tr_mul(&(point - pose.position())) + frame.centre;
+                assert!((part.dimensions()..3).all(|i| x[i].abs() < 4e-16), "{part:?}: {x}");
+            }
+        }
+    }
+}
