@@ -2,6 +2,8 @@
 
 #[path = "flat/closed_forms.rs"]
 mod closed_forms;
+#[path = "flat/found.rs"]
+mod found;
 #[path = "flat/meshes.rs"]
 mod meshes;
 #[path = "flat/properties.rs"]

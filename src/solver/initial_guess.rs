@@ -42,8 +42,11 @@ const SLOW: f64 = 1e-6;
 /// Square of the shortest vector of the hull, relative to the longest, that is none: the planes hold each other.
 const BALANCED: f64 = 1e-20;
 
-/// A start without memory.
+/// A start without memory; on a boundary, its point nearest to the centre.
 pub(crate) fn cold(pair: &Pair, [a, b]: [&Body; 2]) -> Start {
+    if b.particle.is_boundary() {
+        return Start { x: Vector3::zeros(), lambda: 1.0 };
+    }
     let on_centre_line = Start { x: centre_line(pair), lambda: 1.0 };
     if is_smooth(a) || is_smooth(b) {
         return on_centre_line;
