@@ -105,10 +105,10 @@ impl Triangle {
     }
 
     /// Edge i, between the vertices i and i + 1, in the order of their coordinates; and whether that is the other way round.
-    pub(super) fn edge(&self, i: usize) -> (BoundaryPart, bool) {
+    pub(super) fn edge(&self, i: usize) -> ([Vector3<f64>; 2], bool) {
         let (from, to) = (self.vertices[i], self.vertices[(i + 1) % 3]);
         let reversed = to.iter().partial_cmp(from.iter()) == Some(std::cmp::Ordering::Less);
-        (BoundaryPart::Edge(if reversed { [to, from] } else { [from, to] }), reversed)
+        (if reversed { [to, from] } else { [from, to] }, reversed)
     }
 
     pub(super) fn corner(&self, i: usize) -> BoundaryPart {

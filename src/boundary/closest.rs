@@ -18,7 +18,6 @@ use crate::pose::Pose;
 use crate::settings::Settings;
 use crate::solver::call::Call;
 use nalgebra::{Matrix3, Vector2, Vector3};
-use std::ops::ControlFlow::{Break, Continue};
 
 /// The particle, and what its searches on the parts of a boundary have cost so far.
 pub(super) struct Search<'a> {
@@ -62,12 +61,9 @@ impl Search<'_> {
         let pair = Pair::on_boundary(self.particle, self.pose, &part, &frame);
         let mut call = Call::new(&pair, self.settings);
         let start = Start { x: from.push(0.0), lambda: 1.0 };
-        let mut model = call.model(&start, Problem::OnBoundary);
-        let solution = match call.first_step(Problem::OnBoundary, start.lambda, &model) {
-            Break(solution) => solution,
-            Continue(step) => call.solve(Problem::OnBoundary, start.lambda, &mut model, step)?,
-        };
-        let point_bound = call.point_bound(&solution, &model, Problem::OnBoundary);
+        let model = call.model(&start, Problem::OnBoundary);
+        let solved = call.solve(Problem::OnBoundary, start.lambda, model)?;
+        let (solution, point_bound) = (solved.solution, call.point_bound(&solved, Problem::OnBoundary));
         self.flags = self.flags.with(call.flags);
         self.iterations += call.iterations;
         let PartFrame { rotation, centre, lengths } = frame;
@@ -84,28 +80,18 @@ impl Search<'_> {
     pub fn on_triangle(&mut self, triangle: &Triangle, placed: &PlacedTriangle) -> Result<Closest, DetectError> {
         let inside = self.on_part(triangle.inside(), placed.nearest())?;
         let x = inside.solution.x.xy();
-        let passed = [0, 1, 2].map(|i| placed.is_beyond(i, &x));
-        if passed == [false; 3] {
-            let Solution { lower, slope, .. } = inside.solution;
-            return Ok(Closest {
-                least: inside,
-                feature: Feature::Interior,
-                lower,
-                descent: slope,
-                extent: placed.extent(&x),
-            });
-        }
         let mut on_edges = [None; 3];
-        for i in (0..3).filter(|i| passed[*i]) {
+        for i in (0..3).filter(|i| placed.is_beyond(*i, &x)) {
             on_edges[i] = Some(self.on_edge(triangle, i)?);
         }
-        let mut least: Option<(Least, Feature)> = None;
-        for found in on_edges.iter().flatten() {
-            if least.is_none_or(|(least, _)| found.0.solution.estimate < least.solution.estimate) {
-                least = Some(*found);
-            }
-        }
-        let (mut least, mut feature) = least.ok_or_else(DetectError::not_settled)?;
+        let smaller_of = |a: (Least, Feature), b: (Least, Feature)| {
+            if b.0.solution.estimate < a.0.solution.estimate { b } else { a }
+        };
+        let Some((mut least, mut feature)) = on_edges.iter().flatten().copied().reduce(smaller_of) else {
+            let Solution { lower, slope: descent, .. } = inside.solution;
+            let (feature, extent) = (Feature::Interior, placed.extent(&x));
+            return Ok(Closest { least: inside, feature, lower, descent, extent });
+        };
         // On an edge that ends at the vertex the least S is no more than there, and whether it is less is an answer of the edge
         // alone: so all triangles that share it have the same.
         if let Feature::Vertex(vertex) = feature {
@@ -122,8 +108,8 @@ impl Search<'_> {
 
     /// The least S on edge i, from the edge alone.
     fn on_edge(&mut self, triangle: &Triangle, i: usize) -> Result<(Least, Feature), DetectError> {
-        let (edge, reversed) = triangle.edge(i);
-        let BoundaryPart::Edge(ends) = edge else { return Err(DetectError::not_settled()) };
+        let (ends, reversed) = triangle.edge(i);
+        let edge = BoundaryPart::Edge(ends);
         let along = edge.frame(self.pose).rotation.column(0).into_owned();
         let [from, to] = ends.map(|end| along.dot(&(end - self.pose.position())));
         let least = self.on_part(edge, Vector2::new(smaller(larger(from, 0.0), to), 0.0))?;

@@ -17,6 +17,7 @@ use crate::particle::{potential, ray_cast};
 use crate::pose::Pose;
 use crate::section::Section;
 use crate::settings::Settings;
+use crate::solver::call::SolveError;
 use nalgebra::Vector3;
 
 /// The answer for a particle A and a boundary T, world axes, lengths in the caller's unit. What does not apply is NaN.
@@ -135,7 +136,7 @@ impl Call<'_> {
         let found = closest(&mut search)?;
         let scale = found.scale(&search.body());
         if scale.is_undecided() {
-            return Err(DetectError::not_settled());
+            return Err(SolveError::Undecided { low: scale.low, high: scale.high }.into());
         }
         if found.may_hide_an_overlap(&search.body()) && settings.raises_regularisation() {
             // Where the bulge of a raised regularisation may hide an overlap, the particle as it is decides.
@@ -209,7 +210,7 @@ impl Call<'_> {
         let shift = shift_in_a(from.norm(), found.least.lengths);
         let way = ray_cast::distance_near(particle, &from, &outwards, guess)
             .or_else(|| ray_cast::distance_beside(particle, &from, &outwards, shift))
-            .ok_or_else(|| DetectError::Failed { reason: "the surface was not found along the normal".into() })?;
+            .ok_or_else(DetectError::no_surface)?;
         // Where s < 1 by rounding alone, it may be behind.
         Ok(larger(way, 0.0))
     }

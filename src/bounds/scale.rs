@@ -12,8 +12,9 @@ pub(crate) struct Scale {
     pub s: f64,
     /// |s − s*| ≤ gap.
     pub gap: f64,
-    /// s* ≥ low.
+    /// low ≤ s* ≤ high.
     pub low: f64,
+    pub high: f64,
 }
 
 /// Rounding of the sums and roots below, relative to s: γ₆ for the sums of S and the weights, halved by the root,
@@ -34,8 +35,11 @@ impl Scale {
         // Regularised S exceeds S by at most this where the optimum can be.
         let level = larger(solution.upper, 1.0);
         let most = weighted(a.most_surplus(level), b.most_surplus(level));
-        let square = larger(solution.estimate - weighted(a.surplus(&solution.x), b.surplus(&solution.x)), 0.0);
-        let high = larger(square, larger(solution.lower, solution.upper)) + solution.rounding;
+        let surplus = [a.surplus(&solution.x), b.surplus(&solution.x)];
+        let square = larger(solution.estimate - weighted(surplus[0], surplus[1]), 0.0);
+        // What the regularisation adds to the larger of S_A and S_B at the point is no part of the upper bound.
+        let added = if problem == Problem::Midway { smaller(surplus[0], surplus[1]) * (1.0 - ROUNDING) } else { 0.0 };
+        let high = larger(square, larger(solution.lower, solution.upper) - added) + solution.rounding;
         Self::between(square, solution.lower - most - solution.rounding, high)
     }
 
@@ -45,18 +49,18 @@ impl Scale {
     pub fn between(square: f64, low: f64, high: f64) -> Self {
         let low = smaller(larger(low, 0.0), square);
         let s = square.sqrt();
-        let low = low.sqrt() * (1.0 - ROUNDING);
-        Self { s, gap: larger(s - low, high.sqrt() - s) + ROUNDING * s + UNDERFLOW, low }
+        let (low, high) = (low.sqrt() * (1.0 - ROUNDING), high.sqrt());
+        Self { s, gap: larger(s - low, high - s) + ROUNDING * s + UNDERFLOW, low, high: high * (1.0 + ROUNDING) }
     }
 
-    /// Whether it is no answer: it does not say on which side of 1 s lies, and by far.
+    /// Whether it is no answer: it leaves open on which side of 1 s lies, by more than [`WIDE`].
     pub fn is_undecided(&self) -> bool {
         // Not a number is no answer either.
-        !(self.s - self.gap >= 1.0 || self.s + self.gap <= 1.0 || self.gap <= WIDE)
+        !(self.low >= 1.0 || self.high <= 1.0 || self.gap <= WIDE)
     }
 
     /// Whether s cannot be told from 0, as where a constraint is slack.
-    pub fn tells_nothing(&self) -> bool {
+    pub fn may_be_zero(&self) -> bool {
         !(self.low > 0.0)
     }
 }

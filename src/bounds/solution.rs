@@ -5,14 +5,11 @@ use crate::bounds::rounding::Rounding;
 use crate::bounds::sensitivity::Sensitivity;
 use crate::linalg::number::smaller;
 use crate::model::kkt_check::Change;
-use crate::model::local_model::{self, LocalModel, Step};
+use crate::model::local_model::{self, LocalModel, Start, Step};
 use crate::model::problem::Problem;
 use crate::pair::body::Body;
 use crate::pair::local_point::LocalPoint;
 use nalgebra::Vector3;
-
-/// Largest factor by which a first guess changes λ.
-const FAR: f64 = 20.0;
 
 /// Where a solver ended; everything in the solver's frame, potentials as regularised.
 #[derive(Clone, Copy, Debug)]
@@ -131,25 +128,9 @@ impl Solution {
         }
     }
 
-    /// The λ of a closest point, as seen from midway.
-    ///
-    /// Where a single curvature decides along their common path, as for two spheres or two faces, 1/√S of the held body is
-    /// linear in the ratio μ of its weight to the other's: this is Newton's step to where it is 1.
-    pub fn towards(&self, problem: Problem) -> f64 {
-        let weights = Problem::Midway.weights(self.lambda);
-        let (rate_a, rate_b) = Problem::Midway.apart(0.0, -self.rate, weights);
-        let on_b = problem == Problem::OnB;
-        // S and dS/d ln μ.
-        let (value, rate) = if on_b { (self.values[1], rate_b) } else { (self.values[0], -rate_a) };
-        let change = 1.0 + 2.0 * (1.0 - value.sqrt()) * value / rate;
-        // NaN and what is far fail the test.
-        if !(change > 1.0 / FAR && change < FAR) {
-            self.lambda
-        } else if on_b {
-            self.lambda * change
-        } else {
-            self.lambda / change
-        }
+    /// Where another search goes on from here.
+    pub fn start(&self) -> Start {
+        Start { x: self.x, lambda: self.lambda }
     }
 
     /// Whether the optimum exceeds 1 for sure, where a regularisation adds no more than `flat`: what it adds proves nothing.

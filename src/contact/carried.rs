@@ -20,6 +20,7 @@ use crate::pair::pair::Pair;
 use crate::particle::particle::Particle;
 use crate::pose::Pose;
 use crate::settings::Settings;
+use crate::solver::call::{Call, Solved};
 use nalgebra::Vector3;
 
 /// What a solved contact of one ordered pair says about poses near by; empty by default.
@@ -225,15 +226,8 @@ fn moved_by_regularisation(bodies: [&Body; 2], solution: &Solution, settings: &S
 
 impl Carried {
     /// From a contact that was solved as an overlap in doubles; empty where its quadratics do not say enough.
-    pub(crate) fn of(
-        pair: &Pair,
-        bodies: [&Body; 2],
-        model: &LocalModel,
-        solution: &Solution,
-        settings: &Settings,
-        scale: Scale,
-        point_bound: f64,
-    ) -> Self {
+    pub(crate) fn of(call: &Call, Solved { solution, model }: &Solved, scale: Scale, point_bound: f64) -> Self {
+        let (pair, bodies, settings) = (call.pair, call.bodies(), call.settings);
         let exact = model.in_solver_axes() && solution.linear;
         let pieces = [KnownPiece::of(model, bodies[0], 0), KnownPiece::of(model, bodies[1], 1)];
         let moved = moved_by_regularisation(bodies, solution, settings);
@@ -339,7 +333,14 @@ impl Carried {
         let steep = SLOPE_ROUNDING * left.stiffness * (moved[0] + moved[1]);
         // That of the pieces, which are turned back and forth, and that of this place.
         let bound = (1.0 + grown) * self.point_bound + 2.0 * left.way + steep;
-        LocalContact::midway(pair, &solution, Scale { s, gap, low: s - gap }, || bound, along, true)
+        LocalContact::along_normal(
+            pair,
+            &solution,
+            Scale { s, gap, low: s - gap, high: s + gap },
+            || bound,
+            along,
+            true,
+        )
     }
 }
 

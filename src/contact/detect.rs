@@ -5,8 +5,7 @@ use crate::contact::carried::Carried;
 use crate::contact::contact::Contact;
 use crate::contact::geometry::LocalContact;
 use crate::flags::Flags;
-use crate::model::dual_path;
-use crate::model::local_model::{LocalModel, Start};
+use crate::model::local_model::Start;
 use crate::model::problem::Problem;
 use crate::pair::memory::{Memory, Remembered};
 use crate::pair::pair::Pair;
@@ -14,9 +13,8 @@ use crate::pair::separation::{self, Apart};
 use crate::particle::particle::Particle;
 use crate::pose::Pose;
 use crate::settings::{BackEnd, Formulation, Settings, SettingsError};
-use crate::solver::call::{Call, CertifiedPoint, SolveError};
-use nalgebra::Vector3;
-use std::ops::ControlFlow::{Break, Continue};
+use crate::solver::call::{Call, SolveError};
+use crate::solver::closest;
 use thiserror::Error;
 
 /// Why there is no answer.
@@ -53,9 +51,8 @@ pub enum DetectError {
 }
 
 impl DetectError {
-    /// Where the bounds of an answer say nothing.
-    pub(crate) fn not_settled() -> Self {
-        Self::Failed { reason: "the bounds of s leave open whether it is below 1".into() }
+    pub(crate) fn no_surface() -> Self {
+        Self::Failed { reason: "the surface was not found along the normal".into() }
     }
 }
 
@@ -213,7 +210,7 @@ pub(crate) fn detect_as<T>(
     begin(a, b, settings, last, rejected, |pair| solved(pair, b.1, settings, memory, carried).map(&answer))
 }
 
-/// The contact of a pair that no cheap proof holds apart. In a frame of its own: it is large, and most pairs of a scene
+/// The contact of a pair that is not rejected by a separation test. In a frame of its own: it is large, and most pairs of a scene
 /// need none.
 #[inline(never)]
 fn solved(
@@ -234,20 +231,16 @@ fn solved(
         }
         None => call.cold(),
     };
-    let mut model = call.model(&start, Problem::Midway);
+    let model = call.model(&start, Problem::Midway);
     let overlapped = last.filter(|last| last.overlapping && settings.formulation == Formulation::Closest);
-    if let Some(points) = overlapped.and_then(|last| call.both_from_memory(&last, &model)) {
-        remember(memory, midway_between(&points));
+    if let Some(points) = overlapped.and_then(|last| call.closest_from_memory(&last, &model)) {
+        remember(memory, closest::midway_between(&points));
         let local = LocalContact::closest(pair, &points, settings.weight_on_a, true);
         return Ok(local.placed(pair, pose_b, summary(&call)));
     }
-    // Written so that the solution need not be copied.
-    let midway = match call.first_step(Problem::Midway, start.lambda, &model) {
-        Break(solution) => solution,
-        Continue(step) => call.solve(Problem::Midway, start.lambda, &mut model, step)?,
-    };
-    let scale = call.scale(&midway, Problem::Midway);
-    let separated = midway.ending == Ending::Separated;
+    let midway = call.solve(Problem::Midway, start.lambda, model)?;
+    let scale = call.scale(&midway.solution, Problem::Midway);
+    let separated = midway.solution.ending == Ending::Separated;
     if !separated && scale.s >= 1.0 && scale.low < 1.0 && settings.raises_regularisation() {
         // Where the bulge of a raised regularisation may hide an overlap, the particles as they are decide.
         let flat_regularisation = Settings::default().flat_regularisation;
@@ -255,30 +248,28 @@ fn solved(
         let contact = solved(pair, pose_b, &settings, memory, None)?;
         return Ok(Contact { flags: contact.flags.with(Flags::DEFAULT_REGULARISATION), ..contact });
     }
+    if scale.is_undecided() {
+        return Err(SolveError::Undecided { low: scale.low, high: scale.high }.into());
+    }
     let overlapping = !separated && scale.s < 1.0;
-    let mut remembered = Remembered { x: midway.x, lambda: midway.lambda, overlapping, closest: [1.0; 2] };
+    let Solution { x, lambda, values, .. } = midway.solution;
+    let mut remembered = Remembered { x, lambda, overlapping, closest: [1.0; 2] };
     if separated {
         remember(memory, remembered);
         let s = scale.low.max(1.0);
         let flags = call.flags.with(Flags::REJECTED);
         return Ok(Contact { formulation: settings.formulation, flags, s, ..summary(&call) });
     }
-    let found = match settings.formulation {
-        Formulation::Closest => closest(&mut call, &midway, &model)?,
-        Formulation::Midway => None,
-    };
-    let local = match &found {
+    let points = if settings.formulation == Formulation::Closest { call.closest(&midway)? } else { None };
+    let local = match &points {
         Some(points) => {
-            remembered = seen_from(remembered, midway.values, points);
+            remembered = closest::seen_from(remembered, values, points);
             LocalContact::closest(pair, points, settings.weight_on_a, overlapping)
         }
         None => {
-            let bound = || call.point_bound(&midway, &model, Problem::Midway);
-            let pieces = |n: &Vector3<f64>| call.pieces(&midway, &model, n);
-            let local = LocalContact::midway(pair, &midway, scale, bound, pieces, overlapping)
-                .ok_or_else(|| DetectError::Failed { reason: "the surface was not found along the normal".into() })?;
+            let local = LocalContact::midway(&call, &midway, scale, overlapping).ok_or_else(DetectError::no_surface)?;
             if let Some(carried) = carried.filter(|_| overlapping && !call.flags.contains(Flags::EXTENDED)) {
-                *carried = Carried::of(pair, call.bodies(), &model, &midway, settings, scale, local.point_bound());
+                *carried = Carried::of(&call, &midway, scale, local.point_bound());
             }
             local
         }
@@ -289,24 +280,7 @@ fn solved(
 
 /// What a call has cost, and who answered.
 fn summary(call: &Call) -> Contact {
-    Contact { flags: call.flags, iterations: call.iterations, back_end: call.answered, ..Contact::UNKNOWN }
-}
-
-/// What to remember of P1 and P2 with the place and λ of midway, where S_A and S_B have these values.
-fn seen_from(midway: Remembered, values: [f64; 2], [p1, p2]: &[CertifiedPoint; 2]) -> Remembered {
-    let [of_p1, of_p2] = dual_path::closest_from_between(values, midway.lambda);
-    Remembered { closest: [p1.lambda / of_p1, p2.lambda / of_p2], ..midway }
-}
-
-/// What to remember of P1 and P2 alone of a pair that overlaps: a place between them and a λ that come near those of midway.
-fn midway_between(points: &[CertifiedPoint; 2]) -> Remembered {
-    let [p1, p2] = points;
-    let square = (p1.lambda * p1.scale.s) * (p2.lambda / p2.scale.s);
-    // On the way from one to the other S is the same quadratic.
-    let way = p1.x - p2.x;
-    let value = |i: usize| 0.5 * (p1.values[i] + p2.values[i]) - 0.125 * (p1.gradients[i] - p2.gradients[i]).dot(&way);
-    let midway = Remembered { x: p2.x + 0.5 * way, lambda: square.sqrt(), overlapping: true, closest: [1.0; 2] };
-    seen_from(midway, [value(0), value(1)], points)
+    Contact { flags: call.flags, iterations: call.iterations, back_end: call.back_end, ..Contact::UNKNOWN }
 }
 
 fn remember(memory: Option<&mut Memory>, remembered: Remembered) {
@@ -315,8 +289,8 @@ fn remember(memory: Option<&mut Memory>, remembered: Remembered) {
     }
 }
 
-/// What is made of a cheap proof of separation, if one succeeds and will do; else of the pair in one frame, which is not given
-/// back, since copying it takes a twentieth of a warm call.
+/// Runs the separation tests, then the solver. The pair in one frame is handed on and not given back: copying it takes a twentieth
+/// of a call from memory.
 #[inline(always)]
 fn begin<T>(
     a: (&Particle, &Pose),
@@ -342,18 +316,4 @@ fn begin<T>(
         Some(proof) => rejected(proof),
         None => undecided(&pair),
     }
-}
-
-/// Both closest points; midway lies between them. `None` where a constraint is slack, which is flagged.
-fn closest(call: &mut Call, midway: &Solution, model: &LocalModel) -> Result<Option<[CertifiedPoint; 2]>, DetectError> {
-    if let Some(both) = call.both_from_midway(midway, model) {
-        return Ok(Some(both));
-    }
-    if let Some(p2) = call.closest_point(Problem::OnB, Some((midway, model)))? {
-        if let Some(p1) = call.closest_point(Problem::OnA, Some((midway, model)))? {
-            return Ok(Some([p1, p2]));
-        }
-    }
-    call.flags.insert(Flags::SLACK);
-    Ok(None)
 }

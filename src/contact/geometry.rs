@@ -6,13 +6,15 @@ use crate::contact::contact::{Contact, Kind};
 use crate::flags::Flags;
 use crate::linalg::number::larger;
 use crate::model::local_model::Piece;
+use crate::model::problem::Problem;
 use crate::pair::body;
 use crate::pair::pair::Pair;
 use crate::particle::particle::Particle;
 use crate::particle::{potential, ray_cast};
 use crate::pose::Pose;
 use crate::settings::Formulation;
-use crate::solver::call::CertifiedPoint;
+use crate::solver::call::{Call, Solved};
+use crate::solver::closest::CertifiedPoint;
 use nalgebra::Vector3;
 
 /// A contact in the local frame of B, before it is taken to the world; the numbers as in [`Contact`].
@@ -42,10 +44,15 @@ enum Surface {
 
 impl LocalContact {
     /// Midway: normal from both unit gradients at P3, surface points along it from there.
-    ///
-    /// `pieces` gives S_A and S_B along a vector: on the quadratics at P3 the surface is a square root away.
     #[inline(always)]
-    pub fn midway(
+    pub fn midway(call: &Call, midway: &Solved, scale: Scale, overlapping: bool) -> Option<Self> {
+        let bound = || call.point_bound(midway, Problem::Midway);
+        Self::along_normal(call.pair, &midway.solution, scale, bound, |n| call.pieces(midway, n), overlapping)
+    }
+
+    /// The same from the bound of the point and S_A and S_B along a vector: on the quadratics at P3 the surface is a square root away.
+    #[inline(always)]
+    pub fn along_normal(
         pair: &Pair,
         solution: &Solution,
         scale: Scale,

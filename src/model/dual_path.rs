@@ -197,17 +197,6 @@ impl<'a, N: Number> DualPath<'a, N> {
     }
 }
 
-/// The λ of P1 and of P2 as seen from a point between them where S_A and S_B have these values, and the λ of midway.
-///
-/// Where a single curvature decides along the curve, √S_A and √S_B are linear on it, with slopes whose ratio is λ. With s_a, s_b for
-/// √S_A, √S_B here, √S_A at P2 is s_a + λ·(s_b − 1) and √S_B at P1 is s_b + (s_a − 1)/λ; their λ are λ times the first, and λ over the
-/// second.
-#[inline(always)]
-pub(crate) fn closest_from_between([value_a, value_b]: [f64; 2], lambda: f64) -> [f64; 2] {
-    let (s_a, s_b) = (value_a.sqrt(), value_b.sqrt());
-    [lambda / (s_b + (s_a - 1.0) / lambda), lambda * (s_a + lambda * (s_b - 1.0))]
-}
-
 #[inline(always)]
 fn square<N: Number>(v: &Vector3<N>) -> N {
     v.dot(v)

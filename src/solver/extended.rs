@@ -128,7 +128,9 @@ fn ending(solution: &Solution, bodies: [&Body; 2], goal: &Goal) -> Ending {
     let gap = solution.gap();
     match () {
         () if !gap.is_finite() => Ending::Unsettled,
-        () if goal.stop_when_separated && solution.separates(newton::flat(bodies)) => Ending::Separated,
+        () if goal.stop_when_separated && solution.separates(newton::max_regularisation_error(bodies)) => {
+            Ending::Separated
+        }
         () if gap <= goal.tolerance * solution.upper => Ending::Converged,
         () => Ending::RoundingLimited,
     }

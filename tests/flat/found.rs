@@ -1,7 +1,9 @@
 //! Cases that other methods failed on.
 
 use crate::solved;
-use potential_particles::{Kind, Particle, Plane, Pose, Settings, Triangle, Wall, contact_with_plane, contact_with_triangle};
+use potential_particles::{
+    Kind, Particle, Plane, Pose, Settings, Triangle, Wall, contact_with_plane, contact_with_triangle,
+};
 
 /// Its edges meet the particle where a search in doubles goes round in circles: a point of it has s = 0.6248.
 #[test]

@@ -1,0 +1,179 @@
+//! The two closest points P1 and P2 (paper eqs 3, 9, 34–43).
+//!
+//! Both lie on the dual path of midway, beyond its point P3: from there, or from the last call, one step along the quadratics at hand is
+//! mostly enough for both at once, in two lanes ([`crate::model::dual_search::both_closest`]). Else each is solved by itself.
+
+use crate::bounds::point_bound::point_bound;
+use crate::bounds::scale::Scale;
+use crate::bounds::solution::Solution;
+use crate::flags::Flags;
+use crate::model::dual_search;
+use crate::model::local_model::{self, LocalModel};
+use crate::model::problem::Problem;
+use crate::pair::memory::Remembered;
+use crate::settings::BackEnd;
+use crate::solver::call::{Call, SolveError, Solved};
+use crate::solver::newton;
+use nalgebra::Vector3;
+
+/// Largest factor by which a first guess changes λ.
+const FAR: f64 = 20.0;
+
+/// One of the closest points, with its bounds.
+pub(crate) struct CertifiedPoint {
+    pub x: Vector3<f64>,
+    /// Ratio of weights λ = u/(1−u).
+    pub lambda: f64,
+    pub gradients: [Vector3<f64>; 2],
+    pub gradient_norms: [f64; 2],
+    /// S_A and S_B.
+    pub values: [f64; 2],
+    pub scale: Scale,
+    /// Bound on the distance to the optimum.
+    pub bound: f64,
+}
+
+impl Call<'_> {
+    /// P1 and P2 from midway, near which they lie. `None` where a constraint is slack, which is flagged.
+    #[inline(never)]
+    pub fn closest(&mut self, midway: &Solved) -> Result<Option<[CertifiedPoint; 2]>, SolveError> {
+        let Solved { solution, model } = midway;
+        let lambdas = [towards(solution, Problem::OnA), towards(solution, Problem::OnB)];
+        if let Some(both) = self.both(lambdas, model, |_| true) {
+            return Ok(Some(both));
+        }
+        if let Some(p2) = self.closest_point(Problem::OnB, Some(midway))? {
+            if let Some(p1) = self.closest_point(Problem::OnA, Some(midway))? {
+                return Ok(Some([p1, p2]));
+            }
+        }
+        self.flags.insert(Flags::SLACK);
+        Ok(None)
+    }
+
+    /// P1 and P2 from the quadratics at hand and what the last call left, where one step is enough for both and either scale
+    /// tells that the particles overlap: midway is then needed neither for that nor as a start.
+    #[inline(never)]
+    pub fn closest_from_memory(&mut self, last: &Remembered, model: &LocalModel) -> Option<[CertifiedPoint; 2]> {
+        let [of_p1, of_p2] = from_between([model.q_a.expansion, model.q_b.expansion], last.lambda);
+        let lambdas = [last.closest[0] * of_p1, last.closest[1] * of_p2];
+        self.both(lambdas, model, |found| found.scale.s + found.scale.gap < 1.0)
+    }
+
+    /// P1 and P2 by one step from guesses of their λ, if both will do.
+    #[inline(always)]
+    fn both(
+        &mut self,
+        lambdas: [f64; 2],
+        model: &LocalModel,
+        will_do: impl Fn(&CertifiedPoint) -> bool,
+    ) -> Option<[CertifiedPoint; 2]> {
+        if self.back_end != BackEnd::Fast {
+            return None;
+        }
+        let bodies = self.bodies();
+        let soft = local_model::softest(bodies);
+        let [p1, p2] = dual_search::both_closest([&model.q_a, &model.q_b], soft, lambdas)?;
+        let on_a = newton::accepted(bodies, &self.goal(Problem::OnA), model, &model.step(bodies, p1))?;
+        let on_b = newton::accepted(bodies, &self.goal(Problem::OnB), model, &model.step(bodies, p2))?;
+        let points = [self.certified(Problem::OnA, &on_a, model), self.certified(Problem::OnB, &on_b, model)];
+        if !points.iter().all(|found| !found.scale.may_be_zero() && will_do(found)) {
+            return None;
+        }
+        self.count(&on_a);
+        self.count(&on_b);
+        Some(points)
+    }
+
+    /// One of the two points, or `None` where its constraint is slack: the optimum is then the minimum of the other particle, for
+    /// k > 0 its centre, for k = 0 anywhere in its core, and no contact point. Midway has no such case.
+    #[inline(never)]
+    pub fn closest_point(
+        &mut self,
+        problem: Problem,
+        midway: Option<&Solved>,
+    ) -> Result<Option<CertifiedPoint>, SolveError> {
+        if self.centre_is_inside(problem) {
+            return Ok(None);
+        }
+        let (lambda, model) = match midway {
+            Some(Solved { solution, model }) => (towards(solution, problem), *model),
+            None => {
+                let start = self.cold();
+                (start.lambda, self.model(&start, problem))
+            }
+        };
+        let Solved { solution, model } = self.solve(problem, lambda, model)?;
+        let found = self.certified(problem, &solution, &model);
+        let free = if problem == Problem::OnB { self.pair.a } else { self.pair.b };
+        if free.sphericity() > 0.0 || !found.scale.may_be_zero() {
+            return Ok(Some(found));
+        }
+        // Only a core has s = 0; where the bounds reach to 1, they do not tell.
+        let Scale { low, high, .. } = found.scale;
+        if high < 1.0 { Ok(None) } else { Err(SolveError::Undecided { low, high }) }
+    }
+
+    fn centre_is_inside(&self, problem: Problem) -> bool {
+        let [a, b] = self.bodies();
+        match problem {
+            Problem::OnB => self.pair.b.potential(&self.pair.centre) < 0.0,
+            _ => self.pair.a.potential(&a.local(&b.centre())) < 0.0,
+        }
+    }
+
+    fn certified(&self, problem: Problem, solution: &Solution, model: &LocalModel) -> CertifiedPoint {
+        let Solution { x, lambda, gradients, gradient_norms, values, .. } = *solution;
+        let bound = point_bound(solution, model, self.bodies(), problem);
+        CertifiedPoint { x, lambda, gradients, gradient_norms, values, scale: self.scale(solution, problem), bound }
+    }
+}
+
+/// The λ of a closest point, as seen from midway.
+///
+/// Where a single curvature decides along their common path, as for two spheres or two faces, 1/√S of the held body is
+/// linear in the ratio μ of its weight to the other's: this is Newton's step to where it is 1.
+fn towards(midway: &Solution, problem: Problem) -> f64 {
+    let weights = Problem::Midway.weights(midway.lambda);
+    let (rate_a, rate_b) = Problem::Midway.apart(0.0, -midway.rate, weights);
+    let on_b = problem == Problem::OnB;
+    // S and dS/d ln μ.
+    let (value, rate) = if on_b { (midway.values[1], rate_b) } else { (midway.values[0], -rate_a) };
+    let change = 1.0 + 2.0 * (1.0 - value.sqrt()) * value / rate;
+    // NaN and what is far fail the test.
+    if !(change > 1.0 / FAR && change < FAR) {
+        midway.lambda
+    } else if on_b {
+        midway.lambda * change
+    } else {
+        midway.lambda / change
+    }
+}
+
+/// The λ of P1 and of P2 as seen from a point between them where S_A and S_B have these values, and the λ of midway.
+///
+/// Where a single curvature decides along the dual path, √S_A and √S_B are linear on it, with slopes whose ratio is λ. With s_a, s_b for
+/// √S_A, √S_B here, √S_A at P2 is s_a + λ·(s_b − 1) and √S_B at P1 is s_b + (s_a − 1)/λ; their λ are λ times the first, and λ over the
+/// second.
+#[inline(always)]
+fn from_between([value_a, value_b]: [f64; 2], lambda: f64) -> [f64; 2] {
+    let (s_a, s_b) = (value_a.sqrt(), value_b.sqrt());
+    [lambda / (s_b + (s_a - 1.0) / lambda), lambda * (s_a + lambda * (s_b - 1.0))]
+}
+
+/// What to remember of P1 and P2 with the place and λ of midway, where S_A and S_B have these values.
+pub(crate) fn seen_from(midway: Remembered, values: [f64; 2], [p1, p2]: &[CertifiedPoint; 2]) -> Remembered {
+    let [of_p1, of_p2] = from_between(values, midway.lambda);
+    Remembered { closest: [p1.lambda / of_p1, p2.lambda / of_p2], ..midway }
+}
+
+/// What to remember of P1 and P2 alone of a pair that overlaps: a place between them and a λ that come near those of midway.
+pub(crate) fn midway_between(points: &[CertifiedPoint; 2]) -> Remembered {
+    let [p1, p2] = points;
+    let square = (p1.lambda * p1.scale.s) * (p2.lambda / p2.scale.s);
+    // On the way from one to the other S is the same quadratic.
+    let way = p1.x - p2.x;
+    let value = |i: usize| 0.5 * (p1.values[i] + p2.values[i]) - 0.125 * (p1.gradients[i] - p2.gradients[i]).dot(&way);
+    let midway = Remembered { x: p2.x + 0.5 * way, lambda: square.sqrt(), overlapping: true, closest: [1.0; 2] };
+    seen_from(midway, [value(0), value(1)], points)
+}
