@@ -6,6 +6,7 @@
 //! Each run draws a seed of its own and prints it first; `--seed` repeats a run. Ctrl-C ends a run early and keeps its results. docs/reliability.md says what is checked and what was found.
 
 mod arguments;
+mod boundaries;
 mod cases;
 mod clock;
 mod double;
@@ -13,6 +14,8 @@ mod double;
 #[allow(dead_code)]
 mod evaluation;
 mod judge;
+mod least;
+mod ledger;
 #[allow(dead_code)]
 mod line;
 #[path = "../../benches/work_precision/machine.rs"]
@@ -29,9 +32,10 @@ mod shapes;
 mod sweeps;
 mod tally;
 mod walks;
+mod walls;
 mod wide;
 
-use arguments::Arguments;
+use arguments::{Arguments, Part};
 use cases::{BULK, FAMILIES};
 use clap::Parser;
 use indicatif::{ProgressBar, ProgressStyle};
@@ -46,7 +50,11 @@ fn main() -> ExitCode {
     let arguments = Arguments::parse();
     let seed = arguments.seed.unwrap_or_else(arguments::fresh_seed);
     if let Some(index) = arguments.replay {
-        return replay::one(seed, index);
+        let passed = match arguments.of {
+            Part::Poses => return replay::one(seed, index),
+            Part::Walls => walls::replay(seed, index),
+        };
+        return if passed { ExitCode::SUCCESS } else { ExitCode::FAILURE };
     }
     println!("seed {seed}");
     match run(&arguments, seed) {
@@ -97,6 +105,13 @@ fn run(arguments: &Arguments, seed: u64) -> Result<u64, String> {
     let bar = progress("steps of walks", walks * walks::STEPS);
     tally.merge(walks::run(seed, walks, threads, &stop, &bar));
     bar.finish_and_clear();
+    let mut parts = Vec::new();
+    let count = arguments.walls.unwrap_or(arguments.poses / 10);
+    let bar = progress("walls", count);
+    parts.push(("walls", ledger::run((seed, count), threads, &stop, &bar, |index, ledger| {
+        walls::one(seed, index, walls::solve, ledger);
+    })));
+    bar.finish_and_clear();
     let mut sweeps = Vec::new();
     if !arguments.no_sweeps && !stop.load(Ordering::Relaxed) {
         let bar = progress("sweeps", sweeps::COUNT);
@@ -115,11 +130,12 @@ fn run(arguments: &Arguments, seed: u64) -> Result<u64, String> {
         tally,
         walks,
         sweeps,
+        parts,
         machine: machine::Machine::here(None),
     };
     findings.write(&arguments.output).map_err(|error| format!("{}: {error}", arguments.output.display()))?;
     findings.print();
-    Ok(findings.tally.failures())
+    Ok(findings.failures())
 }
 
 fn progress(what: &'static str, length: u64) -> ProgressBar {

@@ -51,7 +51,7 @@ impl Local {
 }
 
 /// Rows of the rotation of a quaternion of any length, w x y z.
-fn rows([w, x, y, z]: [f64; 4]) -> [Wide3; 3] {
+pub fn rows([w, x, y, z]: [f64; 4]) -> [Wide3; 3] {
     let p = Wide::product;
     let square = p(w, w) + p(x, x) + p(y, y) + p(z, z);
     let two = |v: Wide| (v + v) / square;
