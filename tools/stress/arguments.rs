@@ -9,6 +9,9 @@ use std::path::PathBuf;
 pub enum Part {
     Poses,
     Walls,
+    Seams,
+    Planar,
+    Memories,
 }
 
 /// Random pairs over everything that can be written down, judged without a known answer; then walks and sweeps.
@@ -23,6 +26,15 @@ pub struct Arguments {
     /// Contacts with planes and triangles; by default one for each ten poses.
     #[arg(long)]
     pub walls: Option<u64>,
+    /// Meshes whose triangles share edges and vertices; by default one for each twenty poses.
+    #[arg(long)]
+    pub seams: Option<u64>,
+    /// Pairs of particles of the plane; by default one for each twenty poses.
+    #[arg(long)]
+    pub planar: Option<u64>,
+    /// Pairs that are solved from memories of any bytes; by default one for each twenty poses.
+    #[arg(long)]
+    pub memories: Option<u64>,
     /// The pairs depend on this number and their index only; without it a seed is drawn, and printed first.
     #[arg(long)]
     pub seed: Option<u64>,

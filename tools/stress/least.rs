@@ -473,8 +473,7 @@ fn finish(
 
 /// A point beside a boundary, relative to the particle's centre in world axes.
 pub struct Beside {
-    /// Distance from the plane, from the nearest point of the boundary, and from that of the part that is named.
-    pub plane: f64,
+    /// Distance from the nearest point of the boundary, and from that of the part that is named.
     pub boundary: f64,
     pub part: f64,
     /// Unit normal of the plane, world axes.
@@ -515,7 +514,6 @@ pub fn beside(
         };
     }
     Beside {
-        plane: off,
         boundary: off.hypot(aside),
         part: off.hypot(of_part),
         normal: plane.world(&plane.normal).f64(),

@@ -21,13 +21,16 @@ mod line;
 #[path = "../../benches/work_precision/machine.rs"]
 #[allow(dead_code)]
 mod machine;
+mod memories;
 mod pairs;
+mod planar;
 #[path = "../../benches/scene/random.rs"]
 #[allow(dead_code)]
 mod random;
 mod reference;
 mod replay;
 mod report;
+mod seams;
 mod shapes;
 mod sweeps;
 mod tally;
@@ -38,6 +41,7 @@ mod wide;
 use arguments::{Arguments, Part};
 use cases::{BULK, FAMILIES};
 use clap::Parser;
+use ledger::Ledger;
 use indicatif::{ProgressBar, ProgressStyle};
 use report::Findings;
 use std::process::ExitCode;
@@ -53,6 +57,9 @@ fn main() -> ExitCode {
         let passed = match arguments.of {
             Part::Poses => return replay::one(seed, index),
             Part::Walls => walls::replay(seed, index),
+            Part::Seams => seams::replay(seed, index),
+            Part::Planar => planar::replay(seed, index),
+            Part::Memories => memories::replay(seed, index),
         };
         return if passed { ExitCode::SUCCESS } else { ExitCode::FAILURE };
     }
@@ -105,13 +112,24 @@ fn run(arguments: &Arguments, seed: u64) -> Result<u64, String> {
     let bar = progress("steps of walks", walks * walks::STEPS);
     tally.merge(walks::run(seed, walks, threads, &stop, &bar));
     bar.finish_and_clear();
+    let walls = |index, ledger: &mut Ledger| walls::one(seed, index, walls::solve, ledger);
+    let seams = |index, ledger: &mut Ledger| seams::one(seed, index, ledger);
+    let planar = |index, ledger: &mut Ledger| planar::one(seed, index, ledger);
+    let memories = |index, ledger: &mut Ledger| memories::one(seed, index, ledger);
+    type One<'a> = &'a (dyn Fn(u64, &mut Ledger) + Sync);
+    let each: [(&'static str, Option<u64>, u64, One); 4] = [
+        ("walls", arguments.walls, 10, &walls),
+        ("seams", arguments.seams, 20, &seams),
+        ("planar", arguments.planar, 20, &planar),
+        ("memories", arguments.memories, 20, &memories),
+    ];
     let mut parts = Vec::new();
-    let count = arguments.walls.unwrap_or(arguments.poses / 10);
-    let bar = progress("walls", count);
-    parts.push(("walls", ledger::run((seed, count), threads, &stop, &bar, |index, ledger| {
-        walls::one(seed, index, walls::solve, ledger);
-    })));
-    bar.finish_and_clear();
+    for (name, count, share, one) in each {
+        let count = count.unwrap_or(arguments.poses / share);
+        let bar = progress(name, count);
+        parts.push((name, ledger::run((seed, count), threads, &stop, &bar, one)));
+        bar.finish_and_clear();
+    }
     let mut sweeps = Vec::new();
     if !arguments.no_sweeps && !stop.load(Ordering::Relaxed) {
         let bar = progress("sweeps", sweeps::COUNT);

@@ -222,6 +222,9 @@ impl Scene<'_> {
     fn solved(&self, c: &FlatContact, truth: &Truth, verdict: &mut Verdict) {
         let (s, gap) = (c.s, c.gap);
         well_formed(self.case, c, verdict);
+        if s.is_nan() || gap.is_nan() {
+            return;
+        }
         let (least, most) = (truth.least(), truth.most());
         let certain = most - least <= 0.1 * gap + 1e-16 * s.max(1.0) || truth.regularised.len() > 1;
         verdict.unsettled += u64::from(!certain);
@@ -328,6 +331,9 @@ impl Scene<'_> {
         let start = Wide3::from(x);
         let tolerance = 64.0 * EPS * (x.norm() + c.overlap + particle.bounding_radius());
         let at = |way: f64| body.at(&start.plus(&Wide3::from(c.normal).times(Wide::from(way)))).value.f64();
+        // Where the surface is met aslant, what it is off is found farther along.
+        let end = body.at(&start.plus(&Wide3::from(c.normal).times(Wide::from(c.overlap)))).gradient.f64();
+        let tolerance = tolerance * (end.norm() / end.dot(&c.normal)).max(1.0);
         let (before, beyond) = (at(c.overlap - tolerance), at(c.overlap + tolerance));
         verdict.check(beyond >= 1.0, Fault::Overlap, || format!("overlap {:e}: S={beyond:e} beyond it", c.overlap));
         let inside = c.overlap <= tolerance || before <= 1.0;
