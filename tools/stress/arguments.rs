@@ -4,6 +4,16 @@ use clap::Parser;
 use std::hash::{BuildHasher, Hasher, RandomState};
 use std::path::PathBuf;
 
+/// The parts of a run that draw cases by index.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+pub enum Part {
+    Poses,
+    Walls,
+    Seams,
+    Planar,
+    Memories,
+}
+
 /// Random pairs over everything that can be written down, judged without a known answer; then walks and sweeps.
 ///
 /// Ends with exit code 1 if anything failed. Interrupted, it writes what it has.
@@ -13,6 +23,18 @@ pub struct Arguments {
     /// Poses.
     #[arg(long, default_value_t = 1_000_000)]
     pub poses: u64,
+    /// Contacts with planes and triangles; by default one for each ten poses.
+    #[arg(long)]
+    pub walls: Option<u64>,
+    /// Meshes whose triangles share edges and vertices; by default one for each twenty poses.
+    #[arg(long)]
+    pub seams: Option<u64>,
+    /// Pairs of particles of the plane; by default one for each twenty poses.
+    #[arg(long)]
+    pub planar: Option<u64>,
+    /// Pairs that are solved from memories of any bytes; by default one for each twenty poses.
+    #[arg(long)]
+    pub memories: Option<u64>,
     /// The pairs depend on this number and their index only; without it a seed is drawn, and printed first.
     #[arg(long)]
     pub seed: Option<u64>,
@@ -34,9 +56,12 @@ pub struct Arguments {
     /// Only this family of pairs.
     #[arg(long)]
     pub family: Option<String>,
-    /// Judge this one pose, say all about it, and write it as a line for solve_pairs.
+    /// Judge this one case, say all about it, and write it as JSON: a pose as a line for solve_pairs.
     #[arg(long, value_name = "INDEX", requires = "seed")]
     pub replay: Option<u64>,
+    /// Which part the case to replay is of.
+    #[arg(long, value_enum, default_value_t = Part::Poses)]
+    pub of: Part,
     /// Folder of the results.
     #[arg(long, default_value = "out/stress")]
     pub output: PathBuf,

@@ -35,6 +35,12 @@ pub struct Line {
     at_b: At,
 }
 
+impl From<&Place> for At {
+    fn from(place: &Place) -> Self {
+        Self { pos: place.position, q: place.orientation }
+    }
+}
+
 impl Line {
     pub fn of(case: &Case, what: String) -> Self {
         Self::placed(&case.shapes.a, &case.at_a, &case.shapes.b, &case.at_b, what)
@@ -45,12 +51,11 @@ impl Line {
     }
 
     pub fn placed(a: &Particle, at_a: &Place, b: &Particle, at_b: &Place, what: String) -> Self {
-        let at = |place: &Place| At { pos: place.position, q: place.orientation };
-        Self { what, a: shape(a), b: shape(b), at_a: at(at_a), at_b: at(at_b) }
+        Self { what, a: shape(a), b: shape(b), at_a: at_a.into(), at_b: at_b.into() }
     }
 }
 
-fn shape(particle: &Particle) -> Shape {
+pub fn shape(particle: &Particle) -> Shape {
     Shape {
         n: particle.planes().map(|p| p.normal.into()).collect(),
         d: particle.planes().map(|p| p.offset).collect(),

@@ -6,6 +6,7 @@
 //! Each run draws a seed of its own and prints it first; `--seed` repeats a run. Ctrl-C ends a run early and keeps its results. docs/reliability.md says what is checked and what was found.
 
 mod arguments;
+mod boundaries;
 mod cases;
 mod clock;
 mod double;
@@ -13,27 +14,34 @@ mod double;
 #[allow(dead_code)]
 mod evaluation;
 mod judge;
+mod least;
+mod ledger;
 #[allow(dead_code)]
 mod line;
 #[path = "../../benches/work_precision/machine.rs"]
 #[allow(dead_code)]
 mod machine;
+mod memories;
 mod pairs;
+mod planar;
 #[path = "../../benches/scene/random.rs"]
 #[allow(dead_code)]
 mod random;
 mod reference;
 mod replay;
 mod report;
+mod seams;
 mod shapes;
 mod sweeps;
 mod tally;
 mod walks;
+mod walls;
 mod wide;
 
-use arguments::Arguments;
+use arguments::{Arguments, Part};
 use cases::{BULK, FAMILIES};
 use clap::Parser;
+use ledger::Ledger;
 use indicatif::{ProgressBar, ProgressStyle};
 use report::Findings;
 use std::process::ExitCode;
@@ -46,7 +54,14 @@ fn main() -> ExitCode {
     let arguments = Arguments::parse();
     let seed = arguments.seed.unwrap_or_else(arguments::fresh_seed);
     if let Some(index) = arguments.replay {
-        return replay::one(seed, index);
+        let passed = match arguments.of {
+            Part::Poses => return replay::one(seed, index),
+            Part::Walls => walls::replay(seed, index),
+            Part::Seams => seams::replay(seed, index),
+            Part::Planar => planar::replay(seed, index),
+            Part::Memories => memories::replay(seed, index),
+        };
+        return if passed { ExitCode::SUCCESS } else { ExitCode::FAILURE };
     }
     println!("seed {seed}");
     match run(&arguments, seed) {
@@ -97,6 +112,24 @@ fn run(arguments: &Arguments, seed: u64) -> Result<u64, String> {
     let bar = progress("steps of walks", walks * walks::STEPS);
     tally.merge(walks::run(seed, walks, threads, &stop, &bar));
     bar.finish_and_clear();
+    let walls = |index, ledger: &mut Ledger| walls::one(seed, index, walls::solve, ledger);
+    let seams = |index, ledger: &mut Ledger| seams::one(seed, index, ledger);
+    let planar = |index, ledger: &mut Ledger| planar::one(seed, index, ledger);
+    let memories = |index, ledger: &mut Ledger| memories::one(seed, index, ledger);
+    type One<'a> = &'a (dyn Fn(u64, &mut Ledger) + Sync);
+    let each: [(&'static str, Option<u64>, u64, One); 4] = [
+        ("walls", arguments.walls, 10, &walls),
+        ("seams", arguments.seams, 20, &seams),
+        ("planar", arguments.planar, 20, &planar),
+        ("memories", arguments.memories, 20, &memories),
+    ];
+    let mut parts = Vec::new();
+    for (name, count, share, one) in each {
+        let count = count.unwrap_or(arguments.poses / share);
+        let bar = progress(name, count);
+        parts.push((name, ledger::run((seed, count), threads, &stop, &bar, one)));
+        bar.finish_and_clear();
+    }
     let mut sweeps = Vec::new();
     if !arguments.no_sweeps && !stop.load(Ordering::Relaxed) {
         let bar = progress("sweeps", sweeps::COUNT);
@@ -115,11 +148,12 @@ fn run(arguments: &Arguments, seed: u64) -> Result<u64, String> {
         tally,
         walks,
         sweeps,
+        parts,
         machine: machine::Machine::here(None),
     };
     findings.write(&arguments.output).map_err(|error| format!("{}: {error}", arguments.output.display()))?;
     findings.print();
-    Ok(findings.tally.failures())
+    Ok(findings.failures())
 }
 
 fn progress(what: &'static str, length: u64) -> ProgressBar {

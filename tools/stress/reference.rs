@@ -51,7 +51,7 @@ impl Local {
 }
 
 /// Rows of the rotation of a quaternion of any length, w x y z.
-fn rows([w, x, y, z]: [f64; 4]) -> [Wide3; 3] {
+pub fn rows([w, x, y, z]: [f64; 4]) -> [Wide3; 3] {
     let p = Wide::product;
     let square = p(w, w) + p(x, x) + p(y, y) + p(z, z);
     let two = |v: Wide| (v + v) / square;
@@ -65,8 +65,12 @@ fn rows([w, x, y, z]: [f64; 4]) -> [Wide3; 3] {
 impl<'a> Body<'a> {
     /// `position` and `origin` in world axes; their difference is exact.
     pub fn new(particle: &'a Particle, position: [f64; 3], orientation: [f64; 4], origin: [f64; 3]) -> Self {
+        Self::turned(particle, position, rows(orientation), origin)
+    }
+
+    /// The same with the rows of a rotation.
+    pub fn turned(particle: &'a Particle, position: [f64; 3], rotation: [Wide3; 3], origin: [f64; 3]) -> Self {
         let (r, k, shadow) = (particle.rounding_radius(), particle.sphericity(), particle.shadow_radius());
-        let rotation = rows(orientation);
         let plain = Matrix3::from_fn(|i, j| rotation[i].0[j].f64());
         let round = k == 1.0;
         let planes: Vec<_> =
@@ -83,6 +87,16 @@ impl<'a> Body<'a> {
             particle,
             longest,
         }
+    }
+
+    /// A point relative to the centre, world axes.
+    pub fn from_centre(&self, x: &Wide3) -> Wide3 {
+        x.minus(&self.centre)
+    }
+
+    /// The same with at least this weight of the shadow sphere, 1/length²: as the solver regularises flat faces.
+    pub fn rounder(&self, weight: f64) -> Self {
+        Self { sphere_weight: self.sphere_weight.max(Wide::from(weight)), ..self.clone() }
     }
 
     pub fn centre(&self) -> Vector3<f64> {

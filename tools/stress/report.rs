@@ -3,6 +3,7 @@
 use crate::cases::{Case, FAMILIES, Shapes, family_of};
 use crate::clock::{CALLS, Call};
 use crate::judge::{Doubt, Failure, PATHS};
+use crate::ledger::{Fault, Ledger};
 use crate::line::Line;
 use crate::machine::Machine;
 use crate::sweeps::Sweep;
@@ -26,6 +27,8 @@ pub struct Findings {
     pub tally: Tally,
     pub walks: u64,
     pub sweeps: Vec<Sweep>,
+    /// By name.
+    pub parts: Vec<(&'static str, Ledger)>,
     pub machine: Machine,
 }
 
@@ -44,6 +47,9 @@ impl Target {
         Self { name: name.into(), sense: "at most", target, measured, met: measured <= target }
     }
 }
+
+/// Share of the answers of a part that its reference may leave open.
+const MOST_UNSETTLED: f64 = 1e-3;
 
 /// Times that each kind of call keeps to, ms: all but one call in 10,000, and every one.
 const MOST_P99_99: f64 = 0.5;
@@ -78,6 +84,7 @@ struct Summary<'a> {
     calls: Vec<Calls<'a>>,
     families: Vec<FamilySummary<'a>>,
     sweeps: &'a [Sweep],
+    parts: Vec<PartSummary<'a>>,
     seconds: f64,
     machine: &'a Machine,
 }
@@ -154,12 +161,45 @@ impl Spread {
     }
 }
 
+/// A part beside the pairs.
+#[derive(Serialize)]
+struct PartSummary<'a> {
+    part: &'a str,
+    cases: u64,
+    judged: u64,
+    unsettled: u64,
+    failures: u64,
+    faults: BTreeMap<Fault, u64>,
+    faults_by_family: Vec<(Fault, &'a str, u64)>,
+    families: &'a BTreeMap<String, u64>,
+}
+
+impl<'a> PartSummary<'a> {
+    fn of(part: &'a str, ledger: &'a Ledger) -> Self {
+        Self {
+            part,
+            cases: ledger.cases,
+            judged: ledger.judged,
+            unsettled: ledger.unsettled,
+            failures: ledger.failures(),
+            faults: ledger.by_fault(),
+            faults_by_family: ledger.faults.iter().map(|((fault, family), n)| (*fault, family.as_str(), *n)).collect(),
+            families: &ledger.families,
+        }
+    }
+}
+
 fn over_median(distribution: &Distribution) -> f64 {
     distribution.most / distribution.quantile(0.5)
 }
 
 impl Findings {
-    /// Writes summary.json, failures.jsonl and slowest.jsonl.
+    /// Of all parts.
+    pub fn failures(&self) -> u64 {
+        self.tally.failures() + self.parts.iter().map(|(_, ledger)| ledger.failures()).sum::<u64>()
+    }
+
+    /// Writes summary.json, failures.jsonl, faults.jsonl and slowest.jsonl.
     pub fn write(&self, folder: &Path) -> io::Result<()> {
         fs::create_dir_all(folder)?;
         let text = serde_json::to_string_pretty(&self.summary()).map_err(io::Error::other)?;
@@ -167,6 +207,13 @@ impl Findings {
         let mut failures = fs::File::create(folder.join("failures.jsonl"))?;
         for line in self.tally.found.iter().filter_map(|found| found.line.as_ref()) {
             writeln!(failures, "{}", serde_json::to_string(line).map_err(io::Error::other)?)?;
+        }
+        let mut faults = fs::File::create(folder.join("faults.jsonl"))?;
+        for (part, ledger) in &self.parts {
+            for finding in &ledger.found {
+                let line = serde_json::json!({ "part": part, "finding": finding });
+                writeln!(faults, "{line}")?;
+            }
         }
         let mut slowest = fs::File::create(folder.join("slowest.jsonl"))?;
         for (call, name) in CALLS {
@@ -223,7 +270,7 @@ impl Findings {
             interrupted: self.interrupted,
             walks: self.walks,
             walk_steps: t.walk_steps,
-            failures: t.failures(),
+            failures: self.failures(),
             failures_by_kind: &t.failures,
             settle_every: self.settle_every,
             put_to_second_solver: t.settled,
@@ -238,6 +285,7 @@ impl Findings {
             calls: calls.collect(),
             families: FAMILIES.iter().map(|f| f.name).zip(&t.families).map(family).collect(),
             sweeps: &self.sweeps,
+            parts: self.parts.iter().map(|(part, ledger)| PartSummary::of(part, ledger)).collect(),
             seconds: self.seconds,
             machine: &self.machine,
         }
@@ -250,6 +298,10 @@ impl Findings {
             let of = Microseconds::of(seconds);
             targets.push(Target::at_most(format!("{call}: p99.99, ms"), MOST_P99_99, 1e-3 * of.p99_99));
             targets.push(Target::at_most(format!("{call}: slowest, ms"), MOST_SLOWEST, 1e-3 * of.slowest));
+        }
+        for (part, ledger) in &self.parts {
+            targets.push(Target::at_most(format!("{part}: failures"), 0.0, ledger.failures() as f64));
+            targets.push(Target::at_most(format!("{part}: unsettled"), MOST_UNSETTLED, ledger.share_unsettled()));
         }
         targets
     }
@@ -336,6 +388,9 @@ impl Findings {
             let detail: String = found.detail.chars().take(180).collect();
             println!("{:?}, {}, index {}: {detail}", found.failure, found.family, found.index);
         }
+        for (part, ledger) in &self.parts {
+            ledger.print(part);
+        }
         println!("\n| target | at most | measured | met |\n|---|---|---|---|");
         for Target { name, target, measured, met, .. } in self.targets() {
             println!("| {name} | {target} | {measured:.3} | {} |", if met { "yes" } else { "NO" });
@@ -345,7 +400,7 @@ impl Findings {
             t.pairs,
             self.seconds,
             self.seed,
-            t.failures(),
+            self.failures(),
             t.failures
         );
     }

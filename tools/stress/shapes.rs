@@ -15,6 +15,8 @@ pub enum Hull {
     Many,
     Needle,
     Plate,
+    /// Regular or not, of three to twelve sides.
+    Prism,
     /// Doubled, nearly parallel, needless and unnormalised planes, many through one point, faces without area.
     Degenerate,
     Any,
@@ -105,6 +107,7 @@ fn planes(hull: Hull, size: f64, random: &mut Random) -> Vec<Plane> {
         }
         Hull::Needle | Hull::Plate if random.uniform() < 0.5 => cuboid(&half),
         Hull::Needle | Hull::Plate => scattered(random.whole(6, 21), &half, random),
+        Hull::Prism => prism(random.whole(3, 13), &half, random),
         Hull::Degenerate | Hull::Any => degenerate(&half, random),
     }
 }
@@ -113,6 +116,18 @@ fn cuboid(half: &Vector3<f64>) -> Vec<Plane> {
     (0..3)
         .flat_map(|axis| [1.0, -1.0].map(|sign| Plane { normal: Vector3::ith(axis, sign), offset: half[axis] }))
         .collect()
+}
+
+/// Sides about z, and two caps.
+fn prism(sides: usize, half: &Vector3<f64>, random: &mut Random) -> Vec<Plane> {
+    let regular = random.uniform() < 0.5;
+    let mut planes = cuboid(half).split_off(4);
+    for i in 0..sides {
+        let aside = if regular { 0.0 } else { 0.6 * (random.uniform() - 0.5) };
+        let angle = std::f64::consts::TAU * (i as f64 + aside) / sides as f64;
+        planes.push(Plane { normal: Vector3::new(angle.cos(), angle.sin(), 0.0), offset: half.x });
+    }
+    planes
 }
 
 /// Tangents of an ellipsoid, moved in a little.

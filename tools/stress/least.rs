@@ -1,0 +1,522 @@
+//! The least S on a plane or a triangle in 32 digits, by a method of its own: the judge of contacts with walls.
+//!
+//! In coordinates y of the boundary's plane, with the foot of the particle's centre as their origin,
+//!
+//! ```text
+//! F(y) = w Σ ⟨e_i + a_i·y⟩² + m (h² + |y|²)
+//! ```
+//!
+//! with a_i the part of a normal in the plane and e_i its excess at the foot. Newton's method with an exact line search finds the
+//! minimum on the plane; on a triangle it is that or the least of the three edges. Whatever is reached is a proof: with a slope g
+//! into the boundary at a feasible point, F is nowhere on it below F − |g|²/4m, nor below F − |g|·D within a distance D.
+
+use crate::wide::{Wide, Wide3};
+use nalgebra::Vector3;
+use potential_particles::Particle;
+
+/// A plane or a triangle as given, world frame.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Boundary {
+    Plane { point: [f64; 3], normal: [f64; 3] },
+    Triangle([[f64; 3]; 3]),
+}
+
+/// The part of a boundary on which a point lies.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Part {
+    Inside,
+    Edge(usize),
+    Vertex(usize),
+}
+
+/// The least S as far as it is known.
+#[derive(Clone, Copy, Debug)]
+pub struct Least {
+    /// Relative to the centre of the particle, world axes.
+    pub x: Wide3,
+    pub part: Part,
+    /// s lies between these two.
+    pub least: f64,
+    pub most: f64,
+    /// How far x can be from the minimiser, length; infinite where nothing says.
+    pub doubt: f64,
+    /// ∇S, world axes.
+    pub gradient: Wide3,
+    /// How fast the direction of ∇S can turn, radians a length.
+    pub bend: f64,
+}
+
+type Wide2 = [Wide; 2];
+
+fn dot(a: &Wide2, b: &Wide2) -> Wide {
+    a[0] * b[0] + a[1] * b[1]
+}
+
+fn cross(a: &Wide2, b: &Wide2) -> Wide {
+    a[0] * b[1] - a[1] * b[0]
+}
+
+fn along(from: &Wide2, share: Wide, step: &Wide2) -> Wide2 {
+    [from[0] + share * step[0], from[1] + share * step[1]]
+}
+
+fn length(v: &Wide2) -> f64 {
+    v[0].f64().hypot(v[1].f64())
+}
+
+fn cross3(a: &Wide3, b: &Wide3) -> Wide3 {
+    let ([a, b, c], [d, e, f]) = (a.0, b.0);
+    Wide3([b * f - c * e, c * d - a * f, a * e - b * d])
+}
+
+fn unit(v: &Wide3) -> Wide3 {
+    v.times(Wide::ONE / v.norm())
+}
+
+/// The boundary's plane in the frame of a particle.
+struct Plane {
+    /// Rows of the rotation, local to world.
+    rotation: [Wide3; 3],
+    /// Unit vectors of the plane and its normal, local frame.
+    axes: [Wide3; 2],
+    normal: Wide3,
+    /// Distance of the plane from the centre along the normal.
+    height: Wide,
+    /// Of a triangle.
+    corners: Option<[Wide2; 3]>,
+    /// Distance of the farthest point that gives it.
+    farthest: f64,
+}
+
+impl Plane {
+    fn new(boundary: &Boundary, position: [f64; 3], orientation: [f64; 4]) -> Self {
+        let rotation = crate::reference::rows(orientation);
+        let columns = [0, 1, 2].map(|j| Wide3([0, 1, 2].map(|i| rotation[i].0[j])));
+        let local = |v: &Wide3| Wide3([0, 1, 2].map(|j| columns[j].dot(v)));
+        let from_centre = |p: &[f64; 3]| local(&Wide3([0, 1, 2].map(|i| Wide::difference(p[i], position[i]))));
+        let (normal, point, vertices) = match boundary {
+            Boundary::Plane { point, normal } => {
+                (unit(&local(&Wide3(normal.map(Wide::from)))), from_centre(point), None)
+            }
+            Boundary::Triangle(vertices) => {
+                let at = vertices.map(|v| from_centre(&v));
+                let side = |i: usize| at[(i + 2) % 3].minus(&at[(i + 1) % 3]).norm().f64();
+                let base = (0..3).fold(0, |longest, i| if side(i) > side(longest) { i } else { longest });
+                let (next, last) = ((base + 1) % 3, (base + 2) % 3);
+                // Their differences have no rounding in world axes.
+                let sides = [next, last].map(|i| {
+                    local(&Wide3([0, 1, 2].map(|c| Wide::difference(vertices[i][c], vertices[base][c]))))
+                });
+                (unit(&cross3(&unit(&sides[0]), &unit(&sides[1]))), at[base], Some(at))
+            }
+        };
+        let plain = normal.f64();
+        let first = unit(&cross3(&normal, &Wide3::from(Vector3::ith(plain.iamin(), 1.0))));
+        let axes = [first, cross3(&normal, &first)];
+        let given = vertices.map_or(vec![point], |at| at.to_vec());
+        Self {
+            rotation,
+            axes,
+            normal,
+            height: normal.dot(&point),
+            corners: vertices.map(|at| at.map(|v| [axes[0].dot(&v), axes[1].dot(&v)])),
+            farthest: given.iter().map(|v| v.norm().f64()).fold(0.0, f64::max),
+        }
+    }
+
+    fn local(&self, y: &Wide2) -> Wide3 {
+        self.normal.times(self.height).plus(&self.axes[0].times(y[0])).plus(&self.axes[1].times(y[1]))
+    }
+
+    fn world(&self, v: &Wide3) -> Wide3 {
+        Wide3([0, 1, 2].map(|i| self.rotation[i].dot(v)))
+    }
+}
+
+/// F: the planes as the boundary sees them.
+struct Reduced {
+    /// a_i, e_i.
+    rows: Vec<(Wide2, Wide)>,
+    /// The same in doubles, and what those may be off, relative to 1 + |y|.
+    plain: Vec<([f64; 2], f64, f64)>,
+    w: Wide,
+    m: Wide,
+    height: Wide,
+}
+
+/// F, half its gradient, and the places of the active planes.
+#[derive(Clone)]
+struct Local {
+    value: Wide,
+    slope: Wide2,
+    /// Place and excess.
+    active: Vec<(usize, Wide)>,
+}
+
+impl Local {
+    fn has_planes_of(&self, other: &Self) -> bool {
+        self.active.len() == other.active.len() && self.active.iter().zip(&other.active).all(|(a, b)| a.0 == b.0)
+    }
+}
+
+/// Most steps of one search.
+const MOST_STEPS: usize = 120;
+
+impl Reduced {
+    fn new(particle: &Particle, plane: &Plane, m: Wide) -> Self {
+        let (r, k) = (particle.rounding_radius(), particle.sphericity());
+        let round = k == 1.0;
+        let planes = particle.planes().filter(|_| !round);
+        let rows: Vec<(Wide2, Wide)> = planes
+            .map(|p| {
+                let n = Wide3::from(p.normal);
+                let a = [plane.axes[0].dot(&n), plane.axes[1].dot(&n)];
+                (a, n.dot(&plane.normal) * plane.height - Wide::from(p.offset))
+            })
+            .collect();
+        let loss = |(a, e): &(Wide2, Wide)| ([a[0].f64(), a[1].f64()], e.f64(), 1e-14 * length(a));
+        let plain = rows.iter().map(loss).collect();
+        let w = if round { Wide::ZERO } else { Wide::difference(1.0, k) / Wide::product(r, r) };
+        Self { rows, plain, w, m, height: plane.height }
+    }
+
+    fn at(&self, y: &Wide2) -> Local {
+        let near = [y[0].f64(), y[1].f64()];
+        let size = near[0].abs() + near[1].abs();
+        let (mut square, mut slope, mut active) = (Wide::ZERO, [self.m * y[0], self.m * y[1]], Vec::new());
+        for (i, (a, e, loss)) in self.plain.iter().enumerate() {
+            if e + a[0] * near[0] + a[1] * near[1] < -(loss * size + 1e-14 * e.abs()) {
+                continue;
+            }
+            let (a, e) = &self.rows[i];
+            let excess = *e + dot(a, y);
+            if excess.f64() <= 0.0 {
+                continue;
+            }
+            square += excess * excess;
+            let push = self.w * excess;
+            slope = along(&slope, push, a);
+            active.push((i, excess));
+        }
+        let value = self.w * square + self.m * (self.height * self.height + dot(y, y));
+        Local { value, slope, active }
+    }
+
+    /// Newton's step in the plane: −K⁻¹q with K = wΣaaᵀ + m, by its adjugate. Determinant and adjugate are made from the cross products of
+    /// pairs of normals, so that nearly parallel ones lose no digits.
+    fn newton(&self, y: &Wide2, at: &Local) -> Wide2 {
+        let rows = || at.active.iter().map(|(i, excess)| (&self.rows[*i].0, *excess));
+        let (mut both, mut each) = (Wide::ZERO, Wide::ZERO);
+        let (mut adjugate, mut pull) = ([Wide::ZERO; 2], [self.m * y[0], self.m * y[1]]);
+        for (a, excess) in rows() {
+            each += dot(a, a);
+            pull = along(&pull, self.w * excess, a);
+            let across = [-a[1], a[0]];
+            let mut turned = self.m * dot(&across, y);
+            for (b, other) in rows() {
+                let product = cross(a, b);
+                both += product * product;
+                turned += self.w * (other * product);
+            }
+            adjugate = along(&adjugate, self.w * turned, &across);
+        }
+        let determinant =
+            self.w * self.w * (both * Wide::from(0.5)) + self.w * self.m * each + self.m * self.m;
+        let step = along(&adjugate, self.m, &pull);
+        let factor = -Wide::ONE / determinant;
+        [step[0] * factor, step[1] * factor]
+    }
+
+    /// Half the slope and half the curvature of F along a step.
+    fn on_line(&self, y: &Wide2, step: &Wide2) -> (Wide, Wide, Local) {
+        let at = self.at(y);
+        let mut curvature = self.m * dot(step, step);
+        for (i, _) in &at.active {
+            let rate = dot(&self.rows[*i].0, step);
+            curvature += self.w * (rate * rate);
+        }
+        (dot(&at.slope, step), curvature, at)
+    }
+
+    /// The least F on y + t·step for t in [0, most]: the place, and whether it is at an end.
+    fn on_segment(&self, y: &Wide2, step: &Wide2, most: Wide) -> (Wide, Option<bool>) {
+        let (start, curvature, mut at) = self.on_line(y, step);
+        if start.f64() >= 0.0 {
+            return (Wide::ZERO, Some(false));
+        }
+        let (end, ..) = self.on_line(&along(y, most, step), step);
+        if end.f64() <= 0.0 {
+            return (most, Some(true));
+        }
+        let (mut low, mut high) = (Wide::ZERO, most);
+        let mut t = -start / curvature;
+        for _ in 0..2 * MOST_STEPS {
+            let inside = (t - low).f64() > 0.0 && (high - t).f64() > 0.0;
+            if !inside {
+                t = (low + high) * Wide::from(0.5);
+            }
+            let (slope, curvature, next) = self.on_line(&along(y, t, step), step);
+            if slope.f64() == 0.0 || (inside && next.has_planes_of(&at)) {
+                return (t, None);
+            }
+            at = next;
+            if slope.f64() > 0.0 { high = t } else { low = t }
+            if (high - low).f64() <= 1e-31 * high.f64() {
+                break;
+            }
+            t = t - slope / curvature;
+        }
+        (t, None)
+    }
+
+    /// The minimiser on the whole plane.
+    fn on_plane(&self, start: Wide2) -> Wide2 {
+        let (mut y, mut at) = (start, self.at(&start));
+        for _ in 0..MOST_STEPS {
+            let step = self.newton(&y, &at);
+            if !step[0].is_finite() || !step[1].is_finite() {
+                break;
+            }
+            let whole = along(&y, Wide::ONE, &step);
+            let next = self.at(&whole);
+            if next.has_planes_of(&at) {
+                // Once more, against the rounding of a long step.
+                let last = along(&whole, Wide::ONE, &self.newton(&whole, &next));
+                return if (self.at(&last).value - next.value).f64() < 0.0 { last } else { whole };
+            }
+            let fall = dot(&at.slope, &step).f64();
+            let (y_next, next) = if (next.value - at.value).f64() <= 0.2 * fall {
+                (whole, next)
+            } else {
+                let (t, _) = self.on_segment(&y, &step, Wide::ONE);
+                let y = along(&y, t, &step);
+                (y, self.at(&y))
+            };
+            if (at.value - next.value).f64() <= 1e-31 * at.value.f64() {
+                return if (at.value - next.value).f64() > 0.0 { y_next } else { y };
+            }
+            (y, at) = (y_next, next);
+        }
+        y
+    }
+
+    /// How far from the minimum on the plane (no direction) or along a unit direction a point may be, and it is no farther than
+    /// that if no plane is switched within that way: to the next Newton point, else by the least curvature.
+    fn doubt(&self, y: &Wide2, direction: Option<&Wide2>, slope: f64) -> f64 {
+        let at = self.at(y);
+        let step = match direction {
+            None => self.newton(y, &at),
+            Some(direction) => {
+                let (slope, curvature, _) = self.on_line(y, direction);
+                let by = -slope / curvature;
+                [by * direction[0], by * direction[1]]
+            }
+        };
+        let way = 4.0 * length(&step);
+        let clear = |(a, e): &(Wide2, Wide)| (*e + dot(a, y)).f64().abs() > length(a) * way;
+        let by_curvature = slope / self.m.f64();
+        if self.rows.iter().all(clear) { way.min(by_curvature) } else { by_curvature }
+    }
+}
+
+/// A candidate: where, on which part.
+#[derive(Clone, Copy)]
+struct Candidate {
+    y: Wide2,
+    part: Part,
+}
+
+/// Vectors of a triangle in its plane: edge i as unit vector, its length, and the unit vector inwards.
+struct Edge {
+    along: Wide2,
+    length: Wide,
+    inwards: Wide2,
+}
+
+fn edges(corners: &[Wide2; 3]) -> [Edge; 3] {
+    [0, 1, 2].map(|i| {
+        let (from, to, third) = (corners[i], corners[(i + 1) % 3], corners[(i + 2) % 3]);
+        let whole = [to[0] - from[0], to[1] - from[1]];
+        let most = Wide::from(length(&whole));
+        let scaled = whole.map(|c| c / most);
+        let size = dot(&scaled, &scaled).sqrt();
+        let along = scaled.map(|c| c / size);
+        let across = [-along[1], along[0]];
+        let inside = dot(&across, &[third[0] - from[0], third[1] - from[1]]).f64() > 0.0;
+        Edge { along, length: size * most, inwards: if inside { across } else { across.map(|c| -c) } }
+    })
+}
+
+/// How steeply F/2 falls at most from a candidate into the boundary.
+fn descent(slope: &Wide2, part: Part, edges: Option<&[Edge; 3]>) -> f64 {
+    let (Some(edges), part) = (edges, part) else { return length(slope) };
+    match part {
+        Part::Inside => length(slope),
+        Part::Edge(i) => dot(slope, &edges[i].along).f64().hypot(dot(slope, &edges[i].inwards).f64().min(0.0)),
+        Part::Vertex(i) => {
+            let (next, last) = (&edges[i], &edges[(i + 2) % 3]);
+            let back = last.along.map(|c| -c);
+            let inside = dot(slope, &next.inwards).f64() <= 0.0 && dot(slope, &last.inwards).f64() <= 0.0;
+            // The negative slope points into the corner, or the steepest way is along a side.
+            let along_sides = dot(slope, &next.along).f64().min(dot(slope, &back).f64()).min(0.0).abs();
+            if inside { length(slope) } else { along_sides }
+        }
+    }
+}
+
+/// Weight of the shadow sphere with k raised to a least one, about a sphere of the bounding radius.
+fn sphere_weight(particle: &Particle, least_sphericity: f64) -> Wide {
+    let (k, shadow, radius) = (particle.sphericity(), particle.shadow_radius(), particle.bounding_radius());
+    let own = if k == 0.0 { Wide::ZERO } else { Wide::from(k) / Wide::product(shadow, shadow) };
+    own.max(Wide::from(least_sphericity) / Wide::product(radius, radius))
+}
+
+/// The least S of a particle whose sphericity is raised to `least_sphericity` (above 0, or k is) on a boundary.
+pub fn least(
+    particle: &Particle,
+    position: [f64; 3],
+    orientation: [f64; 4],
+    boundary: &Boundary,
+    least_sphericity: f64,
+) -> Least {
+    let plane = Plane::new(boundary, position, orientation);
+    let m = sphere_weight(particle, least_sphericity);
+    let reduced = Reduced::new(particle, &plane, m);
+    // From a rounder particle to the given one, so that each search starts near its end.
+    let mut y = [Wide::ZERO; 2];
+    let (mut rounder, last) = (Reduced { m: reduced.w.max(m), rows: reduced.rows.clone(), plain: reduced.plain.clone(), ..reduced }, m.f64());
+    while rounder.m.f64() > 1e4 * last {
+        rounder.m = rounder.m * Wide::from(1e-3);
+        y = rounder.on_plane(y);
+    }
+    y = reduced.on_plane(y);
+    let in_plane = Candidate { y, part: Part::Inside };
+    let of_triangle = plane.corners.as_ref().map(|corners| (corners, edges(corners)));
+    let mut candidates = Vec::new();
+    match &of_triangle {
+        None => candidates.push(in_plane),
+        Some((corners, edges)) => {
+            let beyond = |i: usize| {
+                let from = corners[i];
+                dot(&edges[i].inwards, &[y[0] - from[0], y[1] - from[1]]).f64() < 0.0
+            };
+            if !(0..3).any(beyond) {
+                candidates.push(in_plane);
+            }
+            for (i, edge) in edges.iter().enumerate() {
+                let (t, end) = reduced.on_segment(&corners[i], &edge.along, edge.length);
+                candidates.push(match end {
+                    None => Candidate { y: along(&corners[i], t, &edge.along), part: Part::Edge(i) },
+                    Some(false) => Candidate { y: corners[i], part: Part::Vertex(i) },
+                    Some(true) => Candidate { y: corners[(i + 1) % 3], part: Part::Vertex((i + 1) % 3) },
+                });
+            }
+        }
+    }
+    let value = |candidate: &Candidate| reduced.at(&candidate.y).value;
+    let first = candidates[0];
+    let best = candidates.iter().skip(1).fold(first, |best, other| {
+        if (value(other) - value(&best)).f64() < 0.0 { *other } else { best }
+    });
+    finish(particle, &plane, &reduced, &best, of_triangle.as_ref().map(|(corners, edges)| (*corners, edges)))
+}
+
+fn finish(
+    particle: &Particle,
+    plane: &Plane,
+    reduced: &Reduced,
+    best: &Candidate,
+    of_triangle: Option<(&[Wide2; 3], &[Edge; 3])>,
+) -> Least {
+    let at = reduced.at(&best.y);
+    let slope = 2.0 * descent(&at.slope, best.part, of_triangle.map(|(_, edges)| edges));
+    let m = reduced.m.f64();
+    let local = plane.local(&best.y);
+    let s = at.value.f64().max(1.0).sqrt();
+    let extent = of_triangle.map_or(f64::INFINITY, |(corners, _)| {
+        corners.iter().map(|c| length(&[c[0] - best.y[0], c[1] - best.y[1]])).fold(0.0, f64::max)
+    });
+    let within = extent.min(local.norm().f64() + particle.bounding_radius() * s * 4.0);
+    let below = (slope * slope / (4.0 * m)).min(slope * within);
+    let (mut gradient, mut pull, mut stiffness) = (local.times(reduced.m), 0.0, 3.0 * m);
+    let planes: Vec<_> = particle.planes().collect();
+    for (i, excess) in &at.active {
+        let n = planes[*i].normal;
+        gradient = gradient.plus(&Wide3::from(n).times(reduced.w * *excess));
+        pull += 2.0 * reduced.w.f64() * excess.f64() * n.norm();
+        stiffness += reduced.w.f64() * n.norm_squared();
+    }
+    let gradient = gradient.times(Wide::from(2.0));
+    let rounding = pull * 1e-30 * (plane.farthest + within);
+    let doubt = match best.part {
+        Part::Vertex(_) if slope == 0.0 => 0.0,
+        Part::Vertex(_) => slope / m,
+        Part::Inside => reduced.doubt(&best.y, None, slope),
+        Part::Edge(i) => {
+            let edges = of_triangle.expect("an edge is one of a triangle").1;
+            let held = dot(&at.slope, &edges[i].inwards).f64() > 0.0;
+            if held { reduced.doubt(&best.y, Some(&edges[i].along), slope) } else { slope / m }
+        }
+    };
+    let root = |v: Wide| v.max(Wide::ZERO).sqrt().f64();
+    Least {
+        x: plane.world(&local),
+        part: best.part,
+        least: root(at.value - Wide::from(below + rounding)),
+        most: root(at.value + Wide::from(rounding)),
+        doubt: if doubt.is_finite() { doubt } else { f64::INFINITY },
+        gradient: plane.world(&gradient),
+        bend: 2.0 * stiffness / gradient.norm().f64(),
+    }
+}
+
+/// A point beside a boundary, relative to the particle's centre in world axes.
+pub struct Beside {
+    /// Distance from the nearest point of the boundary, and from that of the part that is named.
+    pub boundary: f64,
+    pub part: f64,
+    /// Unit normal of the plane, world axes.
+    pub normal: Vector3<f64>,
+    /// Distance of the farthest point that gives the boundary.
+    pub farthest: f64,
+}
+
+pub fn beside(
+    boundary: &Boundary,
+    position: [f64; 3],
+    orientation: [f64; 4],
+    x: &Vector3<f64>,
+    part: Part,
+) -> Beside {
+    let plane = Plane::new(boundary, position, orientation);
+    let columns = [0, 1, 2].map(|j| Wide3([0, 1, 2].map(|i| plane.rotation[i].0[j])));
+    let x = Wide3::from(*x);
+    let local = Wide3([0, 1, 2].map(|j| columns[j].dot(&x)));
+    let y = [plane.axes[0].dot(&local), plane.axes[1].dot(&local)];
+    let off = (plane.normal.dot(&local) - plane.height).f64().abs();
+    let (mut aside, mut of_part) = (0.0_f64, 0.0_f64);
+    if let Some(corners) = &plane.corners {
+        let edges = edges(corners);
+        let from = |i: usize| [y[0] - corners[i][0], y[1] - corners[i][1]];
+        let to_edge = |i: usize| {
+            let t = dot(&from(i), &edges[i].along);
+            let t = Wide::from(t.f64().clamp(0.0, edges[i].length.f64()));
+            length(&along(&from(i), -t, &edges[i].along))
+        };
+        if (0..3).any(|i| dot(&from(i), &edges[i].inwards).f64() < 0.0) {
+            aside = (0..3).map(to_edge).fold(f64::INFINITY, f64::min);
+        }
+        of_part = match part {
+            Part::Inside => aside,
+            Part::Edge(i) => to_edge(i),
+            Part::Vertex(i) => length(&from(i)),
+        };
+    }
+    Beside {
+        boundary: off.hypot(aside),
+        part: off.hypot(of_part),
+        normal: plane.world(&plane.normal).f64(),
+        farthest: plane.farthest,
+    }
+}

@@ -1,0 +1,184 @@
+//! What the parts beside the pairs found: counts by kind of fault and family, and some cases in full.
+
+use indicatif::ProgressBar;
+use serde::Serialize;
+use std::collections::BTreeMap;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+
+/// What can be wrong with an answer.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Fault {
+    Panic,
+    /// An error or a status where there is an answer.
+    NotSolved,
+    /// Separated, although they overlap.
+    LostContact,
+    /// Overlapping, although they do not.
+    InventedContact,
+    /// s − gap < 1 < s + gap with a gap beyond 1e-2: touching cannot be told from apart.
+    SaysNothing,
+    /// s is further than its gap from that of the particle as it is regularised.
+    Gap,
+    /// s is further than its gap from that of the particle as given.
+    GapOfGiven,
+    /// A point is further than its bound from the minimiser.
+    PointBound,
+    /// No number where there should be one, or fields that contradict each other.
+    Malformed,
+    /// A point beside its boundary, or not on the part that is named.
+    OffBoundary,
+    Normal,
+    Overlap,
+    /// Farther apart than they are.
+    Distance,
+    /// On a shared edge or vertex, but not the same bits.
+    Seam,
+    /// From a memory of any bytes, and without.
+    Memory,
+    /// A batch and a single call.
+    Batch,
+}
+
+/// A case that failed.
+#[derive(Clone, Debug, Serialize)]
+pub struct Finding {
+    pub fault: Fault,
+    pub family: String,
+    pub seed: u64,
+    pub index: u64,
+    pub detail: String,
+    /// Everything that a test of it needs, as JSON.
+    pub case: serde_json::Value,
+    #[serde(skip)]
+    pub planes: usize,
+}
+
+/// Counts of one part.
+#[derive(Clone, Debug, Default)]
+pub struct Ledger {
+    pub cases: u64,
+    /// Calls of the library that were judged, and those that the reference could not settle.
+    pub judged: u64,
+    pub unsettled: u64,
+    /// Cases of each family.
+    pub families: BTreeMap<String, u64>,
+    pub faults: BTreeMap<(Fault, String), u64>,
+    pub found: Vec<Finding>,
+}
+
+/// Most cases that are kept of each kind of fault.
+const KEPT: usize = 25;
+/// Most that are printed of each.
+const PRINTED: usize = 2;
+
+impl Ledger {
+    pub fn find(&mut self, finding: Finding) {
+        *self.faults.entry((finding.fault, finding.family.clone())).or_default() += 1;
+        self.keep(finding);
+    }
+
+    /// Of many of a kind those of few planes.
+    fn keep(&mut self, finding: Finding) {
+        if self.found.iter().filter(|each| each.fault == finding.fault).count() < KEPT {
+            return self.found.push(finding);
+        }
+        let alike = self.found.iter_mut().filter(|each| each.fault == finding.fault);
+        if let Some(largest) = alike.max_by_key(|each| each.planes).filter(|each| each.planes > finding.planes) {
+            *largest = finding;
+        }
+    }
+
+    pub fn merge(&mut self, other: Self) {
+        self.cases += other.cases;
+        self.judged += other.judged;
+        self.unsettled += other.unsettled;
+        for (family, count) in other.families {
+            *self.families.entry(family).or_default() += count;
+        }
+        for (key, count) in other.faults {
+            *self.faults.entry(key).or_default() += count;
+        }
+        for finding in other.found {
+            self.keep(finding);
+        }
+    }
+
+    pub fn failures(&self) -> u64 {
+        self.faults.values().sum()
+    }
+
+    pub fn by_fault(&self) -> BTreeMap<Fault, u64> {
+        let mut sums = BTreeMap::new();
+        for ((fault, _), count) in &self.faults {
+            *sums.entry(*fault).or_default() += count;
+        }
+        sums
+    }
+
+    pub fn share_unsettled(&self) -> f64 {
+        self.unsettled as f64 / self.judged.max(1) as f64
+    }
+
+    /// Counts by kind and family, and some cases in full.
+    pub fn print(&self, part: &str) {
+        println!("\n{part}: {} cases, {} answers judged, {} not settled by the reference", self.cases, self.judged, self.unsettled);
+        if self.faults.is_empty() {
+            return;
+        }
+        println!("\n| {part}: fault | family | failed | of |\n|---|---|---|---|");
+        for ((fault, family), count) in &self.faults {
+            println!("| {fault:?} | {family} | {count} | {} |", self.families.get(family).unwrap_or(&0));
+        }
+        let mut shown = BTreeMap::new();
+        for finding in &self.found {
+            let shown: &mut usize = shown.entry(finding.fault).or_default();
+            *shown += 1;
+            if *shown <= PRINTED {
+                println!("{:?}, {}, seed {} index {}: {}", finding.fault, finding.family, finding.seed, finding.index, finding.detail);
+                println!("{}", finding.case);
+            }
+        }
+    }
+}
+
+/// Cases 0 to `count` by several threads, each a function of its index alone. A panic is a finding of no family.
+pub fn run(
+    (seed, count): (u64, u64),
+    threads: usize,
+    stop: &AtomicBool,
+    progress: &ProgressBar,
+    one: impl Fn(u64, &mut Ledger) + Sync,
+) -> Ledger {
+    const BLOCK: u64 = 64;
+    let (total, next) = (Mutex::new(Ledger::default()), AtomicU64::new(0));
+    let block = |begin: u64, end: u64, ledger: &mut Ledger| {
+        for index in begin..end {
+            if catch_unwind(AssertUnwindSafe(|| one(index, ledger))).is_err() {
+                let (family, detail) = (String::from("any"), String::from("panicked"));
+                let case = serde_json::Value::Null;
+                ledger.find(Finding { fault: Fault::Panic, family, seed, index, detail, case, planes: 0 });
+            }
+            ledger.cases += 1;
+        }
+        progress.inc(end - begin);
+    };
+    std::thread::scope(|scope| {
+        for _ in 0..threads {
+            scope.spawn(|| {
+                let mut ledger = Ledger::default();
+                loop {
+                    let begin = next.fetch_add(BLOCK, Ordering::Relaxed);
+                    if begin >= count || stop.load(Ordering::Relaxed) {
+                        break;
+                    }
+                    block(begin, (begin + BLOCK).min(count), &mut ledger);
+                }
+                total.lock().expect("no thread panics while it holds the sum").merge(ledger);
+            });
+        }
+    });
+    total.into_inner().expect("no thread panics while it holds the sum")
+}
