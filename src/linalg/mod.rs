@@ -2,6 +2,7 @@
 
 pub(crate) mod double_double;
 pub(crate) mod graded_basis;
+pub(crate) mod line;
 pub(crate) mod number;
 pub(crate) mod root;
 pub(crate) mod symmetric;

@@ -5,6 +5,7 @@
 //! rounding is a shift of the plane, the same for every δ.
 
 use crate::linalg::double_double::DoubleDouble;
+use crate::linalg::line::Line;
 use crate::linalg::number::{Number, larger, smaller};
 use crate::linalg::symmetric::Symmetric;
 use crate::linalg::wide::{Wide, difference, rounded, wide};
@@ -32,7 +33,7 @@ fn rounding_of_sums(count: u32) -> f64 {
 pub(crate) enum Undecided {
     /// As the sign of its depth says.
     BySign,
-    /// On.
+    /// On, unless it was dropped.
     On,
 }
 
@@ -45,9 +46,26 @@ struct Plane {
     excess: DoubleDouble,
     /// |n|.
     length: f64,
+    /// Whether it was on with a negative multiplier where its depth cannot be told from 0.
+    dropped: bool,
 }
 
 impl Plane {
+    /// Whether it counts as on, with this depth at x₀ + δ, |δ| = `length`.
+    fn is_on(&self, depth: DoubleDouble, undecided: Undecided, length: f64) -> bool {
+        match undecided {
+            Undecided::BySign => depth.is_positive(),
+            Undecided::On => depth.rounded() > if self.dropped { self.doubt(length) } else { -self.doubt(length) },
+        }
+    }
+
+    /// The depth after a step, in the arithmetic of the model: the rounding of the depth before it is a shift of the plane.
+    fn after(&self, depth: DoubleDouble, v: &Wide) -> (f64, f64) {
+        let change = self.normal.dot(v);
+        let doubt = 8.0 * DoubleDouble::UNIT * (depth.rounded().abs() + self.length * rounded(v).norm());
+        ((depth + change).rounded(), doubt)
+    }
+
     fn depth(&self, delta: &Wide) -> DoubleDouble {
         self.excess + self.normal.dot(delta)
     }
@@ -178,7 +196,7 @@ impl<'a> ExtendedBody<'a> {
             if excess > -early {
                 let normal = axes[0] * of(n.x) + axes[1] * of(n.y) + axes[2] * of(n.z);
                 let excess = local.x * n.x + local.y * n.y + local.z * n.z - of(particle.offset(place));
-                planes.push(Plane { normal, excess, length: n.norm() });
+                planes.push(Plane { normal, excess, length: n.norm(), dropped: false });
             }
         });
     }
@@ -195,10 +213,8 @@ impl<'a> ExtendedBody<'a> {
                 continue;
             }
             let depth = plane.depth(delta);
-            if depth.is_positive() {
-                visit(&plane.normal, depth);
-            } else if undecided == Undecided::On && depth.rounded() > -plane.doubt(length) {
-                visit(&plane.normal, of(0.0));
+            if plane.is_on(depth, undecided, length) {
+                visit(&plane.normal, depth.larger(of(0.0)));
             } else {
                 clear = smaller(depth.rounded().abs(), clear);
             }
@@ -249,32 +265,54 @@ impl<'a> ExtendedBody<'a> {
             if before < -doubt && after < -doubt_after {
                 return true;
             }
-            let (before, after) = (plane.depth(delta), plane.depth(&(delta + v)).rounded());
-            let doubt = plane.doubt(length + length_of_end);
-            let on = before.is_positive() || (undecided == Undecided::On && before.rounded() > -plane.doubt(length));
-            if on { after >= -doubt } else { after <= doubt }
+            let before = plane.depth(delta);
+            let (after, rounding) = plane.after(before, v);
+            if plane.is_on(before, undecided, length) {
+                after >= -rounding
+            } else {
+                after <= plane.doubt(length + length_of_end)
+            }
         })
     }
 
-    /// S at x₀ + δ + α·v as depths and rates in doubles: [`Line::at`] gives slope and curvature.
-    pub fn line(&self, delta: &Wide, v: &Wide) -> Line {
-        let y = self.from_centre + delta;
-        let (m2, v64, quick) = (2.0 * self.sphere_weight.rounded(), rounded(v), rounded(delta));
-        let length = quick.norm();
-        let on_line = |plane: &Plane| {
+    /// Of the planes that are on where their depth cannot be told from 0, the one whose depth is most negative after a step, and by how
+    /// much times |n|: its multiplier would have to be.
+    pub fn most_negative(&self, delta: &Wide, v: &Wide) -> Option<(usize, f64)> {
+        let length = rounded(delta).norm();
+        let mut most = None;
+        for (place, plane) in self.planes.iter().enumerate() {
+            let before = plane.depth(delta);
+            let undecided = !plane.dropped && before.rounded().abs() <= plane.doubt(length);
+            let (after, rounding) = plane.after(before, v);
+            if undecided && after < -rounding && most.is_none_or(|(_, pull)| -after * plane.length > pull) {
+                most = Some((place, -after * plane.length));
+            }
+        }
+        most
+    }
+
+    /// Leaves a plane out where its depth cannot be told from 0.
+    pub fn drop(&mut self, place: usize) {
+        self.planes[place].dropped = true;
+    }
+
+    /// Takes all planes that were dropped in again.
+    pub fn restore(&mut self) {
+        self.planes.iter_mut().for_each(|plane| plane.dropped = false);
+    }
+
+    /// Adds S at x₀ + δ + α·v, times a weight.
+    pub fn add_to_line(&self, line: &mut Line, delta: &Wide, v: &Wide, weight: f64) {
+        let (v64, quick) = (rounded(v), rounded(delta));
+        let (length, w2) = (quick.norm(), 2.0 * weight * self.plane_weight.rounded());
+        line.add_curvature(2.0 * weight * self.sphere_weight.rounded() * v64.norm_squared());
+        for plane in &self.planes {
             let (depth, rounding) = plane.quick_depth(&quick, length);
             let depth = if depth < -rounding { depth } else { plane.depth(delta).rounded() };
             // n·v cancels for a long step along a face.
             let rate = rounded(&plane.normal).dot(&v64);
             let clear = rate.abs() > CANCELLED * plane.length * v64.norm();
-            (depth, if clear { rate } else { plane.normal.dot(v).rounded() })
-        };
-        Line {
-            // Planes that are off and get no nearer stay off.
-            planes: self.planes.iter().map(on_line).filter(|(depth, rate)| *depth > 0.0 || *rate > 0.0).collect(),
-            weight: 2.0 * self.plane_weight.rounded(),
-            slope: m2 * y.dot(v).rounded(),
-            curvature: m2 * v64.norm_squared(),
+            line.add_plane(depth, if clear { rate } else { plane.normal.dot(v).rounded() }, w2);
         }
     }
 
@@ -357,30 +395,6 @@ const CANCELLED: f64 = 1e-8;
 
 /// How much farther planes are gathered than they are needed.
 const MARGIN: f64 = 2.0;
-
-/// S of one body along δ + α·v, as depths and rates in doubles.
-pub(crate) struct Line {
-    /// Depth and its change for each plane.
-    planes: Vec<(f64, f64)>,
-    weight: f64,
-    slope: f64,
-    curvature: f64,
-}
-
-impl Line {
-    /// dS/dα and d²S/dα².
-    pub fn at(&self, alpha: f64) -> (f64, f64) {
-        let (mut slope, mut curvature) = (self.slope + alpha * self.curvature, self.curvature);
-        for (depth, rate) in &self.planes {
-            let depth = depth + alpha * rate;
-            if depth > 0.0 {
-                slope += self.weight * depth * rate;
-                curvature += self.weight * rate * rate;
-            }
-        }
-        (slope, curvature)
-    }
-}
 
 /// The axes of a body in the world, from its quaternion of any length.
 fn axes(pose: &Pose) -> [Wide; 3] {

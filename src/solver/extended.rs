@@ -13,6 +13,7 @@ use crate::bounds::sensitivity::Sensitivity;
 use crate::bounds::solution::{Ending, Solution};
 use crate::linalg::double_double::DoubleDouble;
 use crate::linalg::graded_basis::{self, StiffNormals};
+use crate::linalg::line::Line;
 use crate::linalg::number::{Number, Single, larger, smaller};
 use crate::linalg::symmetric::{Factor, Symmetric};
 use crate::linalg::wide::{Wide, rounded, wide};
@@ -26,16 +27,12 @@ use crate::pair::pair::Pair;
 use crate::solver::newton::{self, Goal};
 use nalgebra::{Matrix3, Vector3};
 
-/// Most values of λ, most Newton steps for each, and most trial points of a line search.
+/// Most values of λ, and most Newton steps for each.
 const MOST_WEIGHTS: u32 = 60;
 const MOST_STEPS: u32 = 100;
-const MOST_TRIALS: u32 = 60;
 
 /// Relative to the smaller particle, how far from the start planes are looked at to begin with.
 const FIRST_REACH: f64 = 0.05;
-
-/// Share of the first slope at which a line search ends.
-const FLAT: f64 = 1e-3;
 
 /// Factor by which λ moves while only one end of its bracket is known, at most.
 const STRIDE: f64 = 1e3;
@@ -189,7 +186,8 @@ impl Extended<'_> {
             let hessian = q_a.hessian.weighted(a, &q_b.hessian, b);
             let soft = a * model.soft[0] + b * model.soft[1];
             let factor = Factor::of(&hessian, soft)?;
-            let step = -factor.solve(&(q_a.gradient * a + q_b.gradient * b));
+            let gradient = q_a.gradient * a + q_b.gradient * b;
+            let step = -factor.solve(&gradient);
             let v = model.to_solver(&step);
             if !rounded(&v).iter().all(|c| c.is_finite()) {
                 return None;
@@ -199,50 +197,38 @@ impl Extended<'_> {
                 // The quadratics are those of the minimum, but about another point.
                 return Some(self.model(delta, undecided, lambda));
             }
-            let alpha = self.best_step(delta, &v, (a.rounded(), b.rounded()));
+            let alpha = self.best_step(delta, &v, [a.rounded(), b.rounded()], gradient.dot(&step).rounded());
             if alpha * rounded(&v).norm() > DoubleDouble::UNIT * rounded(delta).norm() {
                 *delta += v * DoubleDouble::from(alpha);
                 undecided = Undecided::BySign;
             } else if undecided == Undecided::BySign {
                 // A plane that counts as off comes on at once.
                 undecided = Undecided::On;
-            } else {
+                self.bodies.iter_mut().for_each(|body| body.restore());
+            } else if !self.drop_most_negative(delta, &v) {
                 return Some(model);
             }
         }
         None
     }
 
-    /// α at which a·S_A + b·S_B is least along v: a root of its slope, which grows with α and is piecewise linear. 0 where all
-    /// trials find it positive: a plane comes on at the start of the step.
-    fn best_step(&self, delta: &Wide, v: &Wide, (a, b): (f64, f64)) -> f64 {
-        let lines = [self.bodies[0].line(delta, v), self.bodies[1].line(delta, v)];
-        let at = |alpha: f64| {
-            let ((slope_a, curvature_a), (slope_b, curvature_b)) = (lines[0].at(alpha), lines[1].at(alpha));
-            (a * slope_a + b * slope_b, a * curvature_a + b * curvature_b)
-        };
-        let (first, _) = at(0.0);
-        let (mut low, mut high, mut alpha) = (0.0, f64::INFINITY, 1.0);
-        for _ in 0..MOST_TRIALS {
-            let (slope, curvature) = at(alpha);
-            if slope.abs() <= FLAT * first.abs() {
-                return alpha;
-            }
-            if slope < 0.0 {
-                low = alpha
-            } else {
-                high = alpha
-            }
-            let next = alpha - slope / curvature;
-            alpha = if low < next && next < high {
-                next
-            } else if high < f64::INFINITY {
-                0.5 * (low + high)
-            } else {
-                2.0 * alpha
-            };
+    /// Leaves out the undecided plane with the most negative multiplier after a step; whether there is one.
+    fn drop_most_negative(&mut self, delta: &Wide, v: &Wide) -> bool {
+        let [of_a, of_b] = [0, 1].map(|i| self.bodies[i].most_negative(delta, v));
+        let pull = |found: Option<(usize, f64)>| found.map_or(0.0, |(_, pull)| pull);
+        let i = usize::from(pull(of_b) > pull(of_a));
+        let Some((place, _)) = [of_a, of_b][i] else { return false };
+        self.bodies[i].drop(place);
+        true
+    }
+
+    /// α at which a·S_A + b·S_B, with this slope at α = 0, is least along v.
+    fn best_step(&self, delta: &Wide, v: &Wide, weights: [f64; 2], slope: f64) -> f64 {
+        let mut line = Line::new(slope);
+        for (body, weight) in self.bodies.iter().zip(weights) {
+            body.add_to_line(&mut line, delta, v, weight);
         }
-        if low > 0.0 { alpha } else { 0.0 }
+        line.least()
     }
 
     fn model(&mut self, delta: &Wide, undecided: Undecided, lambda: DoubleDouble) -> WideModel {

@@ -124,7 +124,10 @@ impl Ledger {
 
     /// Counts by kind and family, and some cases in full.
     pub fn print(&self, part: &str) {
-        println!("\n{part}: {} cases, {} answers judged, {} not settled by the reference", self.cases, self.judged, self.unsettled);
+        println!(
+            "\n{part}: {} cases, {} answers judged, {} not settled by the reference",
+            self.cases, self.judged, self.unsettled
+        );
         if self.faults.is_empty() {
             return;
         }
@@ -137,7 +140,10 @@ impl Ledger {
             let shown: &mut usize = shown.entry(finding.fault).or_default();
             *shown += 1;
             if *shown <= PRINTED {
-                println!("{:?}, {}, seed {} index {}: {}", finding.fault, finding.family, finding.seed, finding.index, finding.detail);
+                println!(
+                    "{:?}, {}, seed {} index {}: {}",
+                    finding.fault, finding.family, finding.seed, finding.index, finding.detail
+                );
                 println!("{}", finding.case);
             }
         }

@@ -158,7 +158,8 @@ fn wrong(cold: &Result<Contact, DetectError>, warm: &Result<Contact, DetectError
             (false, true) => warm.s > cold.s + cold.gap,
             _ => false,
         };
-        return broken.then(|| format!("rejected with s={:e} or more, else {:e}", warm.s.max(cold.s), warm.s.min(cold.s)));
+        return broken
+            .then(|| format!("rejected with s={:e} or more, else {:e}", warm.s.max(cold.s), warm.s.min(cold.s)));
     }
     let (off, both) = ((cold.s - warm.s).abs(), cold.gap + warm.gap);
     // Whether a scale can be told from 0 depends on its gap.

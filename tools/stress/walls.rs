@@ -8,7 +8,7 @@ use crate::reference::Body;
 use crate::wide::{Wide, Wide3};
 use nalgebra::Vector3;
 use potential_particles::{
-    DetectError, Feature, FlatContact, Flags, Kind, Particle, Pose, Settings, Triangle, Wall, contact_with_plane,
+    DetectError, Feature, Flags, FlatContact, Kind, Particle, Pose, Settings, Triangle, Wall, contact_with_plane,
     contact_with_triangle,
 };
 use serde::Serialize;
@@ -350,7 +350,9 @@ impl Scene<'_> {
         let (surface, length) = (to * way, x.norm());
         // From there to the plane along its normal as well, where that meets the boundary; the way to x is one in any case.
         let most = (turned - surface).norm().min((length - to).abs());
-        let rounding = 64.0 * EPS * (length + particle.bounding_radius() + at.position.iter().fold(0.0, |m: f64, c| m.max(c.abs())) * EPS);
+        let rounding = 64.0
+            * EPS
+            * (length + particle.bounding_radius() + at.position.iter().fold(0.0, |m: f64, c| m.max(c.abs())) * EPS);
         let inside = to >= length;
         let allowed = if inside { rounding } else { most * (1.0 + 1e-12) + rounding };
         verdict.check(c.distance >= 0.0 && c.distance <= allowed, Fault::Distance, || {
