@@ -76,6 +76,13 @@ fn midway(verdict: &mut Verdict, scene: &Scene, contact: &Contact, truth: &Optim
         verdict.check(distance <= contact.point_bound + truth.doubt, Failure::BoundOfPoint, || {
             format!("{distance:e} off, bound {:e}, small {small:e}", contact.point_bound)
         });
+        // From the centre of A the rounding of the way between the centres is no part of it.
+        let [of_a, _] = scene.bodies();
+        let from_a = of_a.from_centre(&truth.x);
+        let off = from_a.minus(&Wide3::from(contact.branch_a)).norm().f64();
+        let overlap = if contact.overlap.is_finite() { contact.overlap } else { 0.0 };
+        let allowed = contact.point_bound + truth.doubt + 4.0 * EPS * (from_a.norm().f64() + overlap);
+        verdict.check(off <= allowed, Failure::Branch, || format!("branch from A {off:e} off, allowed {allowed:e}"));
         let told = !contact.flags.contains(Flags::NORMAL_BY_CENTRES);
         if let Some(normal) = truth.normal().filter(|_| told) {
             let angle = (contact.normal - normal).norm();
