@@ -29,8 +29,8 @@ Contact detection between potential particles.
   make side-by-side  YADE's own contact functor and this one on the same scenes; results in out/side_by_side
   make peers    the codes one would pick instead, on the same pairs and piles; installs them; results in out/peers
   make roofline after make peers: what limits a call from memory, and a step of a pile; results in out/roofline
-  make stress   a million random pairs, judged without a known answer; results in out/stress
-  make fuzz     fuzz particle creation, detection and the reader of pairs, a minute each; needs libFuzzer's headers (g++)
+  make stress   a million random pairs, walls, seams of triangles, pairs of the plane, memories of any bytes, judged without a known answer; results in out/stress
+  make fuzz     fuzz creation, detection, walls, the plane, memories, mass properties and the reader of pairs, a minute each; needs libFuzzer's headers (g++)
   make sanitize  the plugin with AddressSanitizer and UBSan, and YADE's scenes with it; a quarter of an hour
   make long     YADE for 200,000 steps, killed and loaded, started 500 times: what breaks? results in out/long
   make clean    remove everything built (results in out/ stay)
@@ -49,6 +49,10 @@ Variables, as in "make demo STEPS=1000 BODIES=50":
   THREADS=1         demo, mpi: threads of YADE (of each process)
   QUICK=1           side-by-side, peers: a little of everything, in seconds (peers: a minute)
   POSES=1000000     stress: number of poses
+  WALLS=100000      stress: number of contacts with planes and triangles; by default POSES/10
+  SEAMS=50000       stress: number of meshes whose triangles share edges and vertices; by default POSES/20
+  PLANAR=50000      stress: number of pairs of the plane; by default POSES/20
+  MEMORIES=50000    stress: number of pairs solved from memories of any bytes; by default POSES/20
   SEED=N            stress: repeats the pairs of that seed; without it each run draws one, and prints it first
   SETTLE=1          stress: settle one pose in so many in 32 digits, and those in doubt; POSES=100000000 SETTLE=200 takes 45 minutes
   FUZZ_SECONDS=60   fuzz: how long each target
@@ -216,7 +220,8 @@ stress: SETTLE ?= 1
 stress: OUTPUT := $(or $(OUTPUT),out/stress)
 stress:
 	$(call heading,Stress)
-	@status=0; cargo run --quiet --release --example stress -- --poses $(POSES) $(if $(SEED),--seed $(SEED)) --settle-every $(SETTLE) --output $(OUTPUT) || status=$$?; \
+	@status=0; cargo run --quiet --release --example stress -- --poses $(POSES) $(if $(SEED),--seed $(SEED)) --settle-every $(SETTLE) \
+	$(if $(WALLS),--walls $(WALLS)) $(if $(SEAMS),--seams $(SEAMS)) $(if $(PLANAR),--planar $(PLANAR)) $(if $(MEMORIES),--memories $(MEMORIES)) --output $(OUTPUT) || status=$$?; \
 	/usr/bin/python3 tools/stress/plot.py $(OUTPUT); exit $$status
 
 fuzz: export FUZZ_SECONDS ?= 60

@@ -76,3 +76,23 @@ fn detection_of_any_bytes() {
 fn pairs_files_of_any_bytes() {
     replay("pairs_file", targets::pairs_file::run, 6_000_000);
 }
+
+#[test]
+fn walls_of_any_bytes() {
+    replay("walls", targets::walls::run, 1_000_000);
+}
+
+#[test]
+fn particles_of_the_plane_of_any_bytes() {
+    replay("planar", targets::planar::run, 600_000);
+}
+
+#[test]
+fn memories_of_any_bytes() {
+    replay("memories", targets::memories::run, 400_000);
+}
+
+#[test]
+fn mass_properties_of_any_bytes() {
+    replay("mass", targets::mass::run, 20_000);
+}

@@ -1,5 +1,8 @@
-//! "make stress" in small: random pairs, walks and sweeps in seconds; and every pair that once failed.
+//! "make stress" in small: random pairs, walks, sweeps, walls, seams, pairs of the plane and memories in seconds; and every pair that
+//! once failed.
 
+#[path = "../tools/stress/boundaries.rs"]
+mod boundaries;
 #[path = "../tools/stress/cases.rs"]
 mod cases;
 #[path = "../tools/stress/clock.rs"]
@@ -12,10 +15,24 @@ mod double;
 mod evaluation;
 #[path = "../tools/stress/judge.rs"]
 mod judge;
+#[path = "../tools/stress/least.rs"]
+#[allow(dead_code)]
+mod least;
+#[path = "../tools/stress/ledger.rs"]
+#[allow(dead_code)]
+mod ledger;
 #[path = "../tools/stress/line.rs"]
 mod line;
+#[path = "../tools/stress/memories.rs"]
+#[allow(dead_code)]
+mod memories;
 #[path = "../tools/stress/pairs.rs"]
 mod pairs;
+#[path = "stress/parts.rs"]
+mod parts;
+#[path = "../tools/stress/planar.rs"]
+#[allow(dead_code)]
+mod planar;
 #[path = "stress/planted.rs"]
 mod planted;
 #[path = "../benches/scene/random.rs"]
@@ -25,6 +42,9 @@ mod random;
 mod reference;
 #[path = "stress/regressions/mod.rs"]
 mod regressions;
+#[path = "../tools/stress/seams.rs"]
+#[allow(dead_code)]
+mod seams;
 #[path = "../tools/stress/shapes.rs"]
 mod shapes;
 #[path = "../tools/stress/sweeps.rs"]
@@ -34,6 +54,9 @@ mod sweeps;
 mod tally;
 #[path = "../tools/stress/walks.rs"]
 mod walks;
+#[path = "../tools/stress/walls.rs"]
+#[allow(dead_code)]
+mod walls;
 #[path = "../tools/stress/wide.rs"]
 mod wide;
 #[path = "stress/yardstick.rs"]

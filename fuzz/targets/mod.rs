@@ -4,5 +4,9 @@ pub mod bytes;
 pub mod detect;
 #[path = "../../tools/solve_pairs/input.rs"]
 mod input;
+pub mod mass;
+pub mod memories;
 pub mod pairs_file;
 pub mod particle;
+pub mod planar;
+pub mod walls;

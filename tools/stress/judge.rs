@@ -10,7 +10,7 @@ use crate::clock::{self, Call, Clock};
 use crate::double::{Placed, Shape};
 use crate::random::Random;
 use crate::reference::Body;
-use definition::{carried, enclosed, flips, in_other_units, surfaces, swapped, well_formed};
+use definition::{batched, carried, enclosed, flips, in_other_units, says_something, surfaces, swapped, well_formed};
 use nalgebra::Vector3;
 use potential_particles::{BackEnd, Contact, DetectError, Flags, Formulation, Memory, Particle, Pose, Settings};
 use serde::Serialize;
@@ -58,6 +58,12 @@ pub enum Failure {
     Conic,
     /// A jump along a smooth motion.
     Jump,
+    /// s − gap < 1 < s + gap with a gap beyond 1e-2: touching cannot be told from apart.
+    SaysNothing,
+    /// A batch and a single call.
+    Batch,
+    /// The branch from A is off by more than its own rounding.
+    Branch,
 }
 
 /// What is measured of an answer.
@@ -278,6 +284,8 @@ fn all(
     verdict.rounding_limited = contact.flags.contains(Flags::ROUNDING_LIMITED);
     verdict.measures.gap = contact.gap / contact.s.max(1.0);
     well_formed(verdict, &scene, &contact);
+    says_something(verdict, &contact);
+    batched(verdict, &scene);
     let start = at_b_relative(&scene, &contact.point, &contact.branch_b);
     enclosed(verdict, &scene, &contact, &start);
     surfaces(verdict, &scene, &contact);

@@ -38,8 +38,6 @@ pub enum Fault {
     Seam,
     /// From a memory of any bytes, and without.
     Memory,
-    /// A batch and a single call.
-    Batch,
 }
 
 /// A case that failed.
@@ -69,8 +67,8 @@ pub struct Ledger {
     pub found: Vec<Finding>,
 }
 
-/// Most cases that are kept of each kind of fault.
-const KEPT: usize = 25;
+/// Most cases that are kept of each kind of fault and family.
+const KEPT: usize = 5;
 /// Most that are printed of each.
 const PRINTED: usize = 2;
 
@@ -80,12 +78,13 @@ impl Ledger {
         self.keep(finding);
     }
 
-    /// Of many of a kind those of few planes.
+    /// Of many of a kind and family those of few planes.
     fn keep(&mut self, finding: Finding) {
-        if self.found.iter().filter(|each| each.fault == finding.fault).count() < KEPT {
+        let alike = |each: &Finding| each.fault == finding.fault && each.family == finding.family;
+        if self.found.iter().filter(|each| alike(each)).count() < KEPT {
             return self.found.push(finding);
         }
-        let alike = self.found.iter_mut().filter(|each| each.fault == finding.fault);
+        let alike = self.found.iter_mut().filter(|each| alike(each));
         if let Some(largest) = alike.max_by_key(|each| each.planes).filter(|each| each.planes > finding.planes) {
             *largest = finding;
         }

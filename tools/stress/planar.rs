@@ -316,8 +316,8 @@ fn judge(case: &Case, c: &Contact, faults: &mut Vec<(Fault, String)>, ledger: &m
             settled = false;
             continue;
         };
-        if s + c.gap < truth.least || s - c.gap > truth.most {
-            let off = (s - truth.most).max(truth.least - s);
+        let off = (s - truth.most).max(truth.least - s);
+        if !(off <= c.gap + EPS * s) {
             let detail = format!(
                 "{wanted:?}: s={s:e} ± {:e}, truth {:e} (± {:e}): {:.3e} gaps off",
                 c.gap,
@@ -327,7 +327,7 @@ fn judge(case: &Case, c: &Contact, faults: &mut Vec<(Fault, String)>, ledger: &m
             );
             faults.push((Fault::Gap, detail));
         }
-        settled &= truth.most - truth.least <= 0.1 * c.gap + f64::MIN_POSITIVE;
+        settled &= is_settled(&truth, c.gap);
         let known = c.gap.min(MOST_GAP);
         if c.kind == Kind::Separated && truth.most < 1.0 - known {
             faults.push((Fault::LostContact, format!("s={s:e} ± {:e}, truth {:e}", c.gap, truth.most)));
@@ -358,9 +358,14 @@ fn judge(case: &Case, c: &Contact, faults: &mut Vec<(Fault, String)>, ledger: &m
     ));
 }
 
+/// Whether the interval of an optimum is narrow enough to judge an answer with this gap, but for the last digit of s.
+fn is_settled(truth: &Optimum, gap: f64) -> bool {
+    truth.most - truth.least <= 0.1 * gap + EPS * truth.most
+}
+
 /// Whether 32 digits tell the point well enough to judge it.
 fn is_known(truth: &Optimum, c: &Contact) -> bool {
-    truth.most - truth.least <= 0.1 * c.gap + f64::MIN_POSITIVE && truth.doubt < 0.05 * c.point_bound
+    is_settled(truth, c.gap) && truth.doubt < 0.05 * c.point_bound
 }
 
 /// One case again.

@@ -8,7 +8,7 @@ use crate::random::Random;
 use crate::reference::Body;
 use crate::wide::{Wide, Wide3};
 use nalgebra::{Matrix3, Quaternion, UnitQuaternion, Vector3};
-use potential_particles::{Contact, Formulation, Kind, Pose, Settings};
+use potential_particles::{Contact, Formulation, Kind, Pose, Settings, detect, detect_batch};
 
 pub(super) fn well_formed(verdict: &mut Verdict, scene: &Scene, c: &Contact) {
     let finite = |v: &Vector3<f64>| v.iter().all(|c| c.is_finite());
@@ -36,6 +36,32 @@ pub(super) fn well_formed(verdict: &mut Verdict, scene: &Scene, c: &Contact) {
                 && (c.formulation != Formulation::Midway
                     || (c.point_on_a - c.point_on_b - c.overlap * c.normal).norm() <= rounding));
     verdict.check(fine && consistent, Failure::Malformed, || format!("{c:?}"));
+}
+
+/// A gap beyond this that leaves open whether they touch is no answer.
+const MOST_GAP: f64 = 1e-2;
+
+pub(super) fn says_something(verdict: &mut Verdict, c: &Contact) {
+    let open = c.gap > MOST_GAP && c.s - c.gap < 1.0 && 1.0 < c.s + c.gap;
+    verdict.check(!open, Failure::SaysNothing, || format!("s={:e} ± {:e}", c.s, c.gap));
+}
+
+/// A batch of one pair is, to the last bit, the call for it alone.
+pub(super) fn batched(verdict: &mut Verdict, scene: &Scene) {
+    let settings = Settings::default();
+    let alone = detect(scene.a, &scene.at_a, scene.b, &scene.at_b, &settings, None);
+    let (particles, poses) = ([scene.a, scene.b], [scene.at_a, scene.at_b]);
+    let same = match detect_batch(&particles, &poses, &[[0, 1]], &settings, 1, &mut []) {
+        Ok(answers) => match (&alone, &answers[0]) {
+            (Ok(alone), Ok(batched)) => {
+                alone.kind == batched.kind && alone.flags == batched.flags && alone.s.to_bits() == batched.s.to_bits()
+            }
+            (Err(alone), Err(batched)) => alone.to_string() == batched.to_string(),
+            _ => false,
+        },
+        Err(_) => alone.is_err(),
+    };
+    verdict.check(same, Failure::Batch, || format!("{alone:?}"));
 }
 
 /// Relative to s or 1: nearer than this doubles need not come.

@@ -76,6 +76,7 @@ fn midway(verdict: &mut Verdict, scene: &Scene, contact: &Contact, truth: &Optim
         verdict.check(distance <= contact.point_bound + truth.doubt, Failure::BoundOfPoint, || {
             format!("{distance:e} off, bound {:e}, small {small:e}", contact.point_bound)
         });
+        precise(verdict, scene, truth);
         let told = !contact.flags.contains(Flags::NORMAL_BY_CENTRES);
         if let Some(normal) = truth.normal().filter(|_| told) {
             let angle = (contact.normal - normal).norm();
@@ -86,6 +87,27 @@ fn midway(verdict: &mut Verdict, scene: &Scene, contact: &Contact, truth: &Optim
             verdict.check(angle <= allowed, Failure::Normal, || format!("{angle:e} off, allowed {allowed:e}"));
         }
     }
+}
+
+/// To the last digits: s within its gap, and the branch from A without the rounding of the way between the centres.
+fn precise(verdict: &mut Verdict, scene: &Scene, truth: &Optimum) {
+    let settings = Settings { gap_tolerance: 1e-14, ..FULL };
+    let contact = match scene.detect(&scene.at_b, &settings, None) {
+        Ok(contact) => contact,
+        Err(error) => return verdict.fail(Failure::Error, format!("to 1e-14: {error}")),
+    };
+    let off = (contact.s - truth.most).max(truth.least - contact.s);
+    verdict.check(off <= contact.gap + EPS * contact.s, Failure::BoundOfS, || {
+        format!("to 1e-14: s={:e} ± {:e}, truth {:e}", contact.s, contact.gap, truth.most)
+    });
+    let [of_a, _] = scene.bodies();
+    let from_a = of_a.from_centre(&truth.x);
+    let off = from_a.minus(&Wide3::from(contact.branch_a)).norm().f64();
+    let overlap = if contact.overlap.is_finite() { contact.overlap } else { 0.0 };
+    let allowed = contact.point_bound + truth.doubt + 4.0 * EPS * (from_a.norm().f64() + overlap);
+    verdict.check(off <= allowed, Failure::Branch, || {
+        format!("branch from A {off:e} off, allowed {allowed:e}, bound {:e}", contact.point_bound)
+    });
 }
 
 /// What rounding does to s² where that is not of first order: from solving again with all planes moved in by the rounding of a
