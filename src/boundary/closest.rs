@@ -66,7 +66,9 @@ impl Search<'_> {
         let (solution, point_bound) = (solved.solution, call.point_bound(&solved, Problem::OnBoundary));
         self.flags = self.flags.with(call.flags);
         self.iterations += call.iterations;
-        let PartFrame { rotation, centre, lengths } = frame;
+        // Of a point that is known to the last digits the frame has to be, too.
+        let precise = call.flags.contains(Flags::EXTENDED);
+        let PartFrame { rotation, centre, lengths } = if precise { part.precise_frame(self.pose) } else { frame };
         Ok(Least { part, rotation, centre, lengths, solution, point_bound })
     }
 

@@ -45,8 +45,7 @@ impl Rounding {
             // The last term: the step adds to the blur of the depths at the point of expansion, too.
             let of_places = check.pull * blur + gradients[i] * shift + q.pull * (blur - point.blur);
             sums[i] = body.rounding_of_value(values[i], q.count) + of_sums(q, &step.optimum);
-            // A plane that is left out at a depth of one blur may be on by two.
-            let of_second_order = 4.0 * check.near * body.plane_weight() * blur * blur;
+            let of_second_order = body.second_order(check.near, shift, blur);
             all[i] = of_places + sums[i] + of_second_order;
             blurs[i] = blur;
         }

@@ -55,8 +55,12 @@ impl Scale {
 
     /// Whether it is no answer: it leaves open on which side of 1 s lies, by more than [`WIDE`].
     pub fn is_undecided(&self) -> bool {
-        // Not a number is no answer either.
-        !(self.low >= 1.0 || self.high <= 1.0 || self.gap <= WIDE)
+        !(self.low >= 1.0 || self.high <= 1.0) && self.is_wide()
+    }
+
+    /// Whether the gap says little; one that is no number does.
+    pub fn is_wide(&self) -> bool {
+        !(self.gap <= WIDE * larger(self.s, 1.0))
     }
 
     /// Whether s cannot be told from 0, as where a constraint is slack.

@@ -182,10 +182,15 @@ impl<'a> Body<'a> {
 
     /// Bound on the rounding of S, given the quadratic.
     pub fn rounding(&self, point: &LocalPoint, q: &Quadratic) -> f64 {
-        let blur = point.blur;
-        // A plane that is counted at a depth of −blur may be on by one.
-        let second = 4.0 * f64::from(q.count) * self.plane_weight() * blur * blur;
+        let LocalPoint { shift, blur, .. } = *point;
+        let second = self.second_order(f64::from(q.count), shift, blur);
         q.pull * blur + q.gradient.norm() * point.shift + second + self.rounding_of_value(q.value, q.count)
+    }
+
+    /// What a shift and the blur of so many planes do to S in second order. A plane that is left out at a depth of one blur may be on by two.
+    #[inline]
+    pub fn second_order(&self, planes: f64, shift: f64, blur: f64) -> f64 {
+        4.0 * planes * self.plane_weight() * blur * blur + self.sphere_weight * shift * shift
     }
 
     /// Bound on the rounding of a value of S that is summed up over so many planes: γ with n = count + 8.

@@ -6,7 +6,7 @@
 
 use crate::linalg::double_double::DoubleDouble;
 use crate::linalg::graded_basis::any_across;
-use crate::linalg::wide::{Wide, difference, wide};
+use crate::linalg::wide::{Wide, difference, rounded, wide};
 use crate::pose::Pose;
 use nalgebra::{Matrix3, Vector3};
 
@@ -74,6 +74,13 @@ impl BoundaryPart {
         }
     }
 
+    /// The same, right to the last digits wherever the points lie by which the part is given.
+    pub fn precise_frame(&self, pose: &Pose) -> PartFrame {
+        let (axes, centre) = self.wide_frame(pose);
+        let rotation = Matrix3::from_columns(&axes.map(|axis| rounded(&axis)));
+        PartFrame { rotation, centre: rounded(&centre), lengths: self.frame(pose).lengths }
+    }
+
     /// The same in numbers of 32 digits: the axes of the part (columns, world frame), and the centre of the particle in it.
     pub fn wide_frame(&self, pose: &Pose) -> ([Wide; 3], Wide) {
         let zero = DoubleDouble::default();
@@ -133,7 +140,6 @@ fn wide_across(n: &Wide, near: &Vector3<f64>) -> Wide {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::linalg::wide::rounded;
 
     #[test]
     fn both_frames_agree_and_hold_the_part() {

@@ -130,7 +130,7 @@ impl<'a> Call<'a> {
     fn leaves_open(&self, solution: &Solution, problem: Problem) -> bool {
         let scale = self.scale(solution, problem);
         let slack = problem.held().is_some() && scale.may_be_zero() && scale.high > NEAR_ZERO;
-        slack || (scale.is_undecided() && !self.settings.raises_regularisation())
+        slack || (scale.is_wide() && !self.settings.raises_regularisation())
     }
 
     #[cold]

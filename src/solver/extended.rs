@@ -47,6 +47,8 @@ struct Extended<'a> {
     x: Vector3<f64>,
     /// The number of coordinates in which a point may move.
     dimensions: usize,
+    /// Distance of the origin from the centre that a point of a boundary is placed from.
+    placed_from: f64,
     /// Quadratics made so far.
     steps: u32,
 }
@@ -110,6 +112,7 @@ pub(crate) fn solve(pair: &Pair, bodies: [&Body; 2], goal: &Goal, start: &Start)
         problem: goal.problem,
         x: start.x,
         dimensions: pair.dimensions(),
+        placed_from: if pair.b.is_boundary() { pair.centre.norm() } else { 0.0 },
         steps: 0,
     };
     let first = FIRST_REACH * local_model::smallest(bodies);
@@ -310,7 +313,8 @@ impl Extended<'_> {
         let by_convexity = point_bound::by_convexity(solution, bodies, self.problem);
         let by_sensitivity =
             found.optimum.as_ref().and_then(|optimum| self.by_sensitivity(&approximate(optimum), &found.delta));
-        let placed = PLACED * f64::EPSILON * solution.x.norm();
+        // A point of a boundary is placed from the centre of the particle.
+        let placed = PLACED * f64::EPSILON * (solution.x.norm() + self.placed_from);
         by_sensitivity.map_or(by_convexity, |bound| smaller(bound, by_convexity)) + placed
     }
 

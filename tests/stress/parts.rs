@@ -98,7 +98,8 @@ fn the_least_s_is_that_of_closed_forms() {
         ([0.5, 0.7], Part::Vertex(0), 0.5_f64.hypot(0.5).hypot(0.7)),
     ] {
         let [x, y] = lowest;
-        let beside = if part == Part::Inside { [-1.0, -1.0] } else { [x, if part == Part::Edge(0) { -1.0 } else { y }] };
+        let beside =
+            if part == Part::Inside { [-1.0, -1.0] } else { [x, if part == Part::Edge(0) { -1.0 } else { y }] };
         let vertex = |u: f64, v: f64| [1.0 + u, 2.0 + v, 3.5];
         let triangle = match part {
             Part::Inside => [vertex(beside[0], beside[1]), vertex(3.0, -1.0), vertex(-1.0, 3.0)],
@@ -146,7 +147,9 @@ fn planted(solver: walls::Solver, counts: impl Fn(&FlatContact) -> bool, fault: 
     for index in 0..3_000 {
         let case = Case::of(3, index);
         let right = walls::judge(&case, walls::solve);
-        let Ok(contact) = walls::solve(&case.particle, &case.at.pose(), &case.boundary, &case.settings) else { continue };
+        let Ok(contact) = walls::solve(&case.particle, &case.at.pose(), &case.boundary, &case.settings) else {
+            continue;
+        };
         // What is wrong already shows nothing.
         if !right.faults.is_empty() || !counts(&contact) {
             continue;
