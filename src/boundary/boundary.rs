@@ -110,10 +110,6 @@ impl Triangle {
         let reversed = to.iter().partial_cmp(from.iter()) == Some(std::cmp::Ordering::Less);
         (if reversed { [to, from] } else { [from, to] }, reversed)
     }
-
-    pub(super) fn corner(&self, i: usize) -> BoundaryPart {
-        BoundaryPart::Corner(self.vertices[i])
-    }
 }
 
 /// The unit normal of a narrow triangle, from its sides at `base` in units of its longest one.

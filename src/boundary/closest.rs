@@ -37,8 +37,10 @@ pub(super) struct Least {
     centre: Vector3<f64>,
     pub lengths: f64,
     pub solution: Solution,
-    /// Bound on the distance of the point to the exact one.
-    pub point_bound: f64,
+    /// How steeply S falls from there into the triangle; negative where it rises.
+    into: f64,
+    /// Bound on the distance of the point to that of the whole boundary, if it is certain that this lies on the part.
+    point_bound: f64,
 }
 
 /// The least S on a whole boundary.
@@ -48,8 +50,6 @@ pub(super) struct Closest {
     pub feature: Feature,
     /// Lower bound of S on the whole boundary, up to the rounding of the solution.
     pub lower: f64,
-    /// How steeply S may descend into the boundary from there, in doubt: 0 but for rounding.
-    pub descent: f64,
     /// Bound on the way to any point of the boundary.
     pub extent: f64,
 }
@@ -63,19 +63,25 @@ impl Search<'_> {
         let start = Start { x: from.push(0.0), lambda: 1.0 };
         let model = call.model(&start, Problem::OnBoundary);
         let solved = call.solve(Problem::OnBoundary, start.lambda, model)?;
-        let (solution, point_bound) = (solved.solution, call.point_bound(&solved, Problem::OnBoundary));
+        let solution = solved.solution;
+        let into = solution.into.or_else(|| part.descent(&solution.gradients[0], &frame)).unwrap_or(0.0);
+        let point_bound = call.point_bound(&solved, Problem::OnBoundary);
+        // Where S rises into the triangle for sure, wherever the point may be, it is that of the triangle.
+        let planes = f64::from(solved.model.q_a.count) * call.bodies()[0].stiffest_curvature();
+        let doubt = solution.slope + (planes + call.bodies()[0].sphere_curvature()) * point_bound;
+        let is_all = part.dimensions() == 2 || -into > doubt;
+        let point_bound = if is_all { point_bound } else { f64::INFINITY };
         self.flags = self.flags.with(call.flags);
         self.iterations += call.iterations;
         // Of a point that is known to the last digits the frame has to be, too.
         let precise = call.flags.contains(Flags::EXTENDED);
         let PartFrame { rotation, centre, lengths } = if precise { part.precise_frame(self.pose) } else { frame };
-        Ok(Least { part, rotation, centre, lengths, solution, point_bound })
+        Ok(Least { part, rotation, centre, lengths, solution, into, point_bound })
     }
 
     pub fn on_plane(&mut self, plane: BoundaryPart) -> Result<Closest, DetectError> {
         let least = self.on_part(plane, Vector2::zeros())?;
-        let Solution { lower, slope, .. } = least.solution;
-        Ok(Closest { least, feature: Feature::Interior, lower, descent: slope, extent: f64::INFINITY })
+        Ok(Closest { lower: least.solution.lower, least, feature: Feature::Interior, extent: f64::INFINITY })
     }
 
     /// The least S on a triangle is that on its plane, or on an edge beyond which that lies.
@@ -86,14 +92,18 @@ impl Search<'_> {
         for i in (0..3).filter(|i| placed.is_beyond(*i, &x)) {
             on_edges[i] = Some(self.on_edge(triangle, i)?);
         }
-        let smaller_of = |a: (Least, Feature), b: (Least, Feature)| {
-            if b.0.solution.estimate < a.0.solution.estimate { b } else { a }
+        let Some((mut least, mut feature)) = least_of(&on_edges) else {
+            let point_bound = if placed.depth(&x) > inside.point_bound { inside.point_bound } else { f64::INFINITY };
+            let (least, extent) = (Least { point_bound, ..inside }, placed.extent(&x));
+            return Ok(Closest { lower: inside.solution.lower, least, feature: Feature::Interior, extent });
         };
-        let Some((mut least, mut feature)) = on_edges.iter().flatten().copied().reduce(smaller_of) else {
-            let Solution { lower, slope: descent, .. } = inside.solution;
-            let (feature, extent) = (Feature::Interior, placed.extent(&x));
-            return Ok(Closest { least: inside, feature, lower, descent, extent });
-        };
+        if least.into > 0.0 {
+            // S falls into the triangle: rounding may have decided which edges the point of the plane lies beyond.
+            for i in 0..3 {
+                on_edges[i] = Some(on_edges[i].map_or_else(|| self.on_edge(triangle, i), Ok)?);
+            }
+            (least, feature) = least_of(&on_edges).unwrap_or((least, feature));
+        }
         // On an edge that ends at the vertex the least S is no more than there, and whether it is less is an answer of the edge
         // alone: so all triangles that share it have the same.
         if let Feature::Vertex(vertex) = feature {
@@ -105,13 +115,17 @@ impl Search<'_> {
                 }
             }
         }
-        Ok(self.on_rim(placed, (least, feature), &inside))
+        let extent = placed.extent(&inside.rotation.tr_mul(&(least.rotation * least.from_centre())).xy());
+        let height = least.height(&self.body(), extent);
+        // No point of the triangle is below the least of its plane.
+        let of_plane = inside.solution.lower - inside.solution.rounding - least.solution.rounding;
+        Ok(Closest { lower: larger(least.solution.estimate - height, of_plane), least, feature, extent })
     }
 
     /// The least S on edge i, from the edge alone.
     fn on_edge(&mut self, triangle: &Triangle, i: usize) -> Result<(Least, Feature), DetectError> {
         let (ends, reversed) = triangle.edge(i);
-        let edge = BoundaryPart::Edge(ends);
+        let edge = BoundaryPart::Edge { ends, third: triangle.vertices[(i + 2) % 3] };
         let along = edge.frame(self.pose).rotation.column(0).into_owned();
         let [from, to] = ends.map(|end| along.dot(&(end - self.pose.position())));
         let least = self.on_part(edge, Vector2::new(smaller(larger(from, 0.0), to), 0.0))?;
@@ -122,26 +136,9 @@ impl Search<'_> {
             () => return Ok((least, Feature::Edge(i as u8))),
         };
         let vertex = (i + end) % 3;
-        Ok((self.on_part(triangle.corner(vertex), Vector2::zeros())?, Feature::Vertex(vertex as u8)))
-    }
-
-    /// The least S on an edge or at a corner, as that on the whole triangle, beside that in its plane.
-    fn on_rim(&self, placed: &PlacedTriangle, (least, feature): (Least, Feature), inside: &Least) -> Closest {
-        let solution = &least.solution;
-        let to_plane = |v: &Vector3<f64>| inside.rotation.tr_mul(&(least.rotation * v)).xy();
-        let (gradient, point) = (to_plane(&solution.gradients[0]), to_plane(&least.from_centre()));
-        let into = match feature {
-            Feature::Edge(i) => placed.descent_from_edge(usize::from(i), &gradient),
-            Feature::Vertex(i) => placed.descent_from_vertex(usize::from(i), &gradient),
-            Feature::Interior => 0.0,
-        };
-        let (descent, extent) = (into + solution.slope, placed.extent(&point));
-        let level = larger(solution.upper, 1.0);
-        let within = smaller(least.from_centre().norm() + self.particle.reach(level), extent);
-        let height = smaller(descent * within, 0.5 * descent * descent / self.body().sphere_curvature());
-        // No point of the triangle is below the least of its plane.
-        let of_plane = inside.solution.lower - inside.solution.rounding - solution.rounding;
-        Closest { least, feature, lower: larger(solution.estimate - height, of_plane), descent, extent }
+        let others = [1, 2].map(|i| triangle.vertices[(vertex + i) % 3]);
+        let corner = BoundaryPart::Corner { at: triangle.vertices[vertex], others };
+        Ok((self.on_part(corner, Vector2::zeros())?, Feature::Vertex(vertex as u8)))
     }
 
     /// The particle as it is solved for.
@@ -155,6 +152,30 @@ impl Least {
     pub fn from_centre(&self) -> Vector3<f64> {
         self.solution.x - self.centre
     }
+
+    /// How steeply S may fall into the boundary from there: 0 but for rounding.
+    fn descent(&self) -> f64 {
+        larger(self.into, 0.0) + self.solution.slope
+    }
+
+    /// How far S may fall on a boundary of this extent.
+    fn height(&self, body: &Body, extent: f64) -> f64 {
+        let (descent, within) = (self.descent(), self.within(body, extent));
+        smaller(descent * within, 0.5 * descent * descent / body.sphere_curvature())
+    }
+
+    /// Bound on the way to any point of a boundary of this extent where S is no larger.
+    fn within(&self, body: &Body, extent: f64) -> f64 {
+        let level = larger(self.solution.upper, 1.0);
+        smaller(self.from_centre().norm() + body.particle.reach(level), extent)
+    }
+}
+
+fn least_of(on_edges: &[Option<(Least, Feature)>; 3]) -> Option<(Least, Feature)> {
+    let smaller_of = |a: (Least, Feature), b: (Least, Feature)| {
+        if b.0.solution.estimate < a.0.solution.estimate { b } else { a }
+    };
+    on_edges.iter().flatten().copied().reduce(smaller_of)
 }
 
 impl Closest {
@@ -184,13 +205,17 @@ impl Closest {
         let Solution { estimate, rounding, gradient_norms, .. } = self.least.solution;
         let within = smaller(2.0 * (body.particle.bounding_radius() + self.least.from_centre().norm()), self.extent);
         let most = (estimate * (1.0 + body.most_surplus(1.0))).sqrt();
-        let above = 2.0 * (estimate - most) - self.descent * within - rounding;
-        larger(above / (gradient_norms[0] + self.descent) * (1.0 - MARGIN), 0.0)
+        let descent = self.least.descent();
+        let above = 2.0 * (estimate - most) - descent * within - rounding;
+        larger(above / (gradient_norms[0] + descent) * (1.0 - MARGIN), 0.0)
     }
 
-    /// Bound on the way to any point of the boundary where S is no larger.
-    pub fn within(&self, body: &Body) -> f64 {
-        let level = larger(self.least.solution.upper, 1.0);
-        smaller(self.least.from_centre().norm() + body.particle.reach(level), self.extent)
+    /// Bound on the distance of the point to the minimum: that of its part, or since S rises from the minimum at least as the square of the
+    /// way times the least curvature, or from where it can be at all.
+    pub fn point_bound(&self, body: &Body) -> f64 {
+        let Solution { upper, rounding, .. } = self.least.solution;
+        let open = larger(upper - self.lower, 0.0) + 2.0 * rounding;
+        let by_convexity = 2.0 * (2.0 * open / body.sphere_curvature()).sqrt();
+        smaller(smaller(self.least.point_bound, by_convexity), self.least.within(body, self.extent))
     }
 }

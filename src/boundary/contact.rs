@@ -8,7 +8,7 @@ use crate::bounds::scale::Scale;
 use crate::contact::contact::Kind;
 use crate::contact::detect::DetectError;
 use crate::flags::Flags;
-use crate::linalg::number::{larger, smaller};
+use crate::linalg::number::larger;
 use crate::pair::body::shift_in_a;
 use crate::pair::pair::Pair;
 use crate::pair::separation::Apart;
@@ -159,7 +159,7 @@ impl Call<'_> {
             iterations: search.iterations,
             s: scale.s,
             gap: scale.gap,
-            point_bound: smaller(least.point_bound, found.within(&search.body())),
+            point_bound: found.point_bound(&search.body()),
             normal,
             point: position + to_boundary,
             branch: to_boundary,

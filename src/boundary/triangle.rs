@@ -22,6 +22,15 @@ impl PlacedTriangle {
         along.perp(&(x - self.0[i])) < 0.0
     }
 
+    /// Distance of a point of the triangle from its nearest edge; negative outside.
+    pub fn depth(&self, x: &Vector2<f64>) -> f64 {
+        let from_edge = |i: usize| {
+            let along = self.0[(i + 1) % 3] - self.0[i];
+            along.perp(&(x - self.0[i])) / along.norm()
+        };
+        from_edge(0).min(from_edge(1)).min(from_edge(2))
+    }
+
     /// The point nearest to the origin.
     pub fn nearest(&self) -> Vector2<f64> {
         let origin = Vector2::zeros();
@@ -46,19 +55,5 @@ impl PlacedTriangle {
     /// The vertices in the local frame of the particle.
     pub fn in_particle(&self, pair: &Pair) -> [Vector3<f64>; 3] {
         self.0.map(|vertex| pair.in_a(&vertex.push(0.0)))
-    }
-
-    /// How steeply a function with this gradient descends at most from edge i to the inside.
-    pub fn descent_from_edge(&self, i: usize, gradient: &Vector2<f64>) -> f64 {
-        let along = self.0[(i + 1) % 3] - self.0[i];
-        (-along.perp(gradient) / along.norm()).max(0.0)
-    }
-
-    /// The same from vertex i: along the negative gradient if that points into the triangle, else along one of its sides.
-    pub fn descent_from_vertex(&self, i: usize, gradient: &Vector2<f64>) -> f64 {
-        let [left, right] = [(i + 1) % 3, (i + 2) % 3].map(|j| self.0[j] - self.0[i]);
-        let along = |side: &Vector2<f64>| -gradient.dot(side) / side.norm();
-        let inside = left.perp(gradient) <= 0.0 && gradient.perp(&right) <= 0.0;
-        if inside { gradient.norm() } else { along(&left).max(along(&right)).max(0.0) }
     }
 }

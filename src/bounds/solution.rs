@@ -27,6 +27,8 @@ pub(crate) struct Solution {
     pub estimate: f64,
     /// Bound on what is left of the weighted slope, with all that is in doubt about it.
     pub slope: f64,
+    /// How steeply S falls from a part of a boundary into the rest of it, where that came with the solution.
+    pub into: Option<f64>,
     /// Lower bound up to `rounding`.
     pub lower: f64,
     /// Upper bound up to `rounding`.
@@ -73,6 +75,7 @@ impl Solution {
             values: [f64::NAN; 2],
             estimate: f64::NAN,
             slope: f64::INFINITY,
+            into: None,
             lower: f64::NEG_INFINITY,
             upper: f64::INFINITY,
             rounding: f64::INFINITY,
@@ -115,6 +118,7 @@ impl Solution {
             values: [s_a, s_b],
             estimate,
             slope,
+            into: None,
             lower: estimate - height,
             upper,
             rounding: of_optimum.unwrap_or_else(|| rounding.of_merit(problem, lambda)),

@@ -6,6 +6,7 @@
 
 use crate::linalg::double_double::DoubleDouble;
 use crate::linalg::graded_basis::any_across;
+use crate::linalg::number::larger;
 use crate::linalg::wide::{Wide, difference, rounded, wide};
 use crate::pose::Pose;
 use nalgebra::{Matrix3, Vector3};
@@ -14,19 +15,14 @@ use nalgebra::{Matrix3, Vector3};
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum BoundaryPart {
     /// A plane through a point, by its unit normal and by a normal of any length that is exact.
-    Plane {
-        point: Vector3<f64>,
-        normal: Vector3<f64>,
-        given: Vector3<f64>,
-    },
+    Plane { point: Vector3<f64>, normal: Vector3<f64>, given: Vector3<f64> },
     /// The plane of three points, which have this unit normal.
-    Inside {
-        vertices: [Vector3<f64>; 3],
-        normal: Vector3<f64>,
-    },
-    /// The line through two points. They come in an order of their own, so that all triangles that share an edge find the same bits.
-    Edge([Vector3<f64>; 2]),
-    Corner(Vector3<f64>),
+    Inside { vertices: [Vector3<f64>; 3], normal: Vector3<f64> },
+    /// The line through two points of a triangle with this third one. They come in an order of their own, so that all triangles that share
+    /// an edge find the same bits.
+    Edge { ends: [Vector3<f64>; 2], third: Vector3<f64> },
+    /// A vertex of a triangle with these two others.
+    Corner { at: Vector3<f64>, others: [Vector3<f64>; 2] },
 }
 
 /// The frame of a part beside a particle, in doubles.
@@ -45,8 +41,8 @@ impl BoundaryPart {
     pub fn dimensions(&self) -> usize {
         match self {
             Self::Plane { .. } | Self::Inside { .. } => 2,
-            Self::Edge(_) => 1,
-            Self::Corner(_) => 0,
+            Self::Edge { .. } => 1,
+            Self::Corner { .. } => 0,
         }
     }
 
@@ -59,7 +55,7 @@ impl BoundaryPart {
                 let farthest = vertices.iter().map(|v| from_centre(v).norm()).fold(0.0, f64::max);
                 plane_frame(normal, &from_centre(&vertices[0]), farthest)
             }
-            Self::Edge([from, to]) => {
+            Self::Edge { ends: [from, to], .. } => {
                 let (start, along) = (from_centre(from), unit(&(to - from)));
                 let across = any_across(&along);
                 let rotation = Matrix3::from_columns(&[along, across, along.cross(&across)]);
@@ -67,8 +63,8 @@ impl BoundaryPart {
                 let centre = -rotation.tr_mul(&start);
                 PartFrame { rotation, centre: Vector3::new(0.0, centre.y, centre.z), lengths }
             }
-            Self::Corner(point) => {
-                let start = from_centre(point);
+            Self::Corner { at, .. } => {
+                let start = from_centre(at);
                 PartFrame { rotation: Matrix3::identity(), centre: -start, lengths: start.norm() }
             }
         }
@@ -93,16 +89,66 @@ impl BoundaryPart {
                 let axes = plane_axes(&wide_unit(&difference(b, a).cross(&difference(c, a))), normal);
                 (axes, Vector3::new(zero, zero, axes[2].dot(&difference(pose.position(), a))))
             }
-            Self::Edge([from, to]) => {
+            Self::Edge { ends: [from, to], .. } => {
                 let along = wide_unit(&difference(to, from));
                 let across = wide_across(&along, &any_across(&unit(&(to - from))));
                 let axes = [along, across, along.cross(&across)];
                 let centre = difference(pose.position(), from);
                 (axes, Vector3::new(zero, axes[1].dot(&centre), axes[2].dot(&centre)))
             }
-            Self::Corner(point) => ([0, 1, 2].map(|i| wide(&Vector3::ith(i, 1.0))), difference(pose.position(), point)),
+            Self::Corner { at, .. } => {
+                ([0, 1, 2].map(|i| wide(&Vector3::ith(i, 1.0))), difference(pose.position(), at))
+            }
         }
     }
+}
+
+impl BoundaryPart {
+    /// How steeply a function with this gradient, frame of the part, falls at most from the part into the triangle that it is part
+    /// of; negative where it rises by at least so much. `None` for a part that is all of its boundary.
+    pub fn descent(&self, gradient: &Vector3<f64>, frame: &PartFrame) -> Option<f64> {
+        let towards = |v: &Vector3<f64>, from: &Vector3<f64>| frame.rotation.tr_mul(&(v - from));
+        match self {
+            Self::Plane { .. } | Self::Inside { .. } => None,
+            Self::Edge { ends, third } => {
+                let inwards = towards(third, &ends[0]);
+                let inwards = Vector3::new(0.0, inwards.y, inwards.z).normalize();
+                Some(-gradient.dot(&inwards))
+            }
+            Self::Corner { at, others } => {
+                let sides = others.map(|other| towards(&other, at).normalize());
+                Some(into_corner(sides.map(|side| -gradient.dot(&side)), (sides[0] + sides[1]).norm()))
+            }
+        }
+    }
+
+    /// The same in numbers of 32 digits, with the axes of [`Self::wide_frame`]: a slope that is small beside the gradient keeps its digits.
+    pub fn wide_descent(&self, gradient: &Wide, axes: &[Wide; 3]) -> Option<f64> {
+        let towards = |v: &Vector3<f64>, from: &Vector3<f64>| {
+            let way = difference(v, from);
+            Vector3::from([0, 1, 2].map(|i| axes[i].dot(&way)))
+        };
+        match self {
+            Self::Plane { .. } | Self::Inside { .. } => None,
+            Self::Edge { ends, third } => {
+                let inwards = towards(third, &ends[0]);
+                let inwards = wide_unit(&Vector3::new(DoubleDouble::default(), inwards.y, inwards.z));
+                Some(-gradient.dot(&inwards).rounded())
+            }
+            Self::Corner { at, others } => {
+                let sides = others.map(|other| wide_unit(&towards(&other, at)));
+                let falls = sides.map(|side| -gradient.dot(&side).rounded());
+                Some(into_corner(falls, (rounded(&sides[0]) + rounded(&sides[1])).norm()))
+            }
+        }
+    }
+}
+
+/// The steepest fall between two sides with these falls along them, where the sum of their unit vectors is so long: a direction
+/// between them is a sum of both with shares that add up to at least 1, and to 2 over that length at most.
+fn into_corner(falls: [f64; 2], sum: f64) -> f64 {
+    let most = larger(falls[0], falls[1]);
+    if most > 0.0 { most * 2.0 / sum } else { most }
 }
 
 fn plane_frame(normal: &Vector3<f64>, to_point: &Vector3<f64>, farthest: f64) -> PartFrame {
@@ -149,8 +195,8 @@ mod tests {
         let parts = [
             BoundaryPart::Plane { point: a, normal, given: normal },
             BoundaryPart::Inside { vertices: [a, b, c], normal },
-            BoundaryPart::Edge([a, b]),
-            BoundaryPart::Corner(c),
+            BoundaryPart::Edge { ends: [a, b], third: c },
+            BoundaryPart::Corner { at: c, others: [a, b] },
         ];
         for part in parts {
             let (frame, (axes, centre)) = (part.frame(&pose), part.wide_frame(&pose));
@@ -164,12 +210,35 @@ mod tests {
             let points: &[Vector3<f64>] = match &part {
                 BoundaryPart::Plane { .. } => &[a],
                 BoundaryPart::Inside { .. } => &[a, b, c],
-                BoundaryPart::Edge(_) => &[a, b],
-                BoundaryPart::Corner(_) => &[c],
+                BoundaryPart::Edge { .. } => &[a, b],
+                BoundaryPart::Corner { .. } => &[c],
             };
             for point in points {
                 let x = frame.rotation.tr_mul(&(point - pose.position())) + frame.centre;
                 assert!((part.dimensions()..3).all(|i| x[i].abs() < 4e-16), "{part:?}: {x}");
+            }
+        }
+    }
+
+    /// A function that falls along a vector in the plane falls into the triangle as far as that points into it.
+    #[test]
+    fn the_descent_is_that_into_the_triangle() {
+        let [a, b, c] = [[0.0, 0.0, 0.0], [2.0, 0.0, 0.0], [0.0, 1.0, 0.0]].map(Vector3::from);
+        let pose = Pose::at([0.3, 0.2, 0.9]).unwrap();
+        let edge = BoundaryPart::Edge { ends: [a, b], third: c };
+        let corner = BoundaryPart::Corner { at: a, others: [b, c] };
+        // Edge a-b: inwards is y. Corner a: the quarter between x and y, whose steepest is at most √2 times that of a side.
+        for (falls, of_edge, of_corner) in [
+            ([0.3, -2.0, 5.0], -2.0, 0.3 * 2f64.sqrt()),
+            ([-1.0, -2.0, 5.0], -2.0, -1.0),
+            ([0.0, 1.0, -5.0], 1.0, 2f64.sqrt()),
+        ] {
+            for (part, expected) in [(edge, of_edge), (corner, of_corner)] {
+                let (frame, (axes, _)) = (part.frame(&pose), part.wide_frame(&pose));
+                let gradient = frame.rotation.tr_mul(&-Vector3::from(falls));
+                let (quick, precise) = (part.descent(&gradient, &frame), part.wide_descent(&wide(&gradient), &axes));
+                assert!((quick.unwrap() - expected).abs() < 1e-14, "{part:?}, {falls:?}: {quick:?}");
+                assert!((precise.unwrap() - expected).abs() < 1e-14, "{part:?}, {falls:?}: {precise:?}");
             }
         }
     }

@@ -341,7 +341,7 @@ impl<'a> ExtendedBody<'a> {
             count,
             blur: unit * (normals * lengths + particle.bounds.offset_within(lengths)),
             weight_of_planes: self.planes.len() as f64 * self.plane_weight.rounded(),
-            of_centre: 2.0 * self.sphere_weight.rounded() * rounded(&y).norm() * unit * lengths,
+            of_centre: self.sphere_weight.rounded() * unit * lengths * (2.0 * rounded(&y).norm() + unit * lengths),
             turn: rounding_of_sums(count) * normals * pull + unit * 2.0 * self.sphere_weight.rounded() * lengths,
             clear,
         }

@@ -23,7 +23,7 @@ use crate::model::local_model::{self, Start};
 use crate::model::problem::Problem;
 use crate::pair::body::Body;
 use crate::pair::extended_body::{ExtendedBody, Undecided, WideQuadratic, WideValue};
-use crate::pair::pair::Pair;
+use crate::pair::pair::{Given, Pair};
 use crate::solver::newton::{self, Goal};
 use nalgebra::{Matrix3, Vector3};
 
@@ -120,7 +120,11 @@ pub(crate) fn solve(pair: &Pair, bodies: [&Body; 2], goal: &Goal, start: &Start)
     let found = extended.search(DoubleDouble::from(start.lambda));
     let solution = extended.bounded(&found);
     let point_bound = extended.point_bound(&found, &solution, bodies);
-    Solution { ending: ending(&solution, bodies, goal), point_bound: Some(point_bound), ..solution }
+    let into = match pair.given {
+        Given::Boundary(pose, part) => part.wide_descent(&extended.gradient_of_a(&found), &part.wide_frame(pose).0),
+        Given::Poses(_) => None,
+    };
+    Solution { ending: ending(&solution, bodies, goal), point_bound: Some(point_bound), into, ..solution }
 }
 
 /// Why the search ended, by the bounds of its solution.
@@ -252,6 +256,10 @@ impl Extended<'_> {
         let sides = [0, 1].map(|i| self.bodies[i].quadratic(delta, undecided, &axes, &metric));
         let soft = [0, 1].map(|i| DoubleDouble::from(LESS * self.bodies[i].soft()));
         WideModel { undecided, axes, sides, soft }
+    }
+
+    fn gradient_of_a(&self, found: &Found) -> Wide {
+        self.bodies[0].value(&found.delta).gradient
     }
 
     /// The solution where a search ended, with the bounds of its value.
