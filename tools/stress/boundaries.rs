@@ -153,10 +153,8 @@ fn outline(random: &mut Random) -> [[f64; 2]; 3] {
         // A sliver: the third corner next to the line of the others.
         let (share, thin) = (random.uniform(), power(random, -9.0, -1.0));
         let aside = [0, 1].map(|c| corners[1][c] - corners[0][c]);
-        corners[2] = [
-            corners[0][0] + share * aside[0] - thin * aside[1],
-            corners[0][1] + share * aside[1] + thin * aside[0],
-        ];
+        corners[2] =
+            [corners[0][0] + share * aside[0] - thin * aside[1], corners[0][1] + share * aside[1] + thin * aside[0]];
         let first = random.whole(0, 3);
         corners.rotate_left(first);
     }

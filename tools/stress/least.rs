@@ -105,9 +105,8 @@ impl Plane {
                 let base = (0..3).fold(0, |longest, i| if side(i) > side(longest) { i } else { longest });
                 let (next, last) = ((base + 1) % 3, (base + 2) % 3);
                 // Their differences have no rounding in world axes.
-                let sides = [next, last].map(|i| {
-                    local(&Wide3([0, 1, 2].map(|c| Wide::difference(vertices[i][c], vertices[base][c]))))
-                });
+                let sides = [next, last]
+                    .map(|i| local(&Wide3([0, 1, 2].map(|c| Wide::difference(vertices[i][c], vertices[base][c])))));
                 (unit(&cross3(&unit(&sides[0]), &unit(&sides[1]))), at[base], Some(at))
             }
         };
@@ -221,8 +220,7 @@ impl Reduced {
             }
             adjugate = along(&adjugate, self.w * turned, &across);
         }
-        let determinant =
-            self.w * self.w * (both * Wide::from(0.5)) + self.w * self.m * each + self.m * self.m;
+        let determinant = self.w * self.w * (both * Wide::from(0.5)) + self.w * self.m * each + self.m * self.m;
         let step = along(&adjugate, self.m, &pull);
         let factor = -Wide::ONE / determinant;
         [step[0] * factor, step[1] * factor]
@@ -261,7 +259,11 @@ impl Reduced {
                 return (t, None);
             }
             at = next;
-            if slope.f64() > 0.0 { high = t } else { low = t }
+            if slope.f64() > 0.0 {
+                high = t
+            } else {
+                low = t
+            }
             if (high - low).f64() <= 1e-31 * high.f64() {
                 break;
             }
@@ -385,7 +387,8 @@ pub fn least(
     let reduced = Reduced::new(particle, &plane, m);
     // From a rounder particle to the given one, so that each search starts near its end.
     let mut y = [Wide::ZERO; 2];
-    let (mut rounder, last) = (Reduced { m: reduced.w.max(m), rows: reduced.rows.clone(), plain: reduced.plain.clone(), ..reduced }, m.f64());
+    let (mut rounder, last) =
+        (Reduced { m: reduced.w.max(m), rows: reduced.rows.clone(), plain: reduced.plain.clone(), ..reduced }, m.f64());
     while rounder.m.f64() > 1e4 * last {
         rounder.m = rounder.m * Wide::from(1e-3);
         y = rounder.on_plane(y);
@@ -416,9 +419,10 @@ pub fn least(
     }
     let value = |candidate: &Candidate| reduced.at(&candidate.y).value;
     let first = candidates[0];
-    let best = candidates.iter().skip(1).fold(first, |best, other| {
-        if (value(other) - value(&best)).f64() < 0.0 { *other } else { best }
-    });
+    let best = candidates
+        .iter()
+        .skip(1)
+        .fold(first, |best, other| if (value(other) - value(&best)).f64() < 0.0 { *other } else { best });
     finish(particle, &plane, &reduced, &best, of_triangle.as_ref().map(|(corners, edges)| (*corners, edges)))
 }
 
@@ -448,7 +452,9 @@ fn finish(
         stiffness += reduced.w.f64() * n.norm_squared();
     }
     let gradient = gradient.times(Wide::from(2.0));
-    let rounding = pull * 1e-30 * (plane.farthest + within);
+    // What 32 digits of a place may do to S, to second order: near its least value S is flat.
+    let place = 1e-30 * (plane.farthest + within);
+    let rounding = (pull + gradient.norm().f64()) * place + stiffness * place * place;
     let doubt = match best.part {
         Part::Vertex(_) if slope == 0.0 => 0.0,
         Part::Vertex(_) => slope / m,
@@ -482,13 +488,7 @@ pub struct Beside {
     pub farthest: f64,
 }
 
-pub fn beside(
-    boundary: &Boundary,
-    position: [f64; 3],
-    orientation: [f64; 4],
-    x: &Vector3<f64>,
-    part: Part,
-) -> Beside {
+pub fn beside(boundary: &Boundary, position: [f64; 3], orientation: [f64; 4], x: &Vector3<f64>, part: Part) -> Beside {
     let plane = Plane::new(boundary, position, orientation);
     let columns = [0, 1, 2].map(|j| Wide3([0, 1, 2].map(|i| plane.rotation[i].0[j])));
     let x = Wide3::from(*x);

@@ -123,7 +123,10 @@ impl Ledger {
 
     /// Counts by kind and family, and some cases in full.
     pub fn print(&self, part: &str) {
-        println!("\n{part}: {} cases, {} answers judged, {} not settled by the reference", self.cases, self.judged, self.unsettled);
+        println!(
+            "\n{part}: {} cases, {} answers judged, {} not settled by the reference",
+            self.cases, self.judged, self.unsettled
+        );
         if self.faults.is_empty() {
             return;
         }
@@ -136,7 +139,10 @@ impl Ledger {
             let shown: &mut usize = shown.entry(finding.fault).or_default();
             *shown += 1;
             if *shown <= PRINTED {
-                println!("{:?}, {}, seed {} index {}: {}", finding.fault, finding.family, finding.seed, finding.index, finding.detail);
+                println!(
+                    "{:?}, {}, seed {} index {}: {}",
+                    finding.fault, finding.family, finding.seed, finding.index, finding.detail
+                );
                 println!("{}", finding.case);
             }
         }

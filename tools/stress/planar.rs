@@ -133,8 +133,8 @@ fn places(a: &Particle, b: &Particle, random: &mut Random) -> [Place; 2] {
     let sign = if random.uniform() < 0.7 { -1.0 } else { 1.0 };
     let apart = sign * small * power(random, -15.0, 0.0);
     let aside = if random.uniform() < 0.5 { small * (random.uniform() - 0.5) } else { 0.0 };
-    let relative = turned(&on_a, angle_a) - turned(&on_b, angle_b) + apart * normal
-        + aside * Vector2::new(-normal.y, normal.x);
+    let relative =
+        turned(&on_a, angle_a) - turned(&on_b, angle_b) + apart * normal + aside * Vector2::new(-normal.y, normal.x);
     let direction = std::f64::consts::TAU * random.uniform();
     let far = match random.whole(0, 3) {
         0 => 0.0,
@@ -142,15 +142,11 @@ fn places(a: &Particle, b: &Particle, random: &mut Random) -> [Place; 2] {
         _ => small * power(random, 3.0, 6.0),
     };
     let origin = far * Vector2::new(direction.cos(), direction.sin());
-    [
-        Place { position: origin.into(), angle: angle_a },
-        Place { position: (origin + relative).into(), angle: angle_b },
-    ]
+    [Place { position: origin.into(), angle: angle_a }, Place { position: (origin + relative).into(), angle: angle_b }]
 }
 
 /// π/2 to three doubles.
-const QUARTER: [f64; 3] =
-    [std::f64::consts::FRAC_PI_2, 6.123_233_995_736_766e-17, -1.497_384_904_859_183_3e-33];
+const QUARTER: [f64; 3] = [std::f64::consts::FRAC_PI_2, 6.123_233_995_736_766e-17, -1.497_384_904_859_183_3e-33];
 
 /// Terms of the series: the last is below 1e-40 for angles up to π/4.
 const TERMS: i32 = 36;
@@ -216,7 +212,10 @@ impl Case {
             1 => (Settings { gap_tolerance: 1e-14, ..default }, "midway, to 1e-14"),
             2 => {
                 let closest = Formulation::Closest;
-                (Settings { formulation: closest, weight_on_a: 0.0, gap_tolerance: 1e-14, ..default }, "closest, to 1e-14")
+                (
+                    Settings { formulation: closest, weight_on_a: 0.0, gap_tolerance: 1e-14, ..default },
+                    "closest, to 1e-14",
+                )
             }
             _ => (default, "midway"),
         };
@@ -241,7 +240,11 @@ impl Case {
     /// k as small as the solver may raise it to, for the points of flat sides.
     fn levels(&self) -> Vec<f64> {
         let default = Settings::default().flat_regularisation;
-        if self.settings.gap_tolerance < 1e-13 { vec![1e-5 * self.settings.gap_tolerance, default] } else { vec![default] }
+        if self.settings.gap_tolerance < 1e-13 {
+            vec![1e-5 * self.settings.gap_tolerance, default]
+        } else {
+            vec![default]
+        }
     }
 }
 
@@ -349,7 +352,10 @@ fn judge(case: &Case, c: &Contact, faults: &mut Vec<(Fault, String)>, ledger: &m
         }
         least = least.min(off);
     }
-    faults.push((Fault::PointBound, format!("{least:e} off, bound {:e}, {:.2e} of it", c.point_bound, least / c.point_bound)));
+    faults.push((
+        Fault::PointBound,
+        format!("{least:e} off, bound {:e}, {:.2e} of it", c.point_bound, least / c.point_bound),
+    ));
 }
 
 /// Whether the interval of an optimum is narrow enough to judge an answer with this gap, but for the last digit of s.

@@ -7,9 +7,7 @@ use crate::ledger::{Fault, Finding, Ledger};
 use crate::line::{At, Shape, shape};
 use crate::random::Random;
 use nalgebra::Vector3;
-use potential_particles::{
-    Feature, FlatContact, Particle, Settings, Triangle, contact_with_triangle,
-};
+use potential_particles::{Feature, FlatContact, Particle, Settings, Triangle, contact_with_triangle};
 use serde::Serialize;
 
 /// Triangles of a mesh, by the numbers of their vertices.
@@ -120,7 +118,10 @@ pub fn one(seed: u64, index: u64, ledger: &mut Ledger) {
 }
 
 /// What differs, if both lie on what they share.
-fn differ((one, of_one): (&FlatContact, &[usize; 3]), (other, of_other): (&FlatContact, &[usize; 3])) -> Option<String> {
+fn differ(
+    (one, of_one): (&FlatContact, &[usize; 3]),
+    (other, of_other): (&FlatContact, &[usize; 3]),
+) -> Option<String> {
     let (part_one, part_other) = (part(one.feature, of_one), part(other.feature, of_other));
     let shared = |part: &[usize]| part.iter().all(|v| of_one.contains(v) && of_other.contains(v));
     if !(shared(&part_one) && shared(&part_other)) {
@@ -145,4 +146,3 @@ pub fn replay(seed: u64, index: u64) -> bool {
     ledger.print("seams");
     ledger.failures() == 0
 }
-

@@ -8,7 +8,7 @@ use crate::reference::Body;
 use crate::wide::{Wide, Wide3};
 use nalgebra::Vector3;
 use potential_particles::{
-    DetectError, Feature, FlatContact, Flags, Kind, Particle, Pose, Settings, Triangle, Wall, contact_with_plane,
+    DetectError, Feature, Flags, FlatContact, Kind, Particle, Pose, Settings, Triangle, Wall, contact_with_plane,
     contact_with_triangle,
 };
 use serde::Serialize;
@@ -272,7 +272,7 @@ impl Scene<'_> {
             format!("{off:e} off, bound {bound:e}, {:.2e} of it, {:.2e} sizes", off / bound, off / size)
         });
         let beside = self.beside(&x, c.feature);
-        let allowed = 64.0 * EPS * (beside.farthest + x.norm()) + digits;
+        let allowed = 256.0 * EPS * (beside.farthest + x.norm()) + digits;
         verdict.check(beside.boundary <= allowed, Fault::OffBoundary, || {
             format!("{:e} beside the boundary, allowed {allowed:e}", beside.boundary)
         });
@@ -291,7 +291,9 @@ impl Scene<'_> {
         let x = self.at(c);
         let beside = self.beside(&x, c.feature);
         let across = if matches!(self.case.boundary, Boundary::Plane { .. }) { 1.0 } else { self.condition() };
-        let known = c.point_bound + nearest.doubt + 8.0 * EPS * (x.norm() + beside.farthest);
+        // That of the point as answered: how far that may be off is judged apart.
+        let off = nearest.x.minus(&Wide3::from(x)).norm().f64();
+        let known = off.max(c.point_bound) + nearest.doubt + 8.0 * EPS * (x.norm() + beside.farthest);
         let turn = 2.0 * nearest.bend * known;
         if c.feature == Feature::Interior {
             let sign = c.normal.dot(&beside.normal).signum();
@@ -350,7 +352,9 @@ impl Scene<'_> {
         let (surface, length) = (to * way, x.norm());
         // From there to the plane along its normal as well, where that meets the boundary; the way to x is one in any case.
         let most = (turned - surface).norm().min((length - to).abs());
-        let rounding = 64.0 * EPS * (length + particle.bounding_radius() + at.position.iter().fold(0.0, |m: f64, c| m.max(c.abs())) * EPS);
+        let rounding = 64.0
+            * EPS
+            * (length + particle.bounding_radius() + at.position.iter().fold(0.0, |m: f64, c| m.max(c.abs())) * EPS);
         let inside = to >= length;
         let allowed = if inside { rounding } else { most * (1.0 + 1e-12) + rounding };
         verdict.check(c.distance >= 0.0 && c.distance <= allowed, Fault::Distance, || {
