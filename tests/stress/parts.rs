@@ -1,8 +1,9 @@
 //! The parts beside the pairs in small; and their judges' own tests: right answers pass, planted errors are found.
 
 use crate::boundaries::Case;
-use crate::least::{Boundary, Part, least};
+use crate::least::least;
 use crate::ledger::{Fault, Ledger, run};
+use crate::placed_boundary::{Boundary, Part};
 use crate::random::Random;
 use crate::reference::Body;
 use crate::wide::{Wide, Wide3};

@@ -1,9 +1,10 @@
 //! Contacts with planes and triangles, each judged against the least S in 32 digits.
 
 use crate::boundaries::Case;
-use crate::least::{Beside, Boundary, Least, Part, beside, least};
+use crate::least::{Least, least};
 use crate::ledger::{Fault, Finding, Ledger};
 use crate::line::{At, Shape, shape};
+use crate::placed_boundary::{Beside, Boundary, Part, beside};
 use crate::reference::Body;
 use crate::wide::{Wide, Wide3};
 use nalgebra::Vector3;
