@@ -30,6 +30,8 @@ mod memories;
 mod pairs;
 #[path = "stress/parts.rs"]
 mod parts;
+#[path = "../tools/stress/placed_boundary.rs"]
+mod placed_boundary;
 #[path = "../tools/stress/planar.rs"]
 #[allow(dead_code)]
 mod planar;

@@ -2,7 +2,7 @@
 //! touching to through the centre. No solver is asked where to put them.
 
 use crate::cases::{Place, stream};
-use crate::least::Boundary;
+use crate::placed_boundary::Boundary;
 use crate::random::Random;
 use crate::shapes::{Hull, Recipe, Sphericity, particle};
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};

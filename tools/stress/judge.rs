@@ -285,7 +285,9 @@ fn all(
     verdict.measures.gap = contact.gap / contact.s.max(1.0);
     well_formed(verdict, &scene, &contact);
     says_something(verdict, &contact);
-    batched(verdict, &scene);
+    if trial.settle {
+        batched(verdict, &scene);
+    }
     let start = at_b_relative(&scene, &contact.point, &contact.branch_b);
     enclosed(verdict, &scene, &contact, &start);
     surfaces(verdict, &scene, &contact);

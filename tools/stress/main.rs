@@ -23,6 +23,7 @@ mod line;
 mod machine;
 mod memories;
 mod pairs;
+mod placed_boundary;
 mod planar;
 #[path = "../../benches/scene/random.rs"]
 #[allow(dead_code)]

@@ -62,9 +62,9 @@ fn any(case: &Case, seed: u64, random: &mut Random) -> (Raw, &'static str) {
         2 => {
             // A point far away, or a weight out of all proportion.
             let mut raw = [1.0, random.normal(), random.normal(), random.normal(), 1.0, 1.0, 1.0, 1.0];
-            for place in 1..8 {
+            for number in &mut raw[1..] {
                 if random.uniform() < 0.4 {
-                    raw[place] = sign(random) * 10f64.powf(60.0 + 40.0 * random.uniform());
+                    *number = sign(random) * 10f64.powf(60.0 + 40.0 * random.uniform());
                 }
             }
             raw[4] = raw[4].abs();

@@ -46,6 +46,8 @@ def main():
     folder = Path(sys.argv[1] if len(sys.argv) > 1 else "out/stress")
     summary = json.loads((folder / "summary.json").read_text())
     families = [family for family in summary["families"] if family["poses"]]
+    if not families:
+        sys.exit("plot.py: no picture of a run without poses")
     figure, (errors, times, tails) = plt.subplots(
         1, 3, figsize=(15, 0.32 * len(families) + 2.2), gridspec_kw={"width_ratios": [1, 1, 0.9]}
     )

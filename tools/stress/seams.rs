@@ -2,9 +2,9 @@
 
 use crate::boundaries::{beside, particle_of, place_of};
 use crate::cases::{Place, stream};
-use crate::least::Boundary;
 use crate::ledger::{Fault, Finding, Ledger};
 use crate::line::{At, Shape, shape};
+use crate::placed_boundary::Boundary;
 use crate::random::Random;
 use nalgebra::Vector3;
 use potential_particles::{Feature, FlatContact, Particle, Settings, Triangle, contact_with_triangle};

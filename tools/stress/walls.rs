@@ -1,9 +1,10 @@
 //! Contacts with planes and triangles, each judged against the least S in 32 digits.
 
 use crate::boundaries::Case;
-use crate::least::{Beside, Boundary, Least, Part, beside, least};
+use crate::least::{Least, least};
 use crate::ledger::{Fault, Finding, Ledger};
 use crate::line::{At, Shape, shape};
+use crate::placed_boundary::{Beside, Boundary, Part, beside};
 use crate::reference::Body;
 use crate::wide::{Wide, Wide3};
 use nalgebra::Vector3;
@@ -272,7 +273,7 @@ impl Scene<'_> {
             format!("{off:e} off, bound {bound:e}, {:.2e} of it, {:.2e} sizes", off / bound, off / size)
         });
         let beside = self.beside(&x, c.feature);
-        let allowed = 64.0 * EPS * (beside.farthest + x.norm()) + digits;
+        let allowed = 256.0 * EPS * (beside.farthest + x.norm()) + digits;
         verdict.check(beside.boundary <= allowed, Fault::OffBoundary, || {
             format!("{:e} beside the boundary, allowed {allowed:e}", beside.boundary)
         });
@@ -291,7 +292,9 @@ impl Scene<'_> {
         let x = self.at(c);
         let beside = self.beside(&x, c.feature);
         let across = if matches!(self.case.boundary, Boundary::Plane { .. }) { 1.0 } else { self.condition() };
-        let known = c.point_bound + nearest.doubt + 8.0 * EPS * (x.norm() + beside.farthest);
+        // That of the point as answered: how far that may be off is judged apart.
+        let off = nearest.x.minus(&Wide3::from(x)).norm().f64();
+        let known = off.max(c.point_bound) + nearest.doubt + 8.0 * EPS * (x.norm() + beside.farthest);
         let turn = 2.0 * nearest.bend * known;
         if c.feature == Feature::Interior {
             let sign = c.normal.dot(&beside.normal).signum();
