@@ -4,8 +4,11 @@ import builtins
 import copy
 import os
 import pickle
+import re
 import tempfile
+from pathlib import Path
 
+import harness
 import potential_particles
 import yade
 import yade.system
@@ -13,9 +16,14 @@ import yade.wrapper
 from harness import *
 
 check = Checks()
-NAMES = ["ConicPotentialParticle", "ScGeomConicPP", "Ig2_ConicPP_ConicPP_ScGeom", "Ig2_PP_PP_ScGeom_Conic", "Bo1_ConicPP_Aabb",
-         "Bo1_PP_Aabb_Conic", "BoundWatch", "ConicInteractionLoop", "Ig2_Sphere_ConicPP_ScGeom", "Ig2_Box_ConicPP_ScGeom",
-         "Ig2_Wall_ConicPP_ScGeom", "Ig2_Facet_ConicPP_ScGeom", "Gl1_PotentialParticle_Conic"]
+# Those that the reference promises.
+REFERENCE = Path(harness.__file__).resolve().parents[2] / "docs/python.md"
+NAMES = re.findall(r"autoclass:: yade\.wrapper\.(\w+)", REFERENCE.read_text())
+# YADE's own shapes that a potential particle touches.
+OTHERS = [name.split("_")[1] for name in NAMES if name.startswith("Ig2_") and name.split("_")[1] not in ("ConicPP", "PP")]
+
+check.equal(sorted(NAMES), sorted(potential_particles._glue.class_names), "every class is in the reference")
+check.true(len(OTHERS) >= 4, f"functors of YADE's shapes: {OTHERS}")
 
 for name in NAMES:
     cls = getattr(yade.wrapper, name)
@@ -126,9 +134,9 @@ check.equal(type(find(flat_one, flat_one)).__name__, "Ig2_ConicPP_ConicPP_ScGeom
 check.equal(type(find(round_one, flat_one)).__name__, "Ig2_PP_PP_ScGeom_Conic", "plain and ours")
 check.equal(type(find(round_one, round_one)).__name__, "Ig2_PP_PP_ScGeom_Conic", "two plain ones")
 check.true(find(flat_one, yade.Sphere()) is None, "no functor for ours and a sphere")
-O.engines[2].geomDispatcher.functors = [getattr(yade, f"Ig2_{name}_ConicPP_ScGeom")() for name in ("Sphere", "Box", "Wall", "Facet")]
+O.engines[2].geomDispatcher.functors = [getattr(yade, f"Ig2_{name}_ConicPP_ScGeom")() for name in OTHERS]
 find = O.engines[2].geomDispatcher.dispFunctor
-for other in yade.Sphere(), yade.Box(), yade.Wall(), yade.Facet():
+for other in [getattr(yade, name)() for name in OTHERS]:
     name = f"Ig2_{type(other).__name__}_ConicPP_ScGeom"
     for one in round_one, flat_one:
         check.equal([type(find(*two)).__name__ for two in ((one, other), (other, one))], [name, name], "either order of the shapes")

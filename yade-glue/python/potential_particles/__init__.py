@@ -169,7 +169,8 @@ def _prepare_ours(yade):
     bounds, geometry, _ = _dispatchers(yade)
     ours = [yade.wrapper.ConicPotentialParticle(), yade.wrapper.PotentialParticle()]
     _look_up(bounds, geometry, ours)
-    for other in [getattr(yade.wrapper, name)() for name in ("Sphere", "Box", "Wall", "Facet")]:
+    from .unserved import REMEDIES
+    for other in [getattr(yade.wrapper, name)() for name in REMEDIES]:
         for one in ours:
             for dispatcher in geometry:
                 dispatcher.dispFunctor(one, other)

@@ -1,15 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "registration/archives.hpp"
+#include "registration/definitions.hpp"
 
-#include "abi/registry.hpp"
 #include "bo1_conic_pp_aabb.hpp"
 #include "bound_watch.hpp"
 #include "bounding_box.hpp"
-#include "registration/class_versions.hpp"
-#include "registration/python_class.hpp"
 
 #include <boost/make_shared.hpp>
-#include <boost/serialization/base_object.hpp>
 
 #include <algorithm>
 #include <limits>
@@ -18,28 +14,11 @@ namespace potential_particles {
 
 using yade::Vector3r;
 
-namespace {
-
-    constexpr char doc[]
-        = "Box of a ConicPotentialParticle as it is turned, for a collider with a BoundWatch before it. Without one, or when it\n"
-          "is dead, the box of the ball in which the particle turns: larger, and right for any turn too.\n"
-          "A box that the script gave (automaticBox = False) is turned as it is.";
-    constexpr char plainDoc[]
-        = "As Bo1_ConicPP_Aabb, for every PotentialParticle, plain ones too: put it in the place of PotentialParticle2AABB.\n"
-          "A plain shape keeps the box that it has (AabbMinMax).";
-
-} // namespace
-
 Bo1_ConicPP_Aabb::~Bo1_ConicPP_Aabb() = default;
 Bo1_PP_Aabb_Conic::~Bo1_PP_Aabb_Conic() = default;
 
-std::string Bo1_ConicPP_Aabb::getClassName() const { return "Bo1_ConicPP_Aabb"; }
-std::string Bo1_ConicPP_Aabb::getBaseClassName(unsigned int index) const { return index == 0 ? "BoundFunctor" : ""; }
-std::string Bo1_ConicPP_Aabb::get1DFunctorType1() const { return "ConicPotentialParticle"; }
-
-std::string Bo1_PP_Aabb_Conic::getClassName() const { return "Bo1_PP_Aabb_Conic"; }
-std::string Bo1_PP_Aabb_Conic::getBaseClassName(unsigned int index) const { return index == 0 ? "Bo1_ConicPP_Aabb" : ""; }
-std::string Bo1_PP_Aabb_Conic::get1DFunctorType1() const { return "PotentialParticle"; }
+PP_FUNCTOR_1D_DEFINITIONS(Bo1_ConicPP_Aabb)
+PP_FUNCTOR_1D_DEFINITIONS(Bo1_PP_Aabb_Conic)
 
 namespace {
 
@@ -81,21 +60,8 @@ void Bo1_ConicPP_Aabb::go(const boost::shared_ptr<yade::Shape>& shape, boost::sh
     }
 }
 
-void Bo1_ConicPP_Aabb::pyRegisterClass(py::object scope)
-{
-    checkPyClassRegistersItself("Bo1_ConicPP_Aabb");
-    const py::scope inside(scope);
-    const auto style = docstringStyle();
-    registerClass<Bo1_ConicPP_Aabb, yade::BoundFunctor>("Bo1_ConicPP_Aabb", doc);
-}
-
-void Bo1_PP_Aabb_Conic::pyRegisterClass(py::object scope)
-{
-    checkPyClassRegistersItself("Bo1_PP_Aabb_Conic");
-    const py::scope inside(scope);
-    const auto style = docstringStyle();
-    registerClass<Bo1_PP_Aabb_Conic, Bo1_ConicPP_Aabb>("Bo1_PP_Aabb_Conic", plainDoc);
-}
+PP_PYTHON_AS_BASE(Bo1_ConicPP_Aabb, yade::BoundFunctor)
+PP_PYTHON_AS_BASE(Bo1_PP_Aabb_Conic, Bo1_ConicPP_Aabb)
 
 template <class Archive> void Bo1_ConicPP_Aabb::serialize(Archive& archive, unsigned version)
 {
@@ -103,13 +69,9 @@ template <class Archive> void Bo1_ConicPP_Aabb::serialize(Archive& archive, unsi
     serializeBase<yade::BoundFunctor>(archive, *this, "BoundFunctor");
 }
 
-template <class Archive> void Bo1_PP_Aabb_Conic::serialize(Archive& archive, unsigned version)
-{
-    requireReadable<Bo1_PP_Aabb_Conic>(version);
-    archive& BOOST_SERIALIZATION_BASE_OBJECT_NVP(Bo1_ConicPP_Aabb);
-}
+PP_ARCHIVE_AS_BASE(Bo1_PP_Aabb_Conic, Bo1_ConicPP_Aabb)
 
 } // namespace potential_particles
 
-BOOST_CLASS_EXPORT(potential_particles::Bo1_ConicPP_Aabb)
-BOOST_CLASS_EXPORT(potential_particles::Bo1_PP_Aabb_Conic)
+BOOST_CLASS_EXPORT_IMPLEMENT(potential_particles::Bo1_ConicPP_Aabb)
+BOOST_CLASS_EXPORT_IMPLEMENT(potential_particles::Bo1_PP_Aabb_Conic)

@@ -5,6 +5,7 @@
 
 #include "abi/archive.hpp"
 #include "abi/functor.hpp"
+#include "registration/class_table.hpp"
 
 #include <boost/serialization/access.hpp>
 
@@ -15,10 +16,7 @@ namespace potential_particles {
 class Bo1_ConicPP_Aabb : public yade::BoundFunctor {
 public:
     ~Bo1_ConicPP_Aabb() override;
-    std::string getBaseClassName(unsigned int index = 0) const override;
-    std::string getClassName() const override;
-    void pyRegisterClass(boost::python::object scope) override;
-    std::string get1DFunctorType1() const override;
+    PP_FUNCTOR_1D_OVERRIDES
 
     void go(const boost::shared_ptr<yade::Shape>& shape, boost::shared_ptr<yade::Bound>& bound, const yade::Se3r& at,
             const yade::Body* body) override;
@@ -32,10 +30,7 @@ private:
 class Bo1_PP_Aabb_Conic final : public Bo1_ConicPP_Aabb {
 public:
     ~Bo1_PP_Aabb_Conic() override;
-    std::string getBaseClassName(unsigned int index = 0) const override;
-    std::string getClassName() const override;
-    void pyRegisterClass(boost::python::object scope) override;
-    std::string get1DFunctorType1() const override;
+    PP_FUNCTOR_1D_OVERRIDES
 
 private:
     friend class boost::serialization::access;

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "registration/archives.hpp"
+#include "registration/definitions.hpp"
 
 #include "bound_watch.hpp"
 #include "bounding_box.hpp"
-#include "registration/class_versions.hpp"
 #include "shape/conic_potential_particle.hpp"
-#include "registration/python_class.hpp"
 #include "pair/turn_bound.hpp"
 
 #include <algorithm>
@@ -13,20 +11,9 @@
 
 namespace potential_particles {
 
-namespace {
-
-    constexpr char doc[]
-        = "Runs the collider when a potential particle, a facet or a box has left its bound, be it by turning about its centre,\n"
-          "which YADE's collider does not see. Put it before the collider and give that Bo1_ConicPP_Aabb (or Bo1_PP_Aabb_Conic\n"
-          "for plain shapes) and a verletDist > 0: no pair is missed, however bodies move, and the collider need not run in\n"
-          "each step.";
-
-} // namespace
-
 BoundWatch::~BoundWatch() = default;
 
-std::string BoundWatch::getClassName() const { return "BoundWatch"; }
-std::string BoundWatch::getBaseClassName(unsigned int index) const { return index == 0 ? "GlobalEngine" : ""; }
+PP_CLASS_DEFINITIONS(BoundWatch)
 
 bool BoundWatch::guards(const yade::Scene& scene)
 {
@@ -148,10 +135,10 @@ void BoundWatch::Inside::note(const Particle& particle, const yade::Se3r& at, co
 
 void BoundWatch::pyRegisterClass(py::object scope)
 {
-    checkPyClassRegistersItself("BoundWatch");
+    checkPyClassRegistersItself(Entry<BoundWatch>::name);
     const py::scope inside(scope);
     const auto style = docstringStyle();
-    registerClass<BoundWatch, yade::GlobalEngine>("BoundWatch", doc)
+    registerClass<BoundWatch, yade::GlobalEngine>()
         .add_property("requests", +[](const BoundWatch& watch) { return watch.requests; },
                       "How often the collider was asked to run since the scene was made or loaded.");
 }
@@ -164,4 +151,4 @@ template <class Archive> void BoundWatch::serialize(Archive& archive, unsigned v
 
 } // namespace potential_particles
 
-BOOST_CLASS_EXPORT(potential_particles::BoundWatch)
+BOOST_CLASS_EXPORT_IMPLEMENT(potential_particles::BoundWatch)

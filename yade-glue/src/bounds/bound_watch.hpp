@@ -19,6 +19,7 @@
 #include "abi/state.hpp"
 
 #include "particle/particle.hpp"
+#include "registration/class_table.hpp"
 
 #include <boost/serialization/access.hpp>
 
@@ -27,9 +28,7 @@ namespace potential_particles {
 class BoundWatch final : public yade::GlobalEngine {
 public:
     ~BoundWatch() override;
-    std::string getBaseClassName(unsigned int index = 0) const override;
-    std::string getClassName() const override;
-    void pyRegisterClass(boost::python::object scope) override;
+    PP_CLASS_OVERRIDES
 
     void action() override;
 

@@ -126,7 +126,8 @@ Box boxOfAnyTurn(const boost::shared_ptr<yade::Shape>& shape, const yade::Se3r& 
 
 bool hasCorners(const yade::Shape& shape)
 {
-    return typeid(shape) == typeid(yade::Facet) || typeid(shape) == typeid(yade::Box);
+    const StandIn* kind = standInOf(shape);
+    return kind ? kind->hullOf != nullptr : typeid(shape) == typeid(yade::Facet);
 }
 
 Box boxOfCorners(const yade::Shape& shape, const yade::Se3r& at, const yade::Scene& scene)
@@ -143,10 +144,12 @@ Box boxOfCorners(const yade::Shape& shape, const yade::Se3r& at, const yade::Sce
     if (typeid(shape) == typeid(yade::Facet)) {
         for (const Vector3r& vertex : static_cast<const yade::Facet&>(shape).vertices)
             add(vertex);
-    } else {
-        const Vector3r& half = static_cast<const yade::Box&>(shape).extents;
-        for (int i = 0; i < 8; ++i)
-            add(half.cwiseProduct(Vector3r(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1)));
+    } else if (const StandIn* kind = standInOf(shape)) {
+        const StandIn::Hull hull = kind->hullOf(kind->measuresOf(shape));
+        std::for_each_n(hull.points.begin(), hull.count, add);
+        const Vector3r reach = hull.radius * (cell ? Vector3r(cell->unshearTrsf.rowwise().norm()) : Vector3r::Ones().eval());
+        box.lower -= reach;
+        box.upper += reach;
     }
     return box;
 }

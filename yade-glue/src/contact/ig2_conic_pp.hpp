@@ -8,6 +8,7 @@
 #include "contact_settings.hpp"
 #include "counters.hpp"
 #include "failure_report.hpp"
+#include "registration/class_table.hpp"
 #include "shape/published.hpp"
 
 #include <boost/python/dict.hpp>
@@ -91,13 +92,7 @@ private:
 class Ig2_PP_PP_ScGeom_Conic final : public Ig2_ConicPP_ConicPP_ScGeom {
 public:
     ~Ig2_PP_PP_ScGeom_Conic() override;
-    std::string getBaseClassName(unsigned int index = 0) const override;
-    std::string getClassName() const override;
-    void pyRegisterClass(boost::python::object scope) override;
-
-    std::string get2DFunctorType1() const override;
-    std::string get2DFunctorType2() const override;
-    std::string checkOrder() const override;
+    PP_FUNCTOR_2D_OVERRIDES
 
 private:
     friend class boost::serialization::access;

@@ -1,31 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The contact functors' names, attributes, Python classes and archives.
-#include "registration/archives.hpp"
+#include "registration/definitions.hpp"
 
 #include "answer_path.hpp"
-#include "registration/class_versions.hpp"
 #include "ig2_conic_pp.hpp"
-#include "registration/python_class.hpp"
-
-#include <boost/serialization/base_object.hpp>
-#include <boost/serialization/string.hpp>
 
 #include <limits>
 
 namespace potential_particles {
 
 namespace {
-
-    constexpr char doc[]
-        = "Contact of two ConicPotentialParticle shapes: fills ScGeom (normal from body 1 to 2, contactPoint,\n"
-          "penetrationDepth; refR1, refR2: bounding radii) and, with KnKsPhys, its ptOnP1, ptOnP2 and contactArea.\n"
-          "Pairs that cannot be solved are counted in failures and described in failureReport; a contact then keeps\n"
-          "its last geometry. Laws that take spheres' lever arms must be told not to, for example\n"
-          "Law2_ScGeom_FrictPhys_CundallStrack(sphericalBodies=False).";
-    constexpr char plainDoc[]
-        = "As Ig2_ConicPP_ConicPP_ScGeom, for every pair of PotentialParticle shapes, plain ones too: put it in the\n"
-          "place of Ig2_PP_PP_ScGeom. Its keyword arguments are understood.";
 
     py::tuple pose(const pp_pose& given)
     {
@@ -41,24 +26,11 @@ Ig2_ConicPP_ConicPP_ScGeom::Ig2_ConicPP_ConicPP_ScGeom() { settle(); }
 Ig2_ConicPP_ConicPP_ScGeom::~Ig2_ConicPP_ConicPP_ScGeom() = default;
 Ig2_PP_PP_ScGeom_Conic::~Ig2_PP_PP_ScGeom_Conic() = default;
 
-std::string Ig2_ConicPP_ConicPP_ScGeom::getClassName() const { return "Ig2_ConicPP_ConicPP_ScGeom"; }
+PP_FUNCTOR_2D_DEFINITIONS(Ig2_ConicPP_ConicPP_ScGeom)
 int Ig2_ConicPP_ConicPP_ScGeom::getBaseClassNumber() const { return 1; }
-std::string Ig2_ConicPP_ConicPP_ScGeom::getBaseClassName(unsigned int index) const
-{
-    return index == 0 ? "IGeomFunctor" : "";
-}
-std::string Ig2_ConicPP_ConicPP_ScGeom::get2DFunctorType1() const { return "ConicPotentialParticle"; }
-std::string Ig2_ConicPP_ConicPP_ScGeom::get2DFunctorType2() const { return "ConicPotentialParticle"; }
-std::string Ig2_ConicPP_ConicPP_ScGeom::checkOrder() const { return "ConicPotentialParticle ConicPotentialParticle"; }
 
-std::string Ig2_PP_PP_ScGeom_Conic::getClassName() const { return "Ig2_PP_PP_ScGeom_Conic"; }
-std::string Ig2_PP_PP_ScGeom_Conic::getBaseClassName(unsigned int index) const
-{
-    return index == 0 ? "Ig2_ConicPP_ConicPP_ScGeom" : "";
-}
-std::string Ig2_PP_PP_ScGeom_Conic::get2DFunctorType1() const { return "PotentialParticle"; }
-std::string Ig2_PP_PP_ScGeom_Conic::get2DFunctorType2() const { return "PotentialParticle"; }
-std::string Ig2_PP_PP_ScGeom_Conic::checkOrder() const { return "PotentialParticle PotentialParticle"; }
+PP_FUNCTOR_2D_DEFINITIONS(Ig2_PP_PP_ScGeom_Conic)
+PP_PYTHON_AS_BASE(Ig2_PP_PP_ScGeom_Conic, Ig2_ConicPP_ConicPP_ScGeom)
 
 void Ig2_ConicPP_ConicPP_ScGeom::settle()
 {
@@ -107,11 +79,11 @@ py::dict Ig2_ConicPP_ConicPP_ScGeom::pyDict() const
 
 void Ig2_ConicPP_ConicPP_ScGeom::pyRegisterClass(py::object scope)
 {
-    checkPyClassRegistersItself("Ig2_ConicPP_ConicPP_ScGeom");
+    checkPyClassRegistersItself(Entry<Ig2_ConicPP_ConicPP_ScGeom>::name);
     const py::scope inside(scope);
     const auto style = docstringStyle();
     using Functor = Ig2_ConicPP_ConicPP_ScGeom;
-    auto registered = registerClass<Functor, yade::IGeomFunctor>("Ig2_ConicPP_ConicPP_ScGeom", doc);
+    auto registered = registerClass<Functor, yade::IGeomFunctor>();
 
     ContactSettings::eachAttribute([&](const char* name, auto member, const char* attributeDoc) {
         using Value = typename Pointed<decltype(member)>::type;
@@ -154,14 +126,6 @@ void Ig2_ConicPP_ConicPP_ScGeom::pyRegisterClass(py::object scope)
         .add_property("failureReport", &Functor::pyFailureReport,
                       "First failure of each pair: dicts of ids, poses ((position), (w, x, y, z)) and message.")
         .def("resetCounters", &Functor::pyResetCounters, "Sets all counters to 0 and empties failureReport.");
-}
-
-void Ig2_PP_PP_ScGeom_Conic::pyRegisterClass(py::object scope)
-{
-    checkPyClassRegistersItself("Ig2_PP_PP_ScGeom_Conic");
-    const py::scope inside(scope);
-    const auto style = docstringStyle();
-    registerClass<Ig2_PP_PP_ScGeom_Conic, Ig2_ConicPP_ConicPP_ScGeom>("Ig2_PP_PP_ScGeom_Conic", plainDoc);
 }
 
 py::list Ig2_ConicPP_ConicPP_ScGeom::pyFailureReport() const
@@ -245,14 +209,9 @@ template void Ig2_ConicPP_ConicPP_ScGeom::serialize(boost::archive::binary_oarch
 template void Ig2_ConicPP_ConicPP_ScGeom::serialize(boost::archive::xml_iarchive&, unsigned);
 template void Ig2_ConicPP_ConicPP_ScGeom::serialize(boost::archive::xml_oarchive&, unsigned);
 
-template <class Archive> void Ig2_PP_PP_ScGeom_Conic::serialize(Archive& archive, unsigned version)
-{
-    requireReadable<Ig2_PP_PP_ScGeom_Conic>(version);
-    // The base is ours, so Boost's own way works here.
-    archive& BOOST_SERIALIZATION_BASE_OBJECT_NVP(Ig2_ConicPP_ConicPP_ScGeom);
-}
+PP_ARCHIVE_AS_BASE(Ig2_PP_PP_ScGeom_Conic, Ig2_ConicPP_ConicPP_ScGeom)
 
 } // namespace potential_particles
 
-BOOST_CLASS_EXPORT(potential_particles::Ig2_ConicPP_ConicPP_ScGeom)
-BOOST_CLASS_EXPORT(potential_particles::Ig2_PP_PP_ScGeom_Conic)
+BOOST_CLASS_EXPORT_IMPLEMENT(potential_particles::Ig2_ConicPP_ConicPP_ScGeom)
+BOOST_CLASS_EXPORT_IMPLEMENT(potential_particles::Ig2_PP_PP_ScGeom_Conic)

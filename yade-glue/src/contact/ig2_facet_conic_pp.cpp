@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Facets, and which of them has a contact at a seam.
-#include "abi/knksphys.hpp"
+#include "registration/definitions.hpp"
 
+#include "abi/knksphys.hpp"
 #include "flat_pair.hpp"
-#include "ig2_flat_conic_pp.hpp"
+#include "ig2_facet_conic_pp.hpp"
 
 namespace potential_particles {
 
@@ -39,6 +40,11 @@ namespace {
     }
 
 } // namespace
+
+Ig2_Facet_ConicPP_ScGeom::~Ig2_Facet_ConicPP_ScGeom() = default;
+PP_FUNCTOR_2D_DEFINITIONS(Ig2_Facet_ConicPP_ScGeom)
+PP_PYTHON_AS_BASE(Ig2_Facet_ConicPP_ScGeom, Ig2_ConicPP_ConicPP_ScGeom)
+PP_ARCHIVE_AS_BASE(Ig2_Facet_ConicPP_ScGeom, Ig2_ConicPP_ConicPP_ScGeom)
 
 BoundaryPoints Ig2_Facet_ConicPP_ScGeom::pointsOf(const FlatPair& pair) const
 {
@@ -154,3 +160,5 @@ const yade::Interaction* Ig2_Facet_ConicPP_ScGeom::ownerOf(const FlatPair& pair,
 }
 
 } // namespace potential_particles
+
+BOOST_CLASS_EXPORT_IMPLEMENT(potential_particles::Ig2_Facet_ConicPP_ScGeom)

@@ -3,13 +3,6 @@
 
 namespace potential_particles {
 
-std::string Ig2_Other_ConicPP::getBaseClassName(unsigned int index) const
-{
-    return index == 0 ? "Ig2_ConicPP_ConicPP_ScGeom" : "";
-}
-std::string Ig2_Other_ConicPP::get2DFunctorType2() const { return "PotentialParticle"; }
-std::string Ig2_Other_ConicPP::checkOrder() const { return get2DFunctorType1() + " " + get2DFunctorType2(); }
-
 bool Ig2_Other_ConicPP::goReverse(const boost::shared_ptr<yade::Shape>& shape1, const boost::shared_ptr<yade::Shape>& shape2,
                                   const yade::State& state1, const yade::State& state2, const yade::Vector3r& shift2,
                                   const bool& force, const boost::shared_ptr<yade::Interaction>& interaction) noexcept

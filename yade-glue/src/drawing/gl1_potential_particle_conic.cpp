@@ -2,7 +2,7 @@
 #include "gl1_potential_particle_conic.hpp"
 
 #include "particle/particle_store.hpp"
-#include "registration/python_class.hpp"
+#include "registration/definitions.hpp"
 
 #include <GL/gl.h>
 #include <dlfcn.h>
@@ -14,10 +14,6 @@
 namespace potential_particles {
 
 namespace {
-
-    constexpr char doc[]
-        = "Draws potential particles, plain ones too, in YADE's 3-D window, as triangles that are within 1 % of the bounding radius\n"
-          "of their surface. The plugin gives it to the window (yade.qt) by itself. Shape.wire, and wire of the renderer, draw lines.";
 
     // OpenGL as the process has it: the plugin must load where there is none, and YADE draws with what its window loads.
     struct OpenGL {
@@ -75,12 +71,7 @@ namespace {
 
 Gl1_PotentialParticle_Conic::~Gl1_PotentialParticle_Conic() = default;
 
-std::string Gl1_PotentialParticle_Conic::getClassName() const { return "Gl1_PotentialParticle_Conic"; }
-std::string Gl1_PotentialParticle_Conic::getBaseClassName(unsigned int index) const
-{
-    return index == 0 ? "GlShapeFunctor" : "";
-}
-std::string Gl1_PotentialParticle_Conic::get1DFunctorType1() const { return "PotentialParticle"; }
+PP_FUNCTOR_1D_DEFINITIONS(Gl1_PotentialParticle_Conic)
 std::string Gl1_PotentialParticle_Conic::renders() const { return get1DFunctorType1(); }
 
 // Called from the event loop of the window, which no exception may reach.
@@ -126,12 +117,6 @@ const DrawnMesh& Gl1_PotentialParticle_Conic::meshOf(const std::shared_ptr<const
     return meshes.emplace(particle->serial, Kept { particle, std::move(made) }).first->second.mesh;
 }
 
-void Gl1_PotentialParticle_Conic::pyRegisterClass(py::object scope)
-{
-    checkPyClassRegistersItself("Gl1_PotentialParticle_Conic");
-    const py::scope inside(scope);
-    const auto style = docstringStyle();
-    registerClass<Gl1_PotentialParticle_Conic, yade::GlShapeFunctor>("Gl1_PotentialParticle_Conic", doc);
-}
+PP_PYTHON_AS_BASE(Gl1_PotentialParticle_Conic, yade::GlShapeFunctor)
 
 } // namespace potential_particles

@@ -5,6 +5,7 @@
 
 #include "abi/window.hpp"
 #include "drawn_mesh.hpp"
+#include "registration/class_table.hpp"
 
 #include <memory>
 #include <unordered_map>
@@ -16,10 +17,7 @@ namespace potential_particles {
 class Gl1_PotentialParticle_Conic final : public yade::GlShapeFunctor {
 public:
     ~Gl1_PotentialParticle_Conic() override;
-    std::string getBaseClassName(unsigned int index = 0) const override;
-    std::string getClassName() const override;
-    void pyRegisterClass(boost::python::object scope) override;
-    std::string get1DFunctorType1() const override;
+    PP_FUNCTOR_1D_OVERRIDES
     std::string renders() const override;
 
     // Only the window's own thread draws.

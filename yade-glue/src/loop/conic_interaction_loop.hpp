@@ -5,6 +5,7 @@
 
 #include "abi/archive.hpp"
 #include "abi/engine.hpp"
+#include "registration/class_table.hpp"
 #include "step.hpp"
 
 #include <boost/serialization/access.hpp>
@@ -18,9 +19,7 @@ class ConicInteractionLoop final : public yade::InteractionLoop {
 public:
     ConicInteractionLoop();
     ~ConicInteractionLoop() override;
-    std::string getBaseClassName(unsigned int index = 0) const override;
-    std::string getClassName() const override;
-    void pyRegisterClass(boost::python::object scope) override;
+    PP_CLASS_OVERRIDES
 
     void action() override;
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "registration/archives.hpp"
+#include "registration/definitions.hpp"
 
-#include "registration/class_versions.hpp"
-#include "registration/python_class.hpp"
 #include "sc_geom_conic_pp.hpp"
 
 #include <boost/serialization/binary_object.hpp>
@@ -12,8 +10,6 @@
 namespace potential_particles {
 
 namespace {
-    constexpr char doc[] = "Contact geometry of potential particles: an ScGeom that also remembers where the last solution\n"
-                           "of this pair was, so that the next one starts there. Saved and loaded with the scene.";
     constexpr char digits[] = "0123456789abcdef";
     // What a memory took up in files of class version 0; it was the first part of what it is now.
     constexpr std::size_t oldSize = 64;
@@ -23,9 +19,8 @@ namespace {
 ScGeomConicPP::ScGeomConicPP() = default;
 ScGeomConicPP::~ScGeomConicPP() = default;
 
-std::string ScGeomConicPP::getClassName() const { return "ScGeomConicPP"; }
+PP_CLASS_DEFINITIONS(ScGeomConicPP)
 int ScGeomConicPP::getBaseClassNumber() const { return 1; }
-std::string ScGeomConicPP::getBaseClassName(unsigned int index) const { return index == 0 ? "ScGeom" : ""; }
 void ScGeomConicPP::callPostLoad() { ScGeom::callPostLoad(); }
 
 // In hexadecimal digits: the library may keep bit patterns in it that no decimal number carries.
@@ -81,10 +76,10 @@ py::dict ScGeomConicPP::pyDict() const
 
 void ScGeomConicPP::pyRegisterClass(py::object scope)
 {
-    checkPyClassRegistersItself("ScGeomConicPP");
+    checkPyClassRegistersItself(Entry<ScGeomConicPP>::name);
     const py::scope inside(scope);
     const auto style = docstringStyle();
-    auto registered = registerClass<ScGeomConicPP, yade::ScGeom>("ScGeomConicPP", doc);
+    auto registered = registerClass<ScGeomConicPP, yade::ScGeom>();
     registered.add_property("memory", &ScGeomConicPP::pyMemory, &ScGeomConicPP::pySetMemory,
                             "The library's memory of the pair, as hexadecimal digits.");
 }
@@ -102,4 +97,4 @@ template <class Archive> void ScGeomConicPP::serialize(Archive& archive, unsigne
 
 } // namespace potential_particles
 
-BOOST_CLASS_EXPORT(potential_particles::ScGeomConicPP)
+BOOST_CLASS_EXPORT_IMPLEMENT(potential_particles::ScGeomConicPP)

@@ -37,19 +37,16 @@ inline const yade::PotentialParticle* potentialParticle(const yade::Shape& shape
     return dynamic_cast<const yade::PotentialParticle*>(&shape);
 }
 
-// The same for every shape that is a particle: a PotentialParticle, a Sphere or a Box. Throws std::invalid_argument for
-// others.
+// The same for every shape that is a particle: a PotentialParticle or one with a stand-in. Throws std::invalid_argument for others.
 inline const Particle* particleOf(const boost::shared_ptr<yade::Shape>& shape, std::shared_ptr<const Particle>& keeper)
 {
     const yade::Shape& one = *shape;
-    if (typeid(one) == typeid(yade::Sphere))
-        keeper = ParticleStore::instance().find(shape, static_cast<const yade::Sphere&>(one));
-    else if (typeid(one) == typeid(yade::Box))
-        keeper = ParticleStore::instance().find(shape, static_cast<const yade::Box&>(one));
+    if (const StandIn* kind = standInOf(one))
+        keeper = ParticleStore::instance().find(shape, *kind);
     else if (const auto* pp = potentialParticle(one))
         return particleOf(shape, *pp, keeper);
-    else if (const auto* sphere = dynamic_cast<const yade::Sphere*>(&one)) // a shape of YADE derived from it
-        keeper = ParticleStore::instance().find(shape, *sphere);
+    else if (const StandIn* kind = standInOfBase(one))
+        keeper = ParticleStore::instance().find(shape, *kind);
     else
         throw std::invalid_argument("a " + one.getClassName() + " is no particle");
     return keeper.get();

@@ -3,15 +3,9 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <cstring>
 
 namespace potential_particles {
-
-namespace {
-
-    bool describes(const Definition& definition, const yade::PotentialParticle& shape) { return definition.describes(shape); }
-    Definition definitionOf(const yade::PotentialParticle& shape) { return Definition::of(shape); }
-
-} // namespace
 
 ParticleStore& ParticleStore::instance()
 {
@@ -23,35 +17,41 @@ ParticleStore& ParticleStore::instance()
 std::shared_ptr<const Particle> ParticleStore::find(const boost::shared_ptr<yade::Shape>& owner,
                                                     const yade::PotentialParticle& shape)
 {
-    return findOrMake(owner, shape);
+    return findOrMake(
+        owner, &shape, nullptr, {}, [&](const Entry& entry) { return !entry.kind && entry.particle->definition.describes(shape); },
+        [&] { return Definition::of(shape); });
 }
 
-std::shared_ptr<const Particle> ParticleStore::find(const boost::shared_ptr<yade::Shape>& owner, const yade::Sphere& shape)
+std::shared_ptr<const Particle> ParticleStore::find(const boost::shared_ptr<yade::Shape>& owner, const StandIn& kind)
 {
-    return findOrMake(owner, shape);
+    const StandIn::Measures measures = kind.measuresOf(*owner);
+    return findOrMake(
+        owner, owner.get(), &kind, measures,
+        [&](const Entry& entry) {
+            // Bit for bit, so that a NaN equals itself.
+            return entry.kind == &kind && std::memcmp(&entry.measures, &measures, sizeof measures) == 0;
+        },
+        [&] { return kind.definitionOf(measures); });
 }
 
-std::shared_ptr<const Particle> ParticleStore::find(const boost::shared_ptr<yade::Shape>& owner, const yade::Box& shape)
+template <class Describes, class MakeDefinition>
+std::shared_ptr<const Particle> ParticleStore::findOrMake(const boost::shared_ptr<yade::Shape>& owner, const void* address,
+                                                          const StandIn* kind, const StandIn::Measures& measures,
+                                                          Describes describes, MakeDefinition definitionOf)
 {
-    return findOrMake(owner, shape);
-}
-
-template <class Shape>
-std::shared_ptr<const Particle> ParticleStore::findOrMake(const boost::shared_ptr<yade::Shape>& owner, const Shape& shape)
-{
-    Shard& shard = shardOf(&shape);
+    Shard& shard = shardOf(address);
     Definition definition;
     {
         const std::lock_guard<std::mutex> lock(shard.mutex);
-        const auto found = shard.entries.find(&shape);
-        if (found != shard.entries.end() && describes(found->second.particle->definition, shape))
+        const auto found = shard.entries.find(address);
+        if (found != shard.entries.end() && describes(found->second))
             return found->second.particle;
-        definition = definitionOf(shape);
+        definition = definitionOf();
     }
     // Made outside the lock: two threads may both make it, which is waste and no error.
     auto made = Particle::make(std::move(definition));
     const std::lock_guard<std::mutex> lock(shard.mutex);
-    shard.entries[&shape] = { owner, made };
+    shard.entries[address] = { owner, made, kind, measures };
     if (shard.entries.size() >= shard.sweepAt)
         sweep(shard);
     return made;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The library's particles of shapes that cannot carry one: YADE's own PotentialParticle, Sphere and Box.
+// The library's particles of shapes that cannot carry one: YADE's own PotentialParticle and the stand-ins.
 #pragma once
 
 #include "particle.hpp"
@@ -24,8 +24,8 @@ public:
 
     std::shared_ptr<const Particle> find(const boost::shared_ptr<yade::Shape>& owner,
                                          const yade::PotentialParticle& shape);
-    std::shared_ptr<const Particle> find(const boost::shared_ptr<yade::Shape>& owner, const yade::Sphere& shape);
-    std::shared_ptr<const Particle> find(const boost::shared_ptr<yade::Shape>& owner, const yade::Box& shape);
+    // As the stand-in has it.
+    std::shared_ptr<const Particle> find(const boost::shared_ptr<yade::Shape>& owner, const StandIn& kind);
     // Held while the lists of a shape are compared or copied here; who sets them while a step may be
     // going on holds it too (plane_lists.hpp). Nobody may ask for Python's lock while holding it.
     std::mutex& mutexOf(const yade::PotentialParticle& shape) { return shardOf(&shape).mutex; }
@@ -36,6 +36,9 @@ private:
     struct Entry {
         boost::weak_ptr<yade::Shape> owner;
         std::shared_ptr<const Particle> particle;
+        // What it was made of, unless it is a PotentialParticle.
+        const StandIn* kind;
+        StandIn::Measures measures;
     };
     struct Shard {
         std::mutex mutex;
@@ -44,8 +47,10 @@ private:
         std::size_t sweepAt = 64;
     };
 
-    template <class Shape>
-    std::shared_ptr<const Particle> findOrMake(const boost::shared_ptr<yade::Shape>& owner, const Shape& shape);
+    // describes(entry): whether the entry is still right; definition(): of a particle that is made, under the lock.
+    template <class Describes, class MakeDefinition>
+    std::shared_ptr<const Particle> findOrMake(const boost::shared_ptr<yade::Shape>& owner, const void* address, const StandIn* kind,
+                                               const StandIn::Measures& measures, Describes describes, MakeDefinition definitionOf);
     Shard& shardOf(const void* address);
     static void sweep(Shard& shard);
 

@@ -1,24 +1,38 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The particles that YADE's spheres and boxes are.
+// YADE's shapes that are particles themselves.
 #pragma once
 
-#include "abi/primitives.hpp"
 #include "particle.hpp"
+
+#include <array>
+#include <typeinfo>
 
 namespace potential_particles {
 
-// Edges and corners of a box are rounded by this share of its least half size: as little as makes no difference to any
-// contact, and over a thousand times what the contact area needs (pp_contact_area). The faces stay where they are.
-constexpr double boxRounding = 1e-6;
+// One of them, as a row of the table in stand_in.cpp.
+struct StandIn {
+    // The attributes that say which particle it is; what is left over is 0.
+    using Measures = std::array<double, 4>;
 
-// k = 1: the shadow sphere alone.
-Definition definitionOf(const yade::Sphere& sphere);
-// k = 0: six planes.
-Definition definitionOf(const yade::Box& box);
+    // The shape is the convex hull of balls of this radius about these points, local axes.
+    struct Hull {
+        std::array<yade::Vector3r, 8> points;
+        std::size_t count;
+        double radius;
+    };
 
-// Whether the particle of the shape has this definition, bit for bit, without making it anew.
-bool describes(const Definition& definition, const yade::Sphere& sphere);
-bool describes(const Definition& definition, const yade::Box& box);
+    const std::type_info& shape;
+    bool (*isBaseOf)(const yade::Shape&);
+    Measures (*measuresOf)(const yade::Shape&);
+    Definition (*definitionOf)(const Measures&);
+    // Null where a turn moves nothing.
+    Hull (*hullOf)(const Measures&);
+};
+
+// Of a shape of exactly such a class, else null.
+const StandIn* standInOf(const yade::Shape& shape);
+// Of a shape whose class is derived from one of them, else null. Takes longer.
+const StandIn* standInOfBase(const yade::Shape& shape);
 
 } // namespace potential_particles

@@ -14,6 +14,7 @@
 
 #include <boost/archive/basic_archive.hpp>
 #include <boost/python/def.hpp>
+#include <boost/python/dict.hpp>
 #include <boost/python/list.hpp>
 #include <boost/python/module.hpp>
 #include <boost/python/scope.hpp>
@@ -44,10 +45,16 @@ void setListOf(yade::PotentialParticle& shape, const std::string& name, const py
 
 BOOST_PYTHON_MODULE(_glue)
 {
+    // Of the class table: the names, and the two shapes that each contact functor serves.
     py::list names;
-    for (const char* name : pp::classNames)
-        names.append(name);
+    py::dict pairs;
+#define PP_CLASS(Name, Base, First, Second, Version, Doc)                                          \
+    names.append(#Name);                                                                           \
+    if (*Second)                                                                                   \
+        pairs[#Name] = py::make_tuple(First, Second);
+#include "class_table.inc"
     py::scope().attr("class_names") = names;
+    py::scope().attr("served_pairs") = pairs;
     py::scope().attr("header_version") = py::make_tuple(PP_VERSION_MAJOR, PP_VERSION_MINOR, PP_VERSION_PATCH);
     py::scope().attr("header_abi") = PP_ABI_VERSION;
 

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "registration/archives.hpp"
+#include "registration/definitions.hpp"
 
-#include "registration/class_versions.hpp"
 #include "conic_potential_particle.hpp"
 #include "plane_lists.hpp"
 #include "particle/pose.hpp"
-#include "registration/python_class.hpp"
 
 #include <algorithm>
 #include <array>
@@ -48,12 +46,8 @@ ConicPotentialParticle::ConicPotentialParticle()
 
 ConicPotentialParticle::~ConicPotentialParticle() = default;
 
-std::string ConicPotentialParticle::getClassName() const { return "ConicPotentialParticle"; }
+PP_CLASS_DEFINITIONS(ConicPotentialParticle)
 int ConicPotentialParticle::getBaseClassNumber() const { return 1; }
-std::string ConicPotentialParticle::getBaseClassName(unsigned int index) const
-{
-    return index == 0 ? "PotentialParticle" : "";
-}
 
 int& ConicPotentialParticle::modifyClassIndex()
 {
@@ -216,4 +210,4 @@ template <class Archive> void ConicPotentialParticle::serialize(Archive& archive
 
 } // namespace potential_particles
 
-BOOST_CLASS_EXPORT(potential_particles::ConicPotentialParticle)
+BOOST_CLASS_EXPORT_IMPLEMENT(potential_particles::ConicPotentialParticle)

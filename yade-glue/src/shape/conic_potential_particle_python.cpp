@@ -4,23 +4,11 @@
 #include "conic_potential_particle.hpp"
 #include "plane_lists.hpp"
 #include "particle/pose.hpp"
-#include "registration/python_class.hpp"
+#include "registration/definitions.hpp"
 
 namespace potential_particles {
 
 using yade::Vector3r;
-
-namespace {
-
-    constexpr char doc[]
-        = "Potential particle whose contacts are found by the potential-particles library.\n\n"
-          "A convex shape of planes (a, b, c, d), rounding radius r, sphericity k and shadow sphere of radius R:\n"
-          "(1-k)/r^2 * sum <a x + b y + c z - d>^2 + k/R^2 * |x|^2 = 1 on the surface, with <t> = max(t, 0).\n"
-          "An invalid particle raises ValueError when it is made or changed. Without any box attribute the\n"
-          "bounding box is computed. Use with PotentialParticle2AABB, or BoundWatch and Bo1_ConicPP_Aabb, and\n"
-          "Ig2_ConicPP_ConicPP_ScGeom.";
-
-} // namespace
 
 py::list ConicPotentialParticle::pyPlanes() const
 {
@@ -180,12 +168,12 @@ namespace {
 
 void ConicPotentialParticle::pyRegisterClass(py::object scope)
 {
-    checkPyClassRegistersItself("ConicPotentialParticle");
+    checkPyClassRegistersItself(Entry<ConicPotentialParticle>::name);
     const py::scope inside(scope);
     const auto style = docstringStyle();
     using Base = yade::PotentialParticle;
     using Shape = ConicPotentialParticle;
-    auto registered = registerClass<Shape, Base>("ConicPotentialParticle", doc);
+    auto registered = registerClass<Shape, Base>();
 
     defining(registered, "a", &Base::a, "First component of each plane normal. See planes for setting all four lists at once.");
     defining(registered, "b", &Base::b, "Second component of each plane normal.");
