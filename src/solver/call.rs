@@ -18,7 +18,7 @@ use crate::pair::body::Body;
 use crate::pair::memory::Remembered;
 use crate::pair::pair::Pair;
 use crate::pair::role::Role;
-use crate::reference::{self, ConicError};
+use crate::reference::{self, ConeProgramError};
 use crate::settings::{BackEnd, Settings};
 use crate::solver::newton::{self, Goal};
 use crate::solver::{extended, initial_guess};
@@ -35,7 +35,7 @@ pub(crate) enum SolveError {
     #[error("the iteration in extended precision did not settle: values of S leave the range of numbers")]
     Unsettled,
     #[error("the cone program: {0}")]
-    Conic(#[from] ConicError),
+    ConeProgram(#[from] ConeProgramError),
 }
 
 /// One of the closest points, with its bounds.
@@ -119,7 +119,7 @@ impl<'a> Call<'a> {
         model: &mut LocalModel,
         first: Option<Step>,
     ) -> Result<Solution, SolveError> {
-        if self.settings.back_end == BackEnd::Conic {
+        if self.settings.back_end == BackEnd::ConeProgram {
             return self.by_cone_program(problem, model);
         }
         let goal = self.goal(problem);

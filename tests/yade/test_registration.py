@@ -82,7 +82,7 @@ check.equal(from_plain.planes, cube().planes, "from the dict of a plain shape")
 check.equal(from_plain.vertices, cube().vertices, "which gets a box, having had none")
 
 # Functor and geometry.
-keywords = dict(formulation="closest", backEnd="conic", tolerance=1e-9, flatRegularisation=1e-4, carryTolerance=1e-8,
+keywords = dict(formulation="closest", backEnd="cone_program", tolerance=1e-9, flatRegularisation=1e-4, carryTolerance=1e-8,
                 calContactArea=False, areaTolerance=1e-5, twoDimension=True, twoDdir=Vector3(0, 0, 1), unitWidth2D=2.0, areaStep=3,
                 accuracyTol=1e-6, measureTime=True, label="contacts")
 functor_ = yade.Ig2_ConicPP_ConicPP_ScGeom(**keywords)
@@ -114,6 +114,7 @@ for keyword, value in [("formulation", "nearest"), ("backEnd", "mosek"), ("toler
     before = getattr(functor_, keyword)
     check.raises(ValueError, lambda: setattr(functor_, keyword, value), f"{keyword} set to {value}", keyword)
     check.equal(getattr(functor_, keyword), before, f"{keyword} after a refused value")
+check.raises(ValueError, lambda: yade.Ig2_ConicPP_ConicPP_ScGeom(backEnd="conic"), "the former name of a back end", "'cone_program'")
 geometry = yade.ScGeomConicPP(memory="0123456789abcdef" * 16, normal=(0, 0, 1), contactPoint=(1, 2, 3))
 same(geometry, copy.copy(geometry), "copy of a geometry")
 check.raises(ValueError, lambda: yade.ScGeomConicPP(memory="xy"), "memory of wrong length", "256")

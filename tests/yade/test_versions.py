@@ -112,6 +112,14 @@ for old in sorted(DATA.glob("classes_*.xml")):
     check.true(O.interactions[0, 1].isReal, f"{old.name}: it goes on")
     check.equal((functor().failures, functor().calls), (0, 50), f"{old.name}: failures and calls")
 
+# Files saved while the back end 'cone_program' was called 'conic'.
+former, changed = re.subn("<backEnd>fast</backEnd>", "<backEnd>conic</backEnd>", text)
+check.true(changed >= 2, f"{changed} functors with that back end")
+open(path, "w").write(former)
+O.reset()
+O.load(path)
+check.equal({one.backEnd for one in engine(yade.InteractionLoop).geomDispatcher.functors}, {"cone_program"}, "the former name of a back end")
+
 # A class of a newer version: refused with a sentence, and what is whole can be loaded after that.
 for name, version in versions(text).items():
     newer, changed = re.subn(rf'(::{name}" tracking_level="\d" version=)"\d+"', rf'\g<1>"{version + 1}"', text)

@@ -24,7 +24,7 @@ constexpr AnswerPath answerPaths[] = {
     { Count::carried, "carried", false }, // touching: the contact of the last step, carried on
     { Count::warm, "warm", false }, // solved from the remembered point
     { Count::cold, "cold", false }, // solved from nothing
-    { Count::conic, "conic", false }, // solved as a cone program
+    { Count::coneProgram, "cone_program", false }, // solved as a cone program
 };
 
 inline Count pathOf(const pp_contact& found)
@@ -35,8 +35,8 @@ inline Count pathOf(const pp_contact& found)
         return Count::face;
     if (found.flags & PP_FLAG_BY_MEMORY)
         return Count::memory;
-    if (found.back_end == PP_CONIC)
-        return Count::conic;
+    if (found.back_end == PP_CONE_PROGRAM)
+        return Count::coneProgram;
     if (found.flags & PP_FLAG_REJECTED)
         return Count::proof;
     if (found.flags & PP_FLAG_CARRIED)

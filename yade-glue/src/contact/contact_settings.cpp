@@ -89,12 +89,14 @@ pp_settings ContactSettings::parsed() const
 
     if (backEnd == "fast")
         settings.back_end = PP_FAST;
+    else if (backEnd == "cone_program")
+        settings.back_end = PP_CONE_PROGRAM;
     else if (backEnd == "conic")
-        settings.back_end = PP_CONIC;
+        refuse("backEnd", "'conic'", "it is called 'cone_program' now");
     else
-        refuse("backEnd", "'" + backEnd + "'", "choose 'fast' or 'conic'");
-    if (trial.status(settings) == PP_NO_CONIC)
-        refuse("backEnd", "'conic'", pp_status_message(PP_NO_CONIC));
+        refuse("backEnd", "'" + backEnd + "'", "choose 'fast' or 'cone_program'");
+    if (trial.status(settings) == PP_NO_CONE_PROGRAM)
+        refuse("backEnd", "'cone_program'", pp_status_message(PP_NO_CONE_PROGRAM));
 
     settings.gap_tolerance = tolerance;
     if (!trial.accepts(settings))

@@ -40,7 +40,7 @@ struct ContactSettings {
               "'midway' (the point that minimises the larger of both potentials, as Ig2_PP_PP_ScGeom does) or 'closest' "
               "(the deepest point of each particle in the other, paper eqs 34-43).");
         visit("backEnd", &S::backEnd,
-              "'fast' (the library's own solver) or 'conic' (the second-order cone "
+              "'fast' (the library's own solver) or 'cone_program' (the second-order cone "
               "programs of the paper: slow, for comparison).");
         visit("tolerance", &S::tolerance, "Relative gap of the squared scale at which the solver may stop.");
         visit("flatRegularisation", &S::flatRegularisation,

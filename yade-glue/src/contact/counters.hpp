@@ -12,7 +12,7 @@
 
 namespace potential_particles {
 
-// The first ones, up to `conic`, are the ways in which a pair may be answered (answer_path.hpp).
+// The first ones, up to `coneProgram`, are the ways in which a pair may be answered (answer_path.hpp).
 enum class Count {
     motion,
     spheres,
@@ -22,7 +22,7 @@ enum class Count {
     carried,
     warm,
     cold,
-    conic,
+    coneProgram,
     calls,
     overlapping,
     areas,

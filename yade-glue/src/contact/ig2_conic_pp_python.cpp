@@ -114,7 +114,7 @@ void Ig2_ConicPP_ConicPP_ScGeom::pyRegisterClass(py::object scope)
                       "How many pairs were answered in which way: without a solve, apart because their 'motion' was less than "
                       "the distance that was between them, by bounding 'spheres', by a 'face', or by 'memory' of what "
                       "separated them before; apart by a 'proof' that the solver met; 'carried' on from the contact of the last step; solved "
-                      "from the remembered point ('warm') or from nothing ('cold'); or by the 'conic' back end.")
+                      "from the remembered point ('warm') or from nothing ('cold'); or by the 'cone_program' back end.")
         .add_property("rejected", &Functor::pyRejected, "Pairs proved separated without solving to the end.")
         .add_property("solved", &Functor::pySolved, "Pairs solved to the end; those carried on are not.")
         .add_property("skippedShare", &Functor::pySkippedShare,
@@ -159,7 +159,7 @@ std::uint64_t Ig2_ConicPP_ConicPP_ScGeom::pyRejected() const
 
 std::uint64_t Ig2_ConicPP_ConicPP_ScGeom::pySolved() const
 {
-    return counters.total(Count::warm) + counters.total(Count::cold) + counters.total(Count::conic);
+    return counters.total(Count::warm) + counters.total(Count::cold) + counters.total(Count::coneProgram);
 }
 
 double Ig2_ConicPP_ConicPP_ScGeom::pySkippedShare() const
@@ -199,8 +199,11 @@ template <class Archive> void Ig2_ConicPP_ConicPP_ScGeom::serialize(Archive& arc
         if (version > 0 || std::string(name) != "carryTolerance")
             archiveAttribute(archive, name, written.*member);
     });
-    if (Archive::is_loading::value)
+    if (Archive::is_loading::value) {
+        if (written.backEnd == "conic") // the name of files saved before it was changed
+            written.backEnd = "cone_program";
         settle();
+    }
 }
 
 // For the classes derived from it elsewhere.
