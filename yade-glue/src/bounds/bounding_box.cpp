@@ -3,7 +3,7 @@
 
 #include "abi/primitives.hpp"
 #include "shape/conic_potential_particle.hpp"
-#include "particle/particle_of.hpp"
+#include "shape/particle_of.hpp"
 
 #include <algorithm>
 #include <limits>

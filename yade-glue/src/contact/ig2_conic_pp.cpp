@@ -6,7 +6,7 @@
 #include "answer_path.hpp"
 #include "ig2_conic_pp.hpp"
 #include "pair_in_scene.hpp"
-#include "particle/particle_of.hpp"
+#include "shape/particle_of.hpp"
 #include "particle/ray.hpp"
 #include "loop/step.hpp"
 

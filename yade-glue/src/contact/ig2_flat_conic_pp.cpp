@@ -3,7 +3,7 @@
 // What go() does for a flat boundary.
 #include "flat_pair.hpp"
 #include "ig2_flat_conic_pp.hpp"
-#include "particle/particle_of.hpp"
+#include "shape/particle_of.hpp"
 #include "particle/ray.hpp"
 
 #include <algorithm>

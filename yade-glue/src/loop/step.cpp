@@ -2,7 +2,7 @@
 #include "step.hpp"
 
 #include "abi/shape.hpp"
-#include "particle/particle_of.hpp"
+#include "shape/particle_of.hpp"
 #include "particle/pose.hpp"
 #include "pair/turn_bound.hpp"
 

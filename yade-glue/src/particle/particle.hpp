@@ -4,7 +4,7 @@
 #pragma once
 
 #include "abi/shape.hpp"
-#include "bounds/support.hpp"
+#include "support.hpp"
 
 #include <potential_particles.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "support.hpp"
 
-#include "particle/particle.hpp"
+#include "particle.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -3,8 +3,8 @@
 // The particle behind a shape.
 #pragma once
 
-#include "shape/conic_potential_particle.hpp"
-#include "particle_store.hpp"
+#include "conic_potential_particle.hpp"
+#include "particle/particle_store.hpp"
 
 #include <memory>
 #include <stdexcept>
