@@ -136,6 +136,7 @@ check.equal(type(find(round_one, flat_one)).__name__, "Ig2_PP_PP_ScGeom_Conic", 
 check.equal(type(find(round_one, round_one)).__name__, "Ig2_PP_PP_ScGeom_Conic", "two plain ones")
 check.true(find(flat_one, yade.Sphere()) is None, "no functor for ours and a sphere")
 O.engines[2].geomDispatcher.functors = [getattr(yade, f"Ig2_{name}_ConicPP_ScGeom")() for name in OTHERS]
+potential_particles.prepare()
 find = O.engines[2].geomDispatcher.dispFunctor
 for other in [getattr(yade, name)() for name in OTHERS]:
     name = f"Ig2_{type(other).__name__}_ConicPP_ScGeom"
