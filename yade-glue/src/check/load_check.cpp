@@ -175,6 +175,7 @@ namespace {
     void checkPrimitives(Differences& found)
     {
         Probe<yade::Sphere>(found, "Sphere").field("radius", &yade::Sphere::radius);
+        Probe<yade::Cylinder>(found, "Cylinder").field("length", &yade::Cylinder::length).field("segment", &yade::Cylinder::segment);
         Probe<yade::Box>(found, "Box").field("extents", &yade::Box::extents);
         Probe<yade::Wall>(found, "Wall").field("sense", &yade::Wall::sense).field("axis", &yade::Wall::axis);
         Probe<yade::Facet> facet(found, "Facet");

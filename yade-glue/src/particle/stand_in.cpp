@@ -21,6 +21,35 @@ namespace {
 
     Definition particleOfSphere(const Measures& radius) { return { {}, {}, {}, {}, radius[0], 1, radius[0] }; }
 
+    // --- Cylinder: a segment swept by a ball, k = 0, six planes. Measures: radius, segment.
+    //
+    // With the segment along u from the origin to u l, and v, w perpendicular to it and to each other, the planes of normals ±v and ±w
+    // at distance 0 give <v.x>^2 + <-v.x>^2 + <w.x>^2 + <-w.x>^2, which is the squared distance to the axis, and those of ±u at l and
+    // 0 the squared distance along it beyond an end: together, the squared distance to the segment, exactly.
+
+    Measures measuresOfCylinder(const yade::Shape& shape)
+    {
+        const auto& cylinder = static_cast<const yade::Cylinder&>(shape);
+        const Vector3r& segment = cylinder.segment;
+        return { cylinder.radius, segment[0], segment[1], segment[2] };
+    }
+
+    Definition particleOfCylinder(const Measures& measures)
+    {
+        const Vector3r segment(measures.data() + 1);
+        const double length = segment.norm();
+        // Without a length it is a ball, whatever the axis.
+        const Vector3r u = length > 0 ? Vector3r(segment / length) : Vector3r(Vector3r::UnitX());
+        const Vector3r v = u.unitOrthogonal(), w = u.cross(v);
+        return { { u[0], -u[0], v[0], -v[0], w[0], -w[0] }, { u[1], -u[1], v[1], -v[1], w[1], -w[1] },
+                 { u[2], -u[2], v[2], -v[2], w[2], -w[2] }, { length, 0, 0, 0, 0, 0 }, measures[0], 0, length + measures[0] };
+    }
+
+    Hull hullOfCylinder(const Measures& measures)
+    {
+        return { { Vector3r::Zero(), Vector3r(measures.data() + 1) }, 2, measures[0] };
+    }
+
     // --- Box: k = 0, six planes. Measures: half sizes.
 
     // Edges and corners of a box are rounded by this share of its least half size: as little as makes no difference to any
@@ -61,6 +90,7 @@ namespace {
     // Bases before what derives from them.
     const StandIn table[] = {
         row<yade::Sphere>(measuresOfSphere, particleOfSphere, nullptr),
+        row<yade::Cylinder>(measuresOfCylinder, particleOfCylinder, hullOfCylinder),
         row<yade::Box>(measuresOfBox, particleOfBox, hullOfBox),
     };
 
