@@ -5,6 +5,7 @@ Contact detection between potential particles.
 
   make demo     set up, build, and let 200 pyramids fall in YADE; results in out/pyramids
   make test     set up, build, and run every test
+  make check    before each commit: a quick build, the Rust and C tests and a scene of YADE, in a minute once built
 
   make wedge    a wedge on two joints: at which friction angle does it slide? results in out/wedge
   make classics ten closed forms that block codes are judged by, among them incline, arch and toppling; results in out/classics
@@ -80,7 +81,7 @@ export PATH := $(PATH):$(HOME)/.cargo/bin
 
 heading = @printf '== %s\n' '$(1)'
 
-.PHONY: sanitize guide deb packages-test install help demo wedge classics mpi scale mpi-scale test test-debian13 side-by-side peers roofline setup build library glue header lint bench stress fuzz long clean
+.PHONY: check sanitize guide deb packages-test install help demo wedge classics mpi scale mpi-scale test test-debian13 side-by-side peers roofline setup build library glue header lint bench stress fuzz long clean
 .DEFAULT_GOAL := help
 # The steps of one goal build on each other in the order in which they are named.
 .NOTPARALLEL:
@@ -144,6 +145,9 @@ mpi-scale: glue
 
 test:
 	@scripts/test.sh
+
+check:
+	@scripts/check.sh
 
 guide: glue
 	$(call heading,Guide)

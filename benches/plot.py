@@ -36,7 +36,7 @@ GROUPS = [
 # Name in the data: colour, marker, label.
 STYLES = {
     "fast": ("#0b3c8c", "o", "fast (this library)"),
-    "conic": ("#1aa0a8", "s", "conic (this library, clarabel scaled)"),
+    "cone_program": ("#1aa0a8", "s", "cone program (this library, clarabel scaled)"),
     "clarabel, paper's program": ("#e07b00", "D", "clarabel, program as the paper writes it"),
     "Newton (Houlsby), plain": ("#f08a9b", "v", "Newton on Lagrange conditions (Houlsby), plain"),
     "Newton (Houlsby), halved": ("#c2182f", "^", "the same with step halving"),
@@ -45,7 +45,7 @@ STYLES = {
     "YADE built-in": ("#2e8b3d", "P", "YADE's Ig2_PP_PP_ScGeom, without contact area"),
     "YADE built-in, with area": ("#0d4f1b", "X", "the same with contact area, its default"),
 }
-USUAL = {"fast": 1e-12, "conic": 1e-12, "YADE built-in": 1e-7, "YADE built-in, with area": 1e-7}
+USUAL = {"fast": 1e-12, "cone_program": 1e-12, "YADE built-in": 1e-7, "YADE built-in, with area": 1e-7}
 USUAL_OTHERWISE = 1e-8
 
 # An error of exactly zero has no place on a logarithmic axis; one above 10 is as wrong as any.

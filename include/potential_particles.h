@@ -165,8 +165,8 @@
 #define PP_FAST 0
 
 // The paper's second-order cone programs, solved by clarabel: slow; independent of PP_FAST, to check it.
-// Refused with PP_NO_CONIC by a library built without it (Cargo feature conic).
-#define PP_CONIC 1
+// Refused with PP_NO_CONE_PROGRAM by a library built without it (Cargo feature cone-program).
+#define PP_CONE_PROGRAM 1
 
 // The two particles share no interior point: s >= 1.
 #define PP_SEPARATED 1
@@ -246,7 +246,7 @@ typedef struct pp_pose {
 typedef struct pp_settings {
     // PP_MIDWAY (default) or PP_CLOSEST.
     uint32_t formulation;
-    // PP_FAST (default) or PP_CONIC.
+    // PP_FAST (default) or PP_CONE_PROGRAM.
     uint32_t back_end;
     // 0 (default): a separated pair may be answered by a proof of separation alone
     // (PP_FLAG_REJECTED). 1: always solve, so that s, point and normal are set.
@@ -283,11 +283,11 @@ typedef struct pp_contact {
     int32_t kind;
     // The formulation that the geometry below answers (PP_MIDWAY if PP_FLAG_SLACK is set).
     uint32_t formulation;
-    // The back end that answered: PP_FAST or PP_CONIC.
+    // The back end that answered: PP_FAST or PP_CONE_PROGRAM.
     uint32_t back_end;
     // Sum of PP_FLAG_... bits.
     uint32_t flags;
-    // Pairs of quadratics solved; rounds of a contact carried on; interior-point iterations of the conic
+    // Pairs of quadratics solved; rounds of a contact carried on; interior-point iterations of the cone-program
     // back end.
     uint32_t iterations;
     // Always 0.
@@ -471,11 +471,11 @@ typedef struct pp_contact_2d {
     int32_t kind;
     // The formulation that the geometry below answers (PP_MIDWAY if PP_FLAG_SLACK is set).
     uint32_t formulation;
-    // The back end that answered: PP_FAST or PP_CONIC.
+    // The back end that answered: PP_FAST or PP_CONE_PROGRAM.
     uint32_t back_end;
     // Sum of PP_FLAG_... bits.
     uint32_t flags;
-    // Pairs of quadratics solved; interior-point iterations of the conic back end.
+    // Pairs of quadratics solved; interior-point iterations of the cone-program back end.
     uint32_t iterations;
     // Always 0.
     uint32_t reserved;
@@ -595,8 +595,8 @@ typedef struct pp_mass_properties {
 // The output buffer is too small; the needed size was written.
 #define PP_BUFFER_TOO_SMALL 10
 
-// The settings ask for the conic back end, and the library was built without it.
-#define PP_NO_CONIC 11
+// The settings ask for the cone-program back end, and the library was built without it.
+#define PP_NO_CONE_PROGRAM 11
 
 // An index or a count names something that is not there.
 #define PP_BAD_INDEX 12
@@ -669,7 +669,7 @@ size_t pp_struct_size(uint32_t which);
 // that nothing was written.
 // Pointers: may be NULL where the count is 0. No array overlaps another, and memories, contacts and
 // statuses are not used by another call at the same time.
-// Errors: PP_NULL_POINTER, PP_UNKNOWN_FORMULATION, PP_UNKNOWN_BACK_END, PP_NO_CONIC, PP_BAD_SETTING,
+// Errors: PP_NULL_POINTER, PP_UNKNOWN_FORMULATION, PP_UNKNOWN_BACK_END, PP_NO_CONE_PROGRAM, PP_BAD_SETTING,
 // PP_BAD_INDEX (a count that no memory could hold).
 pp_status pp_contact_detect_batch(const struct pp_particle *const *particles,
                                   const struct pp_pose *poses,
@@ -714,7 +714,7 @@ pp_status pp_settings_default(struct pp_settings *settings);
 // updated when the call returns PP_OK. out: the answer; see struct pp_contact for frames, units and signs.
 // Pointers: memory and out are not used by another call at the same time.
 // Errors: PP_NULL_POINTER, PP_BAD_POSITION, PP_BAD_ORIENTATION, PP_UNKNOWN_FORMULATION,
-// PP_UNKNOWN_BACK_END, PP_NO_CONIC, PP_BAD_SETTING, PP_SOLVER_FAILED.
+// PP_UNKNOWN_BACK_END, PP_NO_CONE_PROGRAM, PP_BAD_SETTING, PP_SOLVER_FAILED.
 pp_status pp_contact_detect(const struct pp_particle *a,
                             const struct pp_pose *pose_a,
                             const struct pp_particle *b,
@@ -734,12 +734,12 @@ pp_status pp_frame_from_pose(const struct pp_pose *pose, struct pp_frame *frame)
 // and point_bound hold as for any other.
 //
 // carry_tolerance: in [0, 0.1]; to what part of the smaller bounding radius the contact point of a
-// contact that is carried on has to be known (1e-9, say); 0 solves always. PP_CLOSEST and PP_CONIC are
+// contact that is carried on has to be known (1e-9, say); 0 solves always. PP_CLOSEST and PP_CONE_PROGRAM are
 // never carried on.
 // settings: may be NULL (defaults). memory: may be NULL. carry: what the pair carries on, read and updated;
 // emptied when the solve fails.
 // Pointers: memory, carry and out are not used by another call at the same time.
-// Errors: PP_NULL_POINTER, PP_UNKNOWN_FORMULATION, PP_UNKNOWN_BACK_END, PP_NO_CONIC, PP_BAD_SETTING
+// Errors: PP_NULL_POINTER, PP_UNKNOWN_FORMULATION, PP_UNKNOWN_BACK_END, PP_NO_CONE_PROGRAM, PP_BAD_SETTING
 // (carry_tolerance, too), PP_SOLVER_FAILED. A frame that pp_frame_from_pose did not fill is not recognised:
 // the answer is then without meaning.
 pp_status pp_contact_detect_carried(const struct pp_particle *a,
@@ -759,7 +759,7 @@ pp_status pp_contact_detect_carried(const struct pp_particle *a,
 // on: PP_ON_A or PP_ON_B. settings: may be NULL (defaults); the formulation and solve_separated do not
 // matter. out: the point, or slack = 1 where there is none.
 // Errors: PP_NULL_POINTER, PP_BAD_POSITION, PP_BAD_ORIENTATION, PP_BAD_INDEX (on), PP_UNKNOWN_FORMULATION,
-// PP_UNKNOWN_BACK_END, PP_NO_CONIC, PP_BAD_SETTING, PP_SOLVER_FAILED.
+// PP_UNKNOWN_BACK_END, PP_NO_CONE_PROGRAM, PP_BAD_SETTING, PP_SOLVER_FAILED.
 pp_status pp_closest_point(const struct pp_particle *a,
                            const struct pp_pose *pose_a,
                            const struct pp_particle *b,
@@ -794,7 +794,7 @@ pp_status pp_contact_area(const struct pp_particle *a,
 // is always in doubles.
 // Pointers: point and normal hold 3 numbers each.
 // Errors: PP_NULL_POINTER, PP_BAD_POSITION, PP_BAD_ORIENTATION, PP_BAD_POINT, PP_UNKNOWN_FORMULATION,
-// PP_UNKNOWN_BACK_END, PP_NO_CONIC, PP_BAD_SETTING, PP_SOLVER_FAILED.
+// PP_UNKNOWN_BACK_END, PP_NO_CONE_PROGRAM, PP_BAD_SETTING, PP_SOLVER_FAILED.
 pp_status pp_contact_plane(const struct pp_particle *a,
                            const struct pp_pose *pose_a,
                            const double *point,
@@ -909,7 +909,7 @@ pp_status pp_particle_planes(const struct pp_particle *particle,
 //
 // Each contact and memory is, to the last bit, that of pp_contact_detect_2d for the pair alone, whatever
 // the number of threads.
-// Errors: PP_NULL_POINTER, PP_UNKNOWN_FORMULATION, PP_UNKNOWN_BACK_END, PP_NO_CONIC, PP_BAD_SETTING,
+// Errors: PP_NULL_POINTER, PP_UNKNOWN_FORMULATION, PP_UNKNOWN_BACK_END, PP_NO_CONE_PROGRAM, PP_BAD_SETTING,
 // PP_BAD_INDEX (a count that no memory could hold).
 pp_status pp_contact_detect_batch_2d(const struct pp_particle_2d *const *particles,
                                      const struct pp_pose_2d *poses,
@@ -928,7 +928,7 @@ pp_status pp_contact_detect_batch_2d(const struct pp_particle_2d *const *particl
 // read and updated. out: the answer; see struct pp_contact_2d for frames, units and signs.
 // Pointers: memory and out are not used by another call at the same time.
 // Errors: PP_NULL_POINTER, PP_BAD_POSITION, PP_BAD_ORIENTATION (an angle that is not finite),
-// PP_UNKNOWN_FORMULATION, PP_UNKNOWN_BACK_END, PP_NO_CONIC, PP_BAD_SETTING, PP_SOLVER_FAILED.
+// PP_UNKNOWN_FORMULATION, PP_UNKNOWN_BACK_END, PP_NO_CONE_PROGRAM, PP_BAD_SETTING, PP_SOLVER_FAILED.
 pp_status pp_contact_detect_2d(const struct pp_particle_2d *a,
                                const struct pp_pose_2d *pose_a,
                                const struct pp_particle_2d *b,
@@ -943,7 +943,7 @@ pp_status pp_contact_detect_2d(const struct pp_particle_2d *a,
 // on: PP_ON_A or PP_ON_B. settings: may be NULL (defaults); the formulation and solve_separated do not
 // matter. out: the point, or slack = 1 where there is none.
 // Errors: PP_NULL_POINTER, PP_BAD_POSITION, PP_BAD_ORIENTATION (an angle that is not finite), PP_BAD_INDEX
-// (on), PP_UNKNOWN_FORMULATION, PP_UNKNOWN_BACK_END, PP_NO_CONIC, PP_BAD_SETTING, PP_SOLVER_FAILED.
+// (on), PP_UNKNOWN_FORMULATION, PP_UNKNOWN_BACK_END, PP_NO_CONE_PROGRAM, PP_BAD_SETTING, PP_SOLVER_FAILED.
 pp_status pp_closest_point_2d(const struct pp_particle_2d *a,
                               const struct pp_pose_2d *pose_a,
                               const struct pp_particle_2d *b,

@@ -26,7 +26,7 @@ stage check "Library, release build" submake library
 stage suite "Rust tests, with the C header" cargo test --release --no-fail-fast
 # Without optimisation: how they are built is what is tried, and the shared library stays as it is.
 stage suite "Rust tests of the feature serde" cargo test --features serde --test serde
-stage suite "Rust tests without the conic back end" cargo test --no-default-features --features capi --test conic_feature
+stage suite "Rust tests without the cone-program back end" cargo test --no-default-features --features capi --test cone_program_feature
 stage check "Library without its default features" cargo check --lib --no-default-features
 stage suite "C harness" submake -C tests/c run
 stage check "C harness under valgrind" submake -C tests/c valgrind

@@ -18,7 +18,7 @@
 //! | `model` | both potentials as quadratics at a point, their exact optimum along the dual path, the KKT check |
 //! | `bounds` | what rounding does to an optimum: the gap of s and the distance of the point |
 //! | `solver` | initial guess, line search, Newton's method, and the order in which solvers are tried |
-//! | `reference` | the paper's second-order cone programs, as an independent back end (feature `conic`) |
+//! | `reference` | the paper's second-order cone programs, as an independent back end (feature `cone-program`) |
 //! | `contact` | point, normal and overlap from a solution; [`detect`](detect()), the whole on one screen; many pairs at once |
 //! | `section` | the contact area |
 //! | `flat` | the contact with a flat boundary: a plane, or a triangle of a mesh |
@@ -69,9 +69,9 @@ mod pair;
 mod particle;
 pub mod planar;
 mod pose;
-#[cfg(feature = "conic")]
+#[cfg(feature = "cone-program")]
 mod reference;
-#[cfg(not(feature = "conic"))]
+#[cfg(not(feature = "cone-program"))]
 #[path = "reference_left_out.rs"]
 mod reference;
 mod section;

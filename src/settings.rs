@@ -25,21 +25,22 @@ impl fmt::Display for Formulation {
 
 /// Who solves.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "lowercase"))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum BackEnd {
     /// This library's solver: Newton's method in doubles, and in extended precision where those do not settle a pair.
     #[default]
     Fast,
-    /// The paper's second-order cone programs through clarabel; only with the Cargo feature `conic`.
-    Conic,
+    /// The paper's second-order cone programs through clarabel; only with the Cargo feature `cone-program`.
+    #[cfg_attr(feature = "serde", serde(alias = "conic"))] // its name in files of earlier builds
+    ConeProgram,
 }
 
 impl fmt::Display for BackEnd {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         f.pad(match self {
             Self::Fast => "fast",
-            Self::Conic => "conic",
+            Self::ConeProgram => "cone_program",
         })
     }
 }
@@ -117,9 +118,11 @@ pub enum SettingsError {
     /// The tolerance of [`crate::detect_carried()`] is out of range.
     #[error("carry tolerance={0} must lie in [0, 0.1]")]
     CarryTolerance(f64),
-    /// [`BackEnd::Conic`] is asked for in a build without it.
-    #[error("the conic back end is not part of this build: use the fast one, or build with the Cargo feature conic")]
-    NoConic,
+    /// [`BackEnd::ConeProgram`] is asked for in a build without it.
+    #[error(
+        "the cone-program back end is not part of this build: use the fast one, or build with the Cargo feature cone-program"
+    )]
+    NoConeProgram,
 }
 
 impl Settings {
@@ -149,8 +152,8 @@ impl Settings {
     /// # Errors
     /// The first setting outside its range.
     pub fn validate(&self) -> Result<(), SettingsError> {
-        if self.back_end == BackEnd::Conic && cfg!(not(feature = "conic")) {
-            return Err(SettingsError::NoConic);
+        if self.back_end == BackEnd::ConeProgram && cfg!(not(feature = "cone-program")) {
+            return Err(SettingsError::NoConeProgram);
         }
         if !(self.gap_tolerance > 0.0 && self.gap_tolerance <= 0.1) {
             return Err(SettingsError::GapTolerance(self.gap_tolerance));

@@ -181,7 +181,7 @@ fn only_the_pair_and_the_problem_that_it_was_made_for_are_carried_on() {
     let twin = particle(6, 0.05, 0.05, &mut 77);
     assert!(!look(&twin, &b, &midway, 1e-9) && look(&twin, &b, &midway, 1e-9));
     assert!(!look(&twin, &b, &Settings { formulation: Formulation::Closest, ..midway }, 1e-9));
-    assert!(!look(&twin, &b, &Settings { back_end: BackEnd::Conic, ..midway }, 1e-9));
+    assert!(!look(&twin, &b, &Settings { back_end: BackEnd::ConeProgram, ..midway }, 1e-9));
     assert!(detect_carried(&a, &pose_a, &b, &pose_b, &midway, 0.2, None, &mut carried).is_err());
     assert!(detect_carried(&a, &pose_a, &b, &pose_b, &midway, f64::NAN, None, &mut carried).is_err());
 }

@@ -33,7 +33,7 @@ fn s_of(particle: &Particle, pose: &Pose, point: &Vector3<f64>) -> f64 {
 fn spheres_match_their_closed_form() {
     let (ra, rb) = (2.0, 0.5);
     let (a, b) = (Particle::sphere(ra).unwrap(), Particle::sphere(rb).unwrap());
-    for back_end in [BackEnd::Fast, BackEnd::Conic] {
+    for back_end in [BackEnd::Fast, BackEnd::ConeProgram] {
         for distance in [2.2, 2.5 - 1e-9, 2.5 + 1e-9, 3.0] {
             let n = Vector3::new(1.0, 2.0, -2.0) / 3.0;
             let at_a = pose([1.0, 2.0, 3.0], [1.0, 0.0, 0.0, 0.0]);

@@ -35,7 +35,7 @@ fn surface(particle: &Particle, body: &Placement, seed: u32) -> Vec<Vector3<f64>
 /// Every pair whose balls meet, by the paper's cone programs, which share no code with what packed them.
 fn assert_no_overlap(shapes: &[Particle], bodies: &[Placement]) {
     let particles = scaled(shapes, bodies);
-    let settings = Settings { back_end: BackEnd::Conic, ..Settings::default() };
+    let settings = Settings { back_end: BackEnd::ConeProgram, ..Settings::default() };
     let mut near = 0;
     for (i, a) in bodies.iter().enumerate() {
         for (j, b) in bodies.iter().enumerate().take(i) {

@@ -22,7 +22,7 @@ fn circles_match_their_closed_form() {
     let (ra, rb) = (2.0, 0.5);
     let (a, b) = (Particle::circle(ra).unwrap(), Particle::circle(rb).unwrap());
     let n = Vector2::new(-0.6, 0.8);
-    for back_end in [BackEnd::Fast, BackEnd::Conic] {
+    for back_end in [BackEnd::Fast, BackEnd::ConeProgram] {
         for distance in [2.2, 2.5 - 1e-6, 2.5 + 1e-6, 3.0] {
             let at_a = Pose::new([1.0, 2.0], -0.7).unwrap();
             let centre: Vector2<f64> = at_a.position() + distance * n;
@@ -68,7 +68,7 @@ fn stacked_squares_touch_at_the_centre_of_the_patch() {
             let s = a.s(&centre);
             let gradient = a.particle().gradient(&a.pose().to_local(&centre));
             let normal = if k == 0.0 { up } else { a.pose().rotate(&gradient).normalize() };
-            for back_end in [BackEnd::Fast, BackEnd::Conic] {
+            for back_end in [BackEnd::Fast, BackEnd::ConeProgram] {
                 let contact = solve(&a, &b, Formulation::Midway, back_end);
                 let accuracy = if back_end == BackEnd::Fast { a.noise() } else { 1e-7 };
                 assert!((contact.s - s).abs() <= accuracy + contact.gap, "{back_end:?} {} for {s}", contact.s);
@@ -111,7 +111,7 @@ fn a_corner_on_a_side_keeps_its_digits() {
             let (of_a, of_b) = both(middle);
             if of_a < of_b { low = middle } else { high = middle }
         }
-        for back_end in [BackEnd::Fast, BackEnd::Conic] {
+        for back_end in [BackEnd::Fast, BackEnd::ConeProgram] {
             let contact = solve(&a, &b, Formulation::Midway, back_end);
             let accuracy = if back_end == BackEnd::Fast { a.noise() } else { 1e-8 };
             assert!(

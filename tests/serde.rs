@@ -68,7 +68,12 @@ fn everything_comes_back() {
 #[test]
 fn names_are_those_of_the_documentation() {
     assert_eq!(serde_json::to_string(&Kind::Overlapping).unwrap(), r#""overlapping""#);
-    assert_eq!(serde_json::to_string(&BackEnd::Conic).unwrap(), r#""conic""#);
+    assert_eq!(serde_json::to_string(&BackEnd::ConeProgram).unwrap(), r#""cone_program""#);
+    assert_eq!(
+        serde_json::from_str::<BackEnd>(r#""conic""#).unwrap(),
+        BackEnd::ConeProgram,
+        "its name in earlier files"
+    );
     let settings: Settings = serde_json::from_str(r#"{"formulation": "closest"}"#).unwrap();
     assert_eq!(settings, Settings { formulation: Formulation::Closest, ..Settings::default() });
 }

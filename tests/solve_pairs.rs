@@ -189,10 +189,13 @@ fn one_formulation_and_either_back_end() {
     let closest = &answers(&run(&["--formulation", "closest", "-"], &input))[0];
     assert_eq!(closest["closest"], both["closest"]);
     assert!(closest.get("midway").is_none());
-    let conic = &answers(&run(&["--back-end", "conic", "-"], &input))[0];
-    assert_eq!((&conic["midway"]["path"], &both["midway"]["path"]), (&json!("conic"), &json!("fast cold")));
+    let cone_program = &answers(&run(&["--back-end", "cone-program", "-"], &input))[0];
+    assert_eq!(
+        (&cone_program["midway"]["path"], &both["midway"]["path"]),
+        (&json!("cone_program"), &json!("fast cold"))
+    );
     for key in ["point", "point_on_a", "point_on_b", "normal"] {
-        let distance = coordinates(&conic["midway"][key]) - coordinates(&both["midway"][key]);
+        let distance = coordinates(&cone_program["midway"][key]) - coordinates(&both["midway"][key]);
         assert!(distance.norm() < 1e-5, "{key}: {distance}");
     }
 }

@@ -158,13 +158,13 @@ fn fast_closest() {
 }
 
 #[test]
-fn conic_midway() {
-    check(BackEnd::Conic, Formulation::Midway);
+fn cone_program_midway() {
+    check(BackEnd::ConeProgram, Formulation::Midway);
 }
 
 #[test]
-fn conic_closest() {
-    check(BackEnd::Conic, Formulation::Closest);
+fn cone_program_closest() {
+    check(BackEnd::ConeProgram, Formulation::Closest);
 }
 
 /// Worst figures of one family for one gap_tolerance: s over max(s*, 1), points over the smaller shadow radius.

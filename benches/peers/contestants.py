@@ -60,7 +60,7 @@ CONTESTANTS = (
     _one(OURS, "midway", "this library, midway", MIDWAY, DEFAULT, OWN),
     _one(OURS, "carried", "this library, midway in a batch", MIDWAY + "; the last contact is carried on", CARRIED, OWN),
     _one(OURS, "closest", "this library, closest", "closest problem, both points", DEFAULT, OWN),
-    _one(OURS, "conic", "clarabel", "the paper's cone program of midway", "its defaults, through this library", POINT,
+    _one(OURS, "cone_program", "clarabel", "the paper's cone program of midway", "its defaults, through this library", POINT,
          places=TOUCH, most_planes=20, warmths=("cold",), rival=True),
     _one(PARRY, "contact", "parry", GJK, PARRYS, BOTH, rival=True),
     _one(PARRY, "intersection", "parry, yes or no", "GJK until a plane separates", PARRYS, "yes or no",

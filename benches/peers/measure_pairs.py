@@ -82,7 +82,7 @@ class Measurement:
         best, self.why = [float("inf")] * len(entries), {}
         for turn in range(self.effort.rounds):
             for index, (one, warmth) in enumerate(entries):
-                slow = one.program == YADE or one.way == "conic"
+                slow = one.program == YADE or one.way == "cone_program"
                 if best[index] is None or slow and turn >= self.effort.slow_rounds:
                     continue
                 try:

@@ -16,7 +16,7 @@ COUNTED = {"cold": "midway", "warm": "carried"}
 EDGES = {SHARP: "sharp", ROUNDED: "rounded, k = 0", POTENTIAL: "rounded, k = 0.02"}
 PLACES = {TOUCHING: "touching", LYING: "face on face", NEAR_BY: "near", FAR: "far"}
 COLUMNS = (
-    ("parry", "contact"), ("coal", "contact"), ("coal", "contact-nesterov"), ("bullet", "contact"), ("ours", "conic"),
+    ("parry", "contact"), ("coal", "contact"), ("coal", "contact-nesterov"), ("bullet", "contact"), ("ours", "cone_program"),
     ("yade", "potential"), ("yade", "polyhedra"), ("yade", "levelset"),
 )
 HEADS = ("parry", "Coal", "Coal, Nesterov", "Bullet", "clarabel", "PotentialParticle", "Polyhedra", "LevelSet")
@@ -44,7 +44,7 @@ def targets(rows):
 
 def soundness(rows):
     """What must not happen at all in ours."""
-    ours = [row for row in rows if row["program"] == OURS and row["way"] != "conic"]
+    ours = [row for row in rows if row["program"] == OURS and row["way"] != "cone_program"]
     count = lambda key: sum(row.get(key) or 0 for row in ours)
     worst = max((row.get("worst_error") or 0.0 for row in ours), default=0.0)
     limits = (

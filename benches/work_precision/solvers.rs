@@ -34,7 +34,7 @@ pub struct Solver {
 }
 
 pub const FAST: &str = "fast";
-pub const CONIC: &str = "conic";
+pub const CONE_PROGRAM: &str = "cone_program";
 pub const ONE_SHOT: &str = "clarabel, paper's program";
 pub const NEWTON: [&str; 2] = ["Newton (Houlsby), plain", "Newton (Houlsby), halved"];
 pub const CUBIC: [&str; 2] = ["cubic Newton (Harkness), plain", "cubic Newton (Harkness), halved"];
@@ -48,7 +48,7 @@ const BASELINE_TOLERANCES: [f64; 6] = [1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12];
 /// The tolerance at which a user would run a solver: its default, or for those without one clarabel's.
 pub fn usual_tolerance(name: &str) -> f64 {
     match name {
-        FAST | CONIC => Settings::default().gap_tolerance,
+        FAST | CONE_PROGRAM => Settings::default().gap_tolerance,
         BUILT_IN | BUILT_IN_AREA => crate::built_in::DEFAULT_TOLERANCE,
         _ => one_shot::DEFAULT_TOLERANCE,
     }
@@ -61,7 +61,7 @@ pub fn all() -> Vec<Solver> {
         for digits in 3..=14 {
             solvers.push(library(FAST, BackEnd::Fast, formulation, 10f64.powi(-digits)));
         }
-        solvers.push(library(CONIC, BackEnd::Conic, formulation, Settings::default().gap_tolerance));
+        solvers.push(library(CONE_PROGRAM, BackEnd::ConeProgram, formulation, Settings::default().gap_tolerance));
         for tolerance in BASELINE_TOLERANCES {
             solvers.push(baseline(ONE_SHOT, formulation, tolerance, move |case| {
                 solutions(&case.placed(), formulation, |pair| one_shot::solve(pair, formulation, tolerance))

@@ -41,7 +41,7 @@ pub fn run(data: &[u8]) {
     let Ok(first) = first else { return };
     whole(&first);
     // The cone program costs a hundred times the rest: mostly once is enough.
-    if first.back_end == BackEnd::Conic && choices & 96 != 0 {
+    if first.back_end == BackEnd::ConeProgram && choices & 96 != 0 {
         return unharmed(&a, &b);
     }
     // From what it has just remembered, and the other way round.

@@ -29,7 +29,7 @@ use std::ptr;
 /// that nothing was written.
 /// Pointers: may be NULL where the count is 0. No array overlaps another, and memories, contacts and
 /// statuses are not used by another call at the same time.
-/// Errors: PP_NULL_POINTER, PP_UNKNOWN_FORMULATION, PP_UNKNOWN_BACK_END, PP_NO_CONIC, PP_BAD_SETTING,
+/// Errors: PP_NULL_POINTER, PP_UNKNOWN_FORMULATION, PP_UNKNOWN_BACK_END, PP_NO_CONE_PROGRAM, PP_BAD_SETTING,
 /// PP_BAD_INDEX (a count that no memory could hold).
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pp_contact_detect_batch(

@@ -28,7 +28,7 @@ pub unsafe extern "C" fn pp_settings_default(settings: *mut pp_settings) -> pp_s
 /// updated when the call returns PP_OK. out: the answer; see struct pp_contact for frames, units and signs.
 /// Pointers: memory and out are not used by another call at the same time.
 /// Errors: PP_NULL_POINTER, PP_BAD_POSITION, PP_BAD_ORIENTATION, PP_UNKNOWN_FORMULATION,
-/// PP_UNKNOWN_BACK_END, PP_NO_CONIC, PP_BAD_SETTING, PP_SOLVER_FAILED.
+/// PP_UNKNOWN_BACK_END, PP_NO_CONE_PROGRAM, PP_BAD_SETTING, PP_SOLVER_FAILED.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pp_contact_detect(
     a: *const pp_particle,
@@ -69,12 +69,12 @@ pub unsafe extern "C" fn pp_frame_from_pose(pose: *const pp_pose, frame: *mut pp
 /// and point_bound hold as for any other.
 ///
 /// carry_tolerance: in [0, 0.1]; to what part of the smaller bounding radius the contact point of a
-/// contact that is carried on has to be known (1e-9, say); 0 solves always. PP_CLOSEST and PP_CONIC are
+/// contact that is carried on has to be known (1e-9, say); 0 solves always. PP_CLOSEST and PP_CONE_PROGRAM are
 /// never carried on.
 /// settings: may be NULL (defaults). memory: may be NULL. carry: what the pair carries on, read and updated;
 /// emptied when the solve fails.
 /// Pointers: memory, carry and out are not used by another call at the same time.
-/// Errors: PP_NULL_POINTER, PP_UNKNOWN_FORMULATION, PP_UNKNOWN_BACK_END, PP_NO_CONIC, PP_BAD_SETTING
+/// Errors: PP_NULL_POINTER, PP_UNKNOWN_FORMULATION, PP_UNKNOWN_BACK_END, PP_NO_CONE_PROGRAM, PP_BAD_SETTING
 /// (carry_tolerance, too), PP_SOLVER_FAILED. A frame that pp_frame_from_pose did not fill is not recognised:
 /// the answer is then without meaning.
 #[unsafe(no_mangle)]
@@ -167,7 +167,7 @@ pub(super) fn remembering(
 /// on: PP_ON_A or PP_ON_B. settings: may be NULL (defaults); the formulation and solve_separated do not
 /// matter. out: the point, or slack = 1 where there is none.
 /// Errors: PP_NULL_POINTER, PP_BAD_POSITION, PP_BAD_ORIENTATION, PP_BAD_INDEX (on), PP_UNKNOWN_FORMULATION,
-/// PP_UNKNOWN_BACK_END, PP_NO_CONIC, PP_BAD_SETTING, PP_SOLVER_FAILED.
+/// PP_UNKNOWN_BACK_END, PP_NO_CONE_PROGRAM, PP_BAD_SETTING, PP_SOLVER_FAILED.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pp_closest_point(
     a: *const pp_particle,

@@ -74,7 +74,7 @@ pub(super) fn settings_from(settings: Option<&pp_settings>) -> Result<Settings, 
         },
         back_end: match settings.back_end {
             PP_FAST => BackEnd::Fast,
-            PP_CONIC => BackEnd::Conic,
+            PP_CONE_PROGRAM => BackEnd::ConeProgram,
             _ => return Err(PP_UNKNOWN_BACK_END),
         },
         solve_separated: settings.solve_separated == 1,
@@ -165,7 +165,7 @@ pub(super) fn detect_status(error: &DetectError) -> pp_status {
 
 pub(super) fn settings_status(error: &SettingsError) -> pp_status {
     match error {
-        SettingsError::NoConic => PP_NO_CONIC,
+        SettingsError::NoConeProgram => PP_NO_CONE_PROGRAM,
         _ => PP_BAD_SETTING,
     }
 }
@@ -190,6 +190,6 @@ pub(super) fn formulation_code(formulation: Formulation) -> u32 {
 pub(super) fn back_end_code(back_end: BackEnd) -> u32 {
     match back_end {
         BackEnd::Fast => PP_FAST,
-        BackEnd::Conic => PP_CONIC,
+        BackEnd::ConeProgram => PP_CONE_PROGRAM,
     }
 }

@@ -68,7 +68,7 @@ pub struct pp_flat_contact {
 /// is always in doubles.
 /// Pointers: point and normal hold 3 numbers each.
 /// Errors: PP_NULL_POINTER, PP_BAD_POSITION, PP_BAD_ORIENTATION, PP_BAD_POINT, PP_UNKNOWN_FORMULATION,
-/// PP_UNKNOWN_BACK_END, PP_NO_CONIC, PP_BAD_SETTING, PP_SOLVER_FAILED.
+/// PP_UNKNOWN_BACK_END, PP_NO_CONE_PROGRAM, PP_BAD_SETTING, PP_SOLVER_FAILED.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pp_contact_plane(
     a: *const pp_particle,

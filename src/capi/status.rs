@@ -30,8 +30,8 @@ pub const PP_SOLVER_FAILED: pp_status = 8;
 pub const PP_INTERNAL_ERROR: pp_status = 9;
 /// The output buffer is too small; the needed size was written.
 pub const PP_BUFFER_TOO_SMALL: pp_status = 10;
-/// The settings ask for the conic back end, and the library was built without it.
-pub const PP_NO_CONIC: pp_status = 11;
+/// The settings ask for the cone-program back end, and the library was built without it.
+pub const PP_NO_CONE_PROGRAM: pp_status = 11;
 /// An index or a count names something that is not there.
 pub const PP_BAD_INDEX: pp_status = 12;
 /// The vertices of a triangle lie on one line, so that it has no normal.
@@ -72,12 +72,15 @@ const MESSAGES: &[(pp_status, &CStr)] = &[
     ),
     (PP_BAD_POINT, c"a point or direction is not finite, or a direction has no length"),
     (PP_UNKNOWN_FORMULATION, c"unknown formulation: use PP_MIDWAY or PP_CLOSEST"),
-    (PP_UNKNOWN_BACK_END, c"unknown back end: use PP_FAST or PP_CONIC"),
+    (PP_UNKNOWN_BACK_END, c"unknown back end: use PP_FAST or PP_CONE_PROGRAM"),
     (PP_BAD_SETTING, c"a setting or tolerance is outside its documented range, or a reserved field is not 0"),
     (PP_SOLVER_FAILED, c"no solver reached an answer; the contact is unknown (this does not mean separated)"),
     (PP_INTERNAL_ERROR, c"internal error caught at the library boundary: please report it"),
     (PP_BUFFER_TOO_SMALL, c"the output buffer is too small; the needed size was written"),
-    (PP_NO_CONIC, c"the library was built without the conic back end (Cargo feature conic): use PP_FAST"),
+    (
+        PP_NO_CONE_PROGRAM,
+        c"the library was built without the cone-program back end (Cargo feature cone-program): use PP_FAST",
+    ),
     (PP_BAD_INDEX, c"an index or a count names something that is not there"),
     (PP_DEGENERATE_TRIANGLE, c"a triangle has no area to rounding: remove it from the mesh"),
     (

@@ -8,8 +8,8 @@ pub const PP_CLOSEST: u32 = 1;
 /// The library's own solver, in doubles and, where those do not settle a pair, in extended precision.
 pub const PP_FAST: u32 = 0;
 /// The paper's second-order cone programs, solved by clarabel: slow; independent of PP_FAST, to check it.
-/// Refused with PP_NO_CONIC by a library built without it (Cargo feature conic).
-pub const PP_CONIC: u32 = 1;
+/// Refused with PP_NO_CONE_PROGRAM by a library built without it (Cargo feature cone-program).
+pub const PP_CONE_PROGRAM: u32 = 1;
 
 /// The two particles share no interior point: s >= 1.
 pub const PP_SEPARATED: i32 = 1;
@@ -69,7 +69,7 @@ pub struct pp_pose {
 pub struct pp_settings {
     /// PP_MIDWAY (default) or PP_CLOSEST.
     pub formulation: u32,
-    /// PP_FAST (default) or PP_CONIC.
+    /// PP_FAST (default) or PP_CONE_PROGRAM.
     pub back_end: u32,
     /// 0 (default): a separated pair may be answered by a proof of separation alone
     /// (PP_FLAG_REJECTED). 1: always solve, so that s, point and normal are set.
@@ -133,11 +133,11 @@ pub struct pp_contact {
     pub kind: i32,
     /// The formulation that the geometry below answers (PP_MIDWAY if PP_FLAG_SLACK is set).
     pub formulation: u32,
-    /// The back end that answered: PP_FAST or PP_CONIC.
+    /// The back end that answered: PP_FAST or PP_CONE_PROGRAM.
     pub back_end: u32,
     /// Sum of PP_FLAG_... bits.
     pub flags: u32,
-    /// Pairs of quadratics solved; rounds of a contact carried on; interior-point iterations of the conic
+    /// Pairs of quadratics solved; rounds of a contact carried on; interior-point iterations of the cone-program
     /// back end.
     pub iterations: u32,
     /// Always 0.

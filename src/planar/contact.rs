@@ -21,7 +21,7 @@ pub struct Contact {
     pub back_end: BackEnd,
     /// What else is to be known.
     pub flags: Flags,
-    /// Pairs of quadratics solved; interior-point iterations of the conic back end.
+    /// Pairs of quadratics solved; interior-point iterations of the cone-program back end.
     pub iterations: u32,
     /// Midway: t. Closest: s_A at P2. Rejected: a proved lower bound, ≥ 1.
     pub s: f64,

@@ -68,8 +68,8 @@ mod tests {
                 for (formulation, back_end) in [
                     (Formulation::Midway, BackEnd::Fast),
                     (Formulation::Closest, BackEnd::Fast),
-                    (Formulation::Midway, BackEnd::Conic),
-                    (Formulation::Closest, BackEnd::Conic),
+                    (Formulation::Midway, BackEnd::ConeProgram),
+                    (Formulation::Closest, BackEnd::ConeProgram),
                 ] {
                     let settings = Settings { formulation, back_end, solve_separated: true, ..Settings::default() };
                     let mut memory = Memory::default();

@@ -2,7 +2,7 @@
 
 use super::goal::{Goal, both};
 use super::program::{Answer, Program, Tuning};
-use super::solution::{ConicError, ConicSolution};
+use super::solution::{ConeProgramError, ConeProgramSolution};
 use crate::linalg::root::Bracket;
 use crate::pair::pair::Pair;
 use clarabel::solver::SolverStatus;
@@ -108,15 +108,15 @@ impl Sizes {
 /// Solves one of the paper's programs.
 ///
 /// # Errors
-/// See [`ConicError`].
-pub(super) fn solve(pair: &Pair, goal: Goal) -> Result<ConicSolution, ConicError> {
+/// See [`ConeProgramError`].
+pub(super) fn solve(pair: &Pair, goal: Goal) -> Result<ConeProgramSolution, ConeProgramError> {
     let sizes = Sizes::of(pair);
     let noise = goal.objective(sizes.noise);
     let (mut x, mut iterations) = initial_point(pair, goal, &sizes)?;
     let mut s = goal.objective(both(pair, &x));
     let mut half = FIRST_BOX * (sizes.length + pair.centre.norm());
     let mut bound = f64::NEG_INFINITY;
-    let mut accepted: Option<ConicSolution> = None;
+    let mut accepted: Option<ConeProgramSolution> = None;
     for _ in 0..MAX_PASSES {
         let unit = s.max(LEAST_SCALE);
         let scales = goal.scales(unit);
@@ -124,7 +124,7 @@ pub(super) fn solve(pair: &Pair, goal: Goal) -> Result<ConicSolution, ConicError
         half = half.max(smallest);
         let pass = match correct(pair, goal, &sizes, &x, half, unit, &mut iterations)? {
             Ok(pass) => pass,
-            Err(status) if half > sizes.extent => return Err(ConicError::Status(format!("{status:?}"))),
+            Err(status) if half > sizes.extent => return Err(ConeProgramError::Status(format!("{status:?}"))),
             Err(_) => {
                 half *= RESCUE;
                 continue;
@@ -149,7 +149,7 @@ pub(super) fn solve(pair: &Pair, goal: Goal) -> Result<ConicSolution, ConicError
         let repeats = (s - previous).abs() <= REPEAT * s + noise;
         if accepted.is_none() && (repeats || half <= smallest || s < BOTTOM) {
             let weight = goal.weight(pass.answer.heads, scales, pass.at);
-            accepted = Some(ConicSolution { x, s, weight, iterations });
+            accepted = Some(ConeProgramSolution { x, s, weight, iterations });
         }
         half = match accepted {
             Some(found) if found.s - bound <= CERTIFIED * found.s.max(LEAST_SCALE) + noise => return Ok(found),
@@ -161,7 +161,7 @@ pub(super) fn solve(pair: &Pair, goal: Goal) -> Result<ConicSolution, ConicError
             }
         };
     }
-    Err(ConicError::Unsettled(MAX_PASSES))
+    Err(ConeProgramError::Unsettled(MAX_PASSES))
 }
 
 /// One correction, solved.
@@ -184,7 +184,7 @@ fn correct(
     half: f64,
     unit: f64,
     iterations: &mut u32,
-) -> Result<Result<Pass, SolverStatus>, ConicError> {
+) -> Result<Result<Pass, SolverStatus>, ConeProgramError> {
     let mut best = Err(SolverStatus::Unsolved);
     for (factor, tuning) in &ATTEMPTS {
         let half = half * factor;
@@ -211,7 +211,7 @@ fn correct(
 }
 
 /// The first pass: the program of the whole particles. Its point serves as initial point, whatever its status.
-fn initial_point(pair: &Pair, goal: Goal, sizes: &Sizes) -> Result<(Vector3<f64>, u32), ConicError> {
+fn initial_point(pair: &Pair, goal: Goal, sizes: &Sizes) -> Result<(Vector3<f64>, u32), ConeProgramError> {
     // A unit for s: its least value on a few points between the centres is an upper bound of t.
     let between = (0..=16).map(|i| pair.centre * (f64::from(i) / 16.0));
     let least = between.map(|x| Goal::Midway.objective(both(pair, &x))).fold(f64::INFINITY, f64::min);

@@ -50,7 +50,7 @@
 //!   the pair. This is a worst case that detects an optimum in the wrong place; measured errors of s are 1e-9 and below, or
 //!   what the rounding of x does to s (ε·size·√(1−k)/r) where that is more.
 //!
-//! Otherwise the answer is a [`ConicError`].
+//! Otherwise the answer is a [`ConeProgramError`].
 //!
 //! `solution` holds the answers, `goal` what is minimised, `program` one cone program, `corrections` their sequence.
 
@@ -62,13 +62,13 @@ mod solution;
 use crate::pair::pair::Pair;
 use corrections::solve;
 use goal::Goal;
-pub use solution::{ConicError, ConicSolution, Role};
+pub use solution::{ConeProgramError, ConeProgramSolution, Role};
 
 /// Midway: the point of least t with s_A ≤ t and s_B ≤ t (P3, paper eqs 4, 44).
 ///
 /// # Errors
-/// See [`ConicError`].
-pub fn midway(pair: &Pair) -> Result<ConicSolution, ConicError> {
+/// See [`ConeProgramError`].
+pub fn midway(pair: &Pair) -> Result<ConeProgramSolution, ConeProgramError> {
     solve(pair, Goal::Midway)
 }
 
@@ -78,8 +78,8 @@ pub fn midway(pair: &Pair) -> Result<ConicSolution, ConicError> {
 /// point is a minimiser of the other particle's S, inside the constrained one, with s = 0.
 ///
 /// # Errors
-/// See [`ConicError`].
-pub fn closest(pair: &Pair, constrained: Role) -> Result<ConicSolution, ConicError> {
+/// See [`ConeProgramError`].
+pub fn closest(pair: &Pair, constrained: Role) -> Result<ConeProgramSolution, ConeProgramError> {
     solve(pair, Goal::Constrained(constrained))
 }
 

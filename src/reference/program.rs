@@ -16,7 +16,7 @@
 //! are two ties, four rows for the box and two entries of x in a cone. (With k = 0 nothing would hold z.)
 
 use super::goal::Goal;
-use super::solution::ConicError;
+use super::solution::ConeProgramError;
 use crate::pair::pair::Pair;
 use clarabel::algebra::CscMatrix;
 use clarabel::solver::{DefaultSettings, DefaultSolver, IPSolver, SolverStatus, SupportedConeT};
@@ -200,7 +200,7 @@ impl Program {
     }
 
     /// Solves the program with clarabel.
-    pub fn run(self, tuning: &Tuning) -> Result<Answer, ConicError> {
+    pub fn run(self, tuning: &Tuning) -> Result<Answer, ConeProgramError> {
         let n = self.variables;
         let matrix = CscMatrix::new_from_triplets(self.right.len(), n, self.rows, self.columns, self.values);
         let mut objective = vec![0.0; n];
@@ -223,7 +223,7 @@ impl Program {
         };
         let nothing = CscMatrix::zeros((n, n));
         let mut solver = DefaultSolver::new(&nothing, &objective, &matrix, &self.right, &self.cones, settings)
-            .map_err(|error| ConicError::Refused(error.to_string()))?;
+            .map_err(|error| ConeProgramError::Refused(error.to_string()))?;
         solver.solve();
         let solution = &solver.solution;
         let mut step = Vector3::zeros();

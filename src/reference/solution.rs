@@ -6,7 +6,7 @@ use thiserror::Error;
 
 /// Solution of one cone program, in the frame of B.
 #[derive(Clone, Copy, Debug)]
-pub struct ConicSolution {
+pub struct ConeProgramSolution {
     /// The minimiser, local frame of B, length: P3 of midway, P1 or P2 of closest.
     pub x: Vector3<f64>,
     /// The objective, no unit: max(s_A, s_B) at x for midway, s of the free particle for closest.
@@ -19,7 +19,7 @@ pub struct ConicSolution {
 
 /// Why a cone program gave no answer.
 #[derive(Clone, Debug, Error, PartialEq, Eq)]
-pub enum ConicError {
+pub enum ConeProgramError {
     /// clarabel rejected the program.
     #[error("clarabel rejected the cone program: {0}; check the particles for numbers near the limits of f64")]
     Refused(String),

@@ -10,7 +10,7 @@ use crate::model::problem::Problem;
 use crate::pair::body::Body;
 use crate::pair::pair::Pair;
 use crate::pair::role::Role;
-use crate::reference::{self, ConicError};
+use crate::reference::{self, ConeProgramError};
 use crate::settings::{BackEnd, Settings};
 use crate::solver::newton::{self, Goal};
 use crate::solver::{extended, initial_guess};
@@ -31,7 +31,7 @@ pub(crate) enum SolveError {
     #[error("in extended precision the bounds of s, {low:e} and {high:e}, still leave open what it is")]
     Undecided { low: f64, high: f64 },
     #[error("the cone program: {0}")]
-    Conic(#[from] ConicError),
+    ConeProgram(#[from] ConeProgramError),
 }
 
 /// A solution, with the quadratics that it is the optimum of or, of other solvers, those at its point.
@@ -87,7 +87,7 @@ impl<'a> Call<'a> {
     /// 3. in extended precision, where doubles do not settle it ([`Self::wants_more`]).
     #[inline(always)]
     pub fn solve(&mut self, problem: Problem, lambda: f64, model: LocalModel) -> Result<Solved, SolveError> {
-        if self.back_end == BackEnd::Conic {
+        if self.back_end == BackEnd::ConeProgram {
             return self.by_cone_program(problem);
         }
         let (bodies, goal) = (self.bodies(), self.goal(problem));

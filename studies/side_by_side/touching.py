@@ -52,7 +52,7 @@ class ConeJudge:
 
     def __init__(self, case, area):
         contact = ContactFunctor(DROP_IN)
-        contact.functor.backEnd = "conic"
+        contact.functor.backEnd = "cone_program"
         case.start(contact, area)
         # Nothing may move: one look at each moment.
         O.engines = loop(contact.functor, Springs(1.0, 1.0, 0.0), gravity=0.0)[:-1]

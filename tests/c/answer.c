@@ -7,9 +7,9 @@
 
 const way ways[WAYS] = {
     {PP_MIDWAY, PP_FAST, "midway, fast"},
-    {PP_MIDWAY, PP_CONIC, "midway, conic"},
+    {PP_MIDWAY, PP_CONE_PROGRAM, "midway, cone program"},
     {PP_CLOSEST, PP_FAST, "closest, fast"},
-    {PP_CLOSEST, PP_CONIC, "closest, conic"},
+    {PP_CLOSEST, PP_CONE_PROGRAM, "closest, cone program"},
 };
 
 pp_settings settings_for(const way *chosen) {
@@ -20,7 +20,7 @@ pp_settings settings_for(const way *chosen) {
     return settings;
 }
 
-/* The conic back end stops at an interior point: its points are good to about the root of its
+/* The cone-program back end stops at an interior point: its points are good to about the root of its
  * gap, and directions lose as much again to curvature. The fast one ends in Newton steps, at rounding. */
 accuracy accuracy_of(uint32_t back_end, double size) {
     return back_end == PP_FAST ? (accuracy){1e-11, 1e-9, 1e-9, size} : (accuracy){1e-6, 1e-4, 1e-3, size};

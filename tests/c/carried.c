@@ -109,7 +109,7 @@ static void what_is_not_carried_on(const pp_particle *a, const pp_particle *b, c
 
     const struct {
         uint32_t formulation, back_end;
-    } others[] = {{PP_CLOSEST, PP_FAST}, {PP_MIDWAY, PP_CONIC}};
+    } others[] = {{PP_CLOSEST, PP_FAST}, {PP_MIDWAY, PP_CONE_PROGRAM}};
     for (int i = 0; i < 2; i++) {
         pp_settings settings = default_settings();
         settings.formulation = others[i].formulation;

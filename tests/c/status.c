@@ -20,7 +20,7 @@ static const struct {
     {PP_SOLVER_FAILED, 8},
     {PP_INTERNAL_ERROR, 9},
     {PP_BUFFER_TOO_SMALL, 10},
-    {PP_NO_CONIC, 11},
+    {PP_NO_CONE_PROGRAM, 11},
     {PP_BAD_INDEX, 12},
     {PP_DEGENERATE_TRIANGLE, 13},
     {PP_BAD_TOLERANCE, 14},

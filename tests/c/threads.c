@@ -12,8 +12,8 @@
 
 enum { THREADS = 8 };
 
-/* The conic back end is slow, above all under valgrind: one pair in so many will do. */
-enum { CONIC_EVERY = 8 };
+/* The cone-program back end is slow, above all under valgrind: one pair in so many will do. */
+enum { CONE_PROGRAM_EVERY = 8 };
 
 /* All that one thread asks about one pair. */
 typedef struct {
@@ -34,7 +34,7 @@ static void ask(const pair_set *set, int index, findings *found) {
     memset(found, 0, sizeof *found);
     pp_status *status = found->statuses;
     for (int w = 0; w < WAYS; w++) {
-        if (ways[w].back_end == PP_CONIC && index % CONIC_EVERY != 0) continue;
+        if (ways[w].back_end == PP_CONE_PROGRAM && index % CONE_PROGRAM_EVERY != 0) continue;
         pp_settings settings = settings_for(&ways[w]);
         pp_memory memory = {{0}};
         *status++ = pp_contact_detect(p->a, &p->pose_a, p->b, &p->pose_b, &settings, &memory, &found->cold[w]);

@@ -9,7 +9,7 @@ import sys
 from pathlib import Path
 
 TOP = Path(__file__).resolve().parents[2]
-SOURCES = [*(TOP / "src").rglob("*.rs"), *(TOP / "yade-glue/src").glob("*.[ch]pp"), *(TOP / "yade-glue/python").rglob("*.py")]
+SOURCES = [*(TOP / "src").rglob("*.rs"), *(TOP / "yade-glue/src").rglob("*.[ch]pp"), *(TOP / "yade-glue/python").rglob("*.py")]
 # Shorter parts may be found anywhere.
 LEAST = 8
 

@@ -7,7 +7,7 @@ use potential_particles::{BackEnd, DetectError, Role, Settings};
 
 /// By both back ends, with the accuracy of each.
 fn found(a: &Body, b: &Body, on: Role) -> [(Option<ClosestPoint>, f64); 2] {
-    [(BackEnd::Fast, 1e-12), (BackEnd::Conic, 1e-5)].map(|(back_end, accuracy)| {
+    [(BackEnd::Fast, 1e-12), (BackEnd::ConeProgram, 1e-5)].map(|(back_end, accuracy)| {
         let settings = Settings { back_end, ..Settings::default() };
         let found = closest_point(&a.particle(), &a.pose(), &b.particle(), &b.pose(), on, &settings);
         (found.expect("an answer"), accuracy)

@@ -56,9 +56,9 @@ proptest! {
         prop_assert!(a.s(&contact.point).max(b.s(&contact.point)) <= contact.s + contact.gap + noise);
         // Where s vanishes (cores that overlap) its root is less sharp than s².
         prop_assert!(contact.gap * (contact.s + contact.gap) < 1e-7 * contact.s.max(1.0).powi(2), "gap {:e}", contact.gap);
-        let conic = solve(&a, &b, Formulation::Midway, BackEnd::Conic);
-        prop_assert!((conic.s - contact.s).abs() <= 1e-7 * searched.max(1.0), "{} and {}", conic.s, contact.s);
-        prop_assert!((conic.s - searched).abs() <= conic.gap + noise, "{} for {searched}, gap {:e}", conic.s, conic.gap);
+        let cone_program = solve(&a, &b, Formulation::Midway, BackEnd::ConeProgram);
+        prop_assert!((cone_program.s - contact.s).abs() <= 1e-7 * searched.max(1.0), "{} and {}", cone_program.s, contact.s);
+        prop_assert!((cone_program.s - searched).abs() <= cone_program.gap + noise, "{} for {searched}, gap {:e}", cone_program.s, cone_program.gap);
     }
 
     #[test]
@@ -77,8 +77,8 @@ proptest! {
         let (searched, noise) = (searched_midway(&a, &b), a.noise() + b.noise());
         prop_assert!((contact.s - searched).abs() <= contact.gap + noise, "{} for {searched}, gap {:e}", contact.s, contact.gap);
         prop_assert!(contact.gap <= 16.0 * noise, "s {} gap {:e}", contact.s, contact.gap);
-        let conic = solve(&a, &b, Formulation::Midway, BackEnd::Conic);
-        prop_assert!((conic.s - contact.s).abs() <= 1e-7 * searched.max(1.0), "{} and {}", conic.s, contact.s);
+        let cone_program = solve(&a, &b, Formulation::Midway, BackEnd::ConeProgram);
+        prop_assert!((cone_program.s - contact.s).abs() <= 1e-7 * searched.max(1.0), "{} and {}", cone_program.s, contact.s);
     }
 
     #[test]
@@ -91,17 +91,17 @@ proptest! {
             prop_assert_eq!(contact.formulation, Formulation::Midway);
         } else {
             prop_assert!(!inside.contains(&true));
-            let conic = solve(&a, &b, Formulation::Closest, BackEnd::Conic);
+            let cone_program = solve(&a, &b, Formulation::Closest, BackEnd::ConeProgram);
             let noise = a.noise() + b.noise();
-            let mut sides = vec![(contact.s, conic.s, searched_closest(&a, &b))];
+            let mut sides = vec![(contact.s, cone_program.s, searched_closest(&a, &b))];
             if overlapping {
-                sides.push((contact.s_b, conic.s_b, searched_closest(&b, &a)));
+                sides.push((contact.s_b, cone_program.s_b, searched_closest(&b, &a)));
             }
-            for (fast, conic, searched) in sides {
+            for (fast, cone_program, searched) in sides {
                 // The search holds the other s at 1 as closely as the boundary is known.
                 prop_assert!((fast - searched).abs() <= contact.gap + 1e4 * noise, "{fast} for {searched}, gap {:e}", contact.gap);
                 prop_assert!((fast - searched).abs() <= 1e-8 * searched.max(1.0), "{fast} for {searched}");
-                prop_assert!((fast - conic).abs() <= 1e-7 * searched.max(1.0), "{fast} and {conic}");
+                prop_assert!((fast - cone_program).abs() <= 1e-7 * searched.max(1.0), "{fast} and {cone_program}");
             }
         }
     }
@@ -267,7 +267,7 @@ proptest! {
         if a.k > 0.0 && b.k > 0.0 {
             let ((prism_a, at_a), (prism_b, at_b)) = (prism(&a), prism(&b));
             let (prism_a, prism_b) = (prism_a.unwrap(), prism_b.unwrap());
-            for back_end in [BackEnd::Fast, BackEnd::Conic] {
+            for back_end in [BackEnd::Fast, BackEnd::ConeProgram] {
                 let settings = Settings { back_end, solve_separated: true, ..Settings::default() };
                 let space = potential_particles::detect(&prism_a, &at_a, &prism_b, &at_b, &settings, None).unwrap();
                 let plane = solve(&a, &b, Formulation::Midway, back_end);

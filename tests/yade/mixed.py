@@ -2,16 +2,16 @@
 """Scenes in which potential particles meet YADE's own shapes, for the scripts in this folder."""
 import yade
 from harness import *
+from potential_particles.unserved import REMEDIES
 
 
 def bounds():
-    return [yade.PotentialParticle2AABB(), yade.Bo1_Sphere_Aabb(), yade.Bo1_Box_Aabb(), yade.Bo1_Wall_Aabb(), yade.Bo1_Facet_Aabb()]
+    return [yade.PotentialParticle2AABB()] + [getattr(yade, f"Bo1_{shape}_Aabb")() for shape in REMEDIES]
 
 
 def contacts(**keywords):
     """Functors for every pair of a potential particle and a shape that it can touch."""
-    return [kind(**keywords) for kind in (yade.Ig2_PP_PP_ScGeom_Conic, yade.Ig2_Sphere_ConicPP_ScGeom, yade.Ig2_Box_ConicPP_ScGeom,
-                                          yade.Ig2_Wall_ConicPP_ScGeom, yade.Ig2_Facet_ConicPP_ScGeom)]
+    return [yade.Ig2_PP_PP_ScGeom_Conic(**keywords)] + [getattr(yade, name)(**keywords) for name in REMEDIES.values()]
 
 
 def friction_physics():

@@ -7,6 +7,7 @@ import subprocess
 import sys
 import sysconfig
 import tempfile
+from pathlib import Path
 
 import yade
 import yade.config
@@ -134,7 +135,7 @@ def build_check(edits, number=module._glue.built_for_yade_number):
             open(path, "w").write(text.replace(old, new, 1))
         # The assertions would stop the compiler first; here the comparison itself is on trial.
         path = os.path.join(abi, "base.hpp")
-        text = re.sub(r"#define (PP_ABI_(?:SIZE|OFFSET)\(.*?\))(.*\\\n)?.*", r"#define \1 static_assert(true)", open(path).read())
+        text = open(path).read().replace("static_assert(condition, what)", "static_assert(true, what)")
         open(path, "w").write(text)
         probe = os.path.join(folder, "probe.so")
         compiled = subprocess.run(
@@ -149,8 +150,9 @@ def build_check(edits, number=module._glue.built_for_yade_number):
         return done.returncode, done.stdout + done.stderr
 
 
+declared = sum(len(re.findall(r"^PP_ABI_SIZE\(", path.read_text(), re.MULTILINE)) for path in Path(SOURCE).glob("*.hpp"))
 status, text = build_check({})
-check.true(status == 0 and "31 classes" in text, f"the true declarations: {status} {text}")
+check.true(status == 0 and f"{declared} classes" in text, f"the true declarations: {status} {text}")
 dict_, custom = ("    virtual boost::python::dict %s() const;\n" % name for name in ("pyDict", "pyDictCustom"))
 status, text = build_check({
     "knksphys.hpp": ("    Real ks;\n", "    Real ks;\n    Real extra;\n"),

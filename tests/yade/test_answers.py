@@ -8,7 +8,7 @@ import yade
 from harness import *
 
 check = Checks()
-PATHS = ["motion", "spheres", "face", "memory", "proof", "carried", "warm", "cold", "conic"]
+PATHS = ["motion", "spheres", "face", "memory", "proof", "carried", "warm", "cold", "cone_program"]
 
 
 def answers(position, orientation=Quaternion.Identity, steps=3, **keywords):
@@ -42,8 +42,8 @@ check.true(math.isnan(share), "nobody is apart")
 found, share, touching = answers(Vector3(0, 0, 2 * edge - 0.002), crossed, carryTolerance=0)
 check.equal((found, touching), ({"warm": 2, "cold": 1}, 3), "and are not carried on")
 check.true(math.isnan(share), "nor is anybody apart then")
-found, _, touching = answers(Vector3(0, 0, 2 * edge - 0.002), crossed, backEnd="conic")
-check.equal((found, touching), ({"conic": 3}, 3), "by the conic back end")
+found, _, touching = answers(Vector3(0, 0, 2 * edge - 0.002), crossed, backEnd="cone_program")
+check.equal((found, touching), ({"cone_program": 3}, 3), "by the cone-program back end")
 
 # What moves is looked at again once it may have met what it was apart from, whichever way it moves: the answers are
 # those of a functor that never saw the pair before.

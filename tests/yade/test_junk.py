@@ -16,7 +16,7 @@ random.seed(int(os.environ.get("SEED", 11)))
 ROUNDS = int(os.environ.get("JUNK", 1500))
 nan, inf = float("nan"), float("inf")
 NUMBERS = [0, 1, -1, 0.05, 0.5, 2, nan, inf, -inf, 1e308, -1e308, 5e-324, 1e-160, 1e160, 2**63, 10**400, True]
-THINGS = NUMBERS + [None, "", "midway", "closest", "conic", "fast", "00" * 64, "zz" * 64, b"x", [], (), {}, [None], ["a"], [[]],
+THINGS = NUMBERS + [None, "", "midway", "closest", "cone_program", "conic", "fast", "00" * 64, "zz" * 64, b"x", [], (), {}, [None], ["a"], [[]],
                     object(), Vector3(1, 2, 3), Vector3(nan, 0, 0), Vector3.Zero, Quaternion.Identity, range(5), [1e999] * 6]
 EXPECTED = (ValueError, TypeError, RuntimeError, AttributeError, OverflowError, IndexError, KeyError, AssertionError, StopIteration)
 

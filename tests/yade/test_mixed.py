@@ -107,6 +107,10 @@ def heap(loop=None, verlet=0.0):
     return moving
 
 
+def ours():
+    return O.engines[2].geomDispatcher.functors[:len(contacts())]
+
+
 def one_thread():
     for engine in O.engines:
         engine.ompThreads = 1
@@ -124,15 +128,16 @@ for loop in yade.InteractionLoop, yade.ConicInteractionLoop:
     check.true(min(O.bodies[n].state.pos[0] for n in moving) > -0.9 + 0.1, f"{name}: the walls hold")
     check.equal(failures(), 0, f"{name}: no failure")
     # The block's own contacts: something lies on it or leans on it in the course of the run.
-    served = [f.overlapping for f in O.engines[2].geomDispatcher.functors[:5]]
-    check.true(all(number > 0 for number in served), f"{name}: every functor has had contacts: {served}")
+    present = {type(body.shape).__name__ for body in O.bodies}
+    served = [f.overlapping for f in ours() if f.bases[0] in present]
+    check.true(len(served) >= 5 and all(number > 0 for number in served), f"{name}: every functor has had contacts: {served}")
 
 # --- both loops, step by step, and a scene that was saved in between ------------------------
 ended = []
 for loop in yade.InteractionLoop, yade.ConicInteractionLoop:
     heap(loop)
     one_thread()
-    for f in O.engines[2].geomDispatcher.functors[:5]:
+    for f in ours():
         f.carryTolerance = 0
     run(1500)
     ended.append(state_numbers())
@@ -149,7 +154,7 @@ for ending in ".yade.gz", ".xml.bz2":
     # (The overlap is not in the file: YADE computes that anew in each step.)
     loaded = {(i.id1, i.id2): tuple(i.geom.normal) for i in O.interactions if i.isReal}
     check.true(all(loaded.get(pair) == normal for pair, (_, normal) in before.items()), f"contacts after loading {ending}")
-    kinds = [type(f).__name__ for f in O.engines[2].geomDispatcher.functors[:5]]
+    kinds = [type(f).__name__ for f in ours()]
     check.equal(kinds, [type(f).__name__ for f in contacts()], "functors after loading")
     potential_particles.prepare()
     run(1)

@@ -115,7 +115,7 @@ contacts = functor()
 
 def tune(i):
     contacts.formulation = ("midway", "closest")[i % 2]
-    contacts.backEnd = ("fast", "conic")[i % 5 == 0]
+    contacts.backEnd = ("fast", "cone_program")[i % 5 == 0]
     contacts.flatRegularisation = 1e-7 * (i % 3)
     contacts.calContactArea = i % 4 == 0
     contacts.resetCounters()

@@ -103,6 +103,49 @@ for order in 0, 1:
     of_sphere = isinstance(O.bodies[found[0].id1].shape, yade.Sphere)
     check.close(found[0].geom.normal, Vector3(-1 if of_sphere else 1, 0, 0), 1e-12, "its normal")
 
+# --- cylinders ------------------------------------------------------------------------------
+SEGMENT, ROD = Vector3(0.3, -1.2, 0.8), 0.25
+AXIS = SEGMENT.normalized()
+ACROSS = AXIS.cross(Vector3(0.2, 0.1, 0.9)).normalized()
+
+
+def rod(at, turn=Quaternion.Identity):
+    return lambda: place(yade.Cylinder(radius=ROD, length=SEGMENT.norm(), segment=SEGMENT), at, turn)
+
+
+# Nearest point of the segment, and the way from there to the centre of a ball: on its side, at its ends and beyond them.
+for loop in yade.InteractionLoop, yade.ConicInteractionLoop:
+    for turn in Quaternion.Identity, TURN:
+        for nearest, out, name in ((SEGMENT * 0.3, ACROSS, "side"), (Vector3.Zero, ACROSS, "side at an end"),
+                                   (SEGMENT, (AXIS + ACROSS).normalized(), "end"), (Vector3.Zero, -AXIS, "tip")):
+            both_orders(rod(Vector3(1, 2, 3), turn), particle(lambda: ball(0.7), Vector3(1, 2, 3) + turn * (nearest + out * 0.9)), 0.05,
+                        turn * out, f"ball on the {name} of a cylinder", Vector3(1, 2, 3) + turn * (nearest + out * (0.9 * ROD / 0.95)), loop=loop)
+contact, _ = pair(rod(Vector3.Zero), particle(lambda: ball(0.7), SEGMENT + AXIS * 0.95001))
+check.true(contact is None, "a ball just beyond the end")
+# The nearest points of two segments that cross are known: a particle of the same kind, whose planes are given here.
+other = yade.ConicPotentialParticle(planes=[(1, 0, 0, 2), (-1, 0, 0, 2), (0, 1, 0, 0), (0, -1, 0, 0), (0, 0, 1, 0), (0, 0, -1, 0)], r=0.5, k=0.0)
+across_both = AXIS.cross(Vector3(1, 0, 0)).normalized()
+both_orders(rod(-0.4 * SEGMENT), particle(lambda: other, across_both * 0.7), 0.05, across_both, "two rods that cross", across_both * (0.7 * ROD / 0.75))
+# YADE's Cylinder derives from Sphere: in one scene each pair finds its own functor.
+mixed_scene(dt=1e-12)
+for body in (sphere(1.0, Vector3(0, 0, 1.65)), particle(lambda: ball(0.7), Vector3.Zero), rod(-ACROSS * 0.9)):
+    body()
+look()
+check.equal(sorted(type(f).__name__ for f in O.engines[2].geomDispatcher.functors if f.overlapping), ["Ig2_Cylinder_ConicPP_ScGeom",
+            "Ig2_Sphere_ConicPP_ScGeom"], "a sphere and a cylinder in one scene")
+# One without length is a ball, and one that turns about its end within its old bound is seen by the watch.
+both_orders(lambda: place(yade.Cylinder(radius=1.0, length=0.0, segment=(0, 0, 0)), Vector3.Zero), particle(lambda: ball(0.7), Vector3(0, 0, 1.65)), 0.05,
+            Vector3(0, 0, 1), "a cylinder without length", Vector3(0, 0, 1.65 / 1.7))
+contact, ids = pair(rod(Vector3.Zero), particle(lambda: ball(0.7), ACROSS * 0.9))
+watch = yade.BoundWatch()
+O.engines = [O.engines[0], watch] + O.engines[1:]
+O.engines[2].verletDist = 0.1
+run(2)
+asked = watch.requests
+O.bodies[ids[0]].state.ori = Quaternion(ACROSS, 1.0)
+run(1)
+check.equal(watch.requests, asked + 1, "a cylinder that turned")
+
 # --- boxes ----------------------------------------------------------------------------------
 extents = Vector3(0.6, 0.4, 0.5)
 

@@ -4,8 +4,11 @@ import builtins
 import copy
 import os
 import pickle
+import re
 import tempfile
+from pathlib import Path
 
+import harness
 import potential_particles
 import yade
 import yade.system
@@ -13,9 +16,14 @@ import yade.wrapper
 from harness import *
 
 check = Checks()
-NAMES = ["ConicPotentialParticle", "ScGeomConicPP", "Ig2_ConicPP_ConicPP_ScGeom", "Ig2_PP_PP_ScGeom_Conic", "Bo1_ConicPP_Aabb",
-         "Bo1_PP_Aabb_Conic", "BoundWatch", "ConicInteractionLoop", "Ig2_Sphere_ConicPP_ScGeom", "Ig2_Box_ConicPP_ScGeom",
-         "Ig2_Wall_ConicPP_ScGeom", "Ig2_Facet_ConicPP_ScGeom", "Gl1_PotentialParticle_Conic"]
+# Those that the reference promises.
+REFERENCE = Path(harness.__file__).resolve().parents[2] / "docs/python.md"
+NAMES = re.findall(r"autoclass:: yade\.wrapper\.(\w+)", REFERENCE.read_text())
+# YADE's own shapes that a potential particle touches.
+OTHERS = [name.split("_")[1] for name in NAMES if name.startswith("Ig2_") and name.split("_")[1] not in ("ConicPP", "PP")]
+
+check.equal(sorted(NAMES), sorted(potential_particles._glue.class_names), "every class is in the reference")
+check.true(len(OTHERS) >= 4, f"functors of YADE's shapes: {OTHERS}")
 
 for name in NAMES:
     cls = getattr(yade.wrapper, name)
@@ -74,7 +82,7 @@ check.equal(from_plain.planes, cube().planes, "from the dict of a plain shape")
 check.equal(from_plain.vertices, cube().vertices, "which gets a box, having had none")
 
 # Functor and geometry.
-keywords = dict(formulation="closest", backEnd="conic", tolerance=1e-9, flatRegularisation=1e-4, carryTolerance=1e-8,
+keywords = dict(formulation="closest", backEnd="cone_program", tolerance=1e-9, flatRegularisation=1e-4, carryTolerance=1e-8,
                 calContactArea=False, areaTolerance=1e-5, twoDimension=True, twoDdir=Vector3(0, 0, 1), unitWidth2D=2.0, areaStep=3,
                 accuracyTol=1e-6, measureTime=True, label="contacts")
 functor_ = yade.Ig2_ConicPP_ConicPP_ScGeom(**keywords)
@@ -106,6 +114,7 @@ for keyword, value in [("formulation", "nearest"), ("backEnd", "mosek"), ("toler
     before = getattr(functor_, keyword)
     check.raises(ValueError, lambda: setattr(functor_, keyword, value), f"{keyword} set to {value}", keyword)
     check.equal(getattr(functor_, keyword), before, f"{keyword} after a refused value")
+check.raises(ValueError, lambda: yade.Ig2_ConicPP_ConicPP_ScGeom(backEnd="conic"), "the former name of a back end", "'cone_program'")
 geometry = yade.ScGeomConicPP(memory="0123456789abcdef" * 16, normal=(0, 0, 1), contactPoint=(1, 2, 3))
 same(geometry, copy.copy(geometry), "copy of a geometry")
 check.raises(ValueError, lambda: yade.ScGeomConicPP(memory="xy"), "memory of wrong length", "256")
@@ -126,9 +135,10 @@ check.equal(type(find(flat_one, flat_one)).__name__, "Ig2_ConicPP_ConicPP_ScGeom
 check.equal(type(find(round_one, flat_one)).__name__, "Ig2_PP_PP_ScGeom_Conic", "plain and ours")
 check.equal(type(find(round_one, round_one)).__name__, "Ig2_PP_PP_ScGeom_Conic", "two plain ones")
 check.true(find(flat_one, yade.Sphere()) is None, "no functor for ours and a sphere")
-O.engines[2].geomDispatcher.functors = [getattr(yade, f"Ig2_{name}_ConicPP_ScGeom")() for name in ("Sphere", "Box", "Wall", "Facet")]
+O.engines[2].geomDispatcher.functors = [getattr(yade, f"Ig2_{name}_ConicPP_ScGeom")() for name in OTHERS]
+potential_particles.prepare()
 find = O.engines[2].geomDispatcher.dispFunctor
-for other in yade.Sphere(), yade.Box(), yade.Wall(), yade.Facet():
+for other in [getattr(yade, name)() for name in OTHERS]:
     name = f"Ig2_{type(other).__name__}_ConicPP_ScGeom"
     for one in round_one, flat_one:
         check.equal([type(find(*two)).__name__ for two in ((one, other), (other, one))], [name, name], "either order of the shapes")

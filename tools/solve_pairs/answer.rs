@@ -70,7 +70,7 @@ impl Answer {
         let wanted = arguments.formulation;
         let back_end = match arguments.back_end {
             arguments::BackEnd::Fast => BackEnd::Fast,
-            arguments::BackEnd::Conic => BackEnd::Conic,
+            arguments::BackEnd::ConeProgram => BackEnd::ConeProgram,
         };
         let settings = Settings { back_end, gap_tolerance: arguments.gap_tolerance, ..Settings::default() };
         let midway = (wanted != arguments::Formulation::Closest).then(|| midway(input, settings)).transpose()?;
@@ -156,7 +156,7 @@ fn name(kind: Kind) -> &'static str {
 /// Which solver answered, and from which start.
 fn path(contact: &Contact) -> &'static str {
     match contact.back_end {
-        BackEnd::Conic => "conic",
+        BackEnd::ConeProgram => "cone_program",
         _ if contact.flags.contains(Flags::EXTENDED) => "extended",
         _ if contact.flags.contains(Flags::WARM) => "fast warm",
         _ => "fast cold",

@@ -42,5 +42,5 @@ pub enum BackEnd {
     /// This library's own.
     Fast,
     /// The paper's cone programs through clarabel.
-    Conic,
+    ConeProgram,
 }

@@ -55,7 +55,7 @@ pub enum Failure {
     /// Rejected, although they overlap; or the quick answer has another kind than the full one.
     Reject,
     /// The cone program disagrees.
-    Conic,
+    ConeProgram,
     /// A jump along a smooth motion.
     Jump,
     /// s − gap < 1 < s + gap with a gap beyond 1e-2: touching cannot be told from apart.
@@ -130,7 +130,7 @@ pub struct Verdict {
     pub judged: u32,
     /// Not the same bits in another unit.
     pub unit_digits: bool,
-    pub conic: Option<bool>,
+    pub cone_program: Option<bool>,
     pub rounding_limited: bool,
 }
 
@@ -158,15 +158,15 @@ pub struct Trial {
     /// Whether the second solver is asked, and closest judged, whatever the answer looks like.
     pub settle: bool,
     /// Whether the cone program is asked.
-    pub conic: bool,
+    pub cone_program: bool,
 }
 
 impl Trial {
     #[allow(dead_code)]
-    pub const WHOLE: Self = Self { settle: true, conic: true };
+    pub const WHOLE: Self = Self { settle: true, cone_program: true };
     /// What every pair goes through in bulk.
     #[allow(dead_code)]
-    pub const BY_DEFINITION: Self = Self { settle: false, conic: false };
+    pub const BY_DEFINITION: Self = Self { settle: false, cone_program: false };
 }
 
 /// What is judged; any other solver must be found out.
@@ -174,7 +174,7 @@ pub type Solver =
     fn(&Particle, &Pose, &Particle, &Pose, &Settings, Option<&mut Memory>) -> Result<Contact, DetectError>;
 
 /// The most planes that the cone program is bothered with.
-const CONIC_PLANES: usize = 80;
+const CONE_PROGRAM_PLANES: usize = 80;
 
 pub const FULL: Settings = Settings {
     formulation: Formulation::Midway,
@@ -323,7 +323,7 @@ fn all(
     if trial.settle {
         closest(verdict, &scene, &contact, &mut clock, random);
     }
-    if trial.conic && a.plane_count() + b.plane_count() <= CONIC_PLANES {
+    if trial.cone_program && a.plane_count() + b.plane_count() <= CONE_PROGRAM_PLANES {
         by_cone_program(verdict, &scene, &contact);
     }
     verdict.costs = clock.costs;

@@ -23,8 +23,8 @@ pub struct Range {
 }
 
 /// One pair in this many visits the cone program, or one in this many of those that are settled in any case.
-const CONIC_EVERY: f64 = 500.0;
-const CONIC_EVERY_SETTLED: f64 = 25.0;
+const CONE_PROGRAM_EVERY: f64 = 500.0;
+const CONE_PROGRAM_EVERY_SETTLED: f64 = 25.0;
 
 impl Range {
     /// Drawn anew for each pair: a fixed step would meet some families only.
@@ -33,7 +33,7 @@ impl Range {
         let every = self.settle_every as f64;
         Trial {
             settle: random.uniform() * every < 1.0,
-            conic: random.uniform() * CONIC_EVERY.max(CONIC_EVERY_SETTLED * every) < 1.0,
+            cone_program: random.uniform() * CONE_PROGRAM_EVERY.max(CONE_PROGRAM_EVERY_SETTLED * every) < 1.0,
         }
     }
 }

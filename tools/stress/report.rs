@@ -279,7 +279,7 @@ impl Findings {
             unsettled: t.unjudged,
             rounding_limited: t.rounding_limited as f64 / t.pairs.max(1) as f64,
             other_digits_in_other_units: t.unit_digits,
-            cone_program: Cone { answered: t.conic[0], gave_up: t.conic[1] },
+            cone_program: Cone { answered: t.cone_program[0], gave_up: t.cone_program[1] },
             evaluation_ns: 1e9 * self.evaluation,
             slowest_over_median: over_median(t.time(Call::Full)),
             calls: calls.collect(),
@@ -380,8 +380,8 @@ impl Findings {
             t.doubts,
             t.judged,
             t.unjudged,
-            t.conic[0],
-            t.conic[1],
+            t.cone_program[0],
+            t.cone_program[1],
             t.walk_steps
         );
         for found in t.found.iter().take(MOST_PRINTED) {

@@ -122,7 +122,7 @@ pub struct Tally {
     pub unjudged: u64,
     pub unit_digits: u64,
     pub rounding_limited: u64,
-    pub conic: [u64; 2],
+    pub cone_program: [u64; 2],
     pub walk_steps: u64,
 }
 
@@ -145,7 +145,7 @@ impl Default for Tally {
             unjudged: 0,
             unit_digits: 0,
             rounding_limited: 0,
-            conic: [0; 2],
+            cone_program: [0; 2],
             walk_steps: 0,
         }
     }
@@ -194,8 +194,8 @@ impl Tally {
         }
         self.unit_digits += u64::from(verdict.unit_digits);
         self.rounding_limited += u64::from(verdict.rounding_limited);
-        if let Some(answered) = verdict.conic {
-            self.conic[usize::from(!answered)] += 1;
+        if let Some(answered) = verdict.cone_program {
+            self.cone_program[usize::from(!answered)] += 1;
         }
         self.families[family].failures += u64::from(!verdict.failures.is_empty());
     }
@@ -258,8 +258,8 @@ impl Tally {
         self.unjudged += other.unjudged;
         self.unit_digits += other.unit_digits;
         self.rounding_limited += other.rounding_limited;
-        self.conic[0] += other.conic[0];
-        self.conic[1] += other.conic[1];
+        self.cone_program[0] += other.cone_program[0];
+        self.cone_program[1] += other.cone_program[1];
         self.walk_steps += other.walk_steps;
     }
 

@@ -46,8 +46,14 @@ static_assert(sizeof(Quaternionr) == 32 && alignof(Quaternionr) == 8);
 
 // The classes have virtual functions, so offsetof on them is "conditionally supported"; GCC
 // supports it for single inheritance without virtual bases, which is all that occurs here.
-#define PP_ABI_SIZE(Class, bytes) static_assert(sizeof(Class) == (bytes), "size of " #Class)
+#define PP_ABI_ASSERT(condition, what) static_assert(condition, what)
+#define PP_ABI_SIZE(Class, bytes)                                                                  \
+    PP_ABI_PROBE(Class)                                                                            \
+    PP_ABI_ASSERT(sizeof(Class) == (bytes), "size of " #Class)
 #define PP_ABI_OFFSET(Class, field, bytes)                                                         \
-    static_assert(offsetof(Class, field) == (bytes), "offset of " #Class "::" #field)
+    PP_ABI_ASSERT(offsetof(Class, field) == (bytes), "offset of " #Class "::" #field)
+#ifndef PP_ABI_PROBE // probe.cpp has one
+#define PP_ABI_PROBE(Class)
+#endif
 
 #pragma GCC diagnostic ignored "-Winvalid-offsetof"

@@ -18,22 +18,7 @@ import sys
 from pathlib import Path
 
 LIBRARIES = ["libyade.so", "libpkg_common.so", "libpkg_dem.so", "libpkg_potential.so"]
-# Our classes and the YADE classes whose tables theirs continue.
-PLUGIN_CLASSES = {
-    "ConicPotentialParticle": "PotentialParticle",
-    "ScGeomConicPP": "ScGeom",
-    "Ig2_ConicPP_ConicPP_ScGeom": "IGeomFunctor",
-    "Ig2_PP_PP_ScGeom_Conic": "IGeomFunctor",
-    "Ig2_Sphere_ConicPP_ScGeom": "IGeomFunctor",
-    "Ig2_Box_ConicPP_ScGeom": "IGeomFunctor",
-    "Ig2_Wall_ConicPP_ScGeom": "IGeomFunctor",
-    "Ig2_Facet_ConicPP_ScGeom": "IGeomFunctor",
-    "ConicInteractionLoop": "InteractionLoop",
-    "Bo1_ConicPP_Aabb": "BoundFunctor",
-    "Bo1_PP_Aabb_Conic": "BoundFunctor",
-    "BoundWatch": "GlobalEngine",
-    "Gl1_PotentialParticle_Conic": "GlShapeFunctor",
-}
+ENTRY = re.compile(r"^PP_(?:CLASS\((\w+), (\w+)|STAND_IN\((\w+))", re.MULTILINE)
 WORD = 8
 SHT_RELA, SHT_NOBITS, SHT_DYNSYM = 4, 8, 11
 SHF_ALLOC, SHF_TLS = 2, 0x400
@@ -94,8 +79,18 @@ class Elf:
         return [self.relocations.get(at) or self.word(at) for at in range(start, start + size, WORD)]
 
 
-def mangled(namespace, name):
-    return f"N{len(namespace)}{namespace}{len(name)}{name}E"
+def plugin_classes(table):
+    """The classes of the plugin's class table, each with the class of YADE whose virtual table its own continues."""
+    bases = {name or f"Ig2_{shape}_ConicPP_ScGeom": base or "Ig2_ConicPP_ConicPP_ScGeom"
+             for name, base, shape in ENTRY.findall(table.read_text())}
+    roots = dict(bases)
+    while ours := [name for name, base in roots.items() if base in bases]:
+        roots.update((name, bases[roots[name]]) for name in ours)
+    return roots
+
+
+def mangled(*names):
+    return f"N{''.join(f'{len(name)}{name}' for name in names)}E"
 
 
 def demangle(names):
@@ -146,7 +141,7 @@ class Comparison:
             self.note(f"{name}: no library exports its virtual table")
             return
         theirs = library.virtual_table(symbol)
-        ours = self.probe.virtual_table("_ZTV" + mangled("abi_probe", name))
+        ours = self.probe.virtual_table("_ZTV" + mangled("yade", "abi_probe", name))
         self.compare_tables(name, ours, theirs, "abi_probe")
         self.compare_size(name, library, theirs)
 
@@ -218,6 +213,7 @@ def main():
     arguments.add_argument("--libraries", type=Path, required=True, help="folder of YADE's libraries")
     arguments.add_argument("--probe", type=Path, required=True, help="probe.cpp, compiled")
     arguments.add_argument("--plugin", type=Path, help="the plugin")
+    arguments.add_argument("--table", type=Path, help="its class table, src/registration/class_table.inc")
     options = arguments.parse_args()
     try:
         probe = Elf(options.probe)
@@ -229,7 +225,7 @@ def main():
         symbols = comparison.compare_symbols(probe)
         if plugin:
             symbols += comparison.compare_symbols(plugin)
-            for name, base in PLUGIN_CLASSES.items():
+            for name, base in plugin_classes(options.table).items():
                 comparison.compare_plugin_class(name, base)
     except (OSError, ValueError, KeyError, subprocess.CalledProcessError) as error:
         print(f"check_abi: cannot compare: {error!r}", file=sys.stderr)

@@ -17,7 +17,8 @@ public:
     virtual const int& getBaseClassIndex(int depth) const;
     virtual const int& getMaxCurrentlyUsedClassIndexOfKin() const;
 };
-PP_ABI_SIZE(Indexable, 8);
+// The libraries export no virtual table of it to compare with.
+PP_ABI_ASSERT(sizeof(Indexable) == 8, "size of Indexable");
 
 } // namespace yade
 

@@ -18,6 +18,20 @@ public:
 PP_ABI_SIZE(Sphere, 104);
 PP_ABI_OFFSET(Sphere, radius, 96);
 
+// The points within the radius of the segment from the body's position to its end.
+class Cylinder : public Sphere {
+public:
+    ~Cylinder() override;
+    PP_ABI_SERIALIZABLE_OVERRIDES
+    PP_ABI_INDEX_OVERRIDES
+
+    Real length; // of the segment, for YADE's own functors
+    Vector3r segment; // local axes
+};
+PP_ABI_SIZE(Cylinder, 136);
+PP_ABI_OFFSET(Cylinder, length, 104);
+PP_ABI_OFFSET(Cylinder, segment, 112);
+
 class Box : public Shape {
 public:
     ~Box() override;

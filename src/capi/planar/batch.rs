@@ -16,7 +16,7 @@ use std::ptr;
 ///
 /// Each contact and memory is, to the last bit, that of pp_contact_detect_2d for the pair alone, whatever
 /// the number of threads.
-/// Errors: PP_NULL_POINTER, PP_UNKNOWN_FORMULATION, PP_UNKNOWN_BACK_END, PP_NO_CONIC, PP_BAD_SETTING,
+/// Errors: PP_NULL_POINTER, PP_UNKNOWN_FORMULATION, PP_UNKNOWN_BACK_END, PP_NO_CONE_PROGRAM, PP_BAD_SETTING,
 /// PP_BAD_INDEX (a count that no memory could hold).
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pp_contact_detect_batch_2d(

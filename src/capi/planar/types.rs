@@ -20,11 +20,11 @@ pub struct pp_contact_2d {
     pub kind: i32,
     /// The formulation that the geometry below answers (PP_MIDWAY if PP_FLAG_SLACK is set).
     pub formulation: u32,
-    /// The back end that answered: PP_FAST or PP_CONIC.
+    /// The back end that answered: PP_FAST or PP_CONE_PROGRAM.
     pub back_end: u32,
     /// Sum of PP_FLAG_... bits.
     pub flags: u32,
-    /// Pairs of quadratics solved; interior-point iterations of the conic back end.
+    /// Pairs of quadratics solved; interior-point iterations of the cone-program back end.
     pub iterations: u32,
     /// Always 0.
     pub reserved: u32,

@@ -282,16 +282,19 @@ fn closest_again(verdict: &mut Verdict, scene: &Scene, cold: [(&Contact, Setting
 }
 
 pub(super) fn by_cone_program(verdict: &mut Verdict, scene: &Scene, fast: &Contact) {
-    match scene.detect(&scene.at_b, &Settings { back_end: BackEnd::Conic, ..FULL }, None) {
-        Ok(conic) => {
-            verdict.conic = Some(true);
+    match scene.detect(&scene.at_b, &Settings { back_end: BackEnd::ConeProgram, ..FULL }, None) {
+        Ok(cone_program) => {
+            verdict.cone_program = Some(true);
             // clarabel stops at about 1e-8 of its own scaled numbers; its bound is no proof below that.
-            let allowed = 1e-6 * fast.s.max(1.0) + fast.gap + conic.gap;
-            verdict.check((conic.s - fast.s).abs() <= allowed, Failure::Conic, || {
-                format!("cone program s={:e} ± {:e}, fast {:e} ± {:e}", conic.s, conic.gap, fast.s, fast.gap)
+            let allowed = 1e-6 * fast.s.max(1.0) + fast.gap + cone_program.gap;
+            verdict.check((cone_program.s - fast.s).abs() <= allowed, Failure::ConeProgram, || {
+                format!(
+                    "cone program s={:e} ± {:e}, fast {:e} ± {:e}",
+                    cone_program.s, cone_program.gap, fast.s, fast.gap
+                )
             });
         }
         // The judge may give up where the judged does not.
-        Err(_) => verdict.conic = Some(false),
+        Err(_) => verdict.cone_program = Some(false),
     }
 }

@@ -26,7 +26,7 @@ differs is refused with AbiError, which lists the differences, and nothing is re
 and was never tested is taken, with a warning of one line.
 
 Of YADE's own classes the import replaces three functions, which do as before: O.run and O.step look our functors up
-when there are several threads (prepare) and warn of shapes that no functor serves, and O.load says what to do about a
+(prepare) and warn of shapes that no functor serves, and O.load says what to do about a
 scene of another YADE. The lists of PotentialParticle are set under a lock, and YADE's 3-D window draws that class by our
 functor (window). protect_runs() replaces more, for those who ask for it.
 """
@@ -143,12 +143,13 @@ def prepare():
 
     YADE copies a functor that serves a derived class (as PotentialParticle2AABB serves
     ConicPotentialParticle) into its table at the first look-up, without a lock, within its parallel
-    loops: threads that do so at once may damage the table. O.run and O.step call this by themselves
-    when YADE has several threads. Only a script that calls an engine by hand has to do it itself.
+    loops: threads that do so at once may damage the table. O.run and O.step do so by themselves for
+    our shapes. Only a script that calls an engine by hand has to call this.
     """
     import yade
     scene = yade.wrapper.Omega()
     bounds, geometry, physics = _dispatchers(yade)
+    _prepare_ours(yade)
     shapes = list({type(body.shape): body.shape for body in scene.bodies if body.shape is not None}.values())
     _look_up(bounds, geometry, shapes)
     materials = list({type(material): material for material in scene.materials}.values())
@@ -165,11 +166,17 @@ def _look_up(single, double, arguments):
 
 
 def _prepare_ours(yade):
-    """prepare() for our shapes alone, which takes the same few microseconds in a scene of any size."""
+    """prepare() for our shapes alone, which takes the same few microseconds in a scene of any size.
+
+    YADE's classes of shapes derive from each other, as Cylinder from Sphere: the derived one first. Once the functor of the base is entered
+    for our shape, YADE calls that entry and the one of the derived class with our shape's base equally near, and raises.
+    """
     bounds, geometry, _ = _dispatchers(yade)
     ours = [yade.wrapper.ConicPotentialParticle(), yade.wrapper.PotentialParticle()]
     _look_up(bounds, geometry, ours)
-    for other in [getattr(yade.wrapper, name)() for name in ("Sphere", "Box", "Wall", "Facet")]:
+    from .unserved import REMEDIES
+    others = sorted((getattr(yade.wrapper, name) for name in REMEDIES), key=lambda kind: -len(kind.__mro__))
+    for other in [kind() for kind in others]:
         for one in ours:
             for dispatcher in geometry:
                 dispatcher.dispFunctor(one, other)
@@ -185,8 +192,7 @@ def _prepare_before_steps(yade):
         @functools.wraps(method)
         def prepared(self, *arguments, **keywords):
             if not self.running:
-                if self.numThreads > 1:
-                    _prepare_ours(yade)
+                _prepare_ours(yade)
                 watch.look(self, _dispatchers(yade)[1])
             return method(self, *arguments, **keywords)
         return prepared

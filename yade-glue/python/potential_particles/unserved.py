@@ -8,9 +8,10 @@ import warnings
 
 from yade.wrapper import PotentialParticle
 
+from . import _glue
+
 # Which functor serves potential particles and this shape; others have none.
-_REMEDIES = {"Sphere": "Ig2_Sphere_ConicPP_ScGeom", "Box": "Ig2_Box_ConicPP_ScGeom", "Wall": "Ig2_Wall_ConicPP_ScGeom",
-             "Facet": "Ig2_Facet_ConicPP_ScGeom"}
+REMEDIES = {first: name for name, (first, second) in _glue.served_pairs.items() if second == "PotentialParticle" != first}
 # Of bodies that stand for a part of the scene, as on several ranks.
 _IMMATERIAL = ("Subdomain", "FluidDomainBbox")
 
@@ -48,7 +49,7 @@ def _groups(bodies):
 def _remedy(other):
     if isinstance(other.shape, PotentialParticle):
         return "add Ig2_PP_PP_ScGeom_Conic()"
-    return f"add {_REMEDIES[other.name]}()" if other.name in _REMEDIES else "there is no functor for them"
+    return f"add {REMEDIES[other.name]}()" if other.name in REMEDIES else "there is no functor for them"
 
 
 def sentence(bodies, dispatchers):

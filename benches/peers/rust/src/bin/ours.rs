@@ -1,4 +1,4 @@
-//! This library. Ways: midway, closest, carried (in a batch, as the YADE plugin asks), conic (clarabel on the paper's cone
+//! This library. Ways: midway, closest, carried (in a batch, as the YADE plugin asks), cone_program (clarabel on the paper's cone
 //! program); `midway@1e-14` sets gap_tolerance; `midway+all` solves pairs that are apart to the end; with `midway+wait` each call
 //! waits for the answer of the one before, where else the processor works on several at a time.
 
@@ -44,7 +44,7 @@ fn main() {
         match way {
             "midway" | "carried" => {}
             "closest" => settings.formulation = Formulation::Closest,
-            "conic" => settings.back_end = BackEnd::Conic,
+            "cone_program" => settings.back_end = BackEnd::ConeProgram,
             _ => return None,
         }
         let ours = Ours::new(group, settings, waits.then(|| black_box(0)));

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// What a functor counts while many threads run it.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+
+namespace potential_particles {
+
+// The first ones, up to `coneProgram`, are the ways in which a pair may be answered (answer_path.hpp).
+enum class Count {
+    motion,
+    spheres,
+    face,
+    memory,
+    proof,
+    carried,
+    warm,
+    cold,
+    coneProgram,
+    calls,
+    overlapping,
+    areas,
+    extended,
+    failures,
+    nanoseconds,
+    number
+};
+
+// A row of counters for each thread, on cache lines of its own. YADE runs every O.run in threads
+// that are new, so a thread gives its row back when it ends.
+class Counters {
+public:
+    Counters();
+
+    class Row {
+    public:
+        void add(Count what, std::uint64_t amount = 1)
+        {
+            auto& cell = cells[static_cast<std::size_t>(what)];
+            // An increment that no other thread can come between is ten times as fast as an atomic one.
+            if (shared)
+                cell.fetch_add(amount, std::memory_order_relaxed);
+            else
+                cell.store(cell.load(std::memory_order_relaxed) + amount, std::memory_order_relaxed);
+        }
+
+    private:
+        friend class Counters;
+        std::array<std::atomic<std::uint64_t>, static_cast<std::size_t>(Count::number)> cells {};
+        bool shared = false;
+        char apart[128]; // no two rows in one cache line, nor in two that are fetched together
+    };
+
+    Row& ofThisThread();
+    std::uint64_t total(Count what) const;
+    // Of the thread with the most: since threads may follow each other, of its row.
+    std::uint64_t largest(Count what) const;
+    // Between steps only: a count that is under way may survive it.
+    void reset();
+
+private:
+    // The last one is for all threads beyond as many.
+    static constexpr std::size_t rowCount = 256;
+    std::unique_ptr<Row[]> rows;
+};
+
+// Adds the time from here to the end of the scope, if asked.
+class Stopwatch {
+public:
+    Stopwatch(Counters::Row& row, bool running) : row(running ? &row : nullptr)
+    {
+        if (running)
+            begin = Clock::now();
+    }
+    ~Stopwatch()
+    {
+        if (row)
+            row->add(Count::nanoseconds, static_cast<std::uint64_t>(
+                std::chrono::duration_cast<std::chrono::nanoseconds>(Clock::now() - begin).count()));
+    }
+    Stopwatch(const Stopwatch&) = delete;
+    Stopwatch& operator=(const Stopwatch&) = delete;
+
+private:
+    using Clock = std::chrono::steady_clock;
+    Counters::Row* row;
+    Clock::time_point begin;
+};
+
+} // namespace potential_particles

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Which facets of a scene share a vertex.
+#pragma once
+
+#include "abi/scene.hpp"
+#include "pair/kept_off.hpp"
+
+#include <array>
+#include <atomic>
+#include <mutex>
+#include <utility>
+#include <vector>
+
+#include <boost/weak_ptr.hpp>
+
+namespace potential_particles {
+
+// Vertices within this share of a facet's longest side of each other are one. STL files round to 1e-7 of a coordinate, but
+// alike for all facets that share the vertex.
+constexpr double weldShare = 1e-9;
+
+// Of a body with a Facet, in world axes from `origin`. Throws std::invalid_argument when it has no three vertices.
+BoundaryPoints verticesOf(const yade::Shape& facet, const yade::State& state, const yade::Vector3r& origin);
+// Length of the longest side times weldShare.
+double weldOf(const BoundaryPoints& vertices);
+
+// The facets around each vertex, from where all of them were when the scene's number of bodies changed last. What they may
+// have done since is for the caller to see: this only says whom to look at.
+class FacetMesh {
+public:
+    // Call in each step before around(), from any thread: the first one of a step looks whether the mesh is still that of the
+    // scene, and the others wait for it.
+    void refresh(const yade::Scene& scene);
+
+    // Ids of the facets that have vertex i of this one, itself among them; in ascending order.
+    std::pair<const int*, const int*> around(int facet, std::size_t i) const;
+
+private:
+    bool isOf(const yade::Scene& scene) const;
+    void build(const yade::Scene& scene);
+
+    using Corners = std::array<int, 3>; // numbers of points; -1: the body has no facet
+    std::vector<Corners> corners; // by body
+    std::vector<std::size_t> first; // by point: where its facets begin in `facets`
+    std::vector<int> facets;
+    boost::weak_ptr<yade::Factorable> owner; // the scene; its address may be used again
+
+    // What refresh() has last said yes to. `step` is written last and read first.
+    std::mutex mutex;
+    std::atomic<long> step { -1 };
+    std::atomic<const yade::Scene*> seen { nullptr };
+    std::atomic<std::size_t> bodies { 0 };
+};
+
+} // namespace potential_particles

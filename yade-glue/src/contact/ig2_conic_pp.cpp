@@ -1,0 +1,332 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// What go() does. The attributes and their way to Python and archives: ig2_conic_pp_python.cpp.
+#include "abi/knksphys.hpp"
+
+#include "answer_path.hpp"
+#include "ig2_conic_pp.hpp"
+#include "pair_in_scene.hpp"
+#include "shape/particle_of.hpp"
+#include "particle/ray.hpp"
+#include "loop/step.hpp"
+
+#include <algorithm>
+
+namespace potential_particles {
+
+using yade::Interaction;
+using yade::ScGeom;
+using yade::Shape;
+using yade::State;
+using yade::Vector3r;
+
+namespace {
+
+    // A boundary may prescribe the normal (world axes); the second shape has the last word, as in
+    // YADE's own functor. False when none does, or when what it prescribes has no direction.
+    bool prescribedNormal(const Shape& one, const Shape& other, Vector3r& normal)
+    {
+        const auto* const shape1 = potentialParticle(one);
+        const auto* const shape2 = potentialParticle(other);
+        const bool by2 = shape2 && shape2->fixedNormal;
+        if (!by2 && !(shape1 && shape1->fixedNormal))
+            return false;
+        const Vector3r given = by2 ? Vector3r(-shape2->boundaryNormal) : shape1->boundaryNormal;
+        if (!(given.norm() > 0 && given.allFinite()))
+            return false;
+        normal = given.normalized();
+        return true;
+    }
+
+    bool areBoundaries(const Shape& one, const Shape& other)
+    {
+        const auto* const shape1 = potentialParticle(one);
+        const auto* const shape2 = potentialParticle(other);
+        return shape1 && shape2 && shape1->isBoundary && shape2->isBoundary;
+    }
+
+} // namespace
+
+struct Ig2_ConicPP_ConicPP_ScGeom::Pair : PairInScene {
+    const boost::shared_ptr<Shape>& cm1;
+    const boost::shared_ptr<Shape>& cm2;
+
+    // Where a ConicInteractionLoop runs: what it knows already.
+    const BodyInStep* const body1;
+    const BodyInStep* const body2;
+    PairInStep* const known;
+
+    const Particle* particle1 = nullptr;
+    const Particle* particle2 = nullptr;
+    std::shared_ptr<const Particle> keeper1 = nullptr;
+    std::shared_ptr<const Particle> keeper2 = nullptr;
+
+    void findParticles()
+    {
+        if (known) {
+            particle1 = body1->particle;
+            particle2 = body2->particle;
+        } else {
+            particle1 = particleOf(cm1, keeper1);
+            particle2 = particleOf(cm2, keeper2);
+        }
+    }
+
+    // Whether they were apart, and have not moved by the distance between them since.
+    bool isKeptApart()
+    {
+        const double left = own && !own->carry
+            ? own->apart.left(*particle1, *particle2, state1.se3.orientation, state2.se3.orientation, branch())
+            : 0;
+        if (left > 0)
+            noteRoom(left);
+        return left > 0;
+    }
+
+    void noteApart(double distance)
+    {
+        if (!own)
+            return;
+        own->carry.reset();
+        noteRoom(own->apart.note(*particle1, *particle2, state1.se3.orientation, state2.se3.orientation, branch(), distance));
+    }
+
+    void noteRoom(double room)
+    {
+        if (known)
+            known->note(*interaction, *body1, *body2, room);
+    }
+
+    void noteTouching()
+    {
+        if (!known)
+            return;
+        known->note(*interaction, *body1, *body2, 0);
+        known->geom = geom;
+        known->carry = own ? own->carry.get() : nullptr;
+        known->phys = interaction->phys.get();
+    }
+};
+
+bool Ig2_ConicPP_ConicPP_ScGeom::go(const boost::shared_ptr<Shape>& cm1, const boost::shared_ptr<Shape>& cm2,
+                                    const State& state1, const State& state2, const Vector3r& shift2,
+                                    const bool& force, const boost::shared_ptr<Interaction>& interaction) noexcept
+{
+    const bool real = interaction->hasGeomAndPhys();
+    try {
+        const AcceptedSettings& settings = *accepted.get();
+        Counters::Row& counts = counters.ofThisThread();
+        const Stopwatch stopwatch(counts, settings.given.measureTime);
+        const BodyInStep *body1 = nullptr, *body2 = nullptr;
+        PairInStep* known = nullptr;
+        // A periodic image moves by itself.
+        if (Step* const step = Step::current(); step && shift2.isZero(0)) {
+            body1 = step->body(interaction->id1, cm1, state1);
+            body2 = step->body(interaction->id2, cm2, state2);
+            known = body1 && body2 && body1->particle && body2->particle ? step->pair(*interaction) : nullptr;
+            if (known) {
+                step->fetchAhead(*interaction);
+                if (!real && !force && known->sleeps(*interaction, *body1, *body2)) {
+                    counts.add(Count::calls);
+                    counts.add(Count::motion);
+                    return false;
+                }
+            }
+        }
+        Pair pair { { state1, state2, shift2, force, interaction, counts, settings, real }, cm1, cm2, body1, body2, known };
+        if (areBoundaries(*cm1, *cm2))
+            return false;
+        counts.add(Count::calls);
+        pair.findParticles();
+        return contact(pair);
+    } catch (const std::exception& error) {
+        fail(*interaction, state1, state2, shift2, error.what());
+    } catch (...) {
+        fail(*interaction, state1, state2, shift2, "unknown error");
+    }
+    return real || (force && interaction->geom);
+}
+
+// The pair is solved as it comes, so there is nothing to reverse: both shapes are of one kind, and
+// body 1 of the interaction is body 1 of the arguments.
+bool Ig2_ConicPP_ConicPP_ScGeom::goReverse(const boost::shared_ptr<Shape>& cm1, const boost::shared_ptr<Shape>& cm2,
+                                           const State& state1, const State& state2, const Vector3r& shift2,
+                                           const bool& force, const boost::shared_ptr<Interaction>& interaction) noexcept
+{
+    return go(cm1, cm2, state1, state2, shift2, force, interaction);
+}
+
+bool Ig2_ConicPP_ConicPP_ScGeom::contact(Pair& pair)
+{
+    if (!pair.findGeom()) {
+        fail(pair, "the interaction holds a geometry that is no ScGeom; it is left as it is");
+        return true;
+    }
+    for (const auto* particle : { pair.particle1, pair.particle2 }) {
+        if (!particle->handle()) {
+            fail(pair, (particle == pair.particle1 ? "shape of the first body: " : "shape of the second body: ")
+                     + particle->refusal());
+            return keep(pair);
+        }
+    }
+
+    if (pair.isKeptApart()) {
+        pair.counts.add(Count::motion);
+    } else {
+        pp_contact found;
+        if (const pp_status status = detect(pair, found); status != PP_OK) {
+            fail(pair, pp_status_message(status));
+            return keep(pair);
+        }
+        pair.counts.add(pathOf(found));
+        if (found.flags & PP_FLAG_EXTENDED)
+            pair.counts.add(Count::extended);
+
+        if (found.kind == PP_OVERLAPPING) {
+            pair.counts.add(Count::overlapping);
+            pair.noteTouching();
+            fill(pair, found);
+            return true;
+        }
+        pair.noteApart(found.distance);
+    }
+    return leaveApart(pair);
+}
+
+bool Ig2_ConicPP_ConicPP_ScGeom::leaveApart(PairInScene& pair)
+{
+    if (!pair.real && !pair.force)
+        return false;
+    // The law ends the contact when it reads a negative overlap.
+    pair.geom->penetrationDepth = apart;
+    pair.precompute(pair.lastNormal(), scene);
+    return true;
+}
+
+// Unknown is not separated: a contact keeps its last overlap, point and normal for this step.
+bool Ig2_ConicPP_ConicPP_ScGeom::keep(PairInScene& pair)
+{
+    if (pair.real)
+        pair.precompute(pair.lastNormal(), scene);
+    return pair.real || pair.force;
+}
+
+pp_status Ig2_ConicPP_ConicPP_ScGeom::detect(Pair& pair, pp_contact& found)
+{
+    pp_frame made1, made2;
+    if (!pair.known) {
+        if (const pp_status status = frameOf(pair.state1, Vector3r::Zero(), made1); status != PP_OK)
+            return status;
+        if (const pp_status status = frameOf(pair.state2, pair.shift2, made2); status != PP_OK)
+            return status;
+    }
+    const pp_frame* const frame1 = pair.known ? &pair.body1->frame : &made1;
+    const pp_frame* const frame2 = pair.known ? &pair.body2->frame : &made2;
+    // Most pairs never touch: what is carried on gets its place when there is something to be carried.
+    pp_carry first;
+    pp_carry* carry = pair.own ? pair.own->carry.get() : nullptr;
+    if (!carry) {
+        first = { { 0 } };
+        carry = &first;
+    }
+    pp_memory* const memory = pair.own ? &pair.own->memory : nullptr;
+    const auto ask = [&] {
+        return pp_contact_detect_carried(pair.particle1->handle(), frame1, pair.particle2->handle(), frame2,
+                                         &pair.settings.library, pair.settings.given.carryTolerance, memory, carry, &found);
+    };
+    pp_status status = ask();
+    if (status == PP_OK && found.kind == PP_OVERLAPPING && pair.own && !pair.real) {
+        // A new contact is solved from nothing. YADE saves no pairs that do not touch: what such a pair remembers would make a loaded run
+        // another one, by the last digits.
+        *memory = { { 0 } };
+        *carry = { { 0 } };
+        status = ask();
+    }
+    if (status == PP_OK && found.kind == PP_OVERLAPPING && carry == &first && pair.own
+        && pair.settings.given.carryTolerance > 0)
+        pair.own->carry = std::make_unique<pp_carry>(first);
+    return status;
+}
+
+void Ig2_ConicPP_ConicPP_ScGeom::fill(Pair& pair, pp_contact& found)
+{
+    const Vector3r point(found.point);
+    Vector3r normal(found.normal);
+    if (prescribedNormal(*pair.cm1, *pair.cm2, normal)) {
+        // Overlap, and the points on both surfaces, along that normal through the contact point.
+        const double depth1 = distanceToSurface(*pair.particle1, pair.pose1(), point, normal);
+        const double depth2 = distanceToSurface(*pair.particle2, pair.pose2(), point, -normal);
+        found.overlap = depth1 + depth2;
+        copyTo(found.normal, normal);
+        copyTo(found.point_on_a, point + depth1 * normal);
+        copyTo(found.point_on_b, point - depth2 * normal);
+    }
+
+    // In this order: precompute() takes the old normal and the new contact point.
+    ScGeom& geom = *pair.geom;
+    geom.contactPoint = point;
+    geom.penetrationDepth = found.overlap;
+    // For physics made from radii (FrictPhys, Mindlin). A property of the body, so that stiffness
+    // does not depend on where a particle happens to be touched first.
+    geom.refR1 = pair.particle1->boundingRadius();
+    geom.refR2 = pair.particle2->boundingRadius();
+    pair.precompute(normal, scene);
+    fillPhysics(pair, { pair.particle1, pair.pose1() }, { pair.particle2, pair.pose2() }, found);
+}
+
+void Ig2_ConicPP_ConicPP_ScGeom::fillPhysics(PairInScene& pair, const Posed& body1, const Posed& body2, const pp_contact& found)
+{
+    // In the first step of a contact YADE calls this functor before the one that makes the physics:
+    // the area of that step stays 0, as with YADE's own functor. Physics of another kind have no
+    // place for an area, which is then not computed at all.
+    auto* const phys = castTo<yade::KnKsPhys, yade::KnKsPhys>(pair.interaction->phys.get());
+    if (!phys)
+        return;
+    phys->ptOnP1 = Vector3r(found.point_on_a);
+    phys->ptOnP2 = Vector3r(found.point_on_b);
+
+    const ContactSettings& settings = pair.settings.given;
+    if (!settings.calContactArea) {
+        phys->jointLength = 1.0;
+        phys->contactArea = settings.twoDimension ? settings.unitWidth2D : 1.0;
+    } else if (settings.twoDimension) {
+        // The width of the overlap in the plane, across the normal.
+        const Vector3r normal(found.normal);
+        Vector3r across = normal.cross(settings.twoDdir);
+        if (across.norm() < 1e-7 * settings.twoDdir.norm())
+            across = settings.twoDdir.unitOrthogonal();
+        across.normalize();
+        const Vector3r point(found.point);
+        const auto reach = [&](const Vector3r& direction) {
+            return std::min(distanceToSurface(*body1.particle, body1.pose, point, direction),
+                            distanceToSurface(*body2.particle, body2.pose, point, direction));
+        };
+        phys->jointLength = reach(across) + reach(-across);
+        phys->contactArea = settings.unitWidth2D * phys->jointLength;
+        pair.counts.add(Count::areas);
+    } else {
+        double area;
+        requireOk(pp_contact_area(body1.particle->handle(), &body1.pose, body2.particle->handle(), &body2.pose, &found,
+                                  settings.areaTolerance, &area));
+        phys->contactArea = area;
+        pair.counts.add(Count::areas);
+    }
+}
+
+void Ig2_ConicPP_ConicPP_ScGeom::fail(const PairInScene& pair, const std::string& why)
+{
+    fail(*pair.interaction, pair.state1, pair.state2, pair.shift2, why.c_str());
+}
+
+void Ig2_ConicPP_ConicPP_ScGeom::fail(const Interaction& interaction, const State& state1, const State& state2,
+                                      const Vector3r& shift2, const char* why) noexcept
+{
+    try {
+        counters.ofThisThread().add(Count::failures);
+        failures.add({ interaction.id1, interaction.id2, poseOf(state1, Vector3r::Zero()), poseOf(state2, shift2), why });
+    } catch (...) {
+        // There may be no memory for a copy of the text, nor for a first row of counters.
+    }
+}
+
+} // namespace potential_particles

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The contact functors: potential particles to ScGeom.
+#pragma once
+
+#include "abi/archive.hpp"
+#include "abi/functor.hpp"
+#include "contact_settings.hpp"
+#include "counters.hpp"
+#include "failure_report.hpp"
+#include "registration/class_table.hpp"
+#include "shape/published.hpp"
+
+#include <boost/python/dict.hpp>
+#include <boost/python/list.hpp>
+#include <boost/serialization/access.hpp>
+
+namespace yade {
+class ScGeom;
+}
+
+namespace potential_particles {
+
+class Particle;
+struct PairInScene;
+
+// For two ConicPotentialParticle shapes and, in the classes derived from it, for any two shapes that are particles. go()
+// runs in many threads at once, without the lock of Python: it calls no Python, and no exception leaves it.
+class Ig2_ConicPP_ConicPP_ScGeom : public yade::IGeomFunctor {
+public:
+    Ig2_ConicPP_ConicPP_ScGeom();
+    ~Ig2_ConicPP_ConicPP_ScGeom() override;
+    PP_ABI_SERIALIZABLE_OVERRIDES
+
+    std::string get2DFunctorType1() const override;
+    std::string get2DFunctorType2() const override;
+    std::string checkOrder() const override;
+
+    bool go(const boost::shared_ptr<yade::Shape>& shape1, const boost::shared_ptr<yade::Shape>& shape2,
+            const yade::State& state1, const yade::State& state2, const yade::Vector3r& shift2, const bool& force,
+            const boost::shared_ptr<yade::Interaction>& interaction) noexcept override;
+    bool goReverse(const boost::shared_ptr<yade::Shape>& shape1, const boost::shared_ptr<yade::Shape>& shape2,
+                   const yade::State& state1, const yade::State& state2, const yade::Vector3r& shift2,
+                   const bool& force, const boost::shared_ptr<yade::Interaction>& interaction) noexcept override;
+
+protected:
+    struct Posed {
+        const Particle* particle;
+        pp_pose pose;
+    };
+
+    // Each ends the step for a pair; true if YADE is to go on with it. The first for one that does not touch, the second for
+    // one of which that is not known.
+    bool leaveApart(PairInScene& pair);
+    bool keep(PairInScene& pair);
+    // Area and points for KnKsPhys, if the pair has it.
+    void fillPhysics(PairInScene& pair, const Posed& body1, const Posed& body2, const pp_contact& found);
+    void fail(const PairInScene& pair, const std::string& why);
+    void fail(const yade::Interaction& interaction, const yade::State& state1, const yade::State& state2,
+              const yade::Vector3r& shift2, const char* why) noexcept;
+
+    Published<AcceptedSettings> accepted;
+    Counters counters;
+
+private:
+    friend class boost::serialization::access;
+    template <class Archive> void serialize(Archive& archive, unsigned);
+
+    struct Pair; // the arguments of one call, put in order
+    bool contact(Pair& pair);
+    pp_status detect(Pair& pair, pp_contact& found);
+    void fill(Pair& pair, pp_contact& found);
+
+    void settle();
+    boost::python::list pyFailureReport() const;
+    boost::python::dict pyAnswers() const;
+    std::uint64_t pyRejected() const;
+    std::uint64_t pySolved() const;
+    double pySkippedShare() const;
+    double pySeconds() const;
+    double pyBusiestSeconds() const;
+    void pyResetCounters();
+
+    // Python and archives write `written`, with Python's lock; settle() checks and publishes it. go() reads `accepted`
+    // alone, once, so that settings may change at any time: each answer belongs to one whole value of them.
+    ContactSettings written;
+    FailureReport failures;
+};
+
+// The same for every pair of potential particles, YADE's own PotentialParticle among them: takes
+// the place of Ig2_PP_PP_ScGeom in a script. Particles of plain shapes come from the ParticleStore.
+class Ig2_PP_PP_ScGeom_Conic final : public Ig2_ConicPP_ConicPP_ScGeom {
+public:
+    ~Ig2_PP_PP_ScGeom_Conic() override;
+    PP_FUNCTOR_2D_OVERRIDES
+
+private:
+    friend class boost::serialization::access;
+    template <class Archive> void serialize(Archive& archive, unsigned);
+};
+
+} // namespace potential_particles

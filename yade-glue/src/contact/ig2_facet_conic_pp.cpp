@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Facets, and which of them has a contact at a seam.
+#include "registration/definitions.hpp"
+
+#include "abi/knksphys.hpp"
+#include "flat_pair.hpp"
+#include "ig2_facet_conic_pp.hpp"
+
+namespace potential_particles {
+
+using yade::Body;
+using yade::Vector3r;
+
+namespace {
+
+    pp_status contactWith(const FlatPair& pair, const BoundaryPoints& vertices, pp_flat_contact& found)
+    {
+        double rows[9];
+        for (std::size_t i = 0; i < 3; ++i)
+            std::copy_n(vertices[i].data(), 3, rows + 3 * i);
+        const pp_pose turn = pair.turn();
+        return pp_contact_triangle(pair.particle->handle(), &turn, rows, &pair.settings.library, &found);
+    }
+
+    // The body, if it has a facet that meets the same bodies as `own`.
+    const Body* facetLike(const Body& own, int id, const yade::Scene& scene)
+    {
+        const Body* const body = scene.bodies->body[static_cast<std::size_t>(id)].get();
+        return body && body->groupMask == own.groupMask && dynamic_cast<const yade::Facet*>(body->shape.get()) ? body : nullptr;
+    }
+
+    // YADE keeps an interaction with one of its bodies.
+    const yade::Interaction* interactionOf(const Body& one, const Body& other)
+    {
+        for (const auto& [holder, id] : { std::pair { &one, other.id }, std::pair { &other, one.id } })
+            if (const auto found = holder->intrs.find(id); found != holder->intrs.end())
+                return found->second.get();
+        return nullptr;
+    }
+
+} // namespace
+
+Ig2_Facet_ConicPP_ScGeom::~Ig2_Facet_ConicPP_ScGeom() = default;
+PP_FUNCTOR_2D_DEFINITIONS(Ig2_Facet_ConicPP_ScGeom)
+PP_PYTHON_AS_BASE(Ig2_Facet_ConicPP_ScGeom, Ig2_ConicPP_ConicPP_ScGeom)
+PP_ARCHIVE_AS_BASE(Ig2_Facet_ConicPP_ScGeom, Ig2_ConicPP_ConicPP_ScGeom)
+
+BoundaryPoints Ig2_Facet_ConicPP_ScGeom::pointsOf(const FlatPair& pair) const
+{
+    return verticesOf(pair.boundary, pair.state1, pair.centre());
+}
+
+pp_status Ig2_Facet_ConicPP_ScGeom::detect(FlatPair& pair, const BoundaryPoints& points, pp_flat_contact& found)
+{
+    const pp_status status = contactWith(pair, points, found);
+    if (status != PP_OK || found.kind != PP_OVERLAPPING)
+        return status;
+    pp_flat_contact ofOwner;
+    const yade::Interaction* const owner = ownerOf(pair, points, found, ofOwner);
+    if (!owner)
+        return status;
+    if (mustHold(pair) && !hasForce(*owner)) {
+        found = ofOwner;
+    } else {
+        found.kind = PP_SEPARATED;
+        found.distance = 0;
+    }
+    return status;
+}
+
+// A contact that appears has no force in its first step with KnKsPhys, whose area is not known before the step after (see
+// fillPhysics): the facet that had it holds it for so long, in the place of the owner.
+bool Ig2_Facet_ConicPP_ScGeom::mustHold(const FlatPair& pair) const
+{
+    return pair.real && castTo<yade::KnKsPhys, yade::KnKsPhys>(pair.interaction->phys.get());
+}
+
+bool Ig2_Facet_ConicPP_ScGeom::hasForce(const yade::Interaction& pairOfOwner) const
+{
+    // Another thread may be writing it, in this step: the present one then, before that -1.
+    const long since = __atomic_load_n(&pairOfOwner.iterMadeReal, __ATOMIC_RELAXED);
+    return since >= 0 && since < scene->iter;
+}
+
+// Whether a facet leaves its contact to this neighbour. `solve`: the neighbour's contact is wanted if it does.
+bool Ig2_Facet_ConicPP_ScGeom::leavesTo(const Neighbour& neighbour, const FacetContact& own, const FlatPair& pair, bool solve,
+                                        pp_flat_contact& other) const
+{
+    // Mostly the slope alone says it.
+    if (isOn(own, neighbour.common)) {
+        const Slope slope = slopeInto(neighbour.vertices, own);
+        if (slope == Slope::rises && own.id < neighbour.id)
+            return false;
+        if (slope != Slope::unclear && !solve)
+            return true;
+    }
+    return contactWith(pair, neighbour.vertices, other) == PP_OK && other.kind == PP_OVERLAPPING
+        && yieldsTo(facetContact(neighbour.vertices, other, neighbour.id, pair.particle->boundingRadius()), own, neighbour.common);
+}
+
+// Of the facets that share the parts on which the point of the contact lies; until `visit` says false.
+template <class Visit>
+void Ig2_Facet_ConicPP_ScGeom::eachNeighbour(const FlatPair& pair, const FacetContact& own, const Parts& parts, Visit visit)
+{
+    mesh.refresh(*scene);
+    const auto& bodies = scene->bodies->body;
+    const Body* const facet = bodies[static_cast<std::size_t>(own.id)].get();
+    const Body* const particle = bodies[static_cast<std::size_t>(pair.interaction->id2)].get();
+    const double weld = weldOf(own.vertices);
+    for (unsigned i = 0; facet && particle && i < 3; ++i) {
+        // The facets at an edge are among those around its first vertex.
+        if (!(((parts.edges | parts.vertices) >> i) & 1))
+            continue;
+        const auto [begin, end] = mesh.around(own.id, i);
+        for (const int* id = begin; id != end; ++id) {
+            const Body* const body = *id == own.id ? nullptr : facetLike(*facet, *id, *scene);
+            // One that YADE does not let meet the particle cannot have the contact.
+            const yade::Interaction* const theirs = body ? interactionOf(*particle, *body) : nullptr;
+            if (!theirs)
+                continue;
+            const BoundaryPoints vertices = verticesOf(*body->shape, *body->state, pair.centre());
+            const Parts shared = sharedParts(own.vertices, vertices, weld);
+            const Parts common { shared.edges & parts.edges, shared.vertices & parts.vertices };
+            if (common.any() && !visit(Neighbour { theirs, *id, vertices, common }))
+                return;
+        }
+    }
+}
+
+const yade::Interaction* Ig2_Facet_ConicPP_ScGeom::ownerOf(const FlatPair& pair, const BoundaryPoints& points,
+                                                           const pp_flat_contact& found, pp_flat_contact& ofOwner)
+{
+    const double radius = pair.particle->boundingRadius();
+    const FacetContact own = facetContact(points, found, pair.interaction->id1, radius);
+    const Parts parts = partsAt(own);
+    if (!parts.any())
+        return nullptr;
+    // To leave the contact it is enough that there is one with less; to hold it, the one with the least is wanted.
+    const bool holds = mustHold(pair);
+    const yade::Interaction* owner = nullptr;
+    int id = -1;
+    BoundaryPoints vertices;
+    eachNeighbour(pair, own, parts, [&](const Neighbour& neighbour) {
+        pp_flat_contact other = {};
+        if (!leavesTo(neighbour, own, pair, holds, other))
+            return true;
+        const auto isBest = [&] {
+            return isLower(facetContact(neighbour.vertices, other, neighbour.id, radius), facetContact(vertices, ofOwner, id, radius));
+        };
+        if (!owner || (holds && isBest())) {
+            owner = neighbour.theirs;
+            id = neighbour.id;
+            vertices = neighbour.vertices;
+            ofOwner = other;
+        }
+        return holds;
+    });
+    return owner;
+}
+
+} // namespace potential_particles
+
+BOOST_CLASS_EXPORT_IMPLEMENT(potential_particles::Ig2_Facet_ConicPP_ScGeom)

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The contact functor between YADE's facets and potential particles.
+#pragma once
+
+#include "facet_mesh.hpp"
+#include "ig2_flat_conic_pp.hpp"
+#include "seam.hpp"
+
+namespace potential_particles {
+
+class Ig2_Facet_ConicPP_ScGeom final : public Ig2_Flat_ConicPP {
+public:
+    ~Ig2_Facet_ConicPP_ScGeom() override;
+    PP_FUNCTOR_2D_OVERRIDES
+
+protected:
+    BoundaryPoints pointsOf(const FlatPair& pair) const override;
+    pp_status detect(FlatPair& pair, const BoundaryPoints& points, pp_flat_contact& found) override;
+
+private:
+    friend class boost::serialization::access;
+    template <class Archive> void serialize(Archive& archive, unsigned);
+
+    bool mustHold(const FlatPair& pair) const;
+    bool hasForce(const yade::Interaction& pairOfOwner) const;
+    // The particle's pair with the neighbour that has the contact, and, if the facet may have to hold it, that contact; null:
+    // the facet itself has it.
+    const yade::Interaction* ownerOf(const FlatPair& pair, const BoundaryPoints& points, const pp_flat_contact& found,
+                                     pp_flat_contact& ofOwner);
+    struct Neighbour {
+        const yade::Interaction* theirs; // with the particle
+        int id;
+        BoundaryPoints vertices;
+        Parts common; // of those on which the facet's own point lies
+    };
+    template <class Visit>
+    void eachNeighbour(const FlatPair& pair, const FacetContact& own, const Parts& parts, Visit visit);
+    bool leavesTo(const Neighbour& neighbour, const FacetContact& own, const FlatPair& pair, bool solve,
+                  pp_flat_contact& other) const;
+
+    FacetMesh mesh;
+};
+
+} // namespace potential_particles

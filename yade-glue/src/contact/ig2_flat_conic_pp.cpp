@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// What go() does for a flat boundary.
+#include "flat_pair.hpp"
+#include "ig2_flat_conic_pp.hpp"
+#include "shape/particle_of.hpp"
+#include "particle/ray.hpp"
+
+#include <algorithm>
+
+namespace potential_particles {
+
+using yade::Interaction;
+using yade::Shape;
+using yade::State;
+using yade::Vector3r;
+
+namespace {
+
+    Count pathOf(const pp_flat_contact& found)
+    {
+        if (found.flags & PP_FLAG_BY_SPHERES)
+            return Count::spheres;
+        return found.flags & PP_FLAG_BY_FACE ? Count::face : Count::cold;
+    }
+
+} // namespace
+
+bool Ig2_Flat_ConicPP::go(const boost::shared_ptr<Shape>& cm1, const boost::shared_ptr<Shape>& cm2, const State& state1,
+                          const State& state2, const Vector3r& shift2, const bool& force,
+                          const boost::shared_ptr<Interaction>& interaction) noexcept
+{
+    const bool real = interaction->hasGeomAndPhys();
+    try {
+        const AcceptedSettings& settings = *accepted.get();
+        Counters::Row& counts = counters.ofThisThread();
+        const Stopwatch stopwatch(counts, settings.given.measureTime);
+        // A wall is a boundary, and two boundaries never touch.
+        if (const auto* shape = potentialParticle(*cm2); shape && shape->isBoundary)
+            return false;
+        counts.add(Count::calls);
+        FlatPair pair { { state1, state2, shift2, force, interaction, counts, settings, real }, *cm1 };
+        pair.particle = particleOf(cm2, pair.keeper);
+        return contact(pair);
+    } catch (const std::exception& error) {
+        fail(*interaction, state1, state2, shift2, error.what());
+    } catch (...) {
+        fail(*interaction, state1, state2, shift2, "unknown error");
+    }
+    return real || (force && interaction->geom);
+}
+
+bool Ig2_Flat_ConicPP::contact(FlatPair& pair)
+{
+    if (!pair.findGeom()) {
+        fail(pair, "the interaction holds a geometry that is no ScGeom; it is left as it is");
+        return true;
+    }
+    if (!pair.particle->handle()) {
+        fail(pair, "shape of the second body: " + pair.particle->refusal());
+        return keep(pair);
+    }
+    const BoundaryPoints points = pointsOf(pair);
+    if (pair.isKeptOff(points)) {
+        pair.counts.add(Count::motion);
+        return leaveApart(pair);
+    }
+    pp_flat_contact found;
+    if (const pp_status status = detect(pair, points, found); status != PP_OK) {
+        fail(pair, pp_status_message(status));
+        return keep(pair);
+    }
+    pair.counts.add(pathOf(found));
+    if (found.kind != PP_OVERLAPPING) {
+        pair.noteDistance(points, found.distance);
+        return leaveApart(pair);
+    }
+    pair.counts.add(Count::overlapping);
+    pair.noteTouching();
+    fill(pair, found);
+    return true;
+}
+
+void Ig2_Flat_ConicPP::fill(FlatPair& pair, const pp_flat_contact& found)
+{
+    const Vector3r centre = pair.centre();
+    // From body 1, the boundary, to the particle.
+    const Vector3r normal = -Vector3r(found.normal);
+    // In this order: precompute() takes the old normal and the new contact point.
+    yade::ScGeom& geom = *pair.geom;
+    geom.contactPoint = centre + Vector3r(found.point);
+    geom.penetrationDepth = found.overlap;
+    // For physics made from radii; a boundary has none of its own.
+    geom.refR1 = geom.refR2 = pair.particle->boundingRadius();
+    pair.precompute(normal, scene);
+
+    // The boundary cuts nothing off: the area is that of the particle with itself.
+    pp_contact cut = {};
+    cut.kind = PP_OVERLAPPING;
+    copyTo(cut.normal, normal);
+    copyTo(cut.point, geom.contactPoint);
+    copyTo(cut.point_on_a, centre + Vector3r(found.on_boundary));
+    copyTo(cut.point_on_b, centre + Vector3r(found.on_particle));
+    copyTo(cut.branch_a, Vector3r(found.point));
+    copyTo(cut.branch_b, Vector3r(found.point));
+    const Posed posed { pair.particle, pair.pose2() };
+    fillPhysics(pair, posed, posed, cut);
+}
+
+} // namespace potential_particles

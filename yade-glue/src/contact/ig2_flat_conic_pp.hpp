@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// What is common to the contact functors between flat boundaries and potential particles.
+#pragma once
+
+#include "abi/primitives.hpp"
+#include "ig2_other_conic_pp.hpp"
+#include "pair/kept_off.hpp"
+
+namespace potential_particles {
+
+struct FlatPair;
+
+// What is common to planes and triangles. The point of the boundary where the particle's scale is least decides
+// (pp_contact_plane, pp_contact_triangle).
+class Ig2_Flat_ConicPP : public Ig2_Other_ConicPP {
+public:
+    bool go(const boost::shared_ptr<yade::Shape>& shape1, const boost::shared_ptr<yade::Shape>& shape2,
+            const yade::State& state1, const yade::State& state2, const yade::Vector3r& shift2, const bool& force,
+            const boost::shared_ptr<yade::Interaction>& interaction) noexcept override;
+
+protected:
+    // The points of the boundary for KeptOff.
+    virtual BoundaryPoints pointsOf(const FlatPair& pair) const = 0;
+    // The contact; positions from the particle's centre, world axes. A boundary that leaves its contact to another
+    // answers separated by the distance 0.
+    virtual pp_status detect(FlatPair& pair, const BoundaryPoints& points, pp_flat_contact& found) = 0;
+
+private:
+    bool contact(FlatPair& pair);
+    void fill(FlatPair& pair, const pp_flat_contact& found);
+};
+
+} // namespace potential_particles

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// What every contact functor of ours knows about one call, and the interaction's geometry.
+#pragma once
+
+#include "abi/interaction.hpp"
+#include "abi/scgeom.hpp"
+
+#include "contact_settings.hpp"
+#include "counters.hpp"
+#include "particle/pose.hpp"
+#include "pair/sc_geom_conic_pp.hpp"
+
+#include <boost/make_shared.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <typeinfo>
+
+namespace potential_particles {
+
+// penetrationDepth of a pair that does not touch. Laws ask for its sign only: the width of the gap is not computed.
+constexpr double apart = -1.0;
+
+// dynamic_cast takes its time; nearly always the object is of one known class.
+template <class Usual, class Wanted, class Object> Wanted* castTo(Object* object)
+{
+    if (object && typeid(*object) == typeid(Usual))
+        return static_cast<Usual*>(object);
+    return dynamic_cast<Wanted*>(object);
+}
+
+inline void copyTo(double (&array)[3], const yade::Vector3r& vector) { std::copy_n(vector.data(), 3, array); }
+
+inline bool isUnit(const yade::Vector3r& vector) { return std::abs(vector.squaredNorm() - 1) < 1e-6; }
+
+// Of a finite length, else the x axis.
+inline yade::Vector3r directionOf(const yade::Vector3r& vector)
+{
+    const double length = vector.norm();
+    return length > 0 && std::isfinite(length) ? yade::Vector3r(vector / length) : yade::Vector3r(yade::Vector3r::UnitX());
+}
+
+struct PairInScene {
+    const yade::State& state1;
+    const yade::State& state2;
+    const yade::Vector3r& shift2;
+    const bool force;
+    const boost::shared_ptr<yade::Interaction>& interaction;
+    Counters::Row& counts;
+    const AcceptedSettings& settings;
+    // Both functors have run before: the pair has a history, which must not be dropped.
+    const bool real;
+
+    yade::ScGeom* geom = nullptr;
+    ScGeomConicPP* own = nullptr; // geom, if it is one with memory
+
+    // Most pairs are answered without.
+    pp_pose pose1() const { return poseOf(state1, yade::Vector3r::Zero()); }
+    pp_pose pose2() const { return poseOf(state2, shift2); }
+
+    yade::Vector3r branch() const { return state2.se3.position + shift2 - state1.se3.position; }
+
+    // Finds or makes the geometry. False when another functor left one that is no ScGeom.
+    bool findGeom()
+    {
+        geom = castTo<ScGeomConicPP, yade::ScGeom>(interaction->geom.get());
+        if (geom && typeid(*geom) == typeid(ScGeomConicPP)) {
+            own = static_cast<ScGeomConicPP*>(geom);
+            own->dropIfSaved();
+            return true;
+        }
+        if (real)
+            return geom != nullptr; // of another functor or file: served without memory
+        const auto made = boost::make_shared<ScGeomConicPP>();
+        made->normal = directionOf(branch());
+        made->contactPoint = state1.se3.position + 0.5 * branch();
+        made->penetrationDepth = apart;
+        interaction->geom = made;
+        geom = own = made.get();
+        return true;
+    }
+
+    // Ends the step for this pair. The stored normal must still be that of the last step.
+    void precompute(const yade::Vector3r& normal, const yade::Scene* scene)
+    {
+        geom->precompute(state1, state2, scene, interaction, normal, !real, shift2, false);
+    }
+
+    // The normal of the last step, or the line of centres (a law may have zeroed the former).
+    yade::Vector3r lastNormal() const { return isUnit(geom->normal) ? geom->normal : directionOf(branch()); }
+};
+
+} // namespace potential_particles

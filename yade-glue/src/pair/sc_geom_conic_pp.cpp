@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "registration/definitions.hpp"
+
+#include "sc_geom_conic_pp.hpp"
+
+#include <boost/serialization/binary_object.hpp>
+
+#include <algorithm>
+
+namespace potential_particles {
+
+namespace {
+    constexpr char digits[] = "0123456789abcdef";
+    // What a memory took up in files of class version 0; it was the first part of what it is now.
+    constexpr std::size_t oldSize = 64;
+    static_assert(oldSize < sizeof(pp_memory));
+}
+
+ScGeomConicPP::ScGeomConicPP() = default;
+ScGeomConicPP::~ScGeomConicPP() = default;
+
+PP_CLASS_DEFINITIONS(ScGeomConicPP)
+int ScGeomConicPP::getBaseClassNumber() const { return 1; }
+void ScGeomConicPP::callPostLoad() { ScGeom::callPostLoad(); }
+
+// In hexadecimal digits: the library may keep bit patterns in it that no decimal number carries.
+std::string ScGeomConicPP::pyMemory() const
+{
+    const auto* bytes = reinterpret_cast<const unsigned char*>(&memory);
+    std::string text;
+    for (std::size_t i = 0; i < sizeof memory; ++i) {
+        text += digits[bytes[i] >> 4];
+        text += digits[bytes[i] & 15];
+    }
+    return text;
+}
+
+void ScGeomConicPP::pySetMemory(const std::string& hexadecimal)
+{
+    if (hexadecimal.size() != 2 * sizeof memory && hexadecimal.size() != 2 * oldSize)
+        throw std::invalid_argument("memory: " + std::to_string(hexadecimal.size()) + " hexadecimal digits given, not "
+                                    + std::to_string(2 * sizeof memory));
+    pp_memory next = { { 0 } };
+    auto* bytes = reinterpret_cast<unsigned char*>(&next);
+    for (std::size_t i = 0; i < hexadecimal.size() / 2; ++i) {
+        unsigned byte = 0;
+        for (std::size_t j = 0; j < 2; ++j) {
+            const auto* digit = std::find(digits, digits + 16, hexadecimal[2 * i + j]);
+            if (digit == digits + 16)
+                throw std::invalid_argument(std::string("memory: '") + hexadecimal[2 * i + j] + "' is no hexadecimal digit");
+            byte = 16 * byte + static_cast<unsigned>(digit - digits);
+        }
+        bytes[i] = static_cast<unsigned char>(byte);
+    }
+    memory = next;
+    apart.forget();
+    carry.reset();
+}
+
+void ScGeomConicPP::pySetAttr(const std::string& key, const py::object& value)
+{
+    if (key == "memory")
+        pySetMemory(py::extract<std::string>(value));
+    else
+        ScGeom::pySetAttr(key, value);
+}
+
+py::dict ScGeomConicPP::pyDict() const
+{
+    py::dict attributes;
+    attributes["memory"] = pyMemory();
+    attributes.update(pyDictCustom());
+    attributes.update(ScGeom::pyDict());
+    return attributes;
+}
+
+void ScGeomConicPP::pyRegisterClass(py::object scope)
+{
+    checkPyClassRegistersItself(Entry<ScGeomConicPP>::name);
+    const py::scope inside(scope);
+    const auto style = docstringStyle();
+    auto registered = registerClass<ScGeomConicPP, yade::ScGeom>();
+    registered.add_property("memory", &ScGeomConicPP::pyMemory, &ScGeomConicPP::pySetMemory,
+                            "The library's memory of the pair, as hexadecimal digits.");
+}
+
+template <class Archive> void ScGeomConicPP::serialize(Archive& archive, unsigned version)
+{
+    requireReadable<ScGeomConicPP>(version);
+    serializeBase<yade::ScGeom>(archive, *this, "ScGeom");
+    if (version == 0)
+        memory = { { 0 } };
+    auto bytes = boost::serialization::make_binary_object(&memory, version == 0 ? oldSize : sizeof memory);
+    archive& boost::serialization::make_nvp("memory", bytes);
+    saved.store(Archive::is_saving::value, std::memory_order_relaxed);
+}
+
+} // namespace potential_particles
+
+BOOST_CLASS_EXPORT_IMPLEMENT(potential_particles::ScGeomConicPP)

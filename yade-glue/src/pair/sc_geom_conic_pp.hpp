@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// ScGeom that also holds what the library remembers about the pair.
+#pragma once
+
+#include "abi/archive.hpp"
+#include "abi/scgeom.hpp"
+#include "kept_apart.hpp"
+#include "kept_off.hpp"
+
+#include <boost/serialization/access.hpp>
+
+#include <potential_particles.h>
+
+#include <atomic>
+#include <memory>
+
+namespace potential_particles {
+
+// It takes no class index of its own: for the dispatchers it is an ScGeom, so every law on ScGeom
+// serves it as before. (Its name sorts behind "ScGeom" because dispMatrix() shows, for an index,
+// the first class that has it.)
+class ScGeomConicPP final : public yade::ScGeom {
+public:
+    ScGeomConicPP();
+    ~ScGeomConicPP() override;
+    PP_ABI_SERIALIZABLE_OVERRIDES
+
+    pp_memory memory = { { 0 } };
+    // Not saved: made again by the first look after loading, and after saving.
+    KeptApart apart;
+    // Not saved: what is carried on from the last contact, while the pair touches.
+    std::unique_ptr<pp_carry> carry;
+    // Not saved: separation of a particle from a flat boundary; the members above serve pairs of particles only.
+    std::unique_ptr<KeptOff> off;
+
+    // At each look, first: drops what is not saved if the pair was saved since the last, so that a run goes on from a save as
+    // one that is loaded from it does. By the thread that looks, since a script may save from another.
+    void dropIfSaved()
+    {
+        if (!saved.load(std::memory_order_relaxed))
+            return;
+        saved.store(false, std::memory_order_relaxed);
+        apart.forget();
+        carry.reset();
+        off.reset();
+    }
+
+private:
+    std::atomic<bool> saved { false };
+
+    friend class boost::serialization::access;
+    template <class Archive> void serialize(Archive& archive, unsigned);
+
+    std::string pyMemory() const;
+    void pySetMemory(const std::string& hexadecimal);
+};
+
+} // namespace potential_particles

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The extension module potential_particles._glue. The package's __init__.py decides what to call.
+#include "abi/base.hpp"
+
+#include "check/load_check.hpp"
+#include "packing/packing.hpp"
+#include "particle/particle_store.hpp"
+#include "shape/plane_lists.hpp"
+#include "registration.hpp"
+#include "shape/retired.hpp"
+#include "drawing/surface_mesh.hpp"
+#include "drawing/window.hpp"
+
+#include <boost/archive/basic_archive.hpp>
+#include <boost/python/def.hpp>
+#include <boost/python/dict.hpp>
+#include <boost/python/list.hpp>
+#include <boost/python/module.hpp>
+#include <boost/python/scope.hpp>
+
+namespace py = boost::python;
+namespace pp = potential_particles;
+
+namespace {
+
+py::list differencesOfLayout()
+{
+    py::list sentences;
+    for (const std::string& sentence : pp::differencesOfLayout())
+        sentences.append(sentence);
+    return sentences;
+}
+
+std::size_t storedParticles() { return pp::ParticleStore::instance().size(); }
+
+// For plain shapes, whose own properties know no lock.
+void setListOf(yade::PotentialParticle& shape, const std::string& name, const py::object& value)
+{
+    if (!pp::setList(shape, name, value))
+        throw std::invalid_argument("PotentialParticle has no list '" + name + "'");
+}
+
+} // namespace
+
+BOOST_PYTHON_MODULE(_glue)
+{
+    // Of the class table: the names, and the two shapes that each contact functor serves.
+    py::list names;
+    py::dict pairs;
+#define PP_CLASS(Name, Base, First, Second, Version, Doc)                                          \
+    names.append(#Name);                                                                           \
+    if (*Second)                                                                                   \
+        pairs[#Name] = py::make_tuple(First, Second);
+#include "class_table.inc"
+    py::scope().attr("class_names") = names;
+    py::scope().attr("served_pairs") = pairs;
+    py::scope().attr("header_version") = py::make_tuple(PP_VERSION_MAJOR, PP_VERSION_MINOR, PP_VERSION_PATCH);
+    py::scope().attr("header_abi") = PP_ABI_VERSION;
+
+    py::scope().attr("built_for_yade") = PP_YADE_NAME;
+    py::scope().attr("built_for_yade_number") = PP_YADE_VERSION;
+    py::scope().attr("archive_version") = static_cast<unsigned>(boost::archive::BOOST_ARCHIVE_VERSION());
+
+    py::def("library_version", &pp_version);
+    py::def("library_abi", &pp_abi_version);
+    py::def("differences_of_layout", &differencesOfLayout);
+    py::def("register_classes", &pp::registerClasses);
+    py::def("stored_particles", &storedParticles);
+    py::def("retired_count", &pp::retiredCount);
+    py::def("set_list", &setListOf);
+    py::def("surface_mesh", &pp::surfaceMesh);
+    py::def("pack", &pp::packContainer);
+    py::def("window_dispatcher", &pp::windowDispatcher);
+    py::scope().attr("packing_choices") = pp::packingChoices();
+}
