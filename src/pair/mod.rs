@@ -3,7 +3,7 @@
 pub mod body;
 pub mod extended_body;
 pub mod local_point;
-pub mod memory;
 pub mod pair;
+pub mod pair_state;
 pub mod role;
 pub mod separation;

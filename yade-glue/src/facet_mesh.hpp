@@ -4,7 +4,7 @@
 #pragma once
 
 #include "../abi/scene.hpp"
-#include "kept_off.hpp"
+#include "kept_apart.hpp"
 
 #include <array>
 #include <atomic>

@@ -6,7 +6,7 @@
 #include "../abi/primitives.hpp"
 #include "facet_mesh.hpp"
 #include "ig2_other_conic_pp.hpp"
-#include "kept_off.hpp"
+#include "kept_apart.hpp"
 #include "seam.hpp"
 
 namespace potential_particles {
@@ -22,7 +22,7 @@ public:
             const boost::shared_ptr<yade::Interaction>& interaction) noexcept override;
 
 protected:
-    // The points of the boundary for KeptOff.
+    // The points of the boundary for KeptApart.
     virtual BoundaryPoints pointsOf(const FlatPair& pair) const = 0;
     // The contact; positions from the particle's centre, world axes. A boundary that leaves its contact to another
     // answers separated by the distance 0.
