@@ -45,7 +45,8 @@ pub(crate) struct Remembered {
     pub lambda: f64,
     /// Whether the particles overlapped: if so, cheap proofs of separation are hardly worth a try.
     pub overlapping: bool,
-    /// By what the λ of P1 and P2 differ from what `dual_path::closest_from_between` makes of the above: factors.
+    /// By what the λ of P1 and P2 differ from what `dual_path::closest_from_between` makes of the above: factors, of use where both give
+    /// a λ in its range.
     pub closest: [f64; 2],
 }
 
@@ -75,7 +76,7 @@ pub(crate) struct KnownPiece {
     pub reach: f64,
 }
 
-/// A guess of λ lies in this range, and so do the factors on it: beyond it one particle's weight is lost in rounding altogether.
+/// A guess of λ lies in this range: beyond it one particle's weight is lost in rounding altogether.
 pub(crate) const LAMBDA_RANGE: (f64, f64) = (1e-30, 1e30);
 
 /// A solution lies no further from the centre of B than that of A does and so many times both bounding radii: midway is within
@@ -103,11 +104,11 @@ impl PairState {
         let [filled, x, y, z, lambda, overlapping, of_p1, of_p2] = self.solution;
         let between = (b.1.position() - a.1.position()).amax();
         let reach = smaller(between + REACH * (a.0.bounding_radius() + b.0.bounding_radius()), f64::MAX);
-        let in_range = |lambda: f64| lambda >= LAMBDA_RANGE.0 && lambda <= LAMBDA_RANGE.1;
-        // Written so that what is not a number fails.
+        // Written so that what is not a number fails. The factors are checked with the λ that they give.
         let usable = filled == Self::FILLED
             && [x, y, z].iter().all(|c| c.abs() <= reach)
-            && [lambda, of_p1, of_p2].into_iter().all(in_range);
+            && lambda >= LAMBDA_RANGE.0
+            && lambda <= LAMBDA_RANGE.1;
         let (x, overlapping, closest) = (Vector3::new(x, y, z), overlapping == 1.0, [of_p1, of_p2]);
         usable.then_some(Remembered { x, lambda, overlapping, closest })
     }
