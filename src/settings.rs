@@ -162,6 +162,7 @@ impl Settings {
     ///
     /// # Errors
     /// The first setting outside its range.
+    #[inline]
     pub fn validate(&self) -> Result<(), SettingsError> {
         if self.back_end == BackEnd::Conic && cfg!(not(feature = "conic")) {
             return Err(SettingsError::NoConic);

@@ -6,6 +6,7 @@ use crate::pair::pair_state::PairState;
 use crate::particle::particle::Particle;
 use crate::pose::Pose;
 use crate::settings::Settings;
+use std::convert::identity;
 use std::panic::resume_unwind;
 use std::sync::{Mutex, PoisonError};
 use std::thread;
@@ -60,7 +61,7 @@ pub fn detect_batch(
 #[inline(never)]
 fn carry_on(a: Placed, b: Placed, settings: &Settings, state: &mut PairState, answer: &mut Answer) {
     if state.carry_on(a, b, settings, |contact| *answer = Ok(contact)).is_none() {
-        *answer = not_carried_on(a, b, settings, state, |contact| contact);
+        *answer = not_carried_on(a, b, settings, state, identity);
     }
 }
 

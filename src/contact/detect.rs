@@ -15,6 +15,7 @@ use crate::pose::Pose;
 use crate::settings::{BackEnd, Formulation, Settings, SettingsError};
 use crate::solver::call::{Call, CertifiedPoint, SolveError};
 use nalgebra::Vector3;
+use std::convert::identity;
 use std::ops::ControlFlow::{Break, Continue};
 use thiserror::Error;
 
@@ -88,7 +89,7 @@ pub fn detect(
     settings: &Settings,
     state: Option<&mut PairState>,
 ) -> Result<Contact, DetectError> {
-    detect_as((a, pose_a), (b, pose_b), settings, state, |contact| contact)
+    detect_as((a, pose_a), (b, pose_b), settings, state, identity)
 }
 
 /// The whole of [`detect()`], for every entry that gives a contact another form. `answer` makes that form where the contact
@@ -109,7 +110,7 @@ pub(crate) fn detect_as<T>(
     }
 }
 
-/// In a frame of its own, as every part below that not all pairs need.
+/// `answer` of the contact that is carried on, if it can be. In a frame of its own, as every part below that not all pairs need.
 #[inline(never)]
 fn carried_on_or_anew<T>(
     a: (&Particle, &Pose),
@@ -125,7 +126,6 @@ fn carried_on_or_anew<T>(
 }
 
 /// `answer` of the contact from the planes, to be carried on from here.
-#[inline(never)]
 pub(crate) fn not_carried_on<T>(
     a: (&Particle, &Pose),
     b: (&Particle, &Pose),
@@ -137,8 +137,9 @@ pub(crate) fn not_carried_on<T>(
     anew(a, b, settings, Some(state), answer)
 }
 
-/// `answer` of the contact from the planes, with settings that were checked.
-#[inline(always)]
+/// `answer` of the contact from the planes, with settings that were checked. One function for all who call it: in each of them the compiler
+/// would take less of it into one frame.
+#[inline(never)]
 fn anew<T>(
     a: (&Particle, &Pose),
     b: (&Particle, &Pose),
@@ -151,7 +152,7 @@ fn anew<T>(
         let flags = by.with(Flags::REJECTED);
         Ok(answer(Contact { flags, distance, ..Contact::separated(settings.formulation, 1.0) }))
     };
-    begin(a, b, settings, last, rejected, |pair| solved(pair, b.1, settings, last.as_ref(), state).map(&answer))
+    begin(a, b, settings, last, rejected, |pair| solved(pair, b.1, settings, state).map(&answer))
 }
 
 /// The contact of a pair that no cheap proof holds apart. In a frame of its own: it is large, and most pairs of a scene
@@ -161,10 +162,11 @@ fn solved(
     pair: &Pair,
     pose_b: &Pose,
     settings: &Settings,
-    last: Option<&Remembered>,
     mut state: Option<&mut PairState>,
 ) -> Result<Contact, DetectError> {
     let mut call = Call::new(pair, settings);
+    // Read once more: handed on through memory it would hold up the proofs of separation.
+    let last = state.as_deref().and_then(|state| state.remembered((pair.a, pair.poses[0]), (pair.b, pose_b)));
     let start = match last {
         Some(last) => {
             if settings.back_end == BackEnd::Fast {
@@ -176,7 +178,7 @@ fn solved(
     };
     let mut model = call.model(&start, Problem::Midway);
     let overlapped = last.filter(|last| last.overlapping && settings.formulation == Formulation::Closest);
-    if let Some(points) = overlapped.and_then(|last| call.both_from_memory(last, &model)) {
+    if let Some(points) = overlapped.and_then(|last| call.both_from_memory(&last, &model)) {
         remember(state, midway_between(&points));
         let local = LocalContact::closest(pair, &points, settings.weight_on_a, true);
         return Ok(local.placed(pair, pose_b, summary(&call)));
@@ -193,7 +195,7 @@ fn solved(
         let flat_regularisation = Settings::default().flat_regularisation;
         // Of a contact with other settings than were given nothing is carried on.
         let settings = Settings { flat_regularisation, carry_tolerance: 0.0, ..*settings };
-        let contact = solved(pair, pose_b, &settings, last, state)?;
+        let contact = solved(pair, pose_b, &settings, state)?;
         return Ok(Contact { flags: contact.flags.with(Flags::DEFAULT_REGULARISATION), ..contact });
     }
     let overlapping = !separated && scale.s < 1.0;
