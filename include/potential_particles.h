@@ -13,7 +13,7 @@
  *   Result    An int32_t status: PP_OK (0) or a positive code; pp_status_message gives its sentence.
  *             Codes are integers; numbers are never reused. A failed solve is a status of its own
  *             and never reads as "separated".
- *   Order     Inputs first, then memory, then outputs.
+ *   Order     Inputs first, then the state of the pair, then outputs.
  *   Outputs   Written only when the call returns PP_OK. Exceptions: message buffers, which are written
  *             on failure and always end with a zero byte; counts, and the error of pp_particle_mesh,
  *             also with PP_BUFFER_TOO_SMALL; the arrays of a batch, pair by pair.
@@ -23,14 +23,13 @@
  *             elements may be NULL. "Pointers" names what else a caller must hold to; any pointer that
  *             is not NULL points to as many valid, aligned objects as the call says.
  *   Numbers   NaN and infinity are refused with a status that says where they were, except in values that
- *             are not used (r for k = 1, R for k = 0) and in what the library fills itself (memories,
- *             carries, frames).
+ *             are not used (r for k = 1, R for k = 0) and in what the library fills itself (states of pairs).
  *   Units     Any consistent length unit. Rotations by quaternion w, x, y, z, local to world; in the
  *             plane by an angle in radians.
  *   Threads   Particles never change after creation: any number of threads may share them. A
- *             pp_memory or an output belongs to one call at a time. No state is shared between calls.
- *             Only pp_contact_detect_batch (and _carried, _2d) and pp_pack start threads, and end
- *             them before they return.
+ *             pp_pair_state or an output belongs to one call at a time. Nothing is shared between calls.
+ *             Only pp_contact_detect_batch (and _2d) and pp_pack start threads, and end them before they
+ *             return.
  *   Errors    No panic and no exception leaves the library, and nothing is printed. Where memory runs
  *             out the process is aborted, as by all of Rust.
  *   Layout    Structs have the same layout on every platform with 8-byte doubles; reserved fields
@@ -44,8 +43,8 @@
  *         return 1;
  *     }
  *     pp_contact contact;
- *     pp_memory memory = {{0}};
- *     if (pp_contact_detect(cube, &pose_a, cube, &pose_b, NULL, &memory, &contact) == PP_OK &&
+ *     pp_pair_state state = {0};
+ *     if (pp_contact_detect(cube, &pose_a, cube, &pose_b, NULL, &state, &contact) == PP_OK &&
  *         contact.kind == PP_OVERLAPPING) { ... contact.normal, contact.overlap ... }
  *     pp_particle_free(cube);
  * A whole step at once, on several threads: pp_contact_detect_batch.
@@ -71,16 +70,13 @@
 // not use the library (a struct, a function or the meaning of a number has changed), and not with
 // additions. A program that loads the library should refuse to go on unless pp_abi_version() ==
 // PP_ABI_VERSION.
-#define PP_ABI_VERSION 2
+#define PP_ABI_VERSION 3
 
 // struct pp_pose, for pp_struct_size.
 #define PP_STRUCT_POSE 1
 
 // struct pp_settings, for pp_struct_size.
 #define PP_STRUCT_SETTINGS 2
-
-// struct pp_memory, for pp_struct_size.
-#define PP_STRUCT_MEMORY 3
 
 // struct pp_contact, for pp_struct_size.
 #define PP_STRUCT_CONTACT 4
@@ -100,12 +96,6 @@
 // struct pp_closest_2d, for pp_struct_size.
 #define PP_STRUCT_CLOSEST_2D 9
 
-// struct pp_frame, for pp_struct_size.
-#define PP_STRUCT_FRAME 10
-
-// struct pp_carry, for pp_struct_size.
-#define PP_STRUCT_CARRY 11
-
 // struct pp_area_properties, for pp_struct_size.
 #define PP_STRUCT_AREA_PROPERTIES 12
 
@@ -117,6 +107,9 @@
 
 // struct pp_flat_contact, for pp_struct_size.
 #define PP_STRUCT_FLAT_CONTACT 13
+
+// struct pp_pair_state, for pp_struct_size.
+#define PP_STRUCT_PAIR_STATE 16
 
 // The point on the boundary lies on the plane, or inside the triangle.
 #define PP_ON_INTERIOR 0
@@ -186,13 +179,13 @@
 // the one given is the line of centres, or the x axis of B.
 #define PP_FLAG_NORMAL_BY_CENTRES 4
 
-// Started from a remembered solution: that of pp_memory or, with PP_FLAG_CARRIED, of pp_carry.
+// Started from the solution that the pair remembers (struct pp_pair_state).
 #define PP_FLAG_WARM 8
 
 // Answered in extended precision (about 32 digits): doubles did not settle it, or not to the gap asked for.
 #define PP_FLAG_EXTENDED 16
 
-// pp_contact_detect_carried: carried on from the last contact, without a look at the planes.
+// Carried on from the last contact, without a look at the planes (carry_tolerance).
 #define PP_FLAG_CARRIED 32
 
 // The gap is above the tolerance asked for: rounding allows no better. It is still a bound.
@@ -264,17 +257,27 @@ typedef struct pp_settings {
     // the particles overlap at all is never left to it: where it would be, the default decides
     // (PP_FLAG_DEFAULT_REGULARISATION).
     double flat_regularisation;
+    // To what part of the smaller bounding radius the point of a contact has to be known that is carried on
+    // from the last one without a look at any plane (PP_FLAG_CARRIED); in [0, 0.1], default 0: every
+    // contact is solved. 1e-9 is a good choice. It takes a pp_pair_state; contacts of PP_CLOSEST and by
+    // PP_CONIC are always solved.
+    double carry_tolerance;
 } pp_settings;
 
-// What one ordered pair (A, B) remembers between calls, so that the next call starts warm.
+// What one ordered pair (A, B), or a particle A and a flat boundary, keeps from call to call.
 //
-// Owned by the caller: set all bytes to 0 to begin with or to forget; copy and save it freely.
-// It never changes an answer beyond its gap, whatever bytes it holds. One caller at a time.
-typedef struct pp_memory {
-    // Library's own; not for reading. Today the first 8 numbers are used, and the others are written as 0:
-    // room to grow.
-    double state[16];
-} pp_memory;
+// Owned by the caller: set all bytes to 0 to begin with or to forget; copy it freely within a process. One
+// caller at a time.
+typedef struct pp_pair_state {
+    // The last solution, from which the next call starts. Library's own; not for reading. May be saved, and
+    // loaded into a state whose other bytes are 0: it never changes an answer beyond its gap, whatever bytes
+    // it holds.
+    double solution[8];
+    // What the last contact says about poses near by, with carry_tolerance above 0. Library's own; not for
+    // reading, and not to be saved: an answer rests on it. It is used for the two particles alone for which
+    // it was written, while they exist.
+    double last_contact[40];
+} pp_pair_state;
 
 // The answer for one pair. Frames: world axes unless said otherwise; lengths in the caller's
 // unit; s, weight and gap have no unit. Fields that do not apply are NaN.
@@ -328,25 +331,6 @@ typedef struct pp_contact {
     // overlapping.
     double distance;
 } pp_contact;
-
-// What the last contact of one ordered pair (A, B) says about poses near by, for
-// pp_contact_detect_carried.
-//
-// Owned by the caller: set all bytes to 0 to begin with or to forget. Unlike pp_memory it is no hint: an
-// answer rests on it, so it is written by the library only, and not to be saved for another process. It
-// knows the particles for which it was written, and says nothing about others. One caller at a time.
-typedef struct pp_carry {
-    // Library's own; not for reading.
-    double state[40];
-} pp_carry;
-
-// A pose, prepared: its rotation as a matrix. For callers that look at each body in many pairs.
-//
-// Made by pp_frame_from_pose, and by nothing else.
-typedef struct pp_frame {
-    // Library's own; not for reading.
-    double state[16];
-} pp_frame;
 
 // One closest point alone; frames and units as in struct pp_contact.
 typedef struct pp_closest {
@@ -653,7 +637,7 @@ size_t pp_struct_size(uint32_t which);
 // Finds the contacts of many pairs of bodies: the way for a DEM program to hand over a whole step.
 //
 // Body i is particles[i] at poses[i]; pair n is that of the bodies pairs[2n] (A) and pairs[2n+1] (B),
-// counted from 0. What a pose costs is paid once for each body. Each contact and memory is, to the last
+// counted from 0. What a pose costs is paid once for each body. Each contact and state is, to the last
 // bit, that of pp_contact_detect for the pair alone, whatever the number of threads.
 //
 // particles, poses: body_count of each; several bodies may share a particle. A particle may be NULL and
@@ -662,12 +646,12 @@ size_t pp_struct_size(uint32_t which);
 // threads: how many work on it, the calling one among them: 0 and 1 mean the calling thread alone,
 // more than 256 count as 256. Threads are started and ended within the call, which is worth its time from
 // some thousand pairs on.
-// memories: one for each pair, read and updated; may be NULL. contacts: one for each pair; written where
+// states: one for each pair, read and updated; may be NULL. contacts: one for each pair; written where
 // its status is PP_OK. statuses: one for each pair, all of them written: as pp_contact_detect would return,
 // or PP_BAD_INDEX for a body that is not there.
 // The call itself returns PP_OK when it went through all pairs, whatever their statuses; an error means
 // that nothing was written.
-// Pointers: may be NULL where the count is 0. No array overlaps another, and memories, contacts and
+// Pointers: may be NULL where the count is 0. No array overlaps another, and states, contacts and
 // statuses are not used by another call at the same time.
 // Errors: PP_NULL_POINTER, PP_UNKNOWN_FORMULATION, PP_UNKNOWN_BACK_END, PP_NO_CONE_PROGRAM, PP_BAD_SETTING,
 // PP_BAD_INDEX (a count that no memory could hold).
@@ -678,29 +662,9 @@ pp_status pp_contact_detect_batch(const struct pp_particle *const *particles,
                                   size_t pair_count,
                                   const struct pp_settings *settings,
                                   uint32_t threads,
-                                  struct pp_memory *memories,
+                                  struct pp_pair_state *states,
                                   struct pp_contact *contacts,
                                   pp_status *statuses);
-
-// pp_contact_detect_batch for contacts that are followed from pose to pose: each contact, memory and carry
-// is, to the last bit, that of pp_contact_detect_carried for the pair alone.
-//
-// carry_tolerance: as of pp_contact_detect_carried. carries: one for each pair, read and updated; may be
-// NULL, and then every contact is solved. All else as of pp_contact_detect_batch.
-// Pointers: as of pp_contact_detect_batch; carries is an array like memories.
-// Errors: those of pp_contact_detect_batch.
-pp_status pp_contact_detect_batch_carried(const struct pp_particle *const *particles,
-                                          const struct pp_pose *poses,
-                                          size_t body_count,
-                                          const uint32_t *pairs,
-                                          size_t pair_count,
-                                          const struct pp_settings *settings,
-                                          double carry_tolerance,
-                                          uint32_t threads,
-                                          struct pp_memory *memories,
-                                          struct pp_carry *carries,
-                                          struct pp_contact *contacts,
-                                          pp_status *statuses);
 
 // Fills settings with the defaults.
 //
@@ -710,9 +674,12 @@ pp_status pp_settings_default(struct pp_settings *settings);
 
 // Finds the contact of particle A at pose_a with particle B at pose_b.
 //
-// settings: may be NULL (defaults). memory: may be NULL; else what this ordered pair remembers, read, and
-// updated when the call returns PP_OK. out: the answer; see struct pp_contact for frames, units and signs.
-// Pointers: memory and out are not used by another call at the same time.
+// settings: may be NULL (defaults). state: may be NULL; else that of this ordered pair, read, and updated
+// when the call returns PP_OK. With carry_tolerance above 0 a contact of PP_MIDWAY by PP_FAST is carried on
+// from the last one without a look at any plane, where that can be: the answer has PP_FLAG_CARRIED, and its
+// gap and point_bound hold as for any other. out: the answer; see struct pp_contact for frames, units and
+// signs.
+// Pointers: state and out are not used by another call at the same time.
 // Errors: PP_NULL_POINTER, PP_BAD_POSITION, PP_BAD_ORIENTATION, PP_UNKNOWN_FORMULATION,
 // PP_UNKNOWN_BACK_END, PP_NO_CONE_PROGRAM, PP_BAD_SETTING, PP_SOLVER_FAILED.
 pp_status pp_contact_detect(const struct pp_particle *a,
@@ -720,37 +687,8 @@ pp_status pp_contact_detect(const struct pp_particle *a,
                             const struct pp_particle *b,
                             const struct pp_pose *pose_b,
                             const struct pp_settings *settings,
-                            struct pp_memory *memory,
+                            struct pp_pair_state *state,
                             struct pp_contact *out);
-
-// Prepares a pose: its rotation as a matrix.
-//
-// Pointers: frame is valid for writing.
-// Errors: PP_NULL_POINTER, PP_BAD_POSITION, PP_BAD_ORIENTATION.
-pp_status pp_frame_from_pose(const struct pp_pose *pose, struct pp_frame *frame);
-
-// pp_contact_detect for contacts that are followed from pose to pose, for poses that are prepared. Where
-// the last contact can be carried on, no plane is looked at: the answer has PP_FLAG_CARRIED, and its gap
-// and point_bound hold as for any other.
-//
-// carry_tolerance: in [0, 0.1]; to what part of the smaller bounding radius the contact point of a
-// contact that is carried on has to be known (1e-9, say); 0 solves always. PP_CLOSEST and PP_CONE_PROGRAM are
-// never carried on.
-// settings: may be NULL (defaults). memory: may be NULL. carry: what the pair carries on, read and updated;
-// emptied when the solve fails.
-// Pointers: memory, carry and out are not used by another call at the same time.
-// Errors: PP_NULL_POINTER, PP_UNKNOWN_FORMULATION, PP_UNKNOWN_BACK_END, PP_NO_CONE_PROGRAM, PP_BAD_SETTING
-// (carry_tolerance, too), PP_SOLVER_FAILED. A frame that pp_frame_from_pose did not fill is not recognised:
-// the answer is then without meaning.
-pp_status pp_contact_detect_carried(const struct pp_particle *a,
-                                    const struct pp_frame *frame_a,
-                                    const struct pp_particle *b,
-                                    const struct pp_frame *frame_b,
-                                    const struct pp_settings *settings,
-                                    double carry_tolerance,
-                                    struct pp_memory *memory,
-                                    struct pp_carry *carry,
-                                    struct pp_contact *out);
 
 // The point on one of the particles where the scale of the other is least: P1 on A, P2 on B (paper eqs
 // 3, 9). pp_contact_detect with PP_CLOSEST needs both; this is for pairs that have only one, and for
@@ -791,7 +729,7 @@ pp_status pp_contact_area(const struct pp_particle *a,
 // as in front of it (PP_FLAG_NORMAL_BY_BOUNDARY).
 //
 // settings: may be NULL (defaults); gap_tolerance, flat_regularisation and solve_separated count. The answer
-// is always in doubles.
+// is always in doubles. state: may be NULL; else that of A and this boundary, in which nothing is kept so far.
 // Pointers: point and normal hold 3 numbers each.
 // Errors: PP_NULL_POINTER, PP_BAD_POSITION, PP_BAD_ORIENTATION, PP_BAD_POINT, PP_UNKNOWN_FORMULATION,
 // PP_UNKNOWN_BACK_END, PP_NO_CONE_PROGRAM, PP_BAD_SETTING, PP_SOLVER_FAILED.
@@ -800,6 +738,7 @@ pp_status pp_contact_plane(const struct pp_particle *a,
                            const double *point,
                            const double *normal,
                            const struct pp_settings *settings,
+                           struct pp_pair_state *state,
                            struct pp_flat_contact *out);
 
 // Finds the contact of particle A at pose_a with a closed triangle, which A may touch from either side.
@@ -808,13 +747,14 @@ pp_status pp_contact_plane(const struct pp_particle *a,
 // counter-clockwise. Where the centre of A lies on the triangle to rounding, A counts as in front of it
 // (PP_FLAG_NORMAL_BY_BOUNDARY).
 // settings: may be NULL (defaults); gap_tolerance, flat_regularisation and solve_separated count. The answer
-// is always in doubles.
+// is always in doubles. state: may be NULL; else that of A and this boundary, in which nothing is kept so far.
 // Pointers: vertices holds 9 numbers.
 // Errors: those of pp_contact_plane, and PP_DEGENERATE_TRIANGLE.
 pp_status pp_contact_triangle(const struct pp_particle *a,
                               const struct pp_pose *pose_a,
                               const double *vertices,
                               const struct pp_settings *settings,
+                              struct pp_pair_state *state,
                               struct pp_flat_contact *out);
 
 // Contact area with a flat boundary: the area of the cut that the plane through the contact point, normal to
@@ -874,7 +814,7 @@ pp_status pp_particle_new(const double *planes,
                           size_t message_size);
 
 // Releases a particle; NULL is allowed and does nothing. No call that uses it may still be running;
-// memories and carries of its pairs may stay.
+// states of its pairs may stay.
 // Pointers: particle is NULL or came from pp_particle_new and was not released yet.
 void pp_particle_free(struct pp_particle *particle);
 
@@ -907,7 +847,7 @@ pp_status pp_particle_planes(const struct pp_particle *particle,
 // Finds the contacts of many pairs of bodies of the plane: pp_contact_detect_batch with two coordinates,
 // where every argument, status and error is explained.
 //
-// Each contact and memory is, to the last bit, that of pp_contact_detect_2d for the pair alone, whatever
+// Each contact and state is, to the last bit, that of pp_contact_detect_2d for the pair alone, whatever
 // the number of threads.
 // Errors: PP_NULL_POINTER, PP_UNKNOWN_FORMULATION, PP_UNKNOWN_BACK_END, PP_NO_CONE_PROGRAM, PP_BAD_SETTING,
 // PP_BAD_INDEX (a count that no memory could hold).
@@ -918,15 +858,15 @@ pp_status pp_contact_detect_batch_2d(const struct pp_particle_2d *const *particl
                                      size_t pair_count,
                                      const struct pp_settings *settings,
                                      uint32_t threads,
-                                     struct pp_memory *memories,
+                                     struct pp_pair_state *states,
                                      struct pp_contact_2d *contacts,
                                      pp_status *statuses);
 
 // Finds the contact of particle A at pose_a with particle B at pose_b, both of the plane.
 //
-// settings: may be NULL (defaults). memory: may be NULL; else what this ordered pair remembers,
-// read and updated. out: the answer; see struct pp_contact_2d for frames, units and signs.
-// Pointers: memory and out are not used by another call at the same time.
+// settings, state: may be NULL, and are as of pp_contact_detect. out: the answer; see struct pp_contact_2d
+// for frames, units and signs.
+// Pointers: state and out are not used by another call at the same time.
 // Errors: PP_NULL_POINTER, PP_BAD_POSITION, PP_BAD_ORIENTATION (an angle that is not finite),
 // PP_UNKNOWN_FORMULATION, PP_UNKNOWN_BACK_END, PP_NO_CONE_PROGRAM, PP_BAD_SETTING, PP_SOLVER_FAILED.
 pp_status pp_contact_detect_2d(const struct pp_particle_2d *a,
@@ -934,7 +874,7 @@ pp_status pp_contact_detect_2d(const struct pp_particle_2d *a,
                                const struct pp_particle_2d *b,
                                const struct pp_pose_2d *pose_b,
                                const struct pp_settings *settings,
-                               struct pp_memory *memory,
+                               struct pp_pair_state *state,
                                struct pp_contact_2d *out);
 
 // The point on one of the particles of the plane where the scale of the other is least: P1 on A, P2 on B

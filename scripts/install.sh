@@ -14,8 +14,11 @@ for path in "$PREFIX" "$LIBDIR" ${DESTDIR:+"$DESTDIR"}; do
     [[ $path = /* ]] || { echo "install: $path is no absolute path: give PREFIX, LIBDIR and DESTDIR from the root on." >&2; exit 1; }
 done
 version=$(sed -n 's/^version = "\(.*\)"/\1/p' Cargo.toml | head -n 1)
-# The first number changes with the binary interface, as PP_ABI_VERSION does, once there is a version 1; until then it is 0.
-soname=libpotential_particles.so.${version%%.*}
+# A program that needs another binary interface does not find this library.
+abi=$(sed -n 's/^#define PP_ABI_VERSION \([0-9]*\)$/\1/p' include/potential_particles.h)
+[[ $abi ]] || { echo "install: include/potential_particles.h names no PP_ABI_VERSION: make header" >&2; exit 1; }
+soname=libpotential_particles.so.$abi
+library=$soname.$version
 
 # A build of its own: programs and the plugin in this tree find the library without a SONAME, by its place.
 export CARGO_TARGET_DIR=${CARGO_TARGET_DIR:-target}
@@ -30,12 +33,12 @@ filled() {
 
 install -d "$DESTDIR$PREFIX/include" "$DESTDIR$LIBDIR/pkgconfig" "$DESTDIR$LIBDIR/cmake/potential-particles"
 install -m 644 include/potential_particles.h "$DESTDIR$PREFIX/include"
-install -m 644 "$built/libpotential_particles.so" "$DESTDIR$LIBDIR/libpotential_particles.so.$version"
+install -m 644 "$built/libpotential_particles.so" "$DESTDIR$LIBDIR/$library"
 install -m 644 "$built/libpotential_particles.a" "$DESTDIR$LIBDIR"
-ln -sf "libpotential_particles.so.$version" "$DESTDIR$LIBDIR/$soname"
+ln -sf "$library" "$DESTDIR$LIBDIR/$soname"
 ln -sf "$soname" "$DESTDIR$LIBDIR/libpotential_particles.so"
 filled potential-particles.pc.in "$DESTDIR$LIBDIR/pkgconfig/potential-particles.pc"
 for part in config config-version; do
     filled "potential-particles-$part.cmake.in" "$DESTDIR$LIBDIR/cmake/potential-particles/potential-particles-$part.cmake"
 done
-echo "install: version $version in $DESTDIR$PREFIX and $DESTDIR$LIBDIR"
+echo "install: version $version, $soname in $DESTDIR$PREFIX and $DESTDIR$LIBDIR"

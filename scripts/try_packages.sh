@@ -74,7 +74,7 @@ newer_is_refused() {
 }
 
 removed() {
-    apt-get -qq purge --yes python3-yade-potential-particles libpotential-particles-dev libpotential-particles0 &&
+    apt-get -qq purge --yes python3-yade-potential-particles libpotential-particles-dev libpotential-particles3 &&
         [ -z "$(traces)" ] || { traces; return 1; }
 }
 

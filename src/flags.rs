@@ -27,7 +27,7 @@ impl Flags {
     pub const WARM: Self = Self(8);
     /// Answered in extended precision (about 32 digits): doubles did not settle it, or not to the gap that was asked for.
     pub const EXTENDED: Self = Self(16);
-    /// Carried on from the last contact without a look at the planes (`detect_carried`).
+    /// Carried on from the last contact without a look at the planes ([`crate::Settings::carry_tolerance`]).
     pub const CARRIED: Self = Self(32);
     /// The gap exceeds the tolerance, because rounding allows no better.
     pub const ROUNDING_LIMITED: Self = Self(64);
@@ -68,12 +68,6 @@ impl Flags {
     /// Whether all bits of `other` are set.
     pub const fn contains(self, other: Self) -> bool {
         self.0 & other.0 == other.0
-    }
-
-    /// Whether any bit of `other` is set.
-    #[cfg(feature = "capi")]
-    pub(crate) const fn has_any(self, other: Self) -> bool {
-        self.0 & other.0 != 0
     }
 
     /// The bits of both.

@@ -14,7 +14,7 @@
 //! |---|---|
 //! | `linalg` | numbers and lanes of them, symmetric 3×3 matrices and their LDLᵀ factors |
 //! | `particle` | the shape: definition, potential, bounding volumes, ray casting, mass properties |
-//! | `pair` | poses, two particles in one frame, the active set at a point, warm starts, separation tests |
+//! | `pair` | two particles in one frame, the active set at a point, the state of a pair, separation tests |
 //! | `model` | both potentials as quadratics at a point, their exact optimum along the dual path, the KKT check |
 //! | `bounds` | what rounding does to an optimum: the gap of s and the distance of the point |
 //! | `solver` | initial guess, line search, Newton's method, and the order in which solvers are tried |
@@ -32,11 +32,11 @@
 //!
 //! A [`Particle`] is made once for each shape; a body is a particle at a [`Pose`]. [`detect()`] finds the [`Contact`] of two
 //! bodies, [`detect_batch`] those of many pairs on several threads; [`Settings`] choose the formulation and the accuracy, and
-//! a [`Memory`] for each pair lets the next call start from the last solution. [`Section::area`] gives the contact area,
+//! a [`PairState`] for each pair lets the next call start from the last solution. [`Section::area`] gives the contact area,
 //! [`closest_point`] one closest point alone, [`contact_with_plane`] and [`contact_with_triangle`] the contact with a wall, [`Particle::mass_properties`] volume and inertia.
 //!
 //! ```
-//! use potential_particles::{Kind, Memory, Particle, Plane, Pose, Section, Settings, detect};
+//! use potential_particles::{Kind, PairState, Particle, Plane, Pose, Section, Settings, detect};
 //!
 //! // A cube of edge 2 with edges and corners rounded by r = 0.1: six planes at 0.9, moved out by r.
 //! let faces = [[1.0, 0.0, 0.0], [-1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, -1.0, 0.0], [0.0, 0.0, 1.0], [0.0, 0.0, -1.0]];
@@ -44,8 +44,8 @@
 //!
 //! let lower = Pose::at([0.0, 0.0, 0.0])?;
 //! let upper = Pose::new([0.3, 0.0, 1.95], [1.0, 0.0, 0.0, 0.2])?;
-//! let mut memory = Memory::default();
-//! let contact = detect(&cube, &lower, &cube, &upper, &Settings::default(), Some(&mut memory))?;
+//! let mut state = PairState::default();
+//! let contact = detect(&cube, &lower, &cube, &upper, &Settings::default(), Some(&mut state))?;
 //! assert_eq!(contact.kind, Kind::Overlapping);
 //! assert!((contact.overlap - 0.05).abs() < 1e-9 && (contact.normal.z - 1.0).abs() < 1e-9);
 //!
@@ -82,13 +82,12 @@ mod solver;
 mod surface;
 
 pub use boundary::{BoundaryError, Feature, FlatContact, Triangle, Wall, contact_with_plane, contact_with_triangle};
-pub use contact::batch::{detect_batch, detect_batch_carried};
-pub use contact::carried::Carried;
+pub use contact::batch::detect_batch;
 pub use contact::closest_point::{ClosestPoint, closest_point};
 pub use contact::contact::{Contact, Kind};
-pub use contact::detect::{DetectError, detect, detect_carried};
+pub use contact::detect::{DetectError, detect};
 pub use flags::Flags;
-pub use pair::memory::Memory;
+pub use pair::pair_state::PairState;
 pub use pair::role::Role;
 pub use particle::mass_properties::{MASS_TOLERANCE, MassProperties};
 pub use particle::particle::{MAX_PLANES, Particle, ParticleError, Plane};

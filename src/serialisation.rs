@@ -1,10 +1,10 @@
-//! What can be written down and read back with serde: planes, poses, settings, memories and contacts.
+//! What can be written down and read back with serde: planes, poses, settings, states of pairs and contacts.
 //!
 //! Each type passes through a plain twin of its own, and reading goes through the checks of the constructor, so that no
 //! file makes a pose or settings that the program could not. Numbers that do not apply (NaN) are written as nothing, since
 //! JSON has no NaN; an infinite number is lost in JSON in the same way.
 
-use crate::{BackEnd, Contact, Flags, Formulation, Kind, Memory, Plane, Pose, Settings};
+use crate::{BackEnd, Contact, Flags, Formulation, Kind, PairState, Plane, Pose, Settings};
 use nalgebra::Vector3;
 use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
@@ -63,6 +63,7 @@ struct SettingsTwin {
     gap_tolerance: f64,
     weight_on_a: f64,
     flat_regularisation: f64,
+    carry_tolerance: f64,
 }
 
 impl Default for SettingsTwin {
@@ -73,26 +74,43 @@ impl Default for SettingsTwin {
 
 impl From<&Settings> for SettingsTwin {
     fn from(settings: &Settings) -> Self {
-        let &Settings { formulation, back_end, solve_separated, gap_tolerance, weight_on_a, flat_regularisation } =
-            settings;
-        Self { formulation, back_end, solve_separated, gap_tolerance, weight_on_a, flat_regularisation }
+        let &Settings {
+            formulation,
+            back_end,
+            solve_separated,
+            gap_tolerance,
+            weight_on_a,
+            flat_regularisation,
+            carry_tolerance,
+        } = settings;
+        Self {
+            formulation,
+            back_end,
+            solve_separated,
+            gap_tolerance,
+            weight_on_a,
+            flat_regularisation,
+            carry_tolerance,
+        }
     }
 }
 
-through!(
-    Settings,
-    SettingsTwin,
-    |settings| settings.into(),
-    |SettingsTwin { formulation, back_end, solve_separated, gap_tolerance, weight_on_a, flat_regularisation }| {
-        let settings =
-            Settings { formulation, back_end, solve_separated, gap_tolerance, weight_on_a, flat_regularisation };
-        settings.validate().map_err(|error| error.to_string())?;
-        Ok(settings)
-    }
-);
+through!(Settings, SettingsTwin, |settings| settings.into(), |twin| {
+    let settings = Settings {
+        formulation: twin.formulation,
+        back_end: twin.back_end,
+        solve_separated: twin.solve_separated,
+        gap_tolerance: twin.gap_tolerance,
+        weight_on_a: twin.weight_on_a,
+        flat_regularisation: twin.flat_regularisation,
+        carry_tolerance: twin.carry_tolerance,
+    };
+    settings.validate().map_err(|error| error.to_string())?;
+    Ok(settings)
+});
 
-// Whatever the numbers are, the memory is a hint.
-through!(Memory, [Number; 8], |memory| memory.into_raw().map(Number), |raw| Ok(Memory::from_raw(raw.map(|n| n.0))));
+// Of a state its remembered solution alone: whatever the numbers are, it is a hint.
+through!(PairState, [Number; 8], |state| state.into_raw().map(Number), |raw| Ok(PairState::from_raw(raw.map(|n| n.0))));
 
 /// A number, or nothing for NaN.
 #[derive(Clone, Copy)]

@@ -81,6 +81,13 @@ pub struct Settings {
     /// k → 0⁺, the point nearest to the centres. Where the choice would leave open whether the particles overlap at all,
     /// the default value decides, and its contact is the answer ([`crate::Flags::DEFAULT_REGULARISATION`]).
     pub flat_regularisation: f64,
+    /// To what part of the smaller bounding radius the point of a contact has to be known that is carried on, in [0, 0.1]; 0: every
+    /// contact is solved.
+    ///
+    /// Above 0 (1e-9, say) and with a [`crate::PairState`], a contact of [`Formulation::Midway`] by [`BackEnd::Fast`] follows from the
+    /// last one without a look at any plane ([`crate::Flags::CARRIED`]) where no plane can have switched and its point is known so well.
+    /// Its gap and `point_bound` hold as for any other.
+    pub carry_tolerance: f64,
 }
 
 /// Smallest `gap_tolerance` at which the rounding of doubles is taken for an answer.
@@ -98,6 +105,7 @@ impl Default for Settings {
             gap_tolerance: 1e-12,
             weight_on_a: 0.5,
             flat_regularisation: 1e-13,
+            carry_tolerance: 0.0,
         }
     }
 }
@@ -115,8 +123,8 @@ pub enum SettingsError {
     /// [`Settings::flat_regularisation`] is out of range.
     #[error("flat_regularisation={0} must lie in [0, 0.1]")]
     FlatRegularisation(f64),
-    /// The tolerance of [`crate::detect_carried()`] is out of range.
-    #[error("carry tolerance={0} must lie in [0, 0.1]")]
+    /// [`Settings::carry_tolerance`] is out of range.
+    #[error("carry_tolerance={0} must lie in [0, 0.1]")]
     CarryTolerance(f64),
     /// [`BackEnd::ConeProgram`] is asked for in a build without it.
     #[error(
@@ -147,10 +155,17 @@ impl Settings {
         self.flat_regularisation > Self::default().flat_regularisation
     }
 
+    /// Whether a contact may be carried on.
+    #[inline(always)]
+    pub(crate) fn carries_on(&self) -> bool {
+        self.carry_tolerance > 0.0 && self.formulation == Formulation::Midway && self.back_end == BackEnd::Fast
+    }
+
     /// Checks every range, and that the back end was built in.
     ///
     /// # Errors
     /// The first setting outside its range.
+    #[inline]
     pub fn validate(&self) -> Result<(), SettingsError> {
         if self.back_end == BackEnd::ConeProgram && cfg!(not(feature = "cone-program")) {
             return Err(SettingsError::NoConeProgram);
@@ -163,6 +178,9 @@ impl Settings {
         }
         if !(0.0..=0.1).contains(&self.flat_regularisation) {
             return Err(SettingsError::FlatRegularisation(self.flat_regularisation));
+        }
+        if !(0.0..=0.1).contains(&self.carry_tolerance) {
+            return Err(SettingsError::CarryTolerance(self.carry_tolerance));
         }
         Ok(())
     }

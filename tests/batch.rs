@@ -1,10 +1,6 @@
-//! `detect_batch` against `detect`, `detect_batch_carried` against `detect_carried`: the same bits for any number of threads, and
-//! what they refuse.
+//! `detect_batch` against `detect`: the same bits for any number of threads, and what it refuses.
 
-use potential_particles::{
-    Carried, DetectError, Flags, Memory, Particle, Plane, Pose, Settings, detect, detect_batch, detect_batch_carried,
-    detect_carried,
-};
+use potential_particles::{DetectError, Flags, PairState, Particle, Plane, Pose, Settings, detect, detect_batch};
 
 fn cube() -> Particle {
     let mut planes = Vec::new();
@@ -44,10 +40,10 @@ fn answers_are_those_of_single_calls_for_any_number_of_threads() {
     let (all, poses, pairs) = block(&particles);
     let settings = Settings::default();
     for threads in [0, 1, 2, 7] {
-        let mut memories = vec![Memory::default(); pairs.len()];
-        let mut own = memories.clone();
+        let mut states = vec![PairState::default(); pairs.len()];
+        let mut own = states.clone();
         for step in 0..2 {
-            let answers = detect_batch(&all, &poses, &pairs, &settings, threads, &mut memories).unwrap();
+            let answers = detect_batch(&all, &poses, &pairs, &settings, threads, &mut states).unwrap();
             assert_eq!(answers.len(), pairs.len());
             let mut overlapping = 0;
             for (n, answer) in answers.iter().enumerate() {
@@ -59,7 +55,7 @@ fn answers_are_those_of_single_calls_for_any_number_of_threads() {
                 overlapping += usize::from(answer.overlap > 0.0);
             }
             assert!(overlapping > pairs.len() / 4, "{overlapping} of {}", pairs.len());
-            assert_eq!(memories, own);
+            assert_eq!(format!("{states:?}"), format!("{own:?}"));
         }
     }
 }
@@ -79,41 +75,34 @@ fn moved(poses: &[Pose]) -> Vec<Pose> {
 fn contacts_that_are_followed_are_those_of_single_calls() {
     let particles = [cube(), Particle::sphere(0.5).unwrap()];
     let (all, first, pairs) = block(&particles);
-    let (settings, tolerance) = (Settings::default(), 1e-9);
+    let settings = Settings { carry_tolerance: 1e-9, ..Settings::default() };
     for threads in [1, 2, 7] {
         let mut poses = first.clone();
-        let (mut memories, mut carried) = (vec![Memory::default(); pairs.len()], vec![Carried::default(); pairs.len()]);
-        let (mut own, mut own_carried) = (memories.clone(), carried.clone());
+        let mut states = vec![PairState::default(); pairs.len()];
+        let mut own = states.clone();
         for step in 0..3 {
-            let (kept, carry) = (&mut memories, &mut carried);
-            let answers =
-                detect_batch_carried(&all, &poses, &pairs, &settings, tolerance, threads, kept, carry).unwrap();
+            let answers = detect_batch(&all, &poses, &pairs, &settings, threads, &mut states).unwrap();
             let mut count = 0;
             for (n, answer) in answers.iter().enumerate() {
                 let [i, j] = pairs[n].map(|body| body as usize);
-                let (memory, carry) = (Some(&mut own[n]), &mut own_carried[n]);
-                let (a, b) = ((all[i], &poses[i]), (all[j], &poses[j]));
-                let alone = detect_carried(a.0, a.1, b.0, b.1, &settings, tolerance, memory, carry).unwrap();
+                let alone = detect(all[i], &poses[i], all[j], &poses[j], &settings, Some(&mut own[n])).unwrap();
                 let answer = answer.as_ref().unwrap();
                 assert_eq!(format!("{answer:?}"), format!("{alone:?}"), "{threads} threads, step {step}, pair {n}");
                 count += usize::from(answer.flags.contains(Flags::CARRIED));
             }
             assert!(if step == 0 { count == 0 } else { count > pairs.len() / 4 }, "{count} carried on in step {step}");
-            assert_eq!(memories, own);
+            assert_eq!(format!("{states:?}"), format!("{own:?}"));
             poses = moved(&poses);
         }
     }
-    // With nothing to carry on all are solved.
-    let solved = detect_batch(&all, &first, &pairs, &settings, 1, &mut []).unwrap();
-    let nothing = detect_batch_carried(&all, &first, &pairs, &settings, tolerance, 1, &mut [], &mut []).unwrap();
+    // Without states all are solved.
+    let solved = detect_batch(&all, &first, &pairs, &Settings::default(), 1, &mut []).unwrap();
+    let nothing = detect_batch(&all, &first, &pairs, &settings, 1, &mut []).unwrap();
     assert_eq!(format!("{solved:?}"), format!("{nothing:?}"));
-    for bad in [-1e-9, 0.2, f64::NAN] {
-        let refused = detect_batch_carried(&all, &first, &pairs, &settings, bad, 1, &mut [], &mut []);
-        assert!(matches!(refused, Err(DetectError::Settings(_))), "{bad}: {refused:?}");
+    for carry_tolerance in [-1e-9, 0.2, f64::NAN] {
+        let refused = detect_batch(&all, &first, &pairs, &Settings { carry_tolerance, ..settings }, 1, &mut []);
+        assert!(matches!(refused, Err(DetectError::Settings(_))), "{carry_tolerance}: {refused:?}");
     }
-    let mut few = [Carried::default(); 3];
-    let short = detect_batch_carried(&all, &first, &pairs, &settings, tolerance, 1, &mut [], &mut few);
-    assert!(matches!(short, Err(DetectError::Length { what: "carried", given: 3, .. })), "{short:?}");
 }
 
 #[test]
@@ -123,8 +112,8 @@ fn what_does_not_fit_is_refused_and_a_missing_body_is_told_by_its_pair() {
     let settings = Settings::default();
     let short = detect_batch(&all, &poses[1..], &pairs, &settings, 1, &mut []);
     assert!(matches!(short, Err(DetectError::Length { what: "poses", given: 63, expected: 64, .. })), "{short:?}");
-    let short = detect_batch(&all, &poses, &pairs, &settings, 1, &mut [Memory::default(); 3]);
-    assert!(matches!(short, Err(DetectError::Length { what: "memories", given: 3, .. })), "{short:?}");
+    let short = detect_batch(&all, &poses, &pairs, &settings, 1, &mut [PairState::default(); 3]);
+    assert!(matches!(short, Err(DetectError::Length { what: "states", given: 3, .. })), "{short:?}");
     let bad = detect_batch(&all, &poses, &pairs, &Settings { weight_on_a: 2.0, ..settings }, 1, &mut []);
     assert!(matches!(bad, Err(DetectError::Settings(_))), "{bad:?}");
     pairs[5] = [3, 64];

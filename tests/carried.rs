@@ -11,8 +11,7 @@ mod wide;
 
 use nalgebra::{UnitQuaternion, Vector3};
 use potential_particles::{
-    BackEnd, Carried, Contact, Flags, Formulation, Kind, Memory, Particle, Plane, Pose, Settings, detect,
-    detect_carried,
+    BackEnd, Contact, Flags, Formulation, Kind, PairState, Particle, Plane, Pose, Settings, detect,
 };
 use proptest::prelude::*;
 
@@ -94,12 +93,10 @@ fn walk(planes: usize, r: f64, k: f64, step: f64, far: f64, seed: u64) -> (usize
     let pose_a = Pose::new((far * direction(seed)).into(), quaternion(seed)).unwrap();
     let (turned, towards) = (quaternion(seed), direction(seed));
     let mut poses = [pose_a, touching(&a, &pose_a, &b, turned, &towards, 0.1 * r)];
-    let (mut memory, mut carried, mut count) = (Memory::default(), Carried::default(), (0, 0));
-    let settings = Settings::default();
+    let (mut state, mut count) = (PairState::default(), (0, 0));
+    let settings = Settings { carry_tolerance: tolerance, ..Settings::default() };
     for _ in 0..40 {
-        let contact =
-            detect_carried(&a, &poses[0], &b, &poses[1], &settings, tolerance, Some(&mut memory), &mut carried)
-                .unwrap();
+        let contact = detect(&a, &poses[0], &b, &poses[1], &settings, Some(&mut state)).unwrap();
         let solved = detect(&a, &poses[0], &b, &poses[1], &settings, None).unwrap();
         assert_eq!(contact.kind, solved.kind);
         if contact.kind == Kind::Separated {
@@ -150,9 +147,9 @@ fn contacts_with_a_raised_regularisation_are_solved() {
     let pose_a = Pose::at([0.0; 3]).unwrap();
     let pose_b = touching(&a, &pose_a, &b, [1.0, 0.3, 0.2, 0.1], &Vector3::x(), 0.005);
     for (flat_regularisation, carries) in [(1e-13, true), (1e-3, false)] {
-        let settings = Settings { flat_regularisation, ..Settings::default() };
-        let mut carried = Carried::default();
-        let mut look = || detect_carried(&a, &pose_a, &b, &pose_b, &settings, 1e-9, None, &mut carried).unwrap();
+        let settings = Settings { flat_regularisation, carry_tolerance: 1e-9, ..Settings::default() };
+        let mut state = PairState::default();
+        let mut look = || detect(&a, &pose_a, &b, &pose_b, &settings, Some(&mut state)).unwrap();
         let (solved, next) = (look(), look());
         assert_eq!(next.flags.contains(Flags::CARRIED), carries);
         assert!((next.point - solved.point).norm() < 1e-9, "{next:?}");
@@ -165,9 +162,10 @@ fn only_the_pair_and_the_problem_that_it_was_made_for_are_carried_on() {
     let (a, b) = (particle(6, 0.05, 0.05, &mut seed), particle(6, 0.05, 0.05, &mut seed));
     let pose_a = Pose::at([0.0; 3]).unwrap();
     let pose_b = touching(&a, &pose_a, &b, [1.0, 0.3, 0.2, 0.1], &Vector3::x(), 0.005);
-    let mut carried = Carried::default();
-    let mut look = |a: &Particle, b: &Particle, settings: &Settings, tolerance: f64| {
-        let contact = detect_carried(a, &pose_a, b, &pose_b, settings, tolerance, None, &mut carried).unwrap();
+    let mut state = PairState::default();
+    let mut look = |a: &Particle, b: &Particle, settings: &Settings, carry_tolerance: f64| {
+        let settings = Settings { carry_tolerance, ..*settings };
+        let contact = detect(a, &pose_a, b, &pose_b, &settings, Some(&mut state)).unwrap();
         contact.flags.contains(Flags::CARRIED)
     };
     let midway = Settings::default();
@@ -182,8 +180,18 @@ fn only_the_pair_and_the_problem_that_it_was_made_for_are_carried_on() {
     assert!(!look(&twin, &b, &midway, 1e-9) && look(&twin, &b, &midway, 1e-9));
     assert!(!look(&twin, &b, &Settings { formulation: Formulation::Closest, ..midway }, 1e-9));
     assert!(!look(&twin, &b, &Settings { back_end: BackEnd::ConeProgram, ..midway }, 1e-9));
-    assert!(detect_carried(&a, &pose_a, &b, &pose_b, &midway, 0.2, None, &mut carried).is_err());
-    assert!(detect_carried(&a, &pose_a, &b, &pose_b, &midway, f64::NAN, None, &mut carried).is_err());
+    for carry_tolerance in [0.2, f64::NAN] {
+        let settings = Settings { carry_tolerance, ..midway };
+        assert!(detect(&a, &pose_a, &b, &pose_b, &settings, Some(&mut PairState::default())).is_err());
+    }
+    // What is saved is the solution alone.
+    let carrying_on = Settings { carry_tolerance: 1e-9, ..midway };
+    let mut state = PairState::default();
+    let flags = |state: &mut PairState| detect(&a, &pose_a, &b, &pose_b, &carrying_on, Some(state)).unwrap().flags;
+    flags(&mut state);
+    assert!(flags(&mut state.clone()).contains(Flags::CARRIED));
+    let loaded = flags(&mut PairState::from_raw(state.into_raw()));
+    assert!(loaded.contains(Flags::WARM) && !loaded.contains(Flags::CARRIED));
 }
 
 /// Walks of all shapes, steps and places from a seed: none is out of its bounds.

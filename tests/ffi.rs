@@ -29,15 +29,17 @@ fn pose(x: f64, y: f64, z: f64) -> pp_pose {
     pp_pose { position: [x, y, z], orientation: [1.0, 0.1, 0.2, 0.3] }
 }
 
+const EMPTY: pp_pair_state = pp_pair_state { solution: [0.0; 8], last_contact: [0.0; 40] };
+
 #[test]
 fn a_contact_is_found_and_everything_is_given_back() {
     let (a, b) = (cube(0.1), cube(0.0));
-    let mut memory = pp_memory::default();
+    let mut state = EMPTY;
     for step in 0..3 {
         let (at_a, at_b) = (pose(0.0, 0.0, 0.0), pose(0.2, 0.1, 0.93 - 0.01 * f64::from(step)));
         // Outputs may be uninitialised: they are only written.
         let mut contact = MaybeUninit::<pp_contact>::uninit();
-        let status = unsafe { pp_contact_detect(a, &at_a, b, &at_b, ptr::null(), &mut memory, contact.as_mut_ptr()) };
+        let status = unsafe { pp_contact_detect(a, &at_a, b, &at_b, ptr::null(), &mut state, contact.as_mut_ptr()) };
         assert_eq!(status, PP_OK);
         let contact = unsafe { contact.assume_init() };
         assert_eq!(contact.kind, PP_OVERLAPPING);
@@ -117,9 +119,9 @@ fn threads_share_a_particle() {
                 let (at_a, at_b) = (pose(0.0, 0.0, 0.0), pose(0.1, 0.0, 0.9 + 0.01 * f64::from(thread)));
                 let mut contact = MaybeUninit::<pp_contact>::uninit();
                 let settings = ptr::null();
-                let memory = ptr::null_mut();
+                let state = ptr::null_mut();
                 let status =
-                    unsafe { pp_contact_detect(body.0, &at_a, body.0, &at_b, settings, memory, contact.as_mut_ptr()) };
+                    unsafe { pp_contact_detect(body.0, &at_a, body.0, &at_b, settings, state, contact.as_mut_ptr()) };
                 assert_eq!(status, PP_OK);
             });
         }
@@ -135,7 +137,7 @@ fn a_batch_reads_and_writes_its_arrays() {
     let poses = [pose(0.0, 0.0, 0.0), pose(0.2, 0.1, 0.93), pose(3.0, 0.0, 0.0), pose(0.0, 0.0, 1.0)];
     let pairs: Vec<[u32; 2]> = (0..150).map(|n| [[0, 1], [0, 2], [1, 3], [2, 9]][n % 4]).collect();
     for threads in [1, 2] {
-        let mut memories = vec![pp_memory::default(); pairs.len()];
+        let mut states = vec![EMPTY; pairs.len()];
         let mut contacts = vec![MaybeUninit::<pp_contact>::uninit(); pairs.len()];
         let mut statuses = vec![MaybeUninit::<pp_status>::uninit(); pairs.len()];
         let status = unsafe {
@@ -147,7 +149,7 @@ fn a_batch_reads_and_writes_its_arrays() {
                 pairs.len(),
                 ptr::null(),
                 threads,
-                memories.as_mut_ptr(),
+                states.as_mut_ptr(),
                 contacts.as_mut_ptr().cast(),
                 statuses.as_mut_ptr().cast(),
             )
@@ -168,27 +170,28 @@ fn a_batch_reads_and_writes_its_arrays() {
     }
 }
 
-/// The same with what is carried on, which is bytes taken for another type.
+/// The same with contacts that are carried on; a state is bytes taken for another type.
 #[test]
 fn a_batch_carries_contacts_on() {
     let body = cube(0.1);
     let (particles, pairs) = ([body.cast_const(), body], [0_u32, 1]);
-    let mut carry = pp_carry { state: [0.0; 40] };
+    let mut state = EMPTY;
+    let mut settings = MaybeUninit::<pp_settings>::uninit();
+    assert_eq!(unsafe { pp_settings_default(settings.as_mut_ptr()) }, PP_OK);
+    let settings = pp_settings { carry_tolerance: 1e-9, ..unsafe { settings.assume_init() } };
     for step in 0..3 {
         let poses = [pose(0.0, 0.0, 0.0), pose(0.2, 0.1, 0.93 - 1e-7 * f64::from(step))];
         let (mut contact, mut status) = (MaybeUninit::<pp_contact>::uninit(), MaybeUninit::<pp_status>::uninit());
         let called = unsafe {
-            pp_contact_detect_batch_carried(
+            pp_contact_detect_batch(
                 particles.as_ptr(),
                 poses.as_ptr(),
                 2,
                 pairs.as_ptr(),
                 1,
-                ptr::null(),
-                1e-9,
+                &settings,
                 1,
-                ptr::null_mut(),
-                &mut carry,
+                &mut state,
                 contact.as_mut_ptr(),
                 status.as_mut_ptr(),
             )
@@ -205,12 +208,13 @@ fn a_contact_with_a_wall_is_written() {
     let at = pose(0.0, 0.0, 0.45);
     let (point, normal) = ([0.0; 3], [0.0, 0.0, 1.0]);
     let vertices: [f64; 9] = [-1.0, -1.0, 0.0, 2.0, -1.0, 0.0, -1.0, 2.0, 0.0];
+    let (settings, state) = (ptr::null(), &mut EMPTY.clone());
     unsafe {
         let mut wall = MaybeUninit::<pp_flat_contact>::uninit();
-        let status = pp_contact_plane(body, &at, point.as_ptr(), normal.as_ptr(), ptr::null(), wall.as_mut_ptr());
+        let status = pp_contact_plane(body, &at, point.as_ptr(), normal.as_ptr(), settings, state, wall.as_mut_ptr());
         assert_eq!(status, PP_OK);
         let mut facet = MaybeUninit::<pp_flat_contact>::uninit();
-        assert_eq!(pp_contact_triangle(body, &at, vertices.as_ptr(), ptr::null(), facet.as_mut_ptr()), PP_OK);
+        assert_eq!(pp_contact_triangle(body, &at, vertices.as_ptr(), settings, state, facet.as_mut_ptr()), PP_OK);
         let (wall, facet) = (wall.assume_init(), facet.assume_init());
         assert!(wall.kind == PP_OVERLAPPING && facet.kind == PP_OVERLAPPING);
         assert!((wall.s - facet.s).abs() <= wall.gap + facet.gap);

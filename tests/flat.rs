@@ -37,7 +37,7 @@ pub fn triangle(vertices: [[f64; 3]; 3]) -> Triangle {
 
 /// The contact with a triangle.
 pub fn touch(a: &Particle, pose: &Pose, vertices: [[f64; 3]; 3], settings: &Settings) -> FlatContact {
-    contact_with_triangle(a, pose, &triangle(vertices), settings).expect("an answer")
+    contact_with_triangle(a, pose, &triangle(vertices), settings, None).expect("an answer")
 }
 
 /// The point of the boundary where s is least, minus the position of A.
@@ -68,7 +68,7 @@ impl Known {
             (Some(vertices), ..) => touch(particle, pose, vertices, settings),
             (None, Some(point), Some(normal)) => {
                 let wall = Wall::new(point, normal).expect("a plane");
-                contact_with_plane(particle, pose, &wall, settings).expect("an answer")
+                contact_with_plane(particle, pose, &wall, settings, None).expect("an answer")
             }
             _ => panic!("a case has vertices, or a point and a normal"),
         }
@@ -136,5 +136,5 @@ fn what_is_no_boundary_is_refused() {
     assert!(Triangle::new([corner, [1e-160, 0.0, 0.0], [0.0, 1e-160, 0.0]]).is_ok());
     let wall = Wall::new(corner, [0.0, 0.0, 1.0]).unwrap();
     let settings = Settings { gap_tolerance: 0.0, ..Settings::default() };
-    assert!(contact_with_plane(&cube(0.1, 0.1), &Pose::at(corner).unwrap(), &wall, &settings).is_err());
+    assert!(contact_with_plane(&cube(0.1, 0.1), &Pose::at(corner).unwrap(), &wall, &settings, None).is_err());
 }

@@ -101,6 +101,19 @@ fn version_macros_are_those_of_the_package() {
     }
 }
 
+/// A library of another binary interface has another name: scripts/install.sh reads the number from the header, Debian's packages have it
+/// in theirs.
+#[test]
+fn packages_are_named_after_the_binary_interface() {
+    let header = generated();
+    let abi = header.lines().find_map(|line| line.strip_prefix("#define PP_ABI_VERSION ")).expect("a number");
+    let package = format!("libpotential-particles{abi}");
+    let control = fs::read_to_string(root().join("debian/control")).expect("debian/control is readable");
+    assert!(control.contains(&format!("Package: {package}\n")), "debian/control has no package {package}");
+    assert!(control.contains(&format!("Depends: {package} (= ")), "the development files need {package}");
+    assert!(root().join(format!("debian/{package}.install")).exists(), "debian/{package}.install is missing");
+}
+
 /// A C programmer reads the comments as they are.
 #[test]
 fn comments_are_plain_text() {

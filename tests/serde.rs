@@ -1,7 +1,8 @@
 //! The feature `serde`: what is written down is read back to the last bit, and what no constructor would take is refused.
 
 use potential_particles::{
-    BackEnd, Contact, Formulation, Kind, Memory, Particle, Plane, Pose, Role, Section, Settings, closest_point, detect,
+    BackEnd, Contact, Formulation, Kind, PairState, Particle, Plane, Pose, Role, Section, Settings, closest_point,
+    detect,
 };
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -45,14 +46,15 @@ fn everything_comes_back() {
     for (distance, formulation) in [(1.7, Formulation::Midway), (1.7, Formulation::Closest), (2.5, Formulation::Midway)]
     {
         let there = Pose::new([0.0, 0.1, distance], [1.0, 0.0, 0.0, 1.0 / 3.0]).unwrap();
-        let settings = Settings { formulation, gap_tolerance: 1.0 / 3e11, ..Settings::default() };
+        let settings =
+            Settings { formulation, gap_tolerance: 1.0 / 3e11, carry_tolerance: 1e-9 / 3.0, ..Settings::default() };
         assert_eq!(there_and_back(&here), here);
         assert_eq!(there_and_back(&there), there);
         assert_eq!(there_and_back(&settings), settings);
-        let mut memory = Memory::default();
-        assert_eq!(there_and_back(&memory), memory);
-        let contact = detect(&cube, &here, &cube, &there, &settings, Some(&mut memory)).unwrap();
-        assert_eq!(there_and_back(&memory), memory);
+        let mut state = PairState::default();
+        assert_eq!(there_and_back(&state).into_raw(), state.into_raw());
+        let contact = detect(&cube, &here, &cube, &there, &settings, Some(&mut state)).unwrap();
+        assert_eq!(there_and_back(&state).into_raw(), state.into_raw());
         let back = there_and_back(&contact);
         assert_eq!(numbers(&back), numbers(&contact));
         assert_eq!((back.kind, back.formulation, back.back_end), (contact.kind, contact.formulation, contact.back_end));

@@ -1,9 +1,9 @@
-//! Particles shared by threads: each thread gets, bit for bit, the answers that one thread alone gets, from memories
+//! Particles shared by threads: each thread gets, bit for bit, the answers that one thread alone gets, from states
 //! of its own.
 
 mod support;
 
-use potential_particles::{Contact, Formulation, Memory, Particle, Pose, Settings, detect};
+use potential_particles::{Contact, Formulation, PairState, Particle, Pose, Settings, detect};
 use std::sync::{Arc, Barrier};
 use std::thread;
 
@@ -33,10 +33,9 @@ fn answers(pairs: &[Pair], first: usize) -> Vec<Vec<u64>> {
         let Pair { a, b, pose_a, pose_b } = &pairs[index];
         for formulation in [Formulation::Midway, Formulation::Closest] {
             let settings = Settings { formulation, ..Settings::default() };
-            let mut memory = Memory::default();
+            let mut state = PairState::default();
             for _ in 0..2 {
-                let contact =
-                    detect(a, pose_a, b, pose_b, &settings, Some(&mut memory)).expect("a pair with an answer");
+                let contact = detect(a, pose_a, b, pose_b, &settings, Some(&mut state)).expect("a pair with an answer");
                 found[index].extend(bits(&contact));
             }
         }

@@ -38,7 +38,7 @@ GROUPS = (
     ("5-sharp-near", "5 planes, sharp, near", 100), ("1000-potential-near", "1,000 planes, k = 0.02, near", 30),
 )
 # Ways to call: name of the way, what it is called, part of the symbol of what each call runs once.
-WAYS = (("midway", "alone", "detect6detect17"), ("carried", "in a batch", "batch5carry17"))
+WAYS = (("midway", "alone", "detect6detect17"), ("carried", "in a batch", "batch8carry_on17"))
 PASSES = 20  # of one request: two walks through six poses, to and fro
 SECONDS, TRIALS = 0.5, 5
 LEAST_SHARE = 0.8  # of the cycles of a call, that its highest limit accounts for: what is left to win without other mathematics
@@ -59,7 +59,7 @@ FUNCTIONS = {
     "step": r"yade::Scene::moveToNextTimeStep\(\) \[",
     "contact loop": r"ConicInteractionLoop::action",
     "contact functor": r"Ig2_ConicPP_ConicPP_ScGeom::go",
-    "of it, the library": r"pp_contact_detect_carried",
+    "of it, the library": r"pp_contact_detect",
     "force law": r":yade::Law2_SCG_KnKsPhys_KnKsLaw::go",
     "integrator": r"yade::NewtonIntegrator::action\(\) \[",
     "collider": r"yade::InsertionSortCollider::action\(\) \[",

@@ -44,7 +44,7 @@ impl Facet {
     }
 
     pub fn contact(&self) -> FlatContact {
-        contact_with_triangle(&self.particle, &self.pose, &self.triangle, &Settings::default())
+        contact_with_triangle(&self.particle, &self.pose, &self.triangle, &Settings::default(), None)
             .expect("an ordinary triangle")
     }
 }

@@ -4,7 +4,7 @@ use super::evaluation::Plain;
 use super::random::Random;
 use nalgebra::Vector3;
 use potential_particles::internals::{Pair, potential, reject};
-use potential_particles::{Carried, Formulation, Kind, Memory, Particle, Pose, Settings, detect, detect_carried};
+use potential_particles::{Formulation, Kind, PairState, Particle, Pose, Settings, detect};
 use std::hint::black_box;
 
 /// Overlap, relative to the size 1 of the particles of this scene.
@@ -28,10 +28,8 @@ pub struct Touching {
     /// frames of A and of B.
     points: [Vector3<f64>; 2],
     plain: [Plain; 2],
-    /// What the pair remembers of a call at `pose_b`: of midway, of closest.
-    memories: [Memory; 2],
-    /// What its contact of midway at `pose_b` carries on.
-    pub carried: Carried,
+    /// The state of the pair after a call at `pose_b`: of midway, to be carried on, and of closest.
+    states: [PairState; 2],
 }
 
 impl Touching {
@@ -71,9 +69,9 @@ impl Touching {
             .find(Self::is_rejected)
     }
 
-    /// What the pair remembers of a call at `pose_b`.
-    pub fn memory(&self, formulation: Formulation) -> Memory {
-        self.memories[usize::from(formulation == Formulation::Closest)]
+    /// The state of the pair after a call at `pose_b`.
+    pub fn state(&self, formulation: Formulation) -> PairState {
+        self.states[usize::from(formulation == Formulation::Closest)]
     }
 
     /// The unit of cost: S, ∇S, ∇²S of both particles at one point.
@@ -95,20 +93,18 @@ impl Touching {
 
     fn placed(a: Particle, b: Particle, pose_a: Pose, pose_b: Pose, random: &mut Random) -> Self {
         let moved_b = random.moved(&pose_b, STEP, STEP);
-        let memories = [Formulation::Midway, Formulation::Closest].map(|formulation| {
-            let settings = Settings { formulation, ..Settings::default() };
-            let mut memory = Memory::default();
-            detect(&a, &pose_a, &b, &pose_b, &settings, Some(&mut memory)).expect("a contact of ordinary bodies");
-            memory
-        });
-        let (settings, mut carried) = (Settings::default(), Carried::default());
-        let contact = detect_carried(&a, &pose_a, &b, &pose_b, &settings, CARRY_TOLERANCE, None, &mut carried);
-        let contact = contact.expect("as before");
+        let after = |formulation| {
+            let settings = Settings { formulation, carry_tolerance: CARRY_TOLERANCE, ..Settings::default() };
+            let mut state = PairState::default();
+            let contact = detect(&a, &pose_a, &b, &pose_b, &settings, Some(&mut state));
+            (contact.expect("a contact of ordinary bodies"), state)
+        };
+        let ((contact, midway), (_, closest)) = (after(Formulation::Midway), after(Formulation::Closest));
         let touching = contact.kind == Kind::Overlapping;
         let point = if touching { contact.point } else { 0.5 * (pose_a.position() + pose_b.position()) };
         let points = [pose_a, pose_b].map(|pose| pose.to_local(&point));
         let plain = [Plain::new(&a), Plain::new(&b)];
-        Self { a, b, pose_a, pose_b, moved_b, points, plain, memories, carried }
+        Self { a, b, pose_a, pose_b, moved_b, points, plain, states: [midway, closest] }
     }
 }
 

@@ -12,7 +12,7 @@ use criterion::{Criterion, criterion_group, criterion_main};
 use nalgebra::Vector3;
 use potential_particles::Section;
 use potential_particles::internals::{Pair, reject};
-use potential_particles::{Contact, Formulation, Memory, Settings, detect};
+use potential_particles::{Contact, Formulation, PairState, Settings, detect};
 use scene::facets::Facet;
 use scene::random::Random;
 use scene::touching::{self, Touching};
@@ -45,8 +45,8 @@ fn contact(pair: &Touching, formulation: Formulation) -> Contact {
 
 fn warm(pair: &Touching, formulation: Formulation) -> Contact {
     let settings = Settings { formulation, ..Settings::default() };
-    let mut memory: Memory = pair.memory(formulation);
-    detect(&pair.a, &pair.pose_a, &pair.b, &pair.moved_b, &settings, Some(&mut memory))
+    let mut state: PairState = pair.state(formulation);
+    detect(&pair.a, &pair.pose_a, &pair.b, &pair.moved_b, &settings, Some(&mut state))
         .expect("a contact of ordinary bodies")
 }
 

@@ -10,7 +10,7 @@ use crate::scene::random::Random;
 use crate::scene::touching::{self, Touching};
 use indicatif::ProgressBar;
 use potential_particles::Section;
-use potential_particles::{Formulation, Memory, Settings, detect, detect_batch_carried, detect_carried};
+use potential_particles::{Formulation, Settings, detect, detect_batch};
 use serde::Serialize;
 use std::cell::RefCell;
 use std::hint::black_box;
@@ -175,15 +175,13 @@ fn batch(pairs: &[Touching], effort: &Effort, progress: &ProgressBar) -> Cost {
         pairs.iter().flat_map(|pair| [pair.pose_a, if moved { pair.moved_b } else { pair.pose_b }]).collect()
     });
     let bodies: Vec<_> = (0..pairs.len() as u32).map(|i| [2 * i, 2 * i + 1]).collect();
-    let memories: Vec<_> = pairs.iter().map(|pair| pair.memory(Formulation::Midway)).collect();
-    let carried: Vec<_> = pairs.iter().map(|pair| pair.carried).collect();
-    let state = RefCell::new((memories, carried, 0));
+    let states: Vec<_> = pairs.iter().map(|pair| pair.state(Formulation::Midway)).collect();
+    let kept = RefCell::new((states, 0));
     let step = |_| {
-        let (memories, carried, count) = &mut *state.borrow_mut();
-        let (poses, settings, tolerance) = (&poses[*count % 2], Settings::default(), touching::CARRY_TOLERANCE);
+        let (states, count) = &mut *kept.borrow_mut();
+        let poses = &poses[*count % 2];
         *count += 1;
-        let _ =
-            black_box(&detect_batch_carried(&particles, poses, &bodies, &settings, tolerance, 1, memories, carried));
+        let _ = black_box(&detect_batch(&particles, poses, &bodies, &carrying_on(), 1, states));
     };
     let evaluate = |_| pairs.iter().for_each(Touching::evaluate);
     let seconds = clock::race(1, &[&evaluate, &step], ROUNDS_OF_BATCHES.max(effort.rounds), progress);
@@ -216,6 +214,10 @@ fn settings(formulation: Formulation) -> Settings {
     Settings { formulation, ..Settings::default() }
 }
 
+fn carrying_on() -> Settings {
+    Settings { carry_tolerance: touching::CARRY_TOLERANCE, ..Settings::default() }
+}
+
 fn call(pair: &Touching, formulation: Formulation) {
     let pair = black_box(pair);
     let _ = black_box(&detect(&pair.a, &pair.pose_a, &pair.b, &pair.pose_b, &settings(formulation), None));
@@ -224,18 +226,15 @@ fn call(pair: &Touching, formulation: Formulation) {
 /// From the memory of the pose before.
 fn warm_call(pair: &Touching, formulation: Formulation) {
     let pair = black_box(pair);
-    let mut memory: Memory = pair.memory(formulation);
-    let _ =
-        black_box(&detect(&pair.a, &pair.pose_a, &pair.b, &pair.moved_b, &settings(formulation), Some(&mut memory)));
+    let mut state = pair.state(formulation);
+    let _ = black_box(&detect(&pair.a, &pair.pose_a, &pair.b, &pair.moved_b, &settings(formulation), Some(&mut state)));
 }
 
 /// Carried on from the pose before.
 fn carried_call(pair: &Touching) {
     let pair = black_box(pair);
-    let (mut memory, mut carried) = (pair.memory(Formulation::Midway), pair.carried);
-    let (settings, tolerance) = (Settings::default(), touching::CARRY_TOLERANCE);
-    let (memory, carried) = (Some(&mut memory), &mut carried);
-    let contact = detect_carried(&pair.a, &pair.pose_a, &pair.b, &pair.moved_b, &settings, tolerance, memory, carried);
+    let mut state = pair.state(Formulation::Midway);
+    let contact = detect(&pair.a, &pair.pose_a, &pair.b, &pair.moved_b, &carrying_on(), Some(&mut state));
     let _ = black_box(&contact);
 }
 

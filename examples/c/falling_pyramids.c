@@ -140,14 +140,14 @@ static void contact_force(int i, const double *arm_i, int j, const double *arm_j
 /* All pairs in one call; most are rejected by their bounding spheres. A larger code gives those of its neighbour search. */
 static int pair_forces(void) {
     static uint32_t pairs[2 * PAIRS];
-    static pp_memory memories[PAIRS];
+    static pp_pair_state states[PAIRS];
     static pp_contact contacts[PAIRS];
     static pp_status statuses[PAIRS];
     if (pairs[1] == 0)
         for (uint32_t i = 0, n = 0; i < BODIES; i++)
             for (uint32_t j = i + 1; j < BODIES; j++, n++)
                 pairs[2 * n] = i, pairs[2 * n + 1] = j;
-    check(pp_contact_detect_batch(particles, poses, BODIES, pairs, PAIRS, NULL, 1, memories, contacts, statuses), "pairs");
+    check(pp_contact_detect_batch(particles, poses, BODIES, pairs, PAIRS, NULL, 1, states, contacts, statuses), "pairs");
     int touching = 0;
     for (int n = 0; n < PAIRS; n++) {
         check(statuses[n], "pair");
@@ -167,7 +167,7 @@ static int wall_forces(void) {
     for (int i = 0; i < BODIES; i++)
         for (int w = 0; w < WALLS; w++) {
             pp_flat_contact contact;
-            check(pp_contact_plane(pyramid, &poses[i], walls[w][0], walls[w][1], NULL, &contact), "wall");
+            check(pp_contact_plane(pyramid, &poses[i], walls[w][0], walls[w][1], NULL, NULL, &contact), "wall");
             if (contact.kind == PP_OVERLAPPING) {
                 contact_force(i, contact.branch, -1, contact.branch, contact.normal, contact.overlap);
                 touching++;

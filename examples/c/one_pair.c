@@ -26,9 +26,9 @@ int main(void) {
 
     /* World = rotation(w, x, y, z) * local + position; the length of the quaternion does not matter. */
     const pp_pose lower = {{0, 0, 0}, {1, 0, 0, 0}}, upper = {{0.3, 0, 1.95}, {1, 0, 0, 0.2}};
-    pp_memory memory = {{0}}; /* one for each pair: the next call starts from the last solution */
+    pp_pair_state state = {0}; /* one for each pair: the next call starts from the last solution */
     pp_contact contact;
-    const pp_status status = pp_contact_detect(cube, &lower, cube, &upper, NULL, &memory, &contact);
+    const pp_status status = pp_contact_detect(cube, &lower, cube, &upper, NULL, &state, &contact);
     if (status != PP_OK) { /* never the same as "apart" */
         fprintf(stderr, "one_pair: %s\n", pp_status_message(status));
         pp_particle_free(cube);

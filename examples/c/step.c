@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT OR Apache-2.0
  *
- * One step of 1,000 bodies: all their pairs in one call, on two threads, first from nothing and then from memory.
+ * One step of 1,000 bodies: all their pairs in one call, on two threads, first from nothing and then from the states that it left.
  *
  *     cc step.c $(pkg-config --cflags --libs potential-particles) -lm -o step
  */
@@ -41,7 +41,7 @@ int main(void) {
     static const pp_particle *particles[BODIES];
     static pp_pose poses[BODIES];
     static uint32_t pairs[2 * MOST_PAIRS];
-    static pp_memory memories[MOST_PAIRS]; /* static: all bytes 0, as a memory begins */
+    static pp_pair_state states[MOST_PAIRS]; /* static: all bytes 0, as a state begins */
     static pp_contact contacts[MOST_PAIRS];
     static pp_status statuses[MOST_PAIRS];
     srand(1);
@@ -53,7 +53,7 @@ int main(void) {
     const size_t count = neighbours(pairs);
     for (int step = 0; step < 2; step++) {
         /* The call itself fails only if nothing was done; each pair has a status of its own. */
-        const pp_status status = pp_contact_detect_batch(particles, poses, BODIES, pairs, count, NULL, 2, memories, contacts, statuses);
+        const pp_status status = pp_contact_detect_batch(particles, poses, BODIES, pairs, count, NULL, 2, states, contacts, statuses);
         if (status != PP_OK) {
             fprintf(stderr, "step: %s\n", pp_status_message(status));
             return 1;

@@ -1,9 +1,9 @@
-//! Detection of any two particles at any poses, with any settings and any memory: an error, or an answer that holds
+//! Detection of any two particles at any poses, with any settings and any state: an error, or an answer that holds
 //! together. How exact it is, the stress test judges.
 
 use super::bytes::Bytes;
 use super::particle;
-use potential_particles::{BackEnd, Contact, Flags, Formulation, Kind, Memory, Particle, Pose, Settings, detect};
+use potential_particles::{BackEnd, Contact, Flags, Formulation, Kind, PairState, Particle, Pose, Settings, detect};
 
 pub fn run(data: &[u8]) {
     let mut bytes = Bytes(data);
@@ -19,21 +19,22 @@ pub fn run(data: &[u8]) {
         settings.gap_tolerance = bytes.number();
         settings.weight_on_a = bytes.number();
         settings.flat_regularisation = bytes.number();
+        settings.carry_tolerance = bytes.number();
     }
     // Where S is beyond all numbers, the cone program is asked at length, in vain: a few such pairs are enough.
     let reach = a.bounding_radius() + b.bounding_radius();
     if choices < 250 && !((at_a.position() - at_b.position()).norm() < 1e9 * reach) {
         settings.solve_separated = false;
     }
-    let mut state = [0.0; 8];
-    for number in &mut state {
+    let mut solution = [0.0; 8];
+    for number in &mut solution {
         *number = if choices & 8 != 0 { bytes.number() } else { 0.0 };
     }
     if choices & 16 != 0 {
-        state[0] = 1.0;
+        solution[0] = 1.0;
     }
-    let mut memory = Memory::from_raw(state);
-    let first = detect(&a, &at_a, &b, &at_b, &settings, Some(&mut memory));
+    let mut state = PairState::from_raw(solution);
+    let first = detect(&a, &at_a, &b, &at_b, &settings, Some(&mut state));
     if settings.validate().is_err() {
         assert!(first.is_err());
         return;
@@ -45,7 +46,7 @@ pub fn run(data: &[u8]) {
         return unharmed(&a, &b);
     }
     // From what it has just remembered, and the other way round.
-    if let Ok(again) = detect(&a, &at_a, &b, &at_b, &settings, Some(&mut memory)) {
+    if let Ok(again) = detect(&a, &at_a, &b, &at_b, &settings, Some(&mut state)) {
         whole(&again);
     }
     if let Ok(swapped) = detect(&b, &at_b, &a, &at_a, &settings, None) {

@@ -3,7 +3,7 @@
 use super::bytes::Bytes;
 use super::detect::{pose, whole};
 use super::particle;
-use potential_particles::{Contact, Flags, Formulation, Memory, Settings, detect};
+use potential_particles::{Contact, Flags, Formulation, PairState, Settings, detect};
 
 pub fn run(data: &[u8]) {
     let mut bytes = Bytes(data);
@@ -28,7 +28,7 @@ pub fn run(data: &[u8]) {
         return;
     }
     let Ok(cold) = detect(&a, &at_a, &b, &at_b, &settings, None) else { return };
-    let mut memory = Memory::from_raw(state);
+    let mut memory = PairState::from_raw(state);
     for _ in 0..2 {
         let warm = detect(&a, &at_a, &b, &at_b, &settings, Some(&mut memory)).expect("an answer, as without a memory");
         whole(&warm);

@@ -2,7 +2,7 @@
 
 use super::bytes::Bytes;
 use potential_particles::planar::{Contact, Line, Particle, Pose, detect, detect_batch};
-use potential_particles::{Flags, Formulation, Kind, Memory, ParticleError, Settings};
+use potential_particles::{Flags, Formulation, Kind, PairState, ParticleError, Settings};
 
 /// Most lines.
 const MOST_LINES: u8 = 16;
@@ -20,7 +20,7 @@ pub fn run(data: &[u8]) {
     if choices & 4 != 0 {
         settings.gap_tolerance = 10f64.powi(-i32::from(bytes.byte() % 17));
     }
-    let mut memory = Memory::from_raw([0; 8].map(|_| if choices & 8 != 0 { bytes.number() } else { 0.0 }));
+    let mut memory = PairState::from_raw([0; 8].map(|_| if choices & 8 != 0 { bytes.number() } else { 0.0 }));
     let first = detect(&a, &at_a, &b, &at_b, &settings, None);
     if settings.validate().is_err() {
         assert!(first.is_err());

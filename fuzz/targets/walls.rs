@@ -73,8 +73,8 @@ fn boundary(bytes: &mut Bytes, particle: &Particle, at: &Pose) -> Option<Boundar
 
 fn solve(a: &Particle, at: &Pose, boundary: &Boundary, settings: &Settings) -> Result<FlatContact, DetectError> {
     match boundary {
-        Boundary::Plane(wall) => contact_with_plane(a, at, wall, settings),
-        Boundary::Triangle(triangle, _) => contact_with_triangle(a, at, triangle, settings),
+        Boundary::Plane(wall) => contact_with_plane(a, at, wall, settings, None),
+        Boundary::Triangle(triangle, _) => contact_with_triangle(a, at, triangle, settings, None),
     }
 }
 

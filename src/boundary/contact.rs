@@ -11,6 +11,7 @@ use crate::flags::Flags;
 use crate::linalg::number::larger;
 use crate::pair::body::shift_in_a;
 use crate::pair::pair::Pair;
+use crate::pair::pair_state::PairState;
 use crate::pair::separation::Apart;
 use crate::particle::particle::Particle;
 use crate::particle::{potential, ray_cast};
@@ -65,11 +66,13 @@ pub struct FlatContact {
 /// count; the answer is always in doubles. Where the centre of A lies on the plane
 /// to rounding, A counts as in front of it: the normal is minus the plane's ([`Flags::NORMAL_BY_BOUNDARY`]).
 ///
+/// A state of A and this boundary may be given, as for a pair of particles; nothing is kept in it so far.
+///
 /// ```
 /// use potential_particles::{Kind, Particle, Pose, Settings, Wall, contact_with_plane};
 /// let (ball, pose) = (Particle::sphere(1.0)?, Pose::at([3.0, 4.0, 0.75])?);
 /// let floor = Wall::new([0.0, 0.0, 0.0], [0.0, 0.0, 1.0])?;
-/// let contact = contact_with_plane(&ball, &pose, &floor, &Settings::default())?;
+/// let contact = contact_with_plane(&ball, &pose, &floor, &Settings::default(), None)?;
 /// assert_eq!(contact.kind, Kind::Overlapping);
 /// assert!((contact.overlap - 0.25).abs() < 1e-15 && contact.normal.z == -1.0);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -82,6 +85,7 @@ pub fn contact_with_plane(
     pose: &Pose,
     wall: &Wall,
     settings: &Settings,
+    _state: Option<&mut PairState>,
 ) -> Result<FlatContact, DetectError> {
     settings.validate()?;
     let plane = wall.part();
@@ -100,6 +104,7 @@ pub fn contact_with_triangle(
     pose: &Pose,
     triangle: &Triangle,
     settings: &Settings,
+    _state: Option<&mut PairState>,
 ) -> Result<FlatContact, DetectError> {
     settings.validate()?;
     let plane = triangle.inside();

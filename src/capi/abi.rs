@@ -3,7 +3,7 @@
 use super::flat::pp_flat_contact;
 use super::packing::{pp_packing, pp_placement};
 use super::planar::{pp_area_properties, pp_closest_2d, pp_contact_2d, pp_pose_2d};
-use super::types::{pp_carry, pp_closest, pp_contact, pp_frame, pp_mass_properties, pp_memory, pp_pose, pp_settings};
+use super::types::{pp_closest, pp_contact, pp_mass_properties, pp_pair_state, pp_pose, pp_settings};
 use std::ffi::{CStr, c_char};
 
 /// Version of this header; compare with pp_version of the library that was loaded.
@@ -17,14 +17,12 @@ pub const PP_VERSION_PATCH: u32 = 0;
 /// not use the library (a struct, a function or the meaning of a number has changed), and not with
 /// additions. A program that loads the library should refuse to go on unless pp_abi_version() ==
 /// PP_ABI_VERSION.
-pub const PP_ABI_VERSION: u32 = 2;
+pub const PP_ABI_VERSION: u32 = 3;
 
 /// struct pp_pose, for pp_struct_size.
 pub const PP_STRUCT_POSE: u32 = 1;
 /// struct pp_settings, for pp_struct_size.
 pub const PP_STRUCT_SETTINGS: u32 = 2;
-/// struct pp_memory, for pp_struct_size.
-pub const PP_STRUCT_MEMORY: u32 = 3;
 /// struct pp_contact, for pp_struct_size.
 pub const PP_STRUCT_CONTACT: u32 = 4;
 /// struct pp_closest, for pp_struct_size.
@@ -37,10 +35,6 @@ pub const PP_STRUCT_POSE_2D: u32 = 7;
 pub const PP_STRUCT_CONTACT_2D: u32 = 8;
 /// struct pp_closest_2d, for pp_struct_size.
 pub const PP_STRUCT_CLOSEST_2D: u32 = 9;
-/// struct pp_frame, for pp_struct_size.
-pub const PP_STRUCT_FRAME: u32 = 10;
-/// struct pp_carry, for pp_struct_size.
-pub const PP_STRUCT_CARRY: u32 = 11;
 /// struct pp_area_properties, for pp_struct_size.
 pub const PP_STRUCT_AREA_PROPERTIES: u32 = 12;
 /// struct pp_packing, for pp_struct_size.
@@ -49,6 +43,8 @@ pub const PP_STRUCT_PACKING: u32 = 14;
 pub const PP_STRUCT_PLACEMENT: u32 = 15;
 /// struct pp_flat_contact, for pp_struct_size.
 pub const PP_STRUCT_FLAT_CONTACT: u32 = 13;
+/// struct pp_pair_state, for pp_struct_size.
+pub const PP_STRUCT_PAIR_STATE: u32 = 16;
 
 /// Version of the loaded library as "major.minor.patch". Static text: do not free it.
 #[unsafe(no_mangle)]
@@ -73,19 +69,17 @@ pub extern "C" fn pp_struct_size(which: u32) -> usize {
     match which {
         PP_STRUCT_POSE => size_of::<pp_pose>(),
         PP_STRUCT_SETTINGS => size_of::<pp_settings>(),
-        PP_STRUCT_MEMORY => size_of::<pp_memory>(),
         PP_STRUCT_CONTACT => size_of::<pp_contact>(),
         PP_STRUCT_CLOSEST => size_of::<pp_closest>(),
         PP_STRUCT_MASS_PROPERTIES => size_of::<pp_mass_properties>(),
         PP_STRUCT_POSE_2D => size_of::<pp_pose_2d>(),
         PP_STRUCT_CONTACT_2D => size_of::<pp_contact_2d>(),
         PP_STRUCT_CLOSEST_2D => size_of::<pp_closest_2d>(),
-        PP_STRUCT_FRAME => size_of::<pp_frame>(),
-        PP_STRUCT_CARRY => size_of::<pp_carry>(),
         PP_STRUCT_AREA_PROPERTIES => size_of::<pp_area_properties>(),
         PP_STRUCT_PACKING => size_of::<pp_packing>(),
         PP_STRUCT_PLACEMENT => size_of::<pp_placement>(),
         PP_STRUCT_FLAT_CONTACT => size_of::<pp_flat_contact>(),
+        PP_STRUCT_PAIR_STATE => size_of::<pp_pair_state>(),
         _ => 0,
     }
 }

@@ -1,19 +1,18 @@
 //! The contacts of a whole step in one call.
 
-use super::contact::{contact, contact_carried};
-use super::convert::{carried_of, pose_from, settings_from, settings_status};
+use super::contact::contact;
+use super::convert::{pose_from, settings_from, settings_status, state_of};
 use super::fence::{Output, array, array_mut, borrow, fenced, outputs};
 use super::particle::pp_particle;
 use super::status::*;
 use super::types::*;
 use crate::contact::batch::{CHUNK, in_parallel, optional_chunks};
-use crate::{Particle, Pose, Settings};
-use std::ptr;
+use crate::{PairState, Particle, Pose, Settings};
 
 /// Finds the contacts of many pairs of bodies: the way for a DEM program to hand over a whole step.
 ///
 /// Body i is particles[i] at poses[i]; pair n is that of the bodies pairs[2n] (A) and pairs[2n+1] (B),
-/// counted from 0. What a pose costs is paid once for each body. Each contact and memory is, to the last
+/// counted from 0. What a pose costs is paid once for each body. Each contact and state is, to the last
 /// bit, that of pp_contact_detect for the pair alone, whatever the number of threads.
 ///
 /// particles, poses: body_count of each; several bodies may share a particle. A particle may be NULL and
@@ -22,12 +21,12 @@ use std::ptr;
 /// threads: how many work on it, the calling one among them: 0 and 1 mean the calling thread alone,
 /// more than 256 count as 256. Threads are started and ended within the call, which is worth its time from
 /// some thousand pairs on.
-/// memories: one for each pair, read and updated; may be NULL. contacts: one for each pair; written where
+/// states: one for each pair, read and updated; may be NULL. contacts: one for each pair; written where
 /// its status is PP_OK. statuses: one for each pair, all of them written: as pp_contact_detect would return,
 /// or PP_BAD_INDEX for a body that is not there.
 /// The call itself returns PP_OK when it went through all pairs, whatever their statuses; an error means
 /// that nothing was written.
-/// Pointers: may be NULL where the count is 0. No array overlaps another, and memories, contacts and
+/// Pointers: may be NULL where the count is 0. No array overlaps another, and states, contacts and
 /// statuses are not used by another call at the same time.
 /// Errors: PP_NULL_POINTER, PP_UNKNOWN_FORMULATION, PP_UNKNOWN_BACK_END, PP_NO_CONE_PROGRAM, PP_BAD_SETTING,
 /// PP_BAD_INDEX (a count that no memory could hold).
@@ -40,60 +39,19 @@ pub unsafe extern "C" fn pp_contact_detect_batch(
     pair_count: usize,
     settings: *const pp_settings,
     threads: u32,
-    memories: *mut pp_memory,
+    states: *mut pp_pair_state,
     contacts: *mut pp_contact,
     statuses: *mut pp_status,
 ) -> pp_status {
     let (bodies, pairs, outputs) = ((particles, poses, body_count), (pairs, pair_count), (contacts, statuses));
-    let one = |a: &Body, b: &Body, settings: &Settings, (memory, _): Kept, out| {
-        contact((a.0, &a.1), (b.0, &b.1), settings, memory, out)
+    let one = |a: &Body, b: &Body, settings: &Settings, state: Option<&mut PairState>, out| {
+        contact((a.0, &a.1), (b.0, &b.1), settings, state, out)
     };
     // SAFETY: as the caller promised.
-    unsafe { detect_batch(bodies, pairs, settings, threads, (memories, ptr::null_mut()), outputs, (body, one)) }
-}
-
-/// pp_contact_detect_batch for contacts that are followed from pose to pose: each contact, memory and carry
-/// is, to the last bit, that of pp_contact_detect_carried for the pair alone.
-///
-/// carry_tolerance: as of pp_contact_detect_carried. carries: one for each pair, read and updated; may be
-/// NULL, and then every contact is solved. All else as of pp_contact_detect_batch.
-/// Pointers: as of pp_contact_detect_batch; carries is an array like memories.
-/// Errors: those of pp_contact_detect_batch.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn pp_contact_detect_batch_carried(
-    particles: *const *const pp_particle,
-    poses: *const pp_pose,
-    body_count: usize,
-    pairs: *const u32,
-    pair_count: usize,
-    settings: *const pp_settings,
-    carry_tolerance: f64,
-    threads: u32,
-    memories: *mut pp_memory,
-    carries: *mut pp_carry,
-    contacts: *mut pp_contact,
-    statuses: *mut pp_status,
-) -> pp_status {
-    // Here, since an error of the call means that nothing is written.
-    if !(0.0..=0.1).contains(&carry_tolerance) {
-        return PP_BAD_SETTING;
-    }
-    let (bodies, pairs, outputs) = ((particles, poses, body_count), (pairs, pair_count), (contacts, statuses));
-    let one = |a: &Body, b: &Body, settings: &Settings, (memory, carry): Kept, out| {
-        let (a, b) = ((a.0, &a.1), (b.0, &b.1));
-        match carry {
-            Some(carry) => contact_carried(a, b, (settings, carry_tolerance), memory, carried_of(carry), out),
-            None => contact(a, b, settings, memory, out),
-        }
-    };
-    // SAFETY: as the caller promised.
-    unsafe { detect_batch(bodies, pairs, settings, threads, (memories, carries), outputs, (body, one)) }
+    unsafe { detect_batch(bodies, pairs, settings, threads, states, outputs, (body, one)) }
 }
 
 type Body<'a> = (&'a Particle, Pose);
-
-/// What a pair remembers and carries on, if that is kept.
-pub(super) type Kept<'a> = (Option<&'a mut pp_memory>, Option<&'a mut pp_carry>);
 
 fn body<'a>(particle: &'a pp_particle, pose: &pp_pose) -> Result<Body<'a>, pp_status> {
     Ok((&particle.0, pose_from(pose)?))
@@ -109,19 +67,18 @@ pub(super) unsafe fn detect_batch<'a, P: 'a, Q: 'a, B: Sync, C: Send>(
     (pairs, pair_count): (*const u32, usize),
     settings: *const pp_settings,
     threads: u32,
-    (memories, carries): (*mut pp_memory, *mut pp_carry),
+    states: *mut pp_pair_state,
     (contacts, statuses): (*mut C, *mut pp_status),
     (body, contact): (
         impl Fn(&'a P, &'a Q) -> Result<B, pp_status>,
-        impl Fn(&B, &B, &Settings, Kept, Output<C>) -> Result<(), pp_status> + Sync,
+        impl Fn(&B, &B, &Settings, Option<&mut PairState>, Output<C>) -> Result<(), pp_status> + Sync,
     ),
 ) -> pp_status {
     fenced(|| {
         let (particles, poses) = unsafe { (array(particles, body_count)?, array(poses, body_count)?) };
         let pairs = unsafe { array(pairs.cast::<[u32; 2]>(), pair_count) }?;
-        // SAFETY: exclusively ours for the call; NULL memories and carries are none.
-        let memories = unsafe { array_mut(memories, if memories.is_null() { 0 } else { pair_count }) }?;
-        let carries = unsafe { array_mut(carries, if carries.is_null() { 0 } else { pair_count }) }?;
+        // SAFETY: exclusively ours for the call; NULL states are none.
+        let states = unsafe { array_mut(states, if states.is_null() { 0 } else { pair_count }) }?;
         let (contacts, statuses) = unsafe { (outputs(contacts, pair_count)?, outputs(statuses, pair_count)?) };
         let settings = settings_from(unsafe { settings.as_ref() })?;
         settings.validate().map_err(|error| settings_status(&error))?;
@@ -132,13 +89,12 @@ pub(super) unsafe fn detect_batch<'a, P: 'a, Q: 'a, B: Sync, C: Send>(
         let find = |index: u32| bodies.get(index as usize).ok_or(PP_BAD_INDEX)?.as_ref().map_err(|&status| status);
 
         let outputs = contacts.chunks_mut(CHUNK).zip(statuses.chunks_mut(CHUNK));
-        let kept = optional_chunks(memories).zip(optional_chunks(carries));
-        let chunks = pairs.chunks(CHUNK).zip(kept).zip(outputs);
-        in_parallel(threads as usize, pair_count, chunks, |((pairs, (memories, carries)), (contacts, statuses))| {
-            let (mut memories, mut carries) = (memories.iter_mut(), carries.iter_mut());
+        let chunks = pairs.chunks(CHUNK).zip(optional_chunks(states)).zip(outputs);
+        in_parallel(threads as usize, pair_count, chunks, |((pairs, states), (contacts, statuses))| {
+            let mut states = states.iter_mut();
             for ((&[i, j], out), status) in pairs.iter().zip(contacts).zip(statuses) {
-                let kept = (memories.next(), carries.next());
-                status.write(fenced(|| contact(find(i)?, find(j)?, &settings, kept, out.into())));
+                let state = states.next().map(state_of);
+                status.write(fenced(|| contact(find(i)?, find(j)?, &settings, state, out.into())));
             }
         });
         Ok(())

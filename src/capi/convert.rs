@@ -3,7 +3,7 @@
 use super::status::*;
 use super::types::*;
 use crate::{
-    BackEnd, Carried, ClosestPoint, Contact, DetectError, Formulation, Kind, Memory, Pose, PoseError, Role, Settings,
+    BackEnd, ClosestPoint, Contact, DetectError, Formulation, Kind, PairState, Pose, PoseError, Role, Settings,
     SettingsError,
 };
 use nalgebra::Vector3;
@@ -16,27 +16,14 @@ pub(super) fn pose_from(pose: &pp_pose) -> Result<Pose, pp_status> {
     })
 }
 
-/// A prepared pose is one of ours, number by number.
-const _: () = assert!(size_of::<Pose>() == size_of::<pp_frame>() && align_of::<Pose>() == align_of::<pp_frame>());
+const _: () = assert!(
+    size_of::<PairState>() <= size_of::<pp_pair_state>() && align_of::<PairState>() == align_of::<pp_pair_state>()
+);
 
 #[inline(always)]
-pub(super) fn frame_from(pose: &Pose) -> pp_frame {
-    // SAFETY: both are sixteen doubles.
-    unsafe { std::mem::transmute::<Pose, pp_frame>(*pose) }
-}
-
-#[inline(always)]
-pub(super) fn pose_of(frame: &pp_frame) -> &Pose {
-    // SAFETY: both are sixteen doubles, of which any value is one.
-    unsafe { &*std::ptr::from_ref(frame).cast::<Pose>() }
-}
-
-const _: () = assert!(size_of::<Carried>() <= size_of::<pp_carry>() && align_of::<Carried>() == align_of::<pp_carry>());
-
-#[inline(always)]
-pub(super) fn carried_of(carry: &mut pp_carry) -> &mut Carried {
-    // SAFETY: it holds as many bytes, all of them numbers of which any value is one.
-    unsafe { &mut *std::ptr::from_mut(carry).cast::<Carried>() }
+pub(super) fn state_of(state: &mut pp_pair_state) -> &mut PairState {
+    // SAFETY: it holds as many bytes, all of them numbers of which any value is one; the remembered solution comes first in both.
+    unsafe { &mut *std::ptr::from_mut(state).cast::<PairState>() }
 }
 
 /// A point or direction.
@@ -53,6 +40,7 @@ pub(super) fn settings_to(settings: &Settings) -> pp_settings {
         gap_tolerance: settings.gap_tolerance,
         weight_on_a: settings.weight_on_a,
         flat_regularisation: settings.flat_regularisation,
+        carry_tolerance: settings.carry_tolerance,
     }
 }
 
@@ -81,24 +69,8 @@ pub(super) fn settings_from(settings: Option<&pp_settings>) -> Result<Settings, 
         gap_tolerance: settings.gap_tolerance,
         weight_on_a: settings.weight_on_a,
         flat_regularisation: settings.flat_regularisation,
+        carry_tolerance: settings.carry_tolerance,
     })
-}
-
-/// Numbers of a memory that the library uses today; the rest is written as 0 and not read.
-const USED: usize = 8;
-
-#[inline]
-pub(super) fn memory_from(memory: &pp_memory) -> Memory {
-    let mut used = [0.0; USED];
-    used.copy_from_slice(&memory.state[..USED]);
-    Memory::from_raw(used)
-}
-
-#[inline]
-pub(super) fn memory_to(memory: Memory) -> pp_memory {
-    let mut state = [0.0; 16];
-    state[..USED].copy_from_slice(&memory.into_raw());
-    pp_memory { state }
 }
 
 #[inline(always)]

@@ -1,6 +1,6 @@
 //! The contact of a particle with a flat boundary.
 
-use super::convert::{detect_status, kind_code, pose_from, settings_from};
+use super::convert::{detect_status, kind_code, pose_from, settings_from, state_of};
 use super::fence::{Output, borrow, fenced, output};
 use super::particle::pp_particle;
 use super::status::*;
@@ -65,7 +65,7 @@ pub struct pp_flat_contact {
 /// as in front of it (PP_FLAG_NORMAL_BY_BOUNDARY).
 ///
 /// settings: may be NULL (defaults); gap_tolerance, flat_regularisation and solve_separated count. The answer
-/// is always in doubles.
+/// is always in doubles. state: may be NULL; else that of A and this boundary, in which nothing is kept so far.
 /// Pointers: point and normal hold 3 numbers each.
 /// Errors: PP_NULL_POINTER, PP_BAD_POSITION, PP_BAD_ORIENTATION, PP_BAD_POINT, PP_UNKNOWN_FORMULATION,
 /// PP_UNKNOWN_BACK_END, PP_NO_CONE_PROGRAM, PP_BAD_SETTING, PP_SOLVER_FAILED.
@@ -76,6 +76,7 @@ pub unsafe extern "C" fn pp_contact_plane(
     point: *const f64,
     normal: *const f64,
     settings: *const pp_settings,
+    state: *mut pp_pair_state,
     out: *mut pp_flat_contact,
 ) -> pp_status {
     fenced(|| {
@@ -84,7 +85,9 @@ pub unsafe extern "C" fn pp_contact_plane(
         let out = unsafe { output(out) }?;
         let settings = settings_from(unsafe { settings.as_ref() })?;
         let wall = Wall::new(*point, *normal).map_err(boundary_status)?;
-        write(contact_with_plane(a, &pose, &wall, &settings), &out)
+        // SAFETY: NULL or exclusively ours for the call.
+        let state = unsafe { state.as_mut() }.map(state_of);
+        write(contact_with_plane(a, &pose, &wall, &settings, state), &out)
     })
 }
 
@@ -94,7 +97,7 @@ pub unsafe extern "C" fn pp_contact_plane(
 /// counter-clockwise. Where the centre of A lies on the triangle to rounding, A counts as in front of it
 /// (PP_FLAG_NORMAL_BY_BOUNDARY).
 /// settings: may be NULL (defaults); gap_tolerance, flat_regularisation and solve_separated count. The answer
-/// is always in doubles.
+/// is always in doubles. state: may be NULL; else that of A and this boundary, in which nothing is kept so far.
 /// Pointers: vertices holds 9 numbers.
 /// Errors: those of pp_contact_plane, and PP_DEGENERATE_TRIANGLE.
 #[unsafe(no_mangle)]
@@ -103,6 +106,7 @@ pub unsafe extern "C" fn pp_contact_triangle(
     pose_a: *const pp_pose,
     vertices: *const f64,
     settings: *const pp_settings,
+    state: *mut pp_pair_state,
     out: *mut pp_flat_contact,
 ) -> pp_status {
     fenced(|| {
@@ -111,7 +115,9 @@ pub unsafe extern "C" fn pp_contact_triangle(
         let out = unsafe { output(out) }?;
         let settings = settings_from(unsafe { settings.as_ref() })?;
         let triangle = Triangle::new([[x0, y0, z0], [x1, y1, z1], [x2, y2, z2]]).map_err(boundary_status)?;
-        write(contact_with_triangle(a, &pose, &triangle, &settings), &out)
+        // SAFETY: NULL or exclusively ours for the call.
+        let state = unsafe { state.as_mut() }.map(state_of);
+        write(contact_with_triangle(a, &pose, &triangle, &settings, state), &out)
     })
 }
 

@@ -53,7 +53,7 @@ pub unsafe extern "C" fn pp_particle_new(
 }
 
 /// Releases a particle; NULL is allowed and does nothing. No call that uses it may still be running;
-/// memories and carries of its pairs may stay.
+/// states of its pairs may stay.
 /// Pointers: particle is NULL or came from pp_particle_new and was not released yet.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pp_particle_free(particle: *mut pp_particle) {

@@ -25,11 +25,11 @@ pub const PP_FLAG_REJECTED: u32 = 2;
 /// Both gradients vanish at the contact point, as when the centres coincide: no normal is right, and
 /// the one given is the line of centres, or the x axis of B.
 pub const PP_FLAG_NORMAL_BY_CENTRES: u32 = 4;
-/// Started from a remembered solution: that of pp_memory or, with PP_FLAG_CARRIED, of pp_carry.
+/// Started from the solution that the pair remembers (struct pp_pair_state).
 pub const PP_FLAG_WARM: u32 = 8;
 /// Answered in extended precision (about 32 digits): doubles did not settle it, or not to the gap asked for.
 pub const PP_FLAG_EXTENDED: u32 = 16;
-/// pp_contact_detect_carried: carried on from the last contact, without a look at the planes.
+/// Carried on from the last contact, without a look at the planes (carry_tolerance).
 pub const PP_FLAG_CARRIED: u32 = 32;
 /// The gap is above the tolerance asked for: rounding allows no better. It is still a bound.
 pub const PP_FLAG_ROUNDING_LIMITED: u32 = 64;
@@ -87,41 +87,28 @@ pub struct pp_settings {
     /// the particles overlap at all is never left to it: where it would be, the default decides
     /// (PP_FLAG_DEFAULT_REGULARISATION).
     pub flat_regularisation: f64,
+    /// To what part of the smaller bounding radius the point of a contact has to be known that is carried on
+    /// from the last one without a look at any plane (PP_FLAG_CARRIED); in [0, 0.1], default 0: every
+    /// contact is solved. 1e-9 is a good choice. It takes a pp_pair_state; contacts of PP_CLOSEST and by
+    /// PP_CONIC are always solved.
+    pub carry_tolerance: f64,
 }
 
-/// What one ordered pair (A, B) remembers between calls, so that the next call starts warm.
+/// What one ordered pair (A, B), or a particle A and a flat boundary, keeps from call to call.
 ///
-/// Owned by the caller: set all bytes to 0 to begin with or to forget; copy and save it freely.
-/// It never changes an answer beyond its gap, whatever bytes it holds. One caller at a time.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Default)]
-pub struct pp_memory {
-    /// Library's own; not for reading. Today the first 8 numbers are used, and the others are written as 0:
-    /// room to grow.
-    pub state: [f64; 16],
-}
-
-/// A pose, prepared: its rotation as a matrix. For callers that look at each body in many pairs.
-///
-/// Made by pp_frame_from_pose, and by nothing else.
+/// Owned by the caller: set all bytes to 0 to begin with or to forget; copy it freely within a process. One
+/// caller at a time.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
-pub struct pp_frame {
-    /// Library's own; not for reading.
-    pub state: [f64; 16],
-}
-
-/// What the last contact of one ordered pair (A, B) says about poses near by, for
-/// pp_contact_detect_carried.
-///
-/// Owned by the caller: set all bytes to 0 to begin with or to forget. Unlike pp_memory it is no hint: an
-/// answer rests on it, so it is written by the library only, and not to be saved for another process. It
-/// knows the particles for which it was written, and says nothing about others. One caller at a time.
-#[repr(C)]
-#[derive(Clone, Copy, Debug)]
-pub struct pp_carry {
-    /// Library's own; not for reading.
-    pub state: [f64; 40],
+pub struct pp_pair_state {
+    /// The last solution, from which the next call starts. Library's own; not for reading. May be saved, and
+    /// loaded into a state whose other bytes are 0: it never changes an answer beyond its gap, whatever bytes
+    /// it holds.
+    pub solution: [f64; 8],
+    /// What the last contact says about poses near by, with carry_tolerance above 0. Library's own; not for
+    /// reading, and not to be saved: an answer rests on it. It is used for the two particles alone for which
+    /// it was written, while they exist.
+    pub last_contact: [f64; 40],
 }
 
 /// The answer for one pair. Frames: world axes unless said otherwise; lengths in the caller's

@@ -1,12 +1,12 @@
 //! Many pairs in one call: the contacts of a whole step.
 
-use crate::contact::carried::Carried;
 use crate::contact::contact::Contact;
-use crate::contact::detect::{Carrying, DetectError, detect};
-use crate::pair::memory::Memory;
+use crate::contact::detect::{DetectError, detect, not_carried_on};
+use crate::pair::pair_state::PairState;
 use crate::particle::particle::Particle;
 use crate::pose::Pose;
 use crate::settings::Settings;
+use std::convert::identity;
 use std::panic::resume_unwind;
 use std::sync::{Mutex, PoisonError};
 use std::thread;
@@ -23,17 +23,17 @@ pub(crate) const MOST_THREADS: usize = 256;
 ///
 /// The answers come in the order of the pairs, and each is, to the last bit, what [`detect()`] gives for that pair alone,
 /// whatever the number of threads: 1 is the calling thread alone (as is 0), n starts n − 1 more and ends them again before
-/// the call returns. `memories` holds one memory for each pair, or nothing.
+/// the call returns. `states` holds one state for each pair, or nothing.
 ///
 /// A pair that names a body that is not there has [`DetectError::NoSuchBody`] for an answer, and the others are answered.
 ///
 /// ```
-/// use potential_particles::{Kind, Memory, Particle, Pose, Settings, detect_batch};
+/// use potential_particles::{Kind, PairState, Particle, Pose, Settings, detect_batch};
 /// let ball = Particle::sphere(1.0)?;
 /// let particles = [&ball, &ball, &ball];
 /// let poses = [Pose::at([0.0, 0.0, 0.0])?, Pose::at([1.5, 0.0, 0.0])?, Pose::at([5.0, 0.0, 0.0])?];
-/// let mut memories = [Memory::default(); 2];
-/// let answers = detect_batch(&particles, &poses, &[[0, 1], [1, 2]], &Settings::default(), 2, &mut memories)?;
+/// let mut states = [PairState::default(); 2];
+/// let answers = detect_batch(&particles, &poses, &[[0, 1], [1, 2]], &Settings::default(), 2, &mut states)?;
 /// assert_eq!(answers[0].as_ref().unwrap().kind, Kind::Overlapping);
 /// assert_eq!(answers[1].as_ref().unwrap().kind, Kind::Separated);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -47,68 +47,21 @@ pub fn detect_batch(
     pairs: &[[u32; 2]],
     settings: &Settings,
     threads: usize,
-    memories: &mut [Memory],
+    states: &mut [PairState],
 ) -> Result<Vec<Result<Contact, DetectError>>, DetectError> {
     settings.validate()?;
-    let one = |a: Placed, b: Placed, memory: Option<&mut Memory>, _: Option<&mut ()>, answer: &mut Answer| {
-        *answer = detect(a.0, a.1, b.0, b.1, settings, memory);
+    let one = |a: Placed, b: Placed, state: Option<&mut PairState>, answer: &mut Answer| match state {
+        Some(state) if settings.carries_on() => carry_on(a, b, settings, state, answer),
+        state => *answer = detect(a.0, a.1, b.0, b.1, settings, state),
     };
-    detect_batch_by(one, particles, poses, pairs, threads, (memories, &mut []))
-}
-
-/// [`detect_batch`] of contacts that are followed from pose to pose: each answer is, to the last bit, what
-/// [`detect_carried`](crate::detect_carried) gives for that pair alone, with the same `tolerance`.
-///
-/// `carried` holds what each pair carries on: one for each, or nothing, and then every contact is solved.
-///
-/// ```
-/// use potential_particles::{Carried, Flags, Particle, Pose, Settings, detect_batch_carried};
-/// let ball = Particle::sphere(1.0)?;
-/// let (particles, pairs, mut carried) = ([&ball, &ball], [[0, 1]], [Carried::default()]);
-/// for step in 0..3 {
-///     let poses = [Pose::at([0.0, 0.0, 0.0])?, Pose::at([1.5, 1e-5 * f64::from(step), 0.0])?];
-///     let answers =
-///         detect_batch_carried(&particles, &poses, &pairs, &Settings::default(), 1e-9, 1, &mut [], &mut carried)?;
-///     assert_eq!(answers[0].as_ref().unwrap().flags.contains(Flags::CARRIED), step > 0);
-/// }
-/// # Ok::<(), Box<dyn std::error::Error>>(())
-/// ```
-///
-/// # Errors
-/// As of [`detect_batch`], or a tolerance that is not within [0, 0.1].
-#[allow(clippy::too_many_arguments)]
-pub fn detect_batch_carried(
-    particles: &[&Particle],
-    poses: &[Pose],
-    pairs: &[[u32; 2]],
-    settings: &Settings,
-    tolerance: f64,
-    threads: usize,
-    memories: &mut [Memory],
-    carried: &mut [Carried],
-) -> Result<Vec<Result<Contact, DetectError>>, DetectError> {
-    let carrying = Carrying::new(settings, tolerance)?;
-    let one =
-        |a: Placed, b: Placed, memory: Option<&mut Memory>, carried: Option<&mut Carried>, answer: &mut Answer| {
-            match carried {
-                Some(carried) => carry(&carrying, a, b, (memory, carried), answer),
-                None => *answer = detect(a.0, a.1, b.0, b.1, settings, memory),
-            }
-        };
-    detect_batch_by(one, particles, poses, pairs, threads, (memories, carried))
+    detect_batch_by(one, particles, poses, pairs, threads, states)
 }
 
 /// One contact, carried on where it can be. It is written where it comes into being: copying it takes a twentieth of the time.
 #[inline(never)]
-fn carry(
-    carrying: &Carrying,
-    a: Placed,
-    b: Placed,
-    (memory, carried): (Option<&mut Memory>, &mut Carried),
-    answer: &mut Answer,
-) {
-    if carrying.carry_on(a, b, carried, |contact| *answer = Ok(contact)).is_none() {
-        *answer = carrying.solve(a, b, (memory, carried), |contact| contact);
+fn carry_on(a: Placed, b: Placed, settings: &Settings, state: &mut PairState, answer: &mut Answer) {
+    if state.carry_on(a, b, settings, |contact| *answer = Ok(contact)).is_none() {
+        *answer = not_carried_on(a, b, settings, state, identity);
     }
 }
 
@@ -116,31 +69,29 @@ fn carry(
 pub(crate) type Placed<'a, P = Particle, Q = Pose> = (&'a P, &'a Q);
 type Answer = Result<Contact, DetectError>;
 
-/// Finds the contact C of one pair of particles P at poses Q, with what it remembers and carries on, if that is kept.
-pub(crate) trait Detect<P, Q, K, C>:
-    Fn(Placed<P, Q>, Placed<P, Q>, Option<&mut Memory>, Option<&mut K>, &mut Result<C, DetectError>) + Sync
+/// Finds the contact C of one pair of particles P at poses Q, with its state, if that is kept.
+pub(crate) trait Detect<P, Q, C>:
+    Fn(Placed<P, Q>, Placed<P, Q>, Option<&mut PairState>, &mut Result<C, DetectError>) + Sync
 {
 }
 
-impl<P, Q, K, C, F> Detect<P, Q, K, C> for F where
-    F: Fn(Placed<P, Q>, Placed<P, Q>, Option<&mut Memory>, Option<&mut K>, &mut Result<C, DetectError>) + Sync
+impl<P, Q, C, F> Detect<P, Q, C> for F where
+    F: Fn(Placed<P, Q>, Placed<P, Q>, Option<&mut PairState>, &mut Result<C, DetectError>) + Sync
 {
 }
 
-/// [`detect_batch`] by `detect`, with settings that were checked: in space or in the plane, carried on or not.
-pub(crate) fn detect_batch_by<P: Sync, Q: Sync, K: Send, C: Clone + Send>(
-    detect: impl Detect<P, Q, K, C>,
+/// [`detect_batch`] by `detect`, with settings that were checked: in space or in the plane.
+pub(crate) fn detect_batch_by<P: Sync, Q: Sync, C: Clone + Send>(
+    detect: impl Detect<P, Q, C>,
     particles: &[&P],
     poses: &[Q],
     pairs: &[[u32; 2]],
     threads: usize,
-    (memories, carried): (&mut [Memory], &mut [K]),
+    states: &mut [PairState],
 ) -> Result<Vec<Result<C, DetectError>>, DetectError> {
     same_length("poses", poses.len(), particles.len())?;
-    for (what, given) in [("memories", memories.len()), ("carried", carried.len())] {
-        if given > 0 {
-            same_length(what, given, pairs.len())?;
-        }
+    if !states.is_empty() {
+        same_length("states", states.len(), pairs.len())?;
     }
     let body = |index: u32| match (particles.get(index as usize), poses.get(index as usize)) {
         (Some(&particle), Some(pose)) => Ok((particle, pose)),
@@ -148,14 +99,13 @@ pub(crate) fn detect_batch_by<P: Sync, Q: Sync, K: Send, C: Clone + Send>(
     };
     // A contact is large, and each will be written: until then something small stands there.
     let mut answers = vec![Err(DetectError::NoSuchBody { index: 0, bodies: 0 }); pairs.len()];
-    let kept = optional_chunks(memories).zip(optional_chunks(carried));
-    let chunks = pairs.chunks(CHUNK).zip(answers.chunks_mut(CHUNK)).zip(kept);
-    in_parallel(threads, pairs.len(), chunks, |((pairs, answers), (memories, carried))| {
-        let (mut memories, mut carried) = (memories.iter_mut(), carried.iter_mut());
+    let chunks = pairs.chunks(CHUNK).zip(answers.chunks_mut(CHUNK)).zip(optional_chunks(states));
+    in_parallel(threads, pairs.len(), chunks, |((pairs, answers), states)| {
+        let mut states = states.iter_mut();
         for (&[i, j], answer) in pairs.iter().zip(answers) {
-            let (memory, carried) = (memories.next(), carried.next());
+            let state = states.next();
             match (body(i), body(j)) {
-                (Ok(a), Ok(b)) => detect(a, b, memory, carried, answer),
+                (Ok(a), Ok(b)) => detect(a, b, state, answer),
                 (Err(error), _) | (_, Err(error)) => *answer = Err(error),
             }
         }
@@ -229,9 +179,9 @@ mod tests {
     }
 
     #[test]
-    fn no_memories_are_empty_chunks() {
-        let mut memories = [1, 2, 3];
-        assert_eq!(optional_chunks(&mut memories).take(2).map(|chunk| chunk.len()).collect::<Vec<_>>(), [3, 0]);
+    fn no_states_are_empty_chunks() {
+        let mut states = [1, 2, 3];
+        assert_eq!(optional_chunks(&mut states).take(2).map(|chunk| chunk.len()).collect::<Vec<_>>(), [3, 0]);
         assert!(optional_chunks::<u8>(&mut []).take(3).all(|chunk| chunk.is_empty()));
     }
 }

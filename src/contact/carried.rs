@@ -17,44 +17,12 @@ use crate::model::local_model::{self, LocalModel, Piece};
 use crate::model::problem::Problem;
 use crate::pair::body::Body;
 use crate::pair::pair::Pair;
+use crate::pair::pair_state::{KnownPiece, LastContact, PairState, Remembered};
 use crate::particle::particle::Particle;
 use crate::pose::Pose;
 use crate::settings::Settings;
 use crate::solver::call::{Call, Solved};
 use nalgebra::Vector3;
-
-/// What a solved contact of one ordered pair says about poses near by; empty by default.
-///
-/// Unlike [`crate::Memory`] it is no hint: the answer rests on it. So it is written by the library only, and is of use to the
-/// two particles alone for which it was written.
-#[derive(Clone, Copy, Debug, Default)]
-#[repr(C)]
-pub struct Carried {
-    /// Serial numbers of A and B; 0 where nothing is known.
-    of: [u64; 2],
-    pieces: [KnownPiece; 2],
-    /// The contact point, frame of B.
-    x: Vector3<f64>,
-    /// Weight u of B.
-    weight: f64,
-    /// Bounds that the contact had when it was solved.
-    gap: f64,
-    point_bound: f64,
-    /// `gap_tolerance` and `flat_regularisation` with which it was solved.
-    precision: [f64; 2],
-}
-
-/// S about a point, in the frame of its body or in that of B.
-#[derive(Clone, Copy, Debug, Default)]
-#[repr(C)]
-struct KnownPiece {
-    from: Vector3<f64>,
-    value: f64,
-    gradient: Vector3<f64>,
-    hessian: Symmetric,
-    /// How far from there it is S for sure, and places are rounded by no more than three times as much; length.
-    reach: f64,
-}
 
 /// A piece at another point.
 struct Here {
@@ -224,9 +192,9 @@ fn moved_by_regularisation(bodies: [&Body; 2], solution: &Solution, settings: &S
     (a * slope(bodies[0]) + b * slope(bodies[1])) * sensitivity.per_slope() + sensitivity.to_value(value)
 }
 
-impl Carried {
-    /// From a contact that was solved as an overlap in doubles; empty where its quadratics do not say enough.
-    pub(crate) fn of(call: &Call, Solved { solution, model }: &Solved, scale: Scale, point_bound: f64) -> Self {
+impl LastContact {
+    /// Of a contact that was solved as an overlap in doubles; empty where its quadratics do not say enough.
+    pub fn of(call: &Call, Solved { solution, model }: &Solved, scale: Scale, point_bound: f64) -> Self {
         let (pair, bodies, settings) = (call.pair, call.bodies(), call.settings);
         let exact = model.in_solver_axes() && solution.linear;
         let pieces = [KnownPiece::of(model, bodies[0], 0), KnownPiece::of(model, bodies[1], 1)];
@@ -238,63 +206,27 @@ impl Carried {
         Self {
             of: [pair.a.serial(), pair.b.serial()],
             pieces,
-            x: solution.x,
-            weight: solution.lambda / (1.0 + solution.lambda),
             gap: scale.gap,
             point_bound: point_bound + moved,
             precision: precision_of(settings),
         }
     }
 
-    /// Whether the last contact was solved with these settings, as far as they matter.
-    pub(crate) fn is_for(&self, settings: &Settings) -> bool {
-        self.precision == precision_of(settings)
-    }
-
-    /// Contact point, frame of B, and ratio of weights λ of the last contact of these two, if known.
-    pub(crate) fn last(&self, a: &Particle, b: &Particle) -> Option<(Vector3<f64>, f64)> {
-        (self.of == [a.serial(), b.serial()]).then(|| (self.x, self.weight / (1.0 - self.weight)))
-    }
-
-    /// `answer` of the contact at these poses, if the particles surely overlap there and the contact point is known to within
-    /// `tolerance` times the smaller bounding radius.
-    #[inline(always)]
-    pub(crate) fn contact<T>(
-        &mut self,
-        a: (&Particle, &Pose),
-        b: (&Particle, &Pose),
-        tolerance: f64,
-        answer: impl FnOnce(Contact) -> T,
-    ) -> Option<T> {
-        if self.of != [a.0.serial(), b.0.serial()] {
-            return None;
-        }
-        let pair = Pair::new(a.0, a.1, b.0, b.1);
-        let pieces = [self.pieces[0].seen_from_b(&pair), self.pieces[1]];
-        let room = tolerance * smaller(a.0.bounding_radius(), b.0.bounding_radius());
-        let optimum = self.optimum(&pair, &pieces, room)?;
-        let (local, rounds) = (self.local(&pair, &pieces, &optimum)?, optimum.rounds);
-        (self.x, self.weight) = (optimum.x, optimum.u);
-        let call = Contact { flags: Flags::WARM.with(Flags::CARRIED), iterations: rounds, ..Contact::UNKNOWN };
-        let contact = local.placed(&pair, b.1, call);
-        debug_assert!(contact.kind == Kind::Overlapping && contact.overlap >= 0.0);
-        Some(answer(contact))
-    }
-
     /// The optimum near the last one, if it can be known to within `room`.
     #[inline(always)]
-    fn optimum(&self, pair: &Pair, pieces: &[KnownPiece; 2], room: f64) -> Option<Optimum> {
+    fn optimum(&self, pair: &Pair, pieces: &[KnownPiece; 2], last: &Remembered, room: f64) -> Option<Optimum> {
         let soft = [2.0 * pair.a.sphere_weight, 2.0 * pair.b.sphere_weight];
-        let equations = Equations::of(pieces, &self.x, self.weight, soft)?;
+        let weight = last.lambda / (1.0 + last.lambda);
+        let equations = Equations::of(pieces, &last.x, weight, soft)?;
         let (step, change, rounds) = equations.solve(room)?;
-        let (x, u) = (self.x + step.way, self.weight + step.weight);
+        let (x, u) = (last.x + step.way, weight + step.weight);
         let here = [pieces[0].at(&x), pieces[1].at(&x)];
         // What is left there, rounding included.
         let mismatch = here[0].value - here[1].value;
         let next = equations.step(&slope(&here, u), mismatch);
         let way = next.way.norm();
         // The curvatures there, H + δ·E, differ from those that were factored by no more than this share of H.
-        let share = step.weight.abs() / smaller(self.weight, 1.0 - self.weight);
+        let share = step.weight.abs() / smaller(weight, 1.0 - weight);
         let left_out = 1.0 + 2.0 * share * equations.stiffness.sqrt();
         let converges = way * way <= CONVERGING * CONVERGING * change && 2.0 * way * left_out <= room;
         // Where it is no shorter by far, it must be rounding.
@@ -341,6 +273,36 @@ impl Carried {
             along,
             true,
         )
+    }
+}
+
+impl PairState {
+    /// `answer` of the contact at these poses, if the particles surely overlap there and the contact point is known as well as the settings
+    /// ask for.
+    #[inline(always)]
+    pub(crate) fn carry_on<T>(
+        &mut self,
+        a: (&Particle, &Pose),
+        b: (&Particle, &Pose),
+        settings: &Settings,
+        answer: impl FnOnce(Contact) -> T,
+    ) -> Option<T> {
+        let known = &self.last_contact;
+        if !(known.is_of(a.0, b.0) && known.precision == precision_of(settings)) {
+            return None;
+        }
+        let last = self.remembered(a, b)?;
+        let pair = Pair::new(a.0, a.1, b.0, b.1);
+        let pieces = [known.pieces[0].seen_from_b(&pair), known.pieces[1]];
+        let room = settings.carry_tolerance * smaller(a.0.bounding_radius(), b.0.bounding_radius());
+        let optimum = known.optimum(&pair, &pieces, &last, room)?;
+        let local = known.local(&pair, &pieces, &optimum)?;
+        let (x, lambda) = (optimum.x, optimum.u / (1.0 - optimum.u));
+        self.remember(Remembered { x, lambda, ..last });
+        let call = Contact { flags: Flags::WARM.with(Flags::CARRIED), iterations: optimum.rounds, ..Contact::UNKNOWN };
+        let contact = local.placed(&pair, b.1, call);
+        debug_assert!(contact.kind == Kind::Overlapping && contact.overlap >= 0.0);
+        Some(answer(contact))
     }
 }
 

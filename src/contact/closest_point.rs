@@ -67,8 +67,7 @@ pub fn closest_point(
     Ok(found.map(|found| {
         let branch_b = pose_b.rotate(&found.x);
         let (s, gap, point) = (found.scale.s, found.scale.gap, pose_b.position() + branch_b);
-        // From the centre of A before anything is rotated: a short branch keeps its digits.
-        let branch_a = pose_b.rotate(&(found.x - pair.centre));
+        let branch_a = pair.branch_a(&branch_b);
         ClosestPoint { s, gap, point, branch_a, branch_b, point_bound: found.bound }
     }))
 }

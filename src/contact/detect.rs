@@ -1,20 +1,20 @@
 //! The whole of contact detection: reject, solve, prove, describe.
 
 use crate::bounds::solution::{Ending, Solution};
-use crate::contact::carried::Carried;
 use crate::contact::contact::Contact;
 use crate::contact::geometry::LocalContact;
 use crate::flags::Flags;
 use crate::model::local_model::Start;
 use crate::model::problem::Problem;
-use crate::pair::memory::{Memory, Remembered};
 use crate::pair::pair::Pair;
+use crate::pair::pair_state::{LastContact, PairState, Remembered};
 use crate::pair::separation::{self, Apart};
 use crate::particle::particle::Particle;
 use crate::pose::Pose;
 use crate::settings::{BackEnd, Formulation, Settings, SettingsError};
 use crate::solver::call::{Call, SolveError};
 use crate::solver::closest;
+use std::convert::identity;
 use thiserror::Error;
 
 /// Why there is no answer.
@@ -64,17 +64,22 @@ impl From<SolveError> for DetectError {
 
 /// Contact of A at `pose_a` with B at `pose_b`.
 ///
-/// `memory` is what this ordered pair remembers between calls: read, and updated on success.
+/// `state` is what this ordered pair keeps from call to call: read, and updated on success.
 ///
 /// ```
-/// use potential_particles::{Kind, Memory, Particle, Pose, Settings, detect};
+/// use potential_particles::{Flags, Kind, PairState, Particle, Pose, Settings, detect};
 /// let ball = Particle::sphere(1.0)?;
-/// let (left, right) = (Pose::at([0.0, 0.0, 0.0])?, Pose::at([1.5, 0.0, 0.0])?);
-/// let mut memory = Memory::default();
-/// let contact = detect(&ball, &left, &ball, &right, &Settings::default(), Some(&mut memory))?;
-/// assert_eq!(contact.kind, Kind::Overlapping);
-/// assert!((contact.s - 0.75).abs() <= contact.gap && (contact.overlap - 0.5).abs() < 1e-12);
-/// assert!((contact.normal.x - 1.0).abs() < 1e-12);
+/// let left = Pose::at([0.0, 0.0, 0.0])?;
+/// let settings = Settings { carry_tolerance: 1e-9, ..Settings::default() };
+/// let mut state = PairState::default();
+/// for step in 0..3 {
+///     let right = Pose::at([1.5, 1e-6 * f64::from(step), 0.0])?;
+///     let contact = detect(&ball, &left, &ball, &right, &settings, Some(&mut state))?;
+///     assert_eq!(contact.kind, Kind::Overlapping);
+///     assert!((contact.s - 0.75).abs() < 1e-11 && (contact.overlap - 0.5).abs() < 1e-11);
+///     assert!((contact.normal.x - 1.0).abs() < 1e-11);
+///     assert_eq!(contact.flags.contains(Flags::CARRIED), step > 0);
+/// }
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///
@@ -86,108 +91,9 @@ pub fn detect(
     b: &Particle,
     pose_b: &Pose,
     settings: &Settings,
-    memory: Option<&mut Memory>,
+    state: Option<&mut PairState>,
 ) -> Result<Contact, DetectError> {
-    detect_as((a, pose_a), (b, pose_b), settings, (memory, None), |contact| contact)
-}
-
-/// The same for a contact that is followed from pose to pose: where the last one can be carried on, with the contact point known to within `tolerance`
-/// times the smaller bounding radius, no plane is looked at ([`Flags::CARRIED`]); elsewhere, and always with a tolerance of 0,
-/// this is [`detect()`]. Only [`crate::Formulation::Midway`] by [`crate::BackEnd::Fast`] is carried on.
-///
-/// The gap and `point_bound` of a contact that was carried on hold for it as for any other.
-///
-/// ```
-/// use potential_particles::{Carried, Flags, Memory, Particle, Plane, Pose, Settings, detect_carried};
-/// let faces = [[1.0, 0.0, 0.0], [-1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, -1.0, 0.0], [0.0, 0.0, 1.0], [0.0, 0.0, -1.0]];
-/// let cube = Particle::new(&faces.map(|[a, b, c]| Plane::from([a, b, c, 0.9])), 0.1, 0.1, 2.0)?;
-/// let lower = Pose::at([0.0, 0.0, 0.0])?;
-/// let (mut memory, mut carried) = (Memory::default(), Carried::default());
-/// for step in 0..5 {
-///     let upper = Pose::at([0.3, 1e-6 * f64::from(step), 1.9])?;
-///     let (settings, pair) = (Settings::default(), (&cube, &lower, &cube, &upper));
-///     let contact = detect_carried(pair.0, pair.1, pair.2, pair.3, &settings, 1e-9, Some(&mut memory), &mut carried)?;
-///     assert_eq!(contact.flags.contains(Flags::CARRIED), step > 0);
-/// }
-/// # Ok::<(), Box<dyn std::error::Error>>(())
-/// ```
-///
-/// # Errors
-/// As of [`detect()`], or a tolerance that is not within [0, 0.1].
-#[allow(clippy::too_many_arguments)]
-pub fn detect_carried(
-    a: &Particle,
-    pose_a: &Pose,
-    b: &Particle,
-    pose_b: &Pose,
-    settings: &Settings,
-    tolerance: f64,
-    memory: Option<&mut Memory>,
-    carried: &mut Carried,
-) -> Result<Contact, DetectError> {
-    Carrying::new(settings, tolerance)?.detect((a, pose_a), (b, pose_b), memory, carried)
-}
-
-/// How contacts are carried on: checked once, for all pairs of a batch.
-#[derive(Clone, Copy)]
-pub(crate) struct Carrying<'a> {
-    settings: &'a Settings,
-    /// 0 where these settings always solve.
-    tolerance: f64,
-}
-
-impl<'a> Carrying<'a> {
-    pub fn new(settings: &'a Settings, tolerance: f64) -> Result<Self, SettingsError> {
-        settings.validate()?;
-        if !(0.0..=0.1).contains(&tolerance) {
-            return Err(SettingsError::CarryTolerance(tolerance));
-        }
-        let carries = settings.formulation == Formulation::Midway && settings.back_end == BackEnd::Fast;
-        Ok(Self { settings, tolerance: if carries { tolerance } else { 0.0 } })
-    }
-
-    /// The contact of one pair, carried on or from the planes.
-    pub fn detect(
-        &self,
-        a: (&Particle, &Pose),
-        b: (&Particle, &Pose),
-        memory: Option<&mut Memory>,
-        carried: &mut Carried,
-    ) -> Result<Contact, DetectError> {
-        match self.carry_on(a, b, carried, |contact| contact) {
-            Some(contact) => Ok(contact),
-            None => self.solve(a, b, (memory, carried), |contact| contact),
-        }
-    }
-
-    /// `answer` of the contact that is carried on, if it can be.
-    #[inline(always)]
-    pub fn carry_on<T>(
-        &self,
-        a: (&Particle, &Pose),
-        b: (&Particle, &Pose),
-        carried: &mut Carried,
-        answer: impl FnOnce(Contact) -> T,
-    ) -> Option<T> {
-        let carries = self.tolerance > 0.0 && carried.is_for(self.settings);
-        if carries { carried.contact(a, b, self.tolerance, answer) } else { None }
-    }
-
-    /// `answer` of the contact from the planes, to be carried on from here.
-    pub fn solve<T>(
-        &self,
-        a: (&Particle, &Pose),
-        b: (&Particle, &Pose),
-        (mut memory, carried): (Option<&mut Memory>, &mut Carried),
-        answer: impl Fn(Contact) -> T,
-    ) -> Result<T, DetectError> {
-        if let (Some(memory), Some((x, lambda))) = (memory.as_deref_mut(), carried.last(a.0, b.0)) {
-            memory.follow(x, lambda);
-        }
-        *carried = Carried::default();
-        let carried = (self.tolerance > 0.0).then_some(carried);
-        detect_as(a, b, self.settings, (memory, carried), answer)
-    }
+    detect_as((a, pose_a), (b, pose_b), settings, state, identity)
 }
 
 /// The whole of [`detect()`], for every entry that gives a contact another form. `answer` makes that form where the contact
@@ -198,16 +104,59 @@ pub(crate) fn detect_as<T>(
     a: (&Particle, &Pose),
     b: (&Particle, &Pose),
     settings: &Settings,
-    (memory, carried): (Option<&mut Memory>, Option<&mut Carried>),
+    state: Option<&mut PairState>,
     answer: impl Fn(Contact) -> T,
 ) -> Result<T, DetectError> {
     settings.validate()?;
-    let last = memory.as_deref().and_then(|memory| memory.last);
+    match state {
+        Some(state) if settings.carries_on() => carried_on_or_anew(a, b, settings, state, answer),
+        state => anew(a, b, settings, state, answer),
+    }
+}
+
+/// `answer` of the contact that is carried on, if it can be. In a frame of its own, as every part below that not all pairs need.
+#[inline(never)]
+fn carried_on_or_anew<T>(
+    a: (&Particle, &Pose),
+    b: (&Particle, &Pose),
+    settings: &Settings,
+    state: &mut PairState,
+    answer: impl Fn(Contact) -> T,
+) -> Result<T, DetectError> {
+    match state.carry_on(a, b, settings, &answer) {
+        Some(answer) => Ok(answer),
+        None => not_carried_on(a, b, settings, state, answer),
+    }
+}
+
+/// `answer` of the contact from the planes, to be carried on from here.
+pub(crate) fn not_carried_on<T>(
+    a: (&Particle, &Pose),
+    b: (&Particle, &Pose),
+    settings: &Settings,
+    state: &mut PairState,
+    answer: impl Fn(Contact) -> T,
+) -> Result<T, DetectError> {
+    state.last_contact.of = [0; 2];
+    anew(a, b, settings, Some(state), answer)
+}
+
+/// `answer` of the contact from the planes, with settings that were checked. One function for all who call it: in each of them the compiler
+/// would take less of it into one frame.
+#[inline(never)]
+fn anew<T>(
+    a: (&Particle, &Pose),
+    b: (&Particle, &Pose),
+    settings: &Settings,
+    state: Option<&mut PairState>,
+    answer: impl Fn(Contact) -> T,
+) -> Result<T, DetectError> {
+    let last = state.as_deref().and_then(|state| state.remembered(a, b));
     let rejected = |Apart { by, distance }: Apart| {
         let flags = by.with(Flags::REJECTED);
         Ok(answer(Contact { flags, distance, ..Contact::separated(settings.formulation, 1.0) }))
     };
-    begin(a, b, settings, last, rejected, |pair| solved(pair, b.1, settings, memory, carried).map(&answer))
+    begin(a, b, settings, last, rejected, |pair| solved(pair, [a.1, b.1], settings, state).map(&answer))
 }
 
 /// The contact of a pair that is not rejected by a separation test. In a frame of its own: it is large, and most pairs of a scene
@@ -215,13 +164,13 @@ pub(crate) fn detect_as<T>(
 #[inline(never)]
 fn solved(
     pair: &Pair,
-    pose_b: &Pose,
+    [pose_a, pose_b]: [&Pose; 2],
     settings: &Settings,
-    memory: Option<&mut Memory>,
-    carried: Option<&mut Carried>,
+    mut state: Option<&mut PairState>,
 ) -> Result<Contact, DetectError> {
     let mut call = Call::new(pair, settings);
-    let last = memory.as_deref().and_then(|memory| memory.last);
+    // Read once more: handed on through memory it would hold up the proofs of separation.
+    let last = state.as_deref().and_then(|state| state.remembered((pair.a, pose_a), (pair.b, pose_b)));
     let start = match last {
         Some(last) => {
             if settings.back_end == BackEnd::Fast {
@@ -234,7 +183,7 @@ fn solved(
     let model = call.model(&start, Problem::Midway);
     let overlapped = last.filter(|last| last.overlapping && settings.formulation == Formulation::Closest);
     if let Some(points) = overlapped.and_then(|last| call.closest_from_memory(&last, &model)) {
-        remember(memory, closest::midway_between(&points));
+        remember(state, closest::midway_between(&points));
         let local = LocalContact::closest(pair, &points, settings.weight_on_a, true);
         return Ok(local.placed(pair, pose_b, summary(&call)));
     }
@@ -244,8 +193,9 @@ fn solved(
     if !separated && scale.s >= 1.0 && scale.low < 1.0 && settings.raises_regularisation() {
         // Where the bulge of a raised regularisation may hide an overlap, the particles as they are decide.
         let flat_regularisation = Settings::default().flat_regularisation;
-        let settings = Settings { flat_regularisation, ..*settings };
-        let contact = solved(pair, pose_b, &settings, memory, None)?;
+        // Of a contact with other settings than were given nothing is carried on.
+        let settings = Settings { flat_regularisation, carry_tolerance: 0.0, ..*settings };
+        let contact = solved(pair, [pose_a, pose_b], &settings, state)?;
         return Ok(Contact { flags: contact.flags.with(Flags::DEFAULT_REGULARISATION), ..contact });
     }
     if scale.is_undecided() {
@@ -255,7 +205,7 @@ fn solved(
     let Solution { x, lambda, values, .. } = midway.solution;
     let mut remembered = Remembered { x, lambda, overlapping, closest: [1.0; 2] };
     if separated {
-        remember(memory, remembered);
+        remember(state, remembered);
         let s = scale.low.max(1.0);
         let flags = call.flags.with(Flags::REJECTED);
         return Ok(Contact { formulation: settings.formulation, flags, s, ..summary(&call) });
@@ -268,13 +218,14 @@ fn solved(
         }
         None => {
             let local = LocalContact::midway(&call, &midway, scale, overlapping).ok_or_else(DetectError::no_surface)?;
-            if let Some(carried) = carried.filter(|_| overlapping && !call.flags.contains(Flags::EXTENDED)) {
-                *carried = Carried::of(&call, &midway, scale, local.point_bound());
+            let carries_on = settings.carries_on() && overlapping && !call.flags.contains(Flags::EXTENDED);
+            if let Some(state) = state.as_deref_mut().filter(|_| carries_on) {
+                state.last_contact = LastContact::of(&call, &midway, scale, local.point_bound());
             }
             local
         }
     };
-    remember(memory, remembered);
+    remember(state, remembered);
     Ok(local.placed(pair, pose_b, summary(&call)))
 }
 
@@ -283,9 +234,9 @@ fn summary(call: &Call) -> Contact {
     Contact { flags: call.flags, iterations: call.iterations, back_end: call.back_end, ..Contact::UNKNOWN }
 }
 
-fn remember(memory: Option<&mut Memory>, remembered: Remembered) {
-    if let Some(memory) = memory {
-        memory.last = Some(remembered);
+fn remember(state: Option<&mut PairState>, remembered: Remembered) {
+    if let Some(state) = state {
+        state.remember(remembered);
     }
 }
 

@@ -130,8 +130,7 @@ impl LocalContact {
             point_bound: self.point_bound,
             normal,
             branch_b,
-            // From the centre of A before anything is rotated: a short branch keeps its digits.
-            branch_a: pose_b.rotate(&(self.point - pair.centre)),
+            branch_a: pair.branch_a(&branch_b),
             point,
             ..call
         };

@@ -12,8 +12,8 @@ use std::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssi
 /// `high` + `low`, with |low| at most half a unit in the last place of `high`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct DoubleDouble {
-    high: f64,
-    low: f64,
+    pub high: f64,
+    pub low: f64,
 }
 
 impl DoubleDouble {

@@ -7,6 +7,7 @@ use crate::linalg::number::{Number, Single, Twin, larger};
 use crate::linalg::symmetric::Symmetric;
 use crate::model::dual_path::{DualPath, Optimum, Probe, Side};
 use crate::model::problem::Problem;
+use crate::pair::pair_state::LAMBDA_RANGE;
 use crate::particle::potential::Quadratic;
 use nalgebra::{SimdValue, Vector3};
 
@@ -28,10 +29,6 @@ fn noise<N: Number>(unit: f64, expanded: N, larger: N) -> N {
 
 /// Most values of λ tried in one solve; a handful is enough where rounding does not interfere.
 const MOST_TRIALS: usize = 40;
-
-/// A guess of λ is kept in this range, which a solve may leave by [`FARTHEST`]: beyond it one particle's weight is lost in rounding
-/// altogether.
-pub(crate) const LAMBDA_RANGE: (f64, f64) = (1e-30, 1e30);
 
 /// One solve moves λ by at most this factor: quadratics that miss the planes further on may not
 /// reach the problem at all.

@@ -4,7 +4,7 @@ use crate::contact::contact::Kind;
 use crate::contact::detect::detect;
 use crate::packing::container::Container;
 use crate::packing::grid::Grid;
-use crate::pair::memory::Memory;
+use crate::pair::pair_state::PairState;
 use crate::particle::particle::Particle;
 use crate::pose::Pose;
 use crate::settings::Settings;
@@ -41,13 +41,13 @@ impl Pile {
     }
 }
 
-/// One body that is tried at many poses. It keeps the bodies near by, and what each pair remembers, from pose to pose.
+/// One body that is tried at many poses. It keeps the bodies near by, and the state of each pair, from pose to pose.
 pub(crate) struct Trial<'a> {
     pile: &'a Pile,
     pub particle: &'a Particle,
     settings: Settings,
     /// Bodies that may be met while the centre is within `reach` of `from`; the one that was in the way last stands first.
-    near: Vec<(u32, Memory)>,
+    near: Vec<(u32, PairState)>,
     from: Vector3<f64>,
     reach: f64,
     numbers: Vec<u32>,
@@ -73,9 +73,9 @@ impl<'a> Trial<'a> {
             self.look_up(pose.position());
         }
         let (particle, settings, bodies) = (self.particle, &self.settings, &self.pile.bodies);
-        let in_the_way = self.near.iter_mut().position(|(number, memory)| {
+        let in_the_way = self.near.iter_mut().position(|(number, state)| {
             let (other, place) = &bodies[*number as usize];
-            let contact = detect(particle, pose, other, place, settings, Some(memory));
+            let contact = detect(particle, pose, other, place, settings, Some(state));
             // A pair that cannot be solved may overlap.
             !matches!(contact, Ok(contact) if contact.kind == Kind::Separated)
         });
@@ -96,6 +96,6 @@ impl<'a> Trial<'a> {
             (pose.position() - centre).norm() <= within + other.bounding_radius()
         });
         self.near.clear();
-        self.near.extend(close.map(|&number| (number, Memory::default())));
+        self.near.extend(close.map(|&number| (number, PairState::default())));
     }
 }

@@ -1,5 +1,7 @@
 //! Two bodies in one frame: the relative pose in doubles.
 
+use crate::linalg::double_double::DoubleDouble;
+use crate::linalg::wide::difference;
 use crate::pair::boundary_part::{BoundaryPart, PartFrame};
 use crate::particle::particle::Particle;
 use crate::pose::Pose;
@@ -65,8 +67,55 @@ impl<'a> Pair<'a> {
         self.a.dimensions.min(self.b.dimensions)
     }
 
+    /// From the centre of A to a point, world axes, given the way there from the centre of B: the difference of the positions is not
+    /// rounded, so that the two differ by that of the positions to the rounding of this one.
+    #[inline(always)]
+    pub(crate) fn branch_a(&self, branch_b: &Vector3<f64>) -> Vector3<f64> {
+        match self.given {
+            Given::Poses([pose_a, pose_b]) => {
+                let between = difference(pose_b.position(), pose_a.position());
+                branch_b.zip_map(&between, |branch, DoubleDouble { high, low }| (branch + high) + low)
+            }
+            // The centre of A is what a boundary is placed from.
+            Given::Boundary(..) => *branch_b,
+        }
+    }
+
     /// A point in the frame of B, seen in the local frame of A.
     pub fn in_a(&self, x: &Vector3<f64>) -> Vector3<f64> {
         self.rotation.tr_mul(&(x - self.centre))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Formulation, Kind, Settings, detect};
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn both_branches_differ_by_the_positions(
+            towards in [-1.0..1.0_f64, -1.0..1.0_f64, -1.0..1.0_f64],
+            far in [-1.0..1.0_f64, -1.0..1.0_f64, -1.0..1.0_f64],
+            log_far in -3.0..6.0_f64,
+            log_size in -4.0..4.0_f64,
+            closest: bool,
+        ) {
+            let (a, b) = (Particle::cube(0.4, 0.1, 0.02, 1.2), Particle::cube(0.4, 0.1, 0.02, 1.2).scaled(10_f64.powf(log_size)).unwrap());
+            let from = 10_f64.powf(log_far) * Vector3::from(far);
+            prop_assume!(Vector3::from(towards).norm() > 0.1);
+            let to = from + 0.5 * (a.bounding_radius() + b.bounding_radius()) * Vector3::from(towards).normalize();
+            let (pose_a, pose_b) = (Pose::new(from.into(), [1.0, 0.3, far[0], far[1]]).unwrap(), Pose::new(to.into(), [0.5, far[2], 0.2, 0.1]).unwrap());
+            let formulation = if closest { Formulation::Closest } else { Formulation::Midway };
+            let contact = detect(&a, &pose_a, &b, &pose_b, &Settings { formulation, ..Settings::default() }, None).unwrap();
+            if contact.kind == Kind::Overlapping {
+                for i in 0..3 {
+                    let between = DoubleDouble::sum(pose_b.position()[i], -pose_a.position()[i]);
+                    let off = (between + DoubleDouble::sum(contact.branch_b[i], -contact.branch_a[i])).high;
+                    assert!(off.abs() <= f64::EPSILON * contact.branch_a.norm(), "{off:e}: {contact:?}");
+                }
+            }
+        }
     }
 }

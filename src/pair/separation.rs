@@ -121,7 +121,7 @@ fn beyond_a_face(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Kind, Memory, Settings, detect};
+    use crate::{Kind, PairState, Settings, detect};
 
     fn cube() -> Particle {
         Particle::cube(0.4, 0.1, 0.02, 0.9)
@@ -145,11 +145,11 @@ mod tests {
             let mut vector = || Vector3::from_fn(|_, _| chance());
             let (turn, direction) = (vector(), vector().normalize());
             let at = |position: Vector3<f64>| Pose::new(position.into(), [0.5, turn.x, turn.y, turn.z]).unwrap();
-            let mut memory = Memory::default();
+            let mut state = PairState::default();
             // Closer from call to call, so that the proof changes.
             for far in (0..40).map(|i| 2.2 - 0.03 * f64::from(i)) {
                 let pose_b = at(far * direction);
-                let contact = detect(&a, &pose_a, &a, &pose_b, &settings, Some(&mut memory)).unwrap();
+                let contact = detect(&a, &pose_a, &a, &pose_b, &settings, Some(&mut state)).unwrap();
                 if contact.kind == Kind::Overlapping {
                     assert!(contact.distance.is_nan());
                     break;
@@ -169,6 +169,32 @@ mod tests {
             }
         }
         assert!(seen.iter().all(|&count| count > 100), "{seen:?}");
+    }
+
+    /// However far from both: the tangents there prove nothing that is not so.
+    #[test]
+    fn no_point_proves_that_overlapping_particles_are_apart() {
+        let sharp = |offset: f64, r: f64| Particle::cube(offset, r, 0.0, 0.0);
+        let particles = [cube(), sharp(0.5, 1e-4), sharp(0.5, 1e-9), sharp(0.4, 0.1), Particle::sphere(0.5).unwrap()];
+        let mut overlapping = 0;
+        for seed in 0..50_000 {
+            let mut chance = scattered(20 * seed);
+            let mut vector = || Vector3::from_fn(|_, _| chance());
+            let (a, b) = (&particles[seed % 5], &particles[seed / 5 % 5]);
+            let (towards, turn, other, x, powers) = (vector().normalize(), vector(), vector(), vector(), vector());
+            let pose_a = Pose::new([0.0; 3], [0.5, turn.x, turn.y, turn.z]).unwrap();
+            let pose_b = Pose::new((0.9 * towards).into(), [0.5, other.x, other.y, other.z]).unwrap();
+            let contact = detect(a, &pose_a, b, &pose_b, &Settings::default(), None).unwrap();
+            // Of one size, or each coordinate of its own.
+            let largest = (seed / 25 % 309) as f64;
+            let x = x.zip_map(&powers, |x, p| x * 10_f64.powf(if seed % 2 == 0 { largest } else { largest * p.abs() }));
+            if contact.kind == Kind::Overlapping {
+                overlapping += 1;
+                let proof = still_apart((a, &pose_a), (b, &pose_b), &x);
+                assert!(proof.is_none(), "{proof:?} from {x:?}: {contact:?}");
+            }
+        }
+        assert!(overlapping > 25_000, "{overlapping}");
     }
 
     #[test]

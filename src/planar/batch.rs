@@ -5,23 +5,23 @@ use super::particle::Particle;
 use super::pose::Pose;
 use crate::contact::batch::{self, Placed};
 use crate::contact::detect::DetectError;
-use crate::pair::memory::Memory;
+use crate::pair::pair_state::PairState;
 use crate::settings::Settings;
 
 /// Contacts of many pairs of bodies of the plane: [`crate::detect_batch`] with two coordinates.
 ///
 /// Body i is `particles[i]` at `poses[i]`, pair n is that of the bodies `pairs[n]`, first A, then B. The answers come in the
 /// order of the pairs, and each is, to the last bit, what [`detect()`] gives for that pair alone, whatever the number of
-/// threads. `memories` holds one memory for each pair, or nothing.
+/// threads. `states` holds one state for each pair, or nothing.
 ///
 /// ```
 /// use potential_particles::planar::{Particle, Pose, detect_batch};
-/// use potential_particles::{Kind, Memory, Settings};
+/// use potential_particles::{Kind, PairState, Settings};
 /// let disc = Particle::circle(1.0)?;
 /// let particles = [&disc, &disc, &disc];
 /// let poses = [Pose::new([0.0, 0.0], 0.0)?, Pose::new([1.5, 0.0], 0.0)?, Pose::new([5.0, 0.0], 0.0)?];
-/// let mut memories = [Memory::default(); 2];
-/// let answers = detect_batch(&particles, &poses, &[[0, 1], [1, 2]], &Settings::default(), 2, &mut memories)?;
+/// let mut states = [PairState::default(); 2];
+/// let answers = detect_batch(&particles, &poses, &[[0, 1], [1, 2]], &Settings::default(), 2, &mut states)?;
 /// assert_eq!(answers[0].as_ref().unwrap().kind, Kind::Overlapping);
 /// assert_eq!(answers[1].as_ref().unwrap().kind, Kind::Separated);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -35,15 +35,11 @@ pub fn detect_batch(
     pairs: &[[u32; 2]],
     settings: &Settings,
     threads: usize,
-    memories: &mut [Memory],
+    states: &mut [PairState],
 ) -> Result<Vec<Result<Contact, DetectError>>, DetectError> {
     settings.validate()?;
-    let one = |a: Placed<Particle, Pose>,
-               b: Placed<Particle, Pose>,
-               memory: Option<&mut Memory>,
-               _: Option<&mut ()>,
-               answer: &mut _| {
-        *answer = detect(a.0, a.1, b.0, b.1, settings, memory);
+    let one = |a: Placed<Particle, Pose>, b: Placed<Particle, Pose>, state: Option<&mut PairState>, answer: &mut _| {
+        *answer = detect(a.0, a.1, b.0, b.1, settings, state);
     };
-    batch::detect_batch_by(one, particles, poses, pairs, threads, (memories, &mut []))
+    batch::detect_batch_by(one, particles, poses, pairs, threads, states)
 }

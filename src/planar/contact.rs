@@ -5,7 +5,7 @@ use super::pose::Pose;
 use crate::contact::contact::{self, Kind};
 use crate::contact::detect::{self, DetectError};
 use crate::flags::Flags;
-use crate::pair::memory::Memory;
+use crate::pair::pair_state::PairState;
 use crate::settings::{BackEnd, Formulation, Settings};
 use nalgebra::Vector2;
 
@@ -79,7 +79,7 @@ impl From<contact::Contact> for Contact {
 
 /// Contact of A at `pose_a` with B at `pose_b`.
 ///
-/// `memory` is what this ordered pair remembers between calls: read, and updated on success.
+/// `state` is what this ordered pair keeps from call to call: read, and updated on success.
 ///
 /// ```
 /// use potential_particles::planar::{Particle, Pose, detect};
@@ -98,9 +98,9 @@ pub fn detect(
     b: &Particle,
     pose_b: &Pose,
     settings: &Settings,
-    memory: Option<&mut Memory>,
+    state: Option<&mut PairState>,
 ) -> Result<Contact, DetectError> {
-    detect_as((a, pose_a), (b, pose_b), settings, memory, |contact| contact)
+    detect_as((a, pose_a), (b, pose_b), settings, state, |contact| contact)
 }
 
 /// [`detect()`] with the contact in another form; see [`crate::contact::detect::detect_as`].
@@ -109,9 +109,9 @@ pub(crate) fn detect_as<T>(
     (a, pose_a): (&Particle, &Pose),
     (b, pose_b): (&Particle, &Pose),
     settings: &Settings,
-    memory: Option<&mut Memory>,
+    state: Option<&mut PairState>,
     answer: impl Fn(Contact) -> T,
 ) -> Result<T, DetectError> {
     let (pose_a, pose_b) = (pose_a.in_space(), pose_b.in_space());
-    detect::detect_as((&a.0, &pose_a), (&b.0, &pose_b), settings, (memory, None), |contact| answer(contact.into()))
+    detect::detect_as((&a.0, &pose_a), (&b.0, &pose_b), settings, state, |contact| answer(contact.into()))
 }

@@ -45,7 +45,7 @@ fn raised(v: &Vector2<f64>) -> Vector3<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{BackEnd, Formulation, Kind, Memory, Role, Settings};
+    use crate::{BackEnd, Formulation, Kind, PairState, Role, Settings};
 
     /// The doc of this module says that z stays 0: seen here in the contact of space.
     #[test]
@@ -72,9 +72,9 @@ mod tests {
                     (Formulation::Closest, BackEnd::ConeProgram),
                 ] {
                     let settings = Settings { formulation, back_end, solve_separated: true, ..Settings::default() };
-                    let mut memory = Memory::default();
+                    let mut state = PairState::default();
                     let contact =
-                        crate::contact::detect::detect(&a.0, &pose_a, &b.0, &pose_b, &settings, Some(&mut memory))
+                        crate::contact::detect::detect(&a.0, &pose_a, &b.0, &pose_b, &settings, Some(&mut state))
                             .unwrap();
                     let mut vectors = vec![contact.normal, contact.point, contact.branch_a, contact.branch_b];
                     if contact.kind == Kind::Overlapping {
@@ -82,8 +82,8 @@ mod tests {
                         vectors.extend([contact.point_on_a, contact.point_on_b]);
                     }
                     assert!(vectors.iter().all(|v| v.z == 0.0), "{contact:?}");
-                    // Number 3 of a filled memory is z.
-                    assert_eq!(memory.into_raw()[3], 0.0);
+                    // Number 3 of a solution is z.
+                    assert_eq!(state.into_raw()[3], 0.0);
                     for on in [Role::A, Role::B] {
                         let found = crate::closest_point(&a.0, &pose_a, &b.0, &pose_b, on, &settings).unwrap();
                         let vectors = found.map(|found| [found.point, found.branch_a, found.branch_b]);

@@ -10,7 +10,7 @@ use crate::flags::Flags;
 use crate::model::dual_search;
 use crate::model::local_model::{self, LocalModel};
 use crate::model::problem::Problem;
-use crate::pair::memory::Remembered;
+use crate::pair::pair_state::Remembered;
 use crate::settings::BackEnd;
 use crate::solver::call::{Call, SolveError, Solved};
 use crate::solver::newton;

@@ -1,4 +1,4 @@
-/* pp_contact_detect_batch: every contact and memory has the very bits of a call for its pair alone, whatever the number
+/* pp_contact_detect_batch: every contact and state has the very bits of a call for its pair alone, whatever the number
  * of threads, and what is wrong with one pair does not touch the others. */
 #include "bodies.h"
 #include "check.h"
@@ -38,28 +38,28 @@ static void move(scene *s) {
 }
 
 typedef struct {
-    pp_memory memories[MANY];
+    pp_pair_state states[MANY];
     pp_contact contacts[MANY];
     pp_status statuses[MANY];
 } results;
 
-static pp_status batch(const scene *s, const pp_settings *settings, uint32_t threads, pp_memory *memories, results *r) {
-    return pp_contact_detect_batch(s->particles, s->poses, BODIES, s->pairs, MANY, settings, threads, memories,
+static pp_status batch(const scene *s, const pp_settings *settings, uint32_t threads, pp_pair_state *states, results *r) {
+    return pp_contact_detect_batch(s->particles, s->poses, BODIES, s->pairs, MANY, settings, threads, states,
                                    r->contacts, r->statuses);
 }
 
-static void one_by_one(const scene *s, const pp_settings *settings, pp_memory *memories, results *r) {
+static void one_by_one(const scene *s, const pp_settings *settings, pp_pair_state *states, results *r) {
     for (int n = 0; n < MANY; n++) {
         const uint32_t a = s->pairs[2 * n], b = s->pairs[2 * n + 1];
         r->statuses[n] = pp_contact_detect(s->particles[a], &s->poses[a], s->particles[b], &s->poses[b], settings,
-                                           memories ? &memories[n] : NULL, &r->contacts[n]);
+                                           states ? &states[n] : NULL, &r->contacts[n]);
     }
 }
 
 static void check_same(const results *got, const results *expected) {
     CHECK_SAME_BYTES(got->statuses, expected->statuses, sizeof got->statuses);
     CHECK_SAME_BYTES(got->contacts, expected->contacts, sizeof got->contacts);
-    CHECK_SAME_BYTES(got->memories, expected->memories, sizeof got->memories);
+    CHECK_SAME_BYTES(got->states, expected->states, sizeof got->states);
 }
 
 static void same_bits_as_one_by_one(results *alone, results *got) {
@@ -74,8 +74,8 @@ static void same_bits_as_one_by_one(results *alone, results *got) {
             memset(got, 0, sizeof *got);
             for (int step = 0; step < STEPS; step++) {
                 check_case("formulation %u, %u threads, step %d", (unsigned)formulation, (unsigned)threads[t], step);
-                one_by_one(&s, &settings, alone->memories, alone);
-                CHECK_STATUS(batch(&s, &settings, threads[t], got->memories, got), PP_OK);
+                one_by_one(&s, &settings, alone->states, alone);
+                CHECK_STATUS(batch(&s, &settings, threads[t], got->states, got), PP_OK);
                 check_same(got, alone);
                 int contacts = 0, warm = 0;
                 for (int n = 0; n < MANY; n++) {
@@ -83,7 +83,7 @@ static void same_bits_as_one_by_one(results *alone, results *got) {
                     contacts += got->contacts[n].kind == PP_OVERLAPPING;
                     warm += (got->contacts[n].flags & PP_FLAG_WARM) != 0;
                 }
-                /* The memories are used: what overlapped before starts where it was. */
+                /* The states are used: what overlapped before starts where it was. */
                 CHECK(contacts > PAIRS / 4 && contacts < MANY / 2);
                 CHECK(step == 0 ? warm == 0 : warm >= contacts - 3);
                 move(&s);
@@ -91,7 +91,7 @@ static void same_bits_as_one_by_one(results *alone, results *got) {
             pairs_free(&s.set);
         }
     }
-    check_case("no memories, no settings");
+    check_case("no states, no settings");
     scene s;
     scene_new(&s);
     memset(alone, 0, sizeof *alone);
@@ -103,60 +103,32 @@ static void same_bits_as_one_by_one(results *alone, results *got) {
     pairs_free(&s.set);
 }
 
-/* Followed from pose to pose: contact, memory and carry have the bits of pp_contact_detect_carried for the pair alone. */
+/* Followed from pose to pose, with contacts that are carried on. */
 static void carried_as_one_by_one(results *alone, results *got) {
-    const double tolerance = 1e-9;
-    pp_carry *carries = calloc(2 * MANY, sizeof *carries), *own = carries + MANY;
+    pp_settings settings = default_settings();
+    settings.carry_tolerance = 1e-9;
     for (uint32_t threads = 1; threads <= 2; threads++) {
         scene s;
         scene_new(&s);
         memset(alone, 0, sizeof *alone);
         memset(got, 0, sizeof *got);
-        memset(carries, 0, 2 * MANY * sizeof *carries);
         int carried = 0;
         for (int step = 0; step < STEPS; step++) {
             check_case("carried, %u threads, step %d", (unsigned)threads, step);
-            for (int n = 0; n < MANY; n++) {
-                const uint32_t a = s.pairs[2 * n], b = s.pairs[2 * n + 1];
-                pp_frame frames[2];
-                CHECK_STATUS(pp_frame_from_pose(&s.poses[a], &frames[0]), PP_OK);
-                CHECK_STATUS(pp_frame_from_pose(&s.poses[b], &frames[1]), PP_OK);
-                alone->statuses[n] =
-                    pp_contact_detect_carried(s.particles[a], &frames[0], s.particles[b], &frames[1], NULL, tolerance,
-                                              &alone->memories[n], &own[n], &alone->contacts[n]);
-                carried += (alone->contacts[n].flags & PP_FLAG_CARRIED) != 0;
-            }
-            CHECK_STATUS(pp_contact_detect_batch_carried(s.particles, s.poses, BODIES, s.pairs, MANY, NULL, tolerance,
-                                                         threads, got->memories, carries, got->contacts,
-                                                         got->statuses),
-                         PP_OK);
+            one_by_one(&s, &settings, alone->states, alone);
+            CHECK_STATUS(batch(&s, &settings, threads, got->states, got), PP_OK);
             check_same(got, alone);
-            CHECK_SAME_BYTES(carries, own, MANY * sizeof *carries);
+            for (int n = 0; n < MANY; n++) carried += (got->contacts[n].flags & PP_FLAG_CARRIED) != 0;
             for (int i = 0; i < BODIES; i++) s.poses[i].position[i % 3] += 1e-7;
         }
         CHECK(carried > PAIRS / 4);
-        check_case("nothing to be carried on: solved, as by pp_contact_detect_batch");
-        memset(alone, 0, sizeof *alone);
-        memset(got, 0, sizeof *got);
-        CHECK_STATUS(batch(&s, NULL, threads, alone->memories, alone), PP_OK);
-        CHECK_STATUS(pp_contact_detect_batch_carried(s.particles, s.poses, BODIES, s.pairs, MANY, NULL, tolerance,
-                                                     threads, got->memories, NULL, got->contacts, got->statuses),
-                     PP_OK);
-        check_same(got, alone);
-        const double out_of_range[] = {-1e-9, 0.11, NAN, INFINITY};
-        FILL(*got);
-        for (int i = 0; i < 4; i++) {
-            check_case("tolerance %g", out_of_range[i]);
-            CHECK_STATUS(pp_contact_detect_batch_carried(s.particles, s.poses, BODIES, s.pairs, MANY, NULL,
-                                                         out_of_range[i], threads, got->memories, carries,
-                                                         got->contacts, got->statuses),
-                         PP_BAD_SETTING);
-        }
-        CHECK_UNTOUCHED(*got);
+        check_case("without states all are solved, as without carry_tolerance");
+        CHECK_STATUS(batch(&s, NULL, threads, NULL, alone), PP_OK);
+        CHECK_STATUS(batch(&s, &settings, threads, NULL, got), PP_OK);
+        CHECK_SAME_BYTES(got->contacts, alone->contacts, sizeof got->contacts);
         check_case(NULL);
         pairs_free(&s.set);
     }
-    free(carries);
 }
 
 /* A body that is not there, one without a particle, one with a bad pose: told by the pairs that name it. */
@@ -164,16 +136,19 @@ static void faults_stay_with_their_pairs(results *alone, results *got) {
     scene s;
     scene_new(&s);
     memset(alone, 0, sizeof *alone);
-    one_by_one(&s, NULL, alone->memories, alone);
+    one_by_one(&s, NULL, alone->states, alone);
     s.particles[3] = NULL;
     s.poses[8].position[1] = NAN;
     s.poses[9].orientation[0] = INFINITY;
     s.pairs[10] = BODIES;
     s.pairs[13] = UINT32_MAX;
+    /* Both at fault, in either order. */
+    const uint32_t faulty[] = {8, 3, 3, 8, 9, 3, 9, 8};
+    memcpy(&s.pairs[60], faulty, sizeof faulty);
     for (uint32_t threads = 1; threads <= 4; threads += 3) {
         FILL(*got);
-        memset(got->memories, 0, sizeof got->memories);
-        CHECK_STATUS(batch(&s, NULL, threads, got->memories, got), PP_OK);
+        memset(got->states, 0, sizeof got->states);
+        CHECK_STATUS(batch(&s, NULL, threads, got->states, got), PP_OK);
         int faults = 0;
         for (int n = 0; n < MANY; n++) {
             const uint32_t a = s.pairs[2 * n], b = s.pairs[2 * n + 1];
@@ -188,13 +163,19 @@ static void faults_stay_with_their_pairs(results *alone, results *got) {
             }
             check_case("%u threads, pair %d of %u and %u", (unsigned)threads, n, (unsigned)a, (unsigned)b);
             CHECK_STATUS(got->statuses[n], expected);
+            pp_contact single;
+            if (a < BODIES && b < BODIES) {
+                CHECK_STATUS(pp_contact_detect(s.particles[a], &s.poses[a], s.particles[b], &s.poses[b], NULL, NULL,
+                                               &single),
+                             expected);
+            }
             if (expected == PP_OK) {
                 CHECK_SAME_BYTES(&got->contacts[n], &alone->contacts[n], sizeof(pp_contact));
-                CHECK_SAME_BYTES(&got->memories[n], &alone->memories[n], sizeof(pp_memory));
+                CHECK_SAME_BYTES(&got->states[n], &alone->states[n], sizeof(pp_pair_state));
             } else {
                 faults++;
                 CHECK_UNTOUCHED(got->contacts[n]);
-                CHECK(got->memories[n].state[0] == 0);
+                CHECK(got->states[n].solution[0] == 0);
             }
         }
         CHECK(faults >= 6);
@@ -208,7 +189,7 @@ static void bad_arguments_write_nothing(results *got) {
     scene_new(&s);
     FILL(*got);
 #define BATCH(particles, poses, bodies, pairs, count, contacts, statuses) \
-    pp_contact_detect_batch(particles, poses, bodies, pairs, count, NULL, 2, got->memories, contacts, statuses)
+    pp_contact_detect_batch(particles, poses, bodies, pairs, count, NULL, 2, got->states, contacts, statuses)
     CHECK_STATUS(BATCH(NULL, s.poses, BODIES, s.pairs, MANY, got->contacts, got->statuses), PP_NULL_POINTER);
     CHECK_STATUS(BATCH(s.particles, NULL, BODIES, s.pairs, MANY, got->contacts, got->statuses), PP_NULL_POINTER);
     CHECK_STATUS(BATCH(s.particles, s.poses, BODIES, NULL, MANY, got->contacts, got->statuses), PP_NULL_POINTER);
@@ -219,13 +200,13 @@ static void bad_arguments_write_nothing(results *got) {
     CHECK_STATUS(BATCH(s.particles, s.poses, BODIES, s.pairs, SIZE_MAX, got->contacts, got->statuses), PP_BAD_INDEX);
     pp_settings settings = default_settings();
     settings.formulation = 7;
-    CHECK_STATUS(batch(&s, &settings, 2, got->memories, got), PP_UNKNOWN_FORMULATION);
+    CHECK_STATUS(batch(&s, &settings, 2, got->states, got), PP_UNKNOWN_FORMULATION);
     settings = default_settings();
     settings.back_end = 7;
-    CHECK_STATUS(batch(&s, &settings, 2, got->memories, got), PP_UNKNOWN_BACK_END);
+    CHECK_STATUS(batch(&s, &settings, 2, got->states, got), PP_UNKNOWN_BACK_END);
     settings = default_settings();
     settings.gap_tolerance = 0;
-    CHECK_STATUS(batch(&s, &settings, 2, got->memories, got), PP_BAD_SETTING);
+    CHECK_STATUS(batch(&s, &settings, 2, got->states, got), PP_BAD_SETTING);
     CHECK_UNTOUCHED(*got);
 
     /* Nothing to do, and nothing to do it with. */

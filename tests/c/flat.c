@@ -18,7 +18,7 @@ static void a_sphere_on_a_plane(void) {
         pp_flat_contact contact;
         double area;
         check_case("height %g", height);
-        if (!CHECK_STATUS(pp_contact_plane(ball, &pose, origin, up, NULL, &contact), PP_OK)) continue;
+        if (!CHECK_STATUS(pp_contact_plane(ball, &pose, origin, up, NULL, NULL, &contact), PP_OK)) continue;
         CHECK_STATUS(pp_flat_contact_area(ball, &pose, &contact, 1e-6, &area), PP_OK);
         if (height > 1) {
             CHECK(contact.kind == PP_SEPARATED && area == 0);
@@ -64,7 +64,7 @@ static void a_sphere_at_each_part_of_a_triangle(void) {
         for (int j = 0; j < 3; j++) normal[j] = (q[j] - p[j]) / distance;
         pp_flat_contact contact;
         check_case("place %d", (int)i);
-        if (!CHECK_STATUS(pp_contact_triangle(ball, &pose, vertices, NULL, &contact), PP_OK)) continue;
+        if (!CHECK_STATUS(pp_contact_triangle(ball, &pose, vertices, NULL, NULL, &contact), PP_OK)) continue;
         CHECK(contact.feature == places[i].feature && contact.kind == PP_OVERLAPPING);
         CHECK_NEAR(contact.s, distance, contact.gap);
         CHECK_NEAR(contact.overlap, 1 - distance, 1e-15);
@@ -75,12 +75,31 @@ static void a_sphere_at_each_part_of_a_triangle(void) {
     pp_particle_free(ball);
 }
 
+/* A state is taken, whatever it holds, and makes no difference. */
+static void a_state_makes_no_difference(void) {
+    pp_particle *ball = new_sphere(1.0);
+    pp_pose pose = pose_at(0.25, 0.25, 0.75);
+    pp_pair_state state;
+    FILL(state);
+    pp_flat_contact with, without;
+    for (int time = 0; time < 2; time++) {
+        CHECK_STATUS(pp_contact_plane(ball, &pose, origin, up, NULL, NULL, &without), PP_OK);
+        CHECK_STATUS(pp_contact_plane(ball, &pose, origin, up, NULL, &state, &with), PP_OK);
+        CHECK_SAME_BYTES(&with, &without, sizeof with);
+        CHECK_STATUS(pp_contact_triangle(ball, &pose, vertices, NULL, NULL, &without), PP_OK);
+        CHECK_STATUS(pp_contact_triangle(ball, &pose, vertices, NULL, &state, &with), PP_OK);
+        CHECK_SAME_BYTES(&with, &without, sizeof with);
+        state = (pp_pair_state){0};
+    }
+    pp_particle_free(ball);
+}
+
 static void a_centre_on_the_plane_is_flagged(void) {
     pp_particle *ball = new_sphere(1.0);
     pp_pose pose = pose_at(2, 3, 0);
     const double down[3] = {0, 0, -1};
     pp_flat_contact contact;
-    CHECK_STATUS(pp_contact_plane(ball, &pose, origin, up, NULL, &contact), PP_OK);
+    CHECK_STATUS(pp_contact_plane(ball, &pose, origin, up, NULL, NULL, &contact), PP_OK);
     CHECK((contact.flags & PP_FLAG_NORMAL_BY_BOUNDARY) != 0);
     CHECK_NEAR3(contact.normal, down, 0);
     pp_particle_free(ball);
@@ -99,26 +118,26 @@ static void bad_input_is_refused_and_nothing_written(void) {
     double with_nan[9], area = 7;
     memcpy(with_nan, vertices, sizeof with_nan);
     with_nan[5] = NAN;
-    CHECK_STATUS(pp_contact_plane(NULL, &pose, origin, up, NULL, &out), PP_NULL_POINTER);
-    CHECK_STATUS(pp_contact_plane(ball, NULL, origin, up, NULL, &out), PP_NULL_POINTER);
-    CHECK_STATUS(pp_contact_plane(ball, &pose, NULL, up, NULL, &out), PP_NULL_POINTER);
-    CHECK_STATUS(pp_contact_plane(ball, &pose, origin, NULL, NULL, &out), PP_NULL_POINTER);
-    CHECK_STATUS(pp_contact_plane(ball, &pose, origin, up, NULL, NULL), PP_NULL_POINTER);
-    CHECK_STATUS(pp_contact_plane(ball, &bad_pose, origin, up, NULL, &out), PP_BAD_POSITION);
-    CHECK_STATUS(pp_contact_plane(ball, &no_turn, origin, up, NULL, &out), PP_BAD_ORIENTATION);
-    CHECK_STATUS(pp_contact_plane(ball, &pose, not_a_point, up, NULL, &out), PP_BAD_POINT);
-    CHECK_STATUS(pp_contact_plane(ball, &pose, origin, origin, NULL, &out), PP_BAD_POINT);
-    CHECK_STATUS(pp_contact_plane(ball, &pose, origin, up, &settings, &out), PP_BAD_SETTING);
-    CHECK_STATUS(pp_contact_triangle(NULL, &pose, vertices, NULL, &out), PP_NULL_POINTER);
-    CHECK_STATUS(pp_contact_triangle(ball, NULL, vertices, NULL, &out), PP_NULL_POINTER);
-    CHECK_STATUS(pp_contact_triangle(ball, &pose, NULL, NULL, &out), PP_NULL_POINTER);
-    CHECK_STATUS(pp_contact_triangle(ball, &pose, vertices, NULL, NULL), PP_NULL_POINTER);
-    CHECK_STATUS(pp_contact_triangle(ball, &pose, with_nan, NULL, &out), PP_BAD_POINT);
-    CHECK_STATUS(pp_contact_triangle(ball, &pose, on_a_line, NULL, &out), PP_DEGENERATE_TRIANGLE);
-    CHECK_STATUS(pp_contact_triangle(ball, &bad_pose, vertices, NULL, &out), PP_BAD_POSITION);
-    CHECK_STATUS(pp_contact_triangle(ball, &pose, vertices, &settings, &out), PP_BAD_SETTING);
+    CHECK_STATUS(pp_contact_plane(NULL, &pose, origin, up, NULL, NULL, &out), PP_NULL_POINTER);
+    CHECK_STATUS(pp_contact_plane(ball, NULL, origin, up, NULL, NULL, &out), PP_NULL_POINTER);
+    CHECK_STATUS(pp_contact_plane(ball, &pose, NULL, up, NULL, NULL, &out), PP_NULL_POINTER);
+    CHECK_STATUS(pp_contact_plane(ball, &pose, origin, NULL, NULL, NULL, &out), PP_NULL_POINTER);
+    CHECK_STATUS(pp_contact_plane(ball, &pose, origin, up, NULL, NULL, NULL), PP_NULL_POINTER);
+    CHECK_STATUS(pp_contact_plane(ball, &bad_pose, origin, up, NULL, NULL, &out), PP_BAD_POSITION);
+    CHECK_STATUS(pp_contact_plane(ball, &no_turn, origin, up, NULL, NULL, &out), PP_BAD_ORIENTATION);
+    CHECK_STATUS(pp_contact_plane(ball, &pose, not_a_point, up, NULL, NULL, &out), PP_BAD_POINT);
+    CHECK_STATUS(pp_contact_plane(ball, &pose, origin, origin, NULL, NULL, &out), PP_BAD_POINT);
+    CHECK_STATUS(pp_contact_plane(ball, &pose, origin, up, &settings, NULL, &out), PP_BAD_SETTING);
+    CHECK_STATUS(pp_contact_triangle(NULL, &pose, vertices, NULL, NULL, &out), PP_NULL_POINTER);
+    CHECK_STATUS(pp_contact_triangle(ball, NULL, vertices, NULL, NULL, &out), PP_NULL_POINTER);
+    CHECK_STATUS(pp_contact_triangle(ball, &pose, NULL, NULL, NULL, &out), PP_NULL_POINTER);
+    CHECK_STATUS(pp_contact_triangle(ball, &pose, vertices, NULL, NULL, NULL), PP_NULL_POINTER);
+    CHECK_STATUS(pp_contact_triangle(ball, &pose, with_nan, NULL, NULL, &out), PP_BAD_POINT);
+    CHECK_STATUS(pp_contact_triangle(ball, &pose, on_a_line, NULL, NULL, &out), PP_DEGENERATE_TRIANGLE);
+    CHECK_STATUS(pp_contact_triangle(ball, &bad_pose, vertices, NULL, NULL, &out), PP_BAD_POSITION);
+    CHECK_STATUS(pp_contact_triangle(ball, &pose, vertices, &settings, NULL, &out), PP_BAD_SETTING);
     CHECK_UNTOUCHED(out);
-    CHECK_STATUS(pp_contact_plane(ball, &pose, origin, up, NULL, &out), PP_OK);
+    CHECK_STATUS(pp_contact_plane(ball, &pose, origin, up, NULL, NULL, &out), PP_OK);
     CHECK_STATUS(pp_flat_contact_area(NULL, &pose, &out, 1e-6, &area), PP_NULL_POINTER);
     CHECK_STATUS(pp_flat_contact_area(ball, NULL, &out, 1e-6, &area), PP_NULL_POINTER);
     CHECK_STATUS(pp_flat_contact_area(ball, &pose, NULL, 1e-6, &area), PP_NULL_POINTER);
@@ -132,6 +151,7 @@ static void bad_input_is_refused_and_nothing_written(void) {
 void test_flat(void) {
     a_sphere_on_a_plane();
     a_sphere_at_each_part_of_a_triangle();
+    a_state_makes_no_difference();
     a_centre_on_the_plane_is_flagged();
     bad_input_is_refused_and_nothing_written();
 }

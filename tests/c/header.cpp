@@ -12,9 +12,9 @@ int main() {
     pp_particle *sphere = nullptr;
     if (pp_particle_new(nullptr, 0, 0.0, 1.0, 1.0, &sphere, nullptr, 0) != PP_OK) return 1;
     pp_pose at_origin{{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0, 0.0}}, beside{{1.5, 0.0, 0.0}, {1.0, 0.0, 0.0, 0.0}};
-    pp_memory memory{};
+    pp_pair_state state{};
     pp_contact contact{};
-    const bool found = pp_contact_detect(sphere, &at_origin, sphere, &beside, nullptr, &memory, &contact) == PP_OK &&
+    const bool found = pp_contact_detect(sphere, &at_origin, sphere, &beside, nullptr, &state, &contact) == PP_OK &&
                        contact.kind == PP_OVERLAPPING && contact.normal[0] > 0.999;
     pp_particle_free(sphere);
     const bool passed = found && std::strlen(pp_version()) > 0;

@@ -1,5 +1,5 @@
 /* A hostile caller: every double of every struct that goes in spoilt in turn, numbers at the ends of their range,
- * the memory of one pair used for another. Whatever comes, a status comes back, and nothing else is touched. */
+ * the state of one pair used for another. Whatever comes, a status comes back, and nothing else is touched. */
 #include "answer.h"
 #include "bodies.h"
 #include "check.h"
@@ -43,9 +43,9 @@ static void poses_of_any_numbers(const pair_set *set) {
                 numbers[i] = numbers[j] = extremes[e];
                 check_case("pose numbers %d and %d = %g", i, j, extremes[e]);
                 pp_contact contact;
-                pp_memory memory = {{0}};
+                pp_pair_state state = {0};
                 FILL(contact);
-                pp_status status = pp_contact_detect(p->a, &poses[0], p->b, &poses[1], NULL, &memory, &contact);
+                pp_status status = pp_contact_detect(p->a, &poses[0], p->b, &poses[1], NULL, &state, &contact);
                 check_call(status, &contact);
                 if (!isfinite(extremes[e])) CHECK(status == PP_BAD_POSITION || status == PP_BAD_ORIENTATION);
             }
@@ -115,10 +115,10 @@ static void contacts_of_any_numbers(const pair_set *set) {
     check_case(NULL);
 }
 
-/* One memory that wanders over all pairs and both orders, and a copy of it that stays behind. */
-static void one_memory_for_all(const pair_set *set) {
+/* One state that wanders over all pairs and both orders, and a copy of it that stays behind. */
+static void one_state_for_all(const pair_set *set) {
     pp_settings settings = settings_for(&ways[0]);
-    pp_memory wandering = {{0}}, old = {{0}};
+    pp_pair_state wandering = {0}, old = {0};
     for (int round = 0; round < 4; round++) {
         for (int i = 0; i < PAIRS; i++) {
             const pair *p = &set->pairs[(7 * i + round) % PAIRS];
@@ -129,7 +129,7 @@ static void one_memory_for_all(const pair_set *set) {
             CHECK_NEAR(warm.s, cold.s, warm.gap + cold.gap);
             CHECK_STATUS(pp_contact_detect(p->a, &p->pose_a, p->b, &p->pose_b, &settings, &wandering, &warm), PP_OK);
             CHECK_NEAR(warm.s, cold.s, warm.gap + cold.gap);
-            pp_memory copy = old;
+            pp_pair_state copy = old;
             CHECK_STATUS(pp_contact_detect(p->a, &p->pose_a, p->b, &p->pose_b, &settings, &copy, &stale), PP_OK);
             CHECK_NEAR(stale.s, cold.s, stale.gap + cold.gap);
             if (i == PAIRS / 2) old = wandering;
@@ -144,6 +144,6 @@ void test_hostile(void) {
     poses_of_any_numbers(&set);
     particles_of_any_numbers();
     contacts_of_any_numbers(&set);
-    one_memory_for_all(&set);
+    one_state_for_all(&set);
     pairs_free(&set);
 }

@@ -29,7 +29,7 @@ int main(int count, char **arguments) {
     test_cube_contact();
     test_area();
     test_closest();
-    test_memory();
+    test_pair_state();
     test_carried();
     test_flat();
     test_hostile();

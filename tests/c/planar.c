@@ -269,19 +269,19 @@ static void bad_input_is_refused(void) {
     pp_particle_2d *circle = new_circle_2d(1.0);
     const pp_pose_2d home = {.angle = 1.0}, beside = {.position = {1.5, 0}};
     pp_contact_2d good, contact;
-    pp_memory memory;
+    pp_pair_state state;
     double length;
     CHECK_STATUS(pp_contact_detect_2d(circle, &home, circle, &beside, NULL, NULL, &good), PP_OK);
     FILL(contact);
-    FILL(memory);
+    FILL(state);
     FILL(length);
-#define DETECT(a, pose_a, b, pose_b) pp_contact_detect_2d(a, pose_a, b, pose_b, NULL, &memory, &contact)
+#define DETECT(a, pose_a, b, pose_b) pp_contact_detect_2d(a, pose_a, b, pose_b, NULL, &state, &contact)
 #define LENGTH(a, pose_a, b, pose_b) pp_contact_length_2d(a, pose_a, b, pose_b, &good, &length)
     CHECK_STATUS(DETECT(NULL, &home, circle, &beside), PP_NULL_POINTER);
     CHECK_STATUS(DETECT(circle, NULL, circle, &beside), PP_NULL_POINTER);
     CHECK_STATUS(DETECT(circle, &home, NULL, &beside), PP_NULL_POINTER);
     CHECK_STATUS(DETECT(circle, &home, circle, NULL), PP_NULL_POINTER);
-    CHECK_STATUS(pp_contact_detect_2d(circle, &home, circle, &beside, NULL, &memory, NULL), PP_NULL_POINTER);
+    CHECK_STATUS(pp_contact_detect_2d(circle, &home, circle, &beside, NULL, &state, NULL), PP_NULL_POINTER);
     CHECK_STATUS(LENGTH(NULL, &home, circle, &beside), PP_NULL_POINTER);
     CHECK_STATUS(LENGTH(circle, NULL, circle, &beside), PP_NULL_POINTER);
     CHECK_STATUS(LENGTH(circle, &home, NULL, &beside), PP_NULL_POINTER);
@@ -323,10 +323,10 @@ static void bad_input_is_refused(void) {
     check_case("settings");
     pp_settings spoilt = default_settings();
     spoilt.formulation = 2;
-    CHECK_STATUS(pp_contact_detect_2d(circle, &home, circle, &beside, &spoilt, &memory, &contact), PP_UNKNOWN_FORMULATION);
+    CHECK_STATUS(pp_contact_detect_2d(circle, &home, circle, &beside, &spoilt, &state, &contact), PP_UNKNOWN_FORMULATION);
     spoilt = default_settings();
     spoilt.gap_tolerance = NAN;
-    CHECK_STATUS(pp_contact_detect_2d(circle, &home, circle, &beside, &spoilt, &memory, &contact), PP_BAD_SETTING);
+    CHECK_STATUS(pp_contact_detect_2d(circle, &home, circle, &beside, &spoilt, &state, &contact), PP_BAD_SETTING);
     check_case("overflow");
     const pp_pose_2d west = {.position = {-1.7e308, 0}}, east = {.position = {1.7e308, 0}};
     CHECK_STATUS(DETECT(circle, &west, circle, &east), PP_SOLVER_FAILED);
@@ -334,18 +334,18 @@ static void bad_input_is_refused(void) {
 #undef DETECT
 #undef LENGTH
     CHECK_UNTOUCHED(contact);
-    CHECK_UNTOUCHED(memory);
+    CHECK_UNTOUCHED(state);
     CHECK_UNTOUCHED(length);
     pp_particle_free_2d(circle);
 }
 
-static void memory_and_rejection(void) {
+static void state_and_rejection(void) {
     pp_particle_2d *square = new_square_2d(1.0, 0.5, 0.3, 2.0);
     const pp_pose_2d home = {.angle = 0.3}, beside = {.position = {2.4, 0.4}, .angle = -0.2}, far = {.position = {30, 0}};
-    pp_memory memory = {{0}};
+    pp_pair_state state = {0};
     pp_contact_2d cold, warm;
-    CHECK_STATUS(pp_contact_detect_2d(square, &home, square, &beside, NULL, &memory, &cold), PP_OK);
-    CHECK_STATUS(pp_contact_detect_2d(square, &home, square, &beside, NULL, &memory, &warm), PP_OK);
+    CHECK_STATUS(pp_contact_detect_2d(square, &home, square, &beside, NULL, &state, &cold), PP_OK);
+    CHECK_STATUS(pp_contact_detect_2d(square, &home, square, &beside, NULL, &state, &warm), PP_OK);
     CHECK(cold.kind == PP_OVERLAPPING && warm.kind == PP_OVERLAPPING);
     CHECK((cold.flags & PP_FLAG_WARM) == 0 && (warm.flags & PP_FLAG_WARM) != 0);
     CHECK_NEAR(warm.s, cold.s, warm.gap + cold.gap);
@@ -440,5 +440,5 @@ void test_planar(void) {
     circles();
     stacked_squares();
     bad_input_is_refused();
-    memory_and_rejection();
+    state_and_rejection();
 }

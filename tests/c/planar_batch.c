@@ -1,4 +1,4 @@
-/* pp_contact_detect_batch_2d: every contact and memory has the very bits of a call for its pair alone, whatever the
+/* pp_contact_detect_batch_2d: every contact and state has the very bits of a call for its pair alone, whatever the
  * number of threads, and what is wrong with one pair does not touch the others. */
 #include "bodies.h"
 #include "check.h"
@@ -39,55 +39,59 @@ static void scene_free(scene *s) {
 }
 
 typedef struct {
-    pp_memory memories[MANY];
+    pp_pair_state states[MANY];
     pp_contact_2d contacts[MANY];
     pp_status statuses[MANY];
 } results;
 
-static pp_status batch(const scene *s, const pp_settings *settings, uint32_t threads, pp_memory *memories, results *r) {
-    return pp_contact_detect_batch_2d(s->particles, s->poses, BODIES, s->pairs, MANY, settings, threads, memories,
+static pp_status batch(const scene *s, const pp_settings *settings, uint32_t threads, pp_pair_state *states, results *r) {
+    return pp_contact_detect_batch_2d(s->particles, s->poses, BODIES, s->pairs, MANY, settings, threads, states,
                                       r->contacts, r->statuses);
 }
 
-static void one_by_one(const scene *s, const pp_settings *settings, pp_memory *memories, results *r) {
+static void one_by_one(const scene *s, const pp_settings *settings, pp_pair_state *states, results *r) {
     for (int n = 0; n < MANY; n++) {
         const uint32_t a = s->pairs[2 * n], b = s->pairs[2 * n + 1];
         r->statuses[n] = pp_contact_detect_2d(s->particles[a], &s->poses[a], s->particles[b], &s->poses[b], settings,
-                                              memories ? &memories[n] : NULL, &r->contacts[n]);
+                                              states ? &states[n] : NULL, &r->contacts[n]);
     }
 }
 
 static void check_same(const results *got, const results *expected) {
     CHECK_SAME_BYTES(got->statuses, expected->statuses, sizeof got->statuses);
     CHECK_SAME_BYTES(got->contacts, expected->contacts, sizeof got->contacts);
-    CHECK_SAME_BYTES(got->memories, expected->memories, sizeof got->memories);
+    CHECK_SAME_BYTES(got->states, expected->states, sizeof got->states);
 }
 
 static void same_bits_as_one_by_one(scene *s, results *alone, results *got) {
     const uint32_t threads[] = {0, 1, 3, 1000};
-    for (uint32_t formulation = PP_MIDWAY; formulation <= PP_CLOSEST; formulation++) {
+    for (int w = 0; w < 3; w++) {
         pp_settings settings = default_settings();
-        settings.formulation = formulation;
+        settings.formulation = w == 1 ? PP_CLOSEST : PP_MIDWAY;
+        settings.carry_tolerance = w == 2 ? 1e-9 : 0;
         for (size_t t = 0; t < sizeof threads / sizeof threads[0]; t++) {
             memset(alone, 0, sizeof *alone);
             memset(got, 0, sizeof *got);
             for (int step = 0; step < STEPS; step++) {
-                check_case("formulation %u, %u threads, step %d", (unsigned)formulation, (unsigned)threads[t], step);
-                one_by_one(s, &settings, alone->memories, alone);
-                CHECK_STATUS(batch(s, &settings, threads[t], got->memories, got), PP_OK);
+                check_case("formulation %u, carry_tolerance %g, %u threads, step %d", (unsigned)settings.formulation,
+                           settings.carry_tolerance, (unsigned)threads[t], step);
+                one_by_one(s, &settings, alone->states, alone);
+                CHECK_STATUS(batch(s, &settings, threads[t], got->states, got), PP_OK);
                 check_same(got, alone);
-                int contacts = 0, warm = 0;
+                int contacts = 0, warm = 0, carried = 0;
                 for (int n = 0; n < MANY; n++) {
                     CHECK_STATUS(got->statuses[n], PP_OK);
                     contacts += got->contacts[n].kind == PP_OVERLAPPING;
                     warm += (got->contacts[n].flags & PP_FLAG_WARM) != 0;
+                    carried += (got->contacts[n].flags & PP_FLAG_CARRIED) != 0;
                 }
                 CHECK(contacts > MANY / 4 && contacts < MANY * 3 / 4);
                 CHECK(step == 0 ? warm == 0 : warm >= contacts);
+                CHECK(step > 0 && w == 2 ? carried > contacts / 4 : carried == 0);
             }
         }
     }
-    check_case("no memories, no settings");
+    check_case("no states, no settings");
     memset(alone, 0, sizeof *alone);
     memset(got, 0, sizeof *got);
     one_by_one(s, NULL, NULL, alone);
@@ -100,7 +104,7 @@ static void same_bits_as_one_by_one(scene *s, results *alone, results *got) {
 static void faults_stay_with_their_pairs(const scene *good, results *alone, results *got) {
     scene s = *good;
     memset(alone, 0, sizeof *alone);
-    one_by_one(&s, NULL, alone->memories, alone);
+    one_by_one(&s, NULL, alone->states, alone);
     s.particles[3] = NULL;
     s.poses[8].position[1] = NAN;
     s.poses[20].angle = INFINITY;
@@ -108,8 +112,8 @@ static void faults_stay_with_their_pairs(const scene *good, results *alone, resu
     s.pairs[2 * 101 + 1] = UINT32_MAX;
     for (uint32_t threads = 1; threads <= 4; threads += 3) {
         FILL(*got);
-        memset(got->memories, 0, sizeof got->memories);
-        CHECK_STATUS(batch(&s, NULL, threads, got->memories, got), PP_OK);
+        memset(got->states, 0, sizeof got->states);
+        CHECK_STATUS(batch(&s, NULL, threads, got->states, got), PP_OK);
         int faults = 0;
         for (int n = 0; n < MANY; n++) {
             pp_status expected = PP_OK;
@@ -124,11 +128,11 @@ static void faults_stay_with_their_pairs(const scene *good, results *alone, resu
             CHECK_STATUS(got->statuses[n], expected);
             if (expected == PP_OK) {
                 CHECK_SAME_BYTES(&got->contacts[n], &alone->contacts[n], sizeof(pp_contact_2d));
-                CHECK_SAME_BYTES(&got->memories[n], &alone->memories[n], sizeof(pp_memory));
+                CHECK_SAME_BYTES(&got->states[n], &alone->states[n], sizeof(pp_pair_state));
             } else {
                 faults++;
                 CHECK_UNTOUCHED(got->contacts[n]);
-                CHECK(got->memories[n].state[0] == 0);
+                CHECK(got->states[n].solution[0] == 0);
             }
         }
         CHECK(faults == 3 * 4 + 2);
@@ -139,7 +143,7 @@ static void faults_stay_with_their_pairs(const scene *good, results *alone, resu
 static void bad_arguments_write_nothing(const scene *s, results *got) {
     FILL(*got);
 #define BATCH(particles, poses, bodies, pairs, count, contacts, statuses) \
-    pp_contact_detect_batch_2d(particles, poses, bodies, pairs, count, NULL, 2, got->memories, contacts, statuses)
+    pp_contact_detect_batch_2d(particles, poses, bodies, pairs, count, NULL, 2, got->states, contacts, statuses)
     CHECK_STATUS(BATCH(NULL, s->poses, BODIES, s->pairs, MANY, got->contacts, got->statuses), PP_NULL_POINTER);
     CHECK_STATUS(BATCH(s->particles, NULL, BODIES, s->pairs, MANY, got->contacts, got->statuses), PP_NULL_POINTER);
     CHECK_STATUS(BATCH(s->particles, s->poses, BODIES, NULL, MANY, got->contacts, got->statuses), PP_NULL_POINTER);
@@ -149,10 +153,10 @@ static void bad_arguments_write_nothing(const scene *s, results *got) {
     CHECK_STATUS(BATCH(s->particles, s->poses, BODIES, s->pairs, SIZE_MAX, got->contacts, got->statuses), PP_BAD_INDEX);
     pp_settings settings = default_settings();
     settings.back_end = 7;
-    CHECK_STATUS(batch(s, &settings, 2, got->memories, got), PP_UNKNOWN_BACK_END);
+    CHECK_STATUS(batch(s, &settings, 2, got->states, got), PP_UNKNOWN_BACK_END);
     settings = default_settings();
     settings.gap_tolerance = 0;
-    CHECK_STATUS(batch(s, &settings, 2, got->memories, got), PP_BAD_SETTING);
+    CHECK_STATUS(batch(s, &settings, 2, got->states, got), PP_BAD_SETTING);
     CHECK_STATUS(pp_contact_detect_batch_2d(NULL, NULL, 0, NULL, 0, NULL, 4, NULL, NULL, NULL), PP_OK);
     CHECK_UNTOUCHED(*got);
 #undef BATCH

@@ -12,7 +12,7 @@ static pp_pose other = {.position = {0.5, 0.25, 0.125}, .orientation = {0.8, 0.4
 
 /* One call per pose argument of the interface. Each checks that a refusal writes nothing, and
  * copies what an accepted pose gives to `answer`. */
-enum { ANSWER = sizeof(pp_contact) + sizeof(pp_memory) };
+enum { ANSWER = sizeof(pp_contact) + sizeof(pp_pair_state) };
 typedef pp_status (*pose_call)(const pp_pose *pose, unsigned char answer[ANSWER]);
 
 static void deliver(pp_status status, const void *output, size_t size, unsigned char *answer) {
@@ -43,10 +43,10 @@ static pp_status box(const pp_pose *pose, unsigned char *answer) {
 static pp_status detect(const pp_pose *pose_a, const pp_pose *pose_b, unsigned char *answer) {
     struct {
         pp_contact contact;
-        pp_memory memory;
+        pp_pair_state state;
     } out;
     FILL(out);
-    pp_status status = pp_contact_detect(body, pose_a, body, pose_b, NULL, &out.memory, &out.contact);
+    pp_status status = pp_contact_detect(body, pose_a, body, pose_b, NULL, &out.state, &out.contact);
     deliver(status, &out, sizeof out, answer);
     return status;
 }

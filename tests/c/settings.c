@@ -12,12 +12,12 @@ static const pp_pose pose_b = {.position = {2.5, 0.25, 0.125}, .orientation = {0
 
 static void check_refused(const pp_settings *settings, pp_status expected) {
     pp_contact contact;
-    pp_memory memory;
+    pp_pair_state state;
     FILL(contact);
-    FILL(memory);
-    CHECK_STATUS(pp_contact_detect(body, &pose_a, body, &pose_b, settings, &memory, &contact), expected);
+    FILL(state);
+    CHECK_STATUS(pp_contact_detect(body, &pose_a, body, &pose_b, settings, &state, &contact), expected);
     CHECK_UNTOUCHED(contact);
-    CHECK_UNTOUCHED(memory);
+    CHECK_UNTOUCHED(state);
 }
 
 static void check_accepted(const pp_settings *settings) {
@@ -36,6 +36,7 @@ static void defaults_are_those_of_the_header(void) {
     CHECK(settings.gap_tolerance == 1e-12);
     CHECK(settings.weight_on_a == 0.5);
     CHECK(settings.flat_regularisation == 1e-13);
+    CHECK(settings.carry_tolerance == 0);
     CHECK_STATUS(pp_settings_default(NULL), PP_NULL_POINTER);
 
     /* NULL means these. */
@@ -79,6 +80,10 @@ static void ranges_are_checked(void) {
          offsetof(pp_settings, flat_regularisation),
          {0.0, 1e-4, 0.1},
          {-DBL_MIN, 0.1001, 1.0}},
+        {"carry_tolerance",
+         offsetof(pp_settings, carry_tolerance),
+         {0.0, 1e-9, 0.1},
+         {-DBL_MIN, 0.1001, 1.0}},
     };
     const double never[] = {NAN, INFINITY, -INFINITY};
     for (size_t i = 0; i < sizeof ranges / sizeof ranges[0]; i++) {
@@ -101,17 +106,17 @@ static void ranges_are_checked(void) {
 
 static void null_is_refused(void) {
     pp_contact contact;
-    pp_memory memory;
+    pp_pair_state state;
     FILL(contact);
-    FILL(memory);
-    CHECK_STATUS(pp_contact_detect(NULL, &pose_a, body, &pose_b, NULL, &memory, &contact), PP_NULL_POINTER);
-    CHECK_STATUS(pp_contact_detect(body, NULL, body, &pose_b, NULL, &memory, &contact), PP_NULL_POINTER);
-    CHECK_STATUS(pp_contact_detect(body, &pose_a, NULL, &pose_b, NULL, &memory, &contact), PP_NULL_POINTER);
-    CHECK_STATUS(pp_contact_detect(body, &pose_a, body, NULL, NULL, &memory, &contact), PP_NULL_POINTER);
-    CHECK_STATUS(pp_contact_detect(body, &pose_a, body, &pose_b, NULL, &memory, NULL), PP_NULL_POINTER);
+    FILL(state);
+    CHECK_STATUS(pp_contact_detect(NULL, &pose_a, body, &pose_b, NULL, &state, &contact), PP_NULL_POINTER);
+    CHECK_STATUS(pp_contact_detect(body, NULL, body, &pose_b, NULL, &state, &contact), PP_NULL_POINTER);
+    CHECK_STATUS(pp_contact_detect(body, &pose_a, NULL, &pose_b, NULL, &state, &contact), PP_NULL_POINTER);
+    CHECK_STATUS(pp_contact_detect(body, &pose_a, body, NULL, NULL, &state, &contact), PP_NULL_POINTER);
+    CHECK_STATUS(pp_contact_detect(body, &pose_a, body, &pose_b, NULL, &state, NULL), PP_NULL_POINTER);
     CHECK_UNTOUCHED(contact);
-    CHECK_UNTOUCHED(memory);
-    /* settings and memory may be NULL. */
+    CHECK_UNTOUCHED(state);
+    /* settings and state may be NULL. */
     CHECK_STATUS(pp_contact_detect(body, &pose_a, body, &pose_b, NULL, NULL, &contact), PP_OK);
 }
 

@@ -125,13 +125,13 @@ static void overflow_is_a_failure(void) {
     for (int w = 0; w < WAYS; w++) {
         pp_settings settings = settings_for(&ways[w]);
         pp_contact contact;
-        pp_memory memory;
+        pp_pair_state state;
         FILL(contact);
-        FILL(memory);
+        FILL(state);
         check_case("overflow, %s", ways[w].name);
-        CHECK_STATUS(pp_contact_detect(a, &pose_a, a, &pose_b, &settings, &memory, &contact), PP_SOLVER_FAILED);
+        CHECK_STATUS(pp_contact_detect(a, &pose_a, a, &pose_b, &settings, &state, &contact), PP_SOLVER_FAILED);
         CHECK_UNTOUCHED(contact);
-        CHECK_UNTOUCHED(memory);
+        CHECK_UNTOUCHED(state);
     }
     check_case(NULL);
     pp_particle_free(a);

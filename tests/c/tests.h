@@ -14,7 +14,7 @@ void test_sphere_contact(void);
 void test_cube_contact(void);
 void test_area(void);
 void test_closest(void);
-void test_memory(void);
+void test_pair_state(void);
 void test_carried(void);
 void test_flat(void);
 void test_hostile(void);

@@ -36,9 +36,9 @@ static void ask(const pair_set *set, int index, findings *found) {
     for (int w = 0; w < WAYS; w++) {
         if (ways[w].back_end == PP_CONE_PROGRAM && index % CONE_PROGRAM_EVERY != 0) continue;
         pp_settings settings = settings_for(&ways[w]);
-        pp_memory memory = {{0}};
-        *status++ = pp_contact_detect(p->a, &p->pose_a, p->b, &p->pose_b, &settings, &memory, &found->cold[w]);
-        *status++ = pp_contact_detect(p->a, &p->pose_a, p->b, &p->pose_b, &settings, &memory, &found->warm[w]);
+        pp_pair_state state = {0};
+        *status++ = pp_contact_detect(p->a, &p->pose_a, p->b, &p->pose_b, &settings, &state, &found->cold[w]);
+        *status++ = pp_contact_detect(p->a, &p->pose_a, p->b, &p->pose_b, &settings, &state, &found->warm[w]);
     }
     *status++ = pp_contact_area(p->a, &p->pose_a, p->b, &p->pose_b, &found->cold[0], 1e-6, &found->area);
     *status++ = pp_particle_potential(p->a, &p->pose_a, p->pose_b.position, found->potential, found->potential + 1);

@@ -3,7 +3,7 @@
 use crate::random::Random;
 use crate::shapes::{self, Hull, Recipe, Sphericity};
 use nalgebra::Vector3;
-use potential_particles::{Carried, Contact, Flags, Kind, Memory, Particle, Pose, Settings, detect, detect_carried};
+use potential_particles::{Contact, Flags, Kind, PairState, Particle, Pose, Settings, detect};
 
 /// Answers of the extended tier.
 fn exactly() -> Settings {
@@ -67,12 +67,11 @@ pub fn walk(random: &mut Random, tally: &mut Tally) {
     let away = (poses[1].position() - poses[0].position()).try_normalize(0.0).unwrap_or_else(Vector3::x);
     let drift = if random.uniform() < 0.5 { step * (2.0 * random.uniform() - 1.0) * away } else { Vector3::zeros() };
     let tolerance = if random.uniform() < 0.5 { 1e-9 } else { random.log_uniform(1e-14, 1e-1) };
-    let (mut memory, mut carried, mut touched) = (Memory::default(), Carried::default(), false);
+    let settings = Settings { carry_tolerance: tolerance, ..Settings::default() };
+    let (mut state, mut touched) = (PairState::default(), false);
     for i in 0..60 {
         let [at_a, at_b] = &poses;
-        let contact =
-            detect_carried(&a, at_a, &b, at_b, &Settings::default(), tolerance, Some(&mut memory), &mut carried)
-                .unwrap();
+        let contact = detect(&a, at_a, &b, at_b, &settings, Some(&mut state)).unwrap();
         if contact.kind == Kind::Overlapping {
             tally.contacts += 1;
         }

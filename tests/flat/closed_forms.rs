@@ -57,7 +57,7 @@ fn a_sphere_and_a_plane_from_either_side_with_its_area() {
     for height in [1.75_f64, -1.75, 0.5, -1e-3] {
         let position = Vector3::new(2.0, -3.0, 1.0) + height * normal;
         let pose = Pose::new(position.into(), [0.5, 0.1, -0.7, 0.2]).unwrap();
-        let contact = contact_with_plane(&ball, &pose, &wall, &Settings::default()).unwrap();
+        let contact = contact_with_plane(&ball, &pose, &wall, &Settings::default(), None).unwrap();
         assert!((contact.overlap - (2.0 - height.abs())).abs() < 4e-15, "{contact:?}");
         assert_eq!(contact.normal, -height.signum() * normal);
         let middle = 0.5 * (2.0 + height.abs());
@@ -71,7 +71,7 @@ fn a_centre_on_the_boundary_counts_as_in_front_of_it() {
     let ball = Particle::sphere(1.0).unwrap();
     let at_origin = Pose::at([0.0; 3]).unwrap();
     let wall = Wall::new([3.0, 2.0, 0.0], [0.0, 0.0, 5.0]).unwrap();
-    let on_plane = contact_with_plane(&ball, &at_origin, &wall, &Settings::default()).unwrap();
+    let on_plane = contact_with_plane(&ball, &at_origin, &wall, &Settings::default(), None).unwrap();
     for contact in
         [on_plane, touch(&ball, &at_origin, [[-1.0, -1.0, 0.0], [3.0, -1.0, 0.0], [-1.0, 3.0, 0.0]], &solved())]
     {
@@ -93,7 +93,7 @@ fn a_rounded_cube_lies_flat_on_a_plane() {
             // Its lower face is at 0.5 below the centre.
             let height = 0.5 - overlap;
             let pose = Pose::at([1.0, -5.0, 2.0 + height]).unwrap();
-            let contact = contact_with_plane(&cube, &pose, &floor, &Settings::default()).unwrap();
+            let contact = contact_with_plane(&cube, &pose, &floor, &Settings::default(), None).unwrap();
             assert!((contact.overlap - overlap).abs() < 4.0 * f64::EPSILON, "{r}: {contact:?}");
             let s = 1.0 - overlap / r;
             assert!((contact.s - s).abs() <= contact.gap, "{r}: {contact:?}");
@@ -101,7 +101,7 @@ fn a_rounded_cube_lies_flat_on_a_plane() {
             assert!(contact.normal == -Vector3::z() && (contact.branch.xy()).norm() < 1e-12, "{contact:?}");
         }
         let pose = Pose::at([1.0, -5.0, 2.0 + 0.5 + 1e-9]).unwrap();
-        let contact = contact_with_plane(&cube, &pose, &floor, &solved()).unwrap();
+        let contact = contact_with_plane(&cube, &pose, &floor, &solved(), None).unwrap();
         assert!(contact.kind == Kind::Separated && (contact.distance - 1e-9).abs() < 1e-12, "{contact:?}");
     }
 }
@@ -119,7 +119,7 @@ fn a_cube_stands_on_a_corner_and_an_edge() {
     .unwrap();
     let height = 0.375 * 3f64.sqrt() + 0.5 * r;
     let floor = Wall::new([0.0, 0.0, -height], [0.0, 0.0, 1.0]).unwrap();
-    let contact = contact_with_plane(&cube, &upright, &floor, &solved()).unwrap();
+    let contact = contact_with_plane(&cube, &upright, &floor, &solved(), None).unwrap();
     assert!((contact.s - 0.5).abs() <= contact.gap, "{contact:?}");
     assert!((contact.overlap - 0.5 * r).abs() < 1e-15 && contact.branch.xy().norm() < 1e-12, "{contact:?}");
 }

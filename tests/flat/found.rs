@@ -17,7 +17,7 @@ fn a_triangle_that_cuts_a_sharp_body() {
     ]);
     let pose = Pose::at([0.0; 3]).unwrap();
     for settings in [Settings::default(), solved(), Settings { gap_tolerance: 1e-14, ..Settings::default() }] {
-        let contact = contact_with_triangle(&particle, &pose, &triangle.unwrap(), &settings).unwrap();
+        let contact = contact_with_triangle(&particle, &pose, &triangle.unwrap(), &settings, None).unwrap();
         assert!(contact.kind == Kind::Overlapping && contact.s <= 0.6249 && contact.gap < 1e-6, "{contact:?}");
     }
 }
@@ -33,6 +33,6 @@ fn a_plane_parallel_to_a_face_to_rounding() {
         [-0.48496019871972545, 0.38563360547324593, 0.06974334096396821],
         [-1.3471743716064284, 1.0712543223651303, 0.1937405205444922],
     );
-    let contact = contact_with_plane(&particle, &pose, &wall.unwrap(), &Settings::default()).unwrap();
+    let contact = contact_with_plane(&particle, &pose, &wall.unwrap(), &Settings::default(), None).unwrap();
     assert!(contact.gap < 1e-6, "{contact:?}");
 }

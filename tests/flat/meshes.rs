@@ -38,7 +38,7 @@ fn of_a_flat_floor_the_owner_is_what_the_plane_is() {
             for [x, y] in [[way, 0.0], [way, 0.1], [way, way], [way, -way]] {
                 let turn = if number == 0 { [1.0, 0.0, 0.0, 0.0] } else { [1.0, 0.05, 0.1, 0.3] };
                 let pose = Pose::new([x, y, 0.48], turn).unwrap();
-                let plane = contact_with_plane(particle, &pose, &wall, &settings).unwrap();
+                let plane = contact_with_plane(particle, &pose, &wall, &settings, None).unwrap();
                 let contacts: Vec<_> = floor().into_iter().map(|t| touch(particle, &pose, t, &settings)).collect();
                 let (_, owner) = owner(&contacts);
                 assert!((owner.s - plane.s).abs() <= owner.gap + plane.gap, "{owner:?}, {plane:?}");
@@ -104,7 +104,8 @@ fn a_call_knows_nothing_of_the_one_before() {
     let (particle, settings) = (cube(0.02, 1e-4), Settings::default());
     let triangles: Vec<_> = floor().into_iter().map(crate::triangle).collect();
     let all = |pose: &Pose, backwards: bool| {
-        let solve = |i: usize| contact_with_triangle(&particle, pose, &triangles[i], &settings).unwrap().s.to_bits();
+        let solve =
+            |i: usize| contact_with_triangle(&particle, pose, &triangles[i], &settings, None).unwrap().s.to_bits();
         let count = triangles.len();
         let mut found: Vec<_> = (0..count).map(|i| solve(if backwards { count - 1 - i } else { i })).collect();
         if backwards {

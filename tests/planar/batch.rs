@@ -2,7 +2,7 @@
 
 use crate::body::Body;
 use potential_particles::planar::{Particle, Pose, detect, detect_batch};
-use potential_particles::{DetectError, Flags, Kind, Memory, Settings};
+use potential_particles::{DetectError, Flags, Kind, PairState, Settings};
 
 /// Squares and circles on a grid, each turned its own way, and every pair of neighbours.
 struct Grid {
@@ -36,24 +36,28 @@ impl Grid {
 #[test]
 fn answers_are_those_of_single_calls_for_any_number_of_threads() {
     let grid = Grid::new();
-    let (bodies, poses, settings) = (grid.bodies(), &grid.poses, Settings::default());
-    for threads in [0, 1, 2, 7] {
-        let mut memories = vec![Memory::default(); grid.pairs.len()];
-        let mut own = memories.clone();
+    let (bodies, poses) = (grid.bodies(), &grid.poses);
+    for (threads, carry_tolerance) in [(0, 0.0), (1, 1e-9), (2, 0.0), (7, 1e-9)] {
+        let settings = Settings { carry_tolerance, ..Settings::default() };
+        let mut states = vec![PairState::default(); grid.pairs.len()];
+        let mut own = states.clone();
         for step in 0..2 {
-            let answers = detect_batch(&bodies, poses, &grid.pairs, &settings, threads, &mut memories).unwrap();
-            let mut overlapping = 0;
-            for ((&[i, j], memory), answer) in grid.pairs.iter().zip(&mut own).zip(&answers) {
+            let answers = detect_batch(&bodies, poses, &grid.pairs, &settings, threads, &mut states).unwrap();
+            let (mut overlapping, mut carried) = (0, 0);
+            for ((&[i, j], state), answer) in grid.pairs.iter().zip(&mut own).zip(&answers) {
                 let ((a, at_a), (b, at_b)) =
                     ((bodies[i as usize], &poses[i as usize]), (bodies[j as usize], &poses[j as usize]));
-                let alone = detect(a, at_a, b, at_b, &settings, Some(memory)).unwrap();
+                let alone = detect(a, at_a, b, at_b, &settings, Some(state)).unwrap();
                 let answer = answer.as_ref().unwrap();
                 // NaN in the same places, too.
                 assert_eq!(format!("{answer:?}"), format!("{alone:?}"), "{threads} threads, step {step}, {i} and {j}");
                 overlapping += usize::from(answer.kind == Kind::Overlapping);
+                carried += usize::from(answer.flags.contains(Flags::CARRIED));
                 assert!(answer.kind == Kind::Separated || answer.flags.contains(Flags::WARM) == (step == 1));
             }
-            assert_eq!((answers.len(), &memories), (grid.pairs.len(), &own));
+            assert_eq!(answers.len(), grid.pairs.len());
+            assert_eq!(format!("{states:?}"), format!("{own:?}"));
+            assert_eq!(carried > answers.len() / 8, step == 1 && carry_tolerance > 0.0, "{carried}");
             assert!(overlapping > answers.len() / 4 && overlapping < answers.len(), "{overlapping}");
         }
     }
@@ -67,8 +71,8 @@ fn what_does_not_fit_is_refused_and_a_missing_body_is_told_by_its_pair() {
     let (bodies, poses, pairs, settings) = (grid.bodies(), &grid.poses, &grid.pairs, Settings::default());
     let short = detect_batch(&bodies, &poses[1..], pairs, &settings, 1, &mut []);
     assert!(matches!(short, Err(DetectError::Length { what: "poses", .. })), "{short:?}");
-    let short = detect_batch(&bodies, poses, pairs, &settings, 1, &mut [Memory::default(); 3]);
-    assert!(matches!(short, Err(DetectError::Length { what: "memories", given: 3, .. })), "{short:?}");
+    let short = detect_batch(&bodies, poses, pairs, &settings, 1, &mut [PairState::default(); 3]);
+    assert!(matches!(short, Err(DetectError::Length { what: "states", given: 3, .. })), "{short:?}");
     let bad = detect_batch(&bodies, poses, pairs, &Settings { gap_tolerance: 0.0, ..settings }, 1, &mut []);
     assert!(matches!(bad, Err(DetectError::Settings(_))), "{bad:?}");
     let answers = detect_batch(&bodies, poses, pairs, &settings, 2, &mut []).unwrap();

@@ -3,7 +3,7 @@
 use crate::body::{Body, midway, searched_closest, searched_midway, solve};
 use nalgebra::{Vector2, Vector3};
 use potential_particles::planar::{Pose, closest_point, detect};
-use potential_particles::{BackEnd, Flags, Formulation, Kind, Memory, ParticleError, Plane, Role, Settings};
+use potential_particles::{BackEnd, Flags, Formulation, Kind, PairState, ParticleError, Plane, Role, Settings};
 use proptest::prelude::*;
 use std::f64::consts::TAU;
 
@@ -205,15 +205,15 @@ proptest! {
     }
 
     #[test]
-    fn memory_never_changes_the_answer_beyond_its_gap((a, b) in pairs(), state in prop::array::uniform8(prop_oneof![Just(1.0), -2.0..2.0, Just(1e300)])) {
+    fn no_state_changes_the_answer_beyond_its_gap((a, b) in pairs(), solution in prop::array::uniform8(prop_oneof![Just(1.0), -2.0..2.0, Just(1e300)])) {
         // Of another pair, even of one in space.
-        let mut state = state;
-        state[0] = 1.0;
+        let mut solution = solution;
+        solution[0] = 1.0;
         let cold = midway(&a, &b);
         let settings = Settings { solve_separated: true, ..Settings::default() };
-        let mut memory = Memory::from_raw(state);
+        let mut state = PairState::from_raw(solution);
         for _ in 0..2 {
-            let warm = detect(&a.particle(), &a.pose(), &b.particle(), &b.pose(), &settings, Some(&mut memory)).unwrap();
+            let warm = detect(&a.particle(), &a.pose(), &b.particle(), &b.pose(), &settings, Some(&mut state)).unwrap();
             prop_assert!((cold.s - warm.s).abs() <= cold.gap + warm.gap);
             prop_assert_eq!(cold.kind, warm.kind);
         }

@@ -4,7 +4,7 @@
 use crate::cases::{BULK, Case, Shapes, family_of, next_group, stream};
 use crate::judge::{FULL, Failure, Shared, Solver, Trial, judge};
 use nalgebra::Vector3;
-use potential_particles::{Contact, DetectError, Kind, Memory, Particle, Plane, Pose, Settings, detect};
+use potential_particles::{Contact, DetectError, Kind, PairState, Particle, Plane, Pose, Settings, detect};
 use std::collections::BTreeMap;
 
 type Answer = Result<Contact, DetectError>;
@@ -54,17 +54,17 @@ const FAMILIES: [usize; 4] = [0, 1, 7, 13];
 fn spoilt(
     (a, at_a, b, at_b): (&Particle, &Pose, &Particle, &Pose),
     settings: &Settings,
-    memory: Option<&mut Memory>,
+    state: Option<&mut PairState>,
     spoil: impl Fn(&mut Contact),
 ) -> Answer {
-    let mut contact = detect(a, at_a, b, at_b, settings, memory)?;
+    let mut contact = detect(a, at_a, b, at_b, settings, state)?;
     spoil(&mut contact);
     Ok(contact)
 }
 
 macro_rules! planted {
     ($spoil:expr) => {
-        |a, at_a, b, at_b, settings, memory| spoilt((a, at_a, b, at_b), settings, memory, $spoil)
+        |a, at_a, b, at_b, settings, state| spoilt((a, at_a, b, at_b), settings, state, $spoil)
     };
 }
 
@@ -125,12 +125,12 @@ fn with_a_plane_forgotten(particle: &Particle, towards: &Vector3<f64>) -> Option
 /// Wherever that plane is part of the contact.
 #[test]
 fn a_plane_that_is_forgotten_is_found() {
-    let solver: Solver = |a, at_a, b, at_b, settings, memory| {
+    let solver: Solver = |a, at_a, b, at_b, settings, state| {
         let right = detect(a, at_a, b, at_b, settings, None)?;
         let towards = at_a.rotation().tr_mul(&right.normal);
         match with_a_plane_forgotten(a, &towards) {
-            Some(less) => detect(&less, at_a, b, at_b, settings, memory),
-            None => detect(a, at_a, b, at_b, settings, memory),
+            Some(less) => detect(&less, at_a, b, at_b, settings, state),
+            None => detect(a, at_a, b, at_b, settings, state),
         }
     };
     let changed: Counts = |right, given| (right.s - given.s).abs() > 2.0 * (right.gap + given.gap);

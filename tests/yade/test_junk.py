@@ -95,7 +95,7 @@ for number_ in range(ROUNDS):
     elif roll < 0.8:
         # Any memory of the right length: it was never made by a solve.
         for pair in O.interactions:
-            attempt(lambda: setattr(pair.geom, "memory", "".join(random.choices("0123456789abcdef", k=256))))
+            attempt(lambda: setattr(pair.geom, "memory", "".join(random.choices("0123456789abcdef", k=128))))
     elif roll < 0.85:
         attempt(lambda: setattr(O.bodies[random.randrange(4)].state, random.choice(["pos", "vel", "angVel"]),
                                 Vector3(*[float(random.choice([0, 1, nan, inf, 1e308, -1e-308])) for _ in range(3)])))

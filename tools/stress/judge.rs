@@ -12,7 +12,7 @@ use crate::random::Random;
 use crate::reference::Body;
 use definition::{batched, carried, enclosed, flips, in_other_units, says_something, surfaces, swapped, well_formed};
 use nalgebra::Vector3;
-use potential_particles::{BackEnd, Contact, DetectError, Flags, Formulation, Memory, Particle, Pose, Settings};
+use potential_particles::{BackEnd, Contact, DetectError, Flags, Formulation, PairState, Particle, Pose, Settings};
 use serde::Serialize;
 use solutions::{by_cone_program, closest, settle, warm};
 use std::cell::OnceCell;
@@ -171,7 +171,7 @@ impl Trial {
 
 /// What is judged; any other solver must be found out.
 pub type Solver =
-    fn(&Particle, &Pose, &Particle, &Pose, &Settings, Option<&mut Memory>) -> Result<Contact, DetectError>;
+    fn(&Particle, &Pose, &Particle, &Pose, &Settings, Option<&mut PairState>) -> Result<Contact, DetectError>;
 
 /// The most planes that the cone program is bothered with.
 const CONE_PROGRAM_PLANES: usize = 80;
@@ -183,6 +183,7 @@ pub const FULL: Settings = Settings {
     gap_tolerance: 1e-12,
     weight_on_a: 0.5,
     flat_regularisation: 1e-13,
+    carry_tolerance: 0.0,
 };
 
 /// What all poses of two shapes share: the shapes in another unit, and as the judge sees them.
@@ -236,8 +237,8 @@ struct Scene<'a> {
 }
 
 impl Scene<'_> {
-    fn detect(&self, at_b: &Pose, settings: &Settings, memory: Option<&mut Memory>) -> Result<Contact, String> {
-        (self.solver)(self.a, &self.at_a, self.b, at_b, settings, memory).map_err(|error| error.to_string())
+    fn detect(&self, at_b: &Pose, settings: &Settings, state: Option<&mut PairState>) -> Result<Contact, String> {
+        (self.solver)(self.a, &self.at_a, self.b, at_b, settings, state).map_err(|error| error.to_string())
     }
 
     fn moved(&self, by: Vector3<f64>) -> Pose {

@@ -4,7 +4,7 @@ use crate::cases::{Case, Shapes, stream};
 use crate::ledger::{Fault, Finding, Ledger};
 use crate::line::Line;
 use crate::random::Random;
-use potential_particles::{Contact, DetectError, Flags, Formulation, Kind, Memory, Settings, detect};
+use potential_particles::{Contact, DetectError, Flags, Formulation, Kind, PairState, Settings, detect};
 use serde::Serialize;
 
 /// What is remembered, as numbers.
@@ -26,7 +26,7 @@ struct Written {
 
 /// A pair with its state from these numbers: the one place where a state is made.
 fn solve(case: &Case, settings: &Settings, raw: Option<&mut Raw>) -> Result<Contact, DetectError> {
-    let mut memory = raw.as_ref().map(|raw| Memory::from_raw(**raw));
+    let mut memory = raw.as_ref().map(|raw| PairState::from_raw(**raw));
     let (a, b) = (&case.shapes.a, &case.shapes.b);
     let answer = detect(a, &case.at_a.pose(), b, &case.at_b.pose(), settings, memory.as_mut());
     if let (Some(raw), Some(memory)) = (raw, memory) {

@@ -95,7 +95,7 @@ pub fn one(seed: u64, index: u64, ledger: &mut Ledger) {
         .map(|t| {
             let triangle = Triangle::new(t.map(|i| mesh.vertices[i])).expect("a triangle of a mesh that was checked");
             // That there is an answer is judged among the walls.
-            contact_with_triangle(&particle, &pose, &triangle, &settings).ok()
+            contact_with_triangle(&particle, &pose, &triangle, &settings, None).ok()
         })
         .collect();
     for i in 0..answers.len() {

@@ -7,7 +7,7 @@ use crate::random::Random;
 use crate::tally::{Found, Tally};
 use indicatif::ProgressBar;
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
-use potential_particles::{Contact, Formulation, Kind, Memory, Pose, Settings, detect};
+use potential_particles::{Contact, Formulation, Kind, PairState, Pose, Settings, detect};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
@@ -45,12 +45,12 @@ pub fn one(seed: u64, walk: u64, tally: &mut Tally) {
     let shapes = Shapes::of(seed, index);
     let case = Case::of(&shapes, seed, index);
     let mut random = stream(seed, 5, walk);
-    let mut memories = [Memory::default(); 3];
+    let mut states = [PairState::default(); 3];
     let mut at_b = case.at_b;
     let small = shapes.a.bounding_radius().min(shapes.b.bounding_radius());
     let meet = shapes.a.bounding_radius() + shapes.b.bounding_radius();
     for step in 0..STEPS {
-        let judged = catch_unwind(AssertUnwindSafe(|| compare(&case, &at_b, &mut memories)));
+        let judged = catch_unwind(AssertUnwindSafe(|| compare(&case, &at_b, &mut states)));
         let wrong = judged.unwrap_or_else(|_| Some((Failure::Panic, "panicked".into())));
         tally.walk_steps += 1;
         if let Some((failure, detail)) = wrong {
@@ -78,13 +78,13 @@ fn walked(at_a: &Place, at_b: &Place, small: f64, meet: f64, random: &mut Random
 }
 
 /// From memory, full, with default settings and by closest, as without.
-fn compare(case: &Case, at_b: &Place, memories: &mut [Memory; 3]) -> Option<(Failure, String)> {
+fn compare(case: &Case, at_b: &Place, states: &mut [PairState; 3]) -> Option<(Failure, String)> {
     let (a, b) = (&case.shapes.a, &case.shapes.b);
     let (pose_a, pose_b): (Pose, Pose) = (case.at_a.pose(), at_b.pose());
-    let answer = |settings: &Settings, memory: Option<&mut Memory>| {
-        detect(a, &pose_a, b, &pose_b, settings, memory).map_err(|error| error.to_string())
+    let answer = |settings: &Settings, state: Option<&mut PairState>| {
+        detect(a, &pose_a, b, &pose_b, settings, state).map_err(|error| error.to_string())
     };
-    let [full, quick, closest] = memories;
+    let [full, quick, closest] = states;
     let mut answers = || -> Result<_, String> {
         let by_closest = [answer(&CLOSEST, None)?, answer(&CLOSEST, Some(closest))?];
         Ok((answer(&FULL, None)?, answer(&FULL, Some(full))?, answer(&Settings::default(), Some(quick))?, by_closest))

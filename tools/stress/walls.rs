@@ -22,10 +22,10 @@ pub fn solve(a: &Particle, pose: &Pose, boundary: &Boundary, settings: &Settings
     let refused = "the boundaries that are drawn are boundaries";
     match boundary {
         Boundary::Plane { point, normal } => {
-            contact_with_plane(a, pose, &Wall::new(*point, *normal).expect(refused), settings)
+            contact_with_plane(a, pose, &Wall::new(*point, *normal).expect(refused), settings, None)
         }
         Boundary::Triangle(vertices) => {
-            contact_with_triangle(a, pose, &Triangle::new(*vertices).expect(refused), settings)
+            contact_with_triangle(a, pose, &Triangle::new(*vertices).expect(refused), settings, None)
         }
     }
 }

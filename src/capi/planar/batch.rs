@@ -4,17 +4,16 @@ use super::contact::contact;
 use super::convert::pose_from;
 use super::particle::pp_particle_2d;
 use super::types::{pp_contact_2d, pp_pose_2d};
-use crate::Settings;
-use crate::capi::batch::{Kept, detect_batch};
+use crate::capi::batch::detect_batch;
 use crate::capi::status::*;
-use crate::capi::types::{pp_memory, pp_settings};
+use crate::capi::types::{pp_pair_state, pp_settings};
 use crate::planar::{Particle, Pose};
-use std::ptr;
+use crate::{PairState, Settings};
 
 /// Finds the contacts of many pairs of bodies of the plane: pp_contact_detect_batch with two coordinates,
 /// where every argument, status and error is explained.
 ///
-/// Each contact and memory is, to the last bit, that of pp_contact_detect_2d for the pair alone, whatever
+/// Each contact and state is, to the last bit, that of pp_contact_detect_2d for the pair alone, whatever
 /// the number of threads.
 /// Errors: PP_NULL_POINTER, PP_UNKNOWN_FORMULATION, PP_UNKNOWN_BACK_END, PP_NO_CONE_PROGRAM, PP_BAD_SETTING,
 /// PP_BAD_INDEX (a count that no memory could hold).
@@ -27,18 +26,20 @@ pub unsafe extern "C" fn pp_contact_detect_batch_2d(
     pair_count: usize,
     settings: *const pp_settings,
     threads: u32,
-    memories: *mut pp_memory,
+    states: *mut pp_pair_state,
     contacts: *mut pp_contact_2d,
     statuses: *mut pp_status,
 ) -> pp_status {
     let (bodies, pairs, outputs) = ((particles, poses, body_count), (pairs, pair_count), (contacts, statuses));
-    let one = |a: &(&Particle, Pose), b: &(&Particle, Pose), settings: &Settings, (memory, _): Kept, out| {
-        contact((a.0, &a.1), (b.0, &b.1), settings, memory, out)
+    let one = |a: &Body, b: &Body, settings: &Settings, state: Option<&mut PairState>, out| {
+        contact((a.0, &a.1), (b.0, &b.1), settings, state, out)
     };
     // SAFETY: as the caller promised.
-    unsafe { detect_batch(bodies, pairs, settings, threads, (memories, ptr::null_mut()), outputs, (body, one)) }
+    unsafe { detect_batch(bodies, pairs, settings, threads, states, outputs, (body, one)) }
 }
 
-fn body<'a>(particle: &'a pp_particle_2d, pose: &pp_pose_2d) -> Result<(&'a Particle, Pose), pp_status> {
+type Body<'a> = (&'a Particle, Pose);
+
+fn body<'a>(particle: &'a pp_particle_2d, pose: &pp_pose_2d) -> Result<Body<'a>, pp_status> {
     Ok((&particle.0, pose_from(pose)?))
 }

@@ -3,19 +3,18 @@
 use super::convert::{closest_to, contact_to, pose_from};
 use super::particle::pp_particle_2d;
 use super::types::{pp_closest_2d, pp_contact_2d, pp_pose_2d};
-use crate::Settings;
-use crate::capi::contact::remembering;
-use crate::capi::convert::{detect_status, role_from, settings_from};
+use crate::capi::convert::{detect_status, role_from, settings_from, state_of};
 use crate::capi::fence::{Output, borrow, fenced, output};
 use crate::capi::status::*;
-use crate::capi::types::{PP_OVERLAPPING, PP_SEPARATED, pp_memory, pp_settings};
+use crate::capi::types::{PP_OVERLAPPING, PP_SEPARATED, pp_pair_state, pp_settings};
 use crate::planar::{Contact, Particle, Pose, Section, closest_point, detect_as};
+use crate::{PairState, Settings};
 
 /// Finds the contact of particle A at pose_a with particle B at pose_b, both of the plane.
 ///
-/// settings: may be NULL (defaults). memory: may be NULL; else what this ordered pair remembers,
-/// read and updated. out: the answer; see struct pp_contact_2d for frames, units and signs.
-/// Pointers: memory and out are not used by another call at the same time.
+/// settings, state: may be NULL, and are as of pp_contact_detect. out: the answer; see struct pp_contact_2d
+/// for frames, units and signs.
+/// Pointers: state and out are not used by another call at the same time.
 /// Errors: PP_NULL_POINTER, PP_BAD_POSITION, PP_BAD_ORIENTATION (an angle that is not finite),
 /// PP_UNKNOWN_FORMULATION, PP_UNKNOWN_BACK_END, PP_NO_CONE_PROGRAM, PP_BAD_SETTING, PP_SOLVER_FAILED.
 #[unsafe(no_mangle)]
@@ -25,17 +24,18 @@ pub unsafe extern "C" fn pp_contact_detect_2d(
     b: *const pp_particle_2d,
     pose_b: *const pp_pose_2d,
     settings: *const pp_settings,
-    memory: *mut pp_memory,
+    state: *mut pp_pair_state,
     out: *mut pp_contact_2d,
 ) -> pp_status {
     fenced(|| {
-        let (a, b) = unsafe { (&borrow(a)?.0, &borrow(b)?.0) };
-        let (pose_a, pose_b) = unsafe { (pose_from(borrow(pose_a)?)?, pose_from(borrow(pose_b)?)?) };
+        // One body after the other, as of a batch.
+        let (a, pose_a) = unsafe { (&borrow(a)?.0, pose_from(borrow(pose_a)?)?) };
+        let (b, pose_b) = unsafe { (&borrow(b)?.0, pose_from(borrow(pose_b)?)?) };
         let out = unsafe { output(out) }?;
         let settings = settings_from(unsafe { settings.as_ref() })?;
         // SAFETY: NULL or exclusively ours for the call.
-        let memory = unsafe { memory.as_mut() };
-        contact((a, &pose_a), (b, &pose_b), &settings, memory, out)
+        let state = unsafe { state.as_mut() }.map(state_of);
+        contact((a, &pose_a), (b, &pose_b), &settings, state, out)
     })
 }
 
@@ -44,14 +44,11 @@ pub(super) fn contact(
     a: (&Particle, &Pose),
     b: (&Particle, &Pose),
     settings: &Settings,
-    memory: Option<&mut pp_memory>,
+    state: Option<&mut PairState>,
     out: Output<pp_contact_2d>,
 ) -> Result<(), pp_status> {
-    let write = |contact: Contact| {
-        out.write(contact_to(&contact));
-        contact.flags
-    };
-    remembering(memory, |memory| detect_as(a, b, settings, memory, write))
+    let write = |contact: Contact| out.write(contact_to(&contact));
+    detect_as(a, b, settings, state, write).map_err(|error| detect_status(&error))
 }
 
 /// The point on one of the particles of the plane where the scale of the other is least: P1 on A, P2 on B

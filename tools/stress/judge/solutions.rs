@@ -7,7 +7,7 @@ use crate::random::Random;
 use crate::reference::{Body, Optimum, Wanted, optimum};
 use crate::wide::Wide3;
 use nalgebra::Vector3;
-use potential_particles::{BackEnd, Contact, Flags, Formulation, Kind, Memory, Particle, Settings};
+use potential_particles::{BackEnd, Contact, Flags, Formulation, Kind, PairState, Particle, Settings};
 
 /// Asks the second solver, from a start near the answer.
 pub(super) fn settle(verdict: &mut Verdict, scene: &Scene, contact: &Contact, start: &Vector3<f64>) {
@@ -159,8 +159,8 @@ pub(super) fn explained(scene: &Scene, scale: f64, weight: f64, [a, b]: [f64; 2]
 
 /// Remembers a pose a step away, or another pair, and solves this one.
 pub(super) fn warm(verdict: &mut Verdict, scene: &Scene, cold: &Contact, clock: &mut Clock, random: &mut Random) {
-    let Some(memory) = remembered(verdict, scene, &FULL, random) else { return };
-    let answer = clock.time(Call::Warm, || scene.detect(&scene.at_b, &FULL, Some(&mut memory.clone())));
+    let Some(state) = remembered(verdict, scene, &FULL, random) else { return };
+    let answer = clock.time(Call::Warm, || scene.detect(&scene.at_b, &FULL, Some(&mut state.clone())));
     match answer {
         Ok(warm) => {
             verdict.paths.push((Call::Warm, path(&warm)));
@@ -169,7 +169,7 @@ pub(super) fn warm(verdict: &mut Verdict, scene: &Scene, cold: &Contact, clock: 
         Err(error) => verdict.fail(Failure::Error, format!("warm: {error}")),
     }
     let quick =
-        clock.time(Call::QuickWarm, || scene.detect(&scene.at_b, &Settings::default(), Some(&mut memory.clone())));
+        clock.time(Call::QuickWarm, || scene.detect(&scene.at_b, &Settings::default(), Some(&mut state.clone())));
     match quick {
         Ok(quick) => {
             verdict.paths.push((Call::QuickWarm, path(&quick)));
@@ -182,12 +182,12 @@ pub(super) fn warm(verdict: &mut Verdict, scene: &Scene, cold: &Contact, clock: 
 }
 
 /// What is remembered of a pose a step away.
-fn remembered(verdict: &mut Verdict, scene: &Scene, settings: &Settings, random: &mut Random) -> Option<Memory> {
+fn remembered(verdict: &mut Verdict, scene: &Scene, settings: &Settings, random: &mut Random) -> Option<PairState> {
     let small = scene.a.bounding_radius().min(scene.b.bounding_radius());
     let step = small * 10f64.powf(-6.0 + 5.0 * random.uniform());
-    let mut memory = Memory::default();
-    match scene.detect(&scene.moved(step * random.direction()), settings, Some(&mut memory)) {
-        Ok(_) => Some(memory),
+    let mut state = PairState::default();
+    match scene.detect(&scene.moved(step * random.direction()), settings, Some(&mut state)) {
+        Ok(_) => Some(state),
         Err(error) => {
             verdict.fail(Failure::Error, format!("{:?}, a step of {step:e}: {error}", settings.formulation));
             None
@@ -260,9 +260,9 @@ pub(super) fn closest(verdict: &mut Verdict, scene: &Scene, midway: &Contact, cl
 
 /// Closest from what it remembers of a pose a step away.
 fn closest_again(verdict: &mut Verdict, scene: &Scene, cold: [(&Contact, Settings); 2], random: &mut Random) {
-    let Some(memory) = remembered(verdict, scene, &cold[0].1, random) else { return };
+    let Some(state) = remembered(verdict, scene, &cold[0].1, random) else { return };
     for (cold, settings) in cold {
-        match scene.detect(&scene.at_b, &settings, Some(&mut memory.clone())) {
+        match scene.detect(&scene.at_b, &settings, Some(&mut state.clone())) {
             Ok(warm) if warm.formulation == cold.formulation => {
                 same(verdict, Failure::Warm, cold, &warm, scene);
                 let (both, off) = (cold.gap + warm.gap, (cold.s_b - warm.s_b).abs());

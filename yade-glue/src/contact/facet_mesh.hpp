@@ -4,7 +4,7 @@
 #pragma once
 
 #include "abi/scene.hpp"
-#include "pair/kept_off.hpp"
+#include "pair/kept_apart.hpp"
 
 #include <array>
 #include <atomic>

@@ -16,6 +16,8 @@ struct FlatPair : PairInScene {
 
     yade::Vector3r centre() const { return state2.se3.position + shift2; }
 
+    KeptApart::Turned turned() const { return { *particle, state2.se3.orientation }; }
+
     // With the particle in the origin: far from that of the scene no digits are lost.
     pp_pose turn() const
     {
@@ -23,24 +25,21 @@ struct FlatPair : PairInScene {
         return { { 0, 0, 0 }, { q.w(), q.x(), q.y(), q.z() } };
     }
 
-    bool isKeptOff(const BoundaryPoints& points) const
+    bool isKeptApart(const BoundaryPoints& points) const
     {
-        return own && own->off && own->off->holds(*particle, state2.se3.orientation, points);
+        return own && own->apart.left(points, turned()) > 0;
     }
 
     void noteDistance(const BoundaryPoints& points, double distance)
     {
-        if (!own)
-            return;
-        if (!own->off)
-            own->off = std::make_unique<KeptOff>();
-        own->off->note(*particle, state2.se3.orientation, points, distance);
+        if (own)
+            own->apart.note(points, turned(), distance);
     }
 
     void noteTouching()
     {
-        if (own && own->off)
-            own->off->forget();
+        if (own)
+            own->apart.forget();
     }
 };
 

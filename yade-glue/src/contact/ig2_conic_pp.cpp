@@ -72,12 +72,13 @@ struct Ig2_ConicPP_ConicPP_ScGeom::Pair : PairInScene {
         }
     }
 
+    KeptApart::Turned turned1() const { return { *particle1, state1.se3.orientation }; }
+    KeptApart::Turned turned2() const { return { *particle2, state2.se3.orientation }; }
+
     // Whether they were apart, and have not moved by the distance between them since.
     bool isKeptApart()
     {
-        const double left = own && !own->carry
-            ? own->apart.left(*particle1, *particle2, state1.se3.orientation, state2.se3.orientation, branch())
-            : 0;
+        const double left = own ? own->apart.left(turned1(), turned2(), branch()) : 0;
         if (left > 0)
             noteRoom(left);
         return left > 0;
@@ -87,8 +88,7 @@ struct Ig2_ConicPP_ConicPP_ScGeom::Pair : PairInScene {
     {
         if (!own)
             return;
-        own->carry.reset();
-        noteRoom(own->apart.note(*particle1, *particle2, state1.se3.orientation, state2.se3.orientation, branch(), distance));
+        noteRoom(own->apart.note(turned1(), turned2(), branch(), distance));
     }
 
     void noteRoom(double room)
@@ -99,11 +99,12 @@ struct Ig2_ConicPP_ConicPP_ScGeom::Pair : PairInScene {
 
     void noteTouching()
     {
+        if (own)
+            own->apart.forget();
         if (!known)
             return;
         known->note(*interaction, *body1, *body2, 0);
         known->geom = geom;
-        known->carry = own ? own->carry.get() : nullptr;
         known->phys = interaction->phys.get();
     }
 };
@@ -213,39 +214,18 @@ bool Ig2_ConicPP_ConicPP_ScGeom::keep(PairInScene& pair)
 
 pp_status Ig2_ConicPP_ConicPP_ScGeom::detect(Pair& pair, pp_contact& found)
 {
-    pp_frame made1, made2;
-    if (!pair.known) {
-        if (const pp_status status = frameOf(pair.state1, Vector3r::Zero(), made1); status != PP_OK)
-            return status;
-        if (const pp_status status = frameOf(pair.state2, pair.shift2, made2); status != PP_OK)
-            return status;
-    }
-    const pp_frame* const frame1 = pair.known ? &pair.body1->frame : &made1;
-    const pp_frame* const frame2 = pair.known ? &pair.body2->frame : &made2;
-    // Most pairs never touch: what is carried on gets its place when there is something to be carried.
-    pp_carry first;
-    pp_carry* carry = pair.own ? pair.own->carry.get() : nullptr;
-    if (!carry) {
-        first = { { 0 } };
-        carry = &first;
-    }
-    pp_memory* const memory = pair.own ? &pair.own->memory : nullptr;
+    const pp_pose pose1 = pair.pose1(), pose2 = pair.pose2();
+    pp_pair_state* const state = pair.state();
     const auto ask = [&] {
-        return pp_contact_detect_carried(pair.particle1->handle(), frame1, pair.particle2->handle(), frame2,
-                                         &pair.settings.library, pair.settings.given.carryTolerance, memory, carry, &found);
+        return pp_contact_detect(pair.particle1->handle(), &pose1, pair.particle2->handle(), &pose2, &pair.settings.library, state, &found);
     };
-    pp_status status = ask();
-    if (status == PP_OK && found.kind == PP_OVERLAPPING && pair.own && !pair.real) {
-        // A new contact is solved from nothing. YADE saves no pairs that do not touch: what such a pair remembers would make a loaded run
-        // another one, by the last digits.
-        *memory = { { 0 } };
-        *carry = { { 0 } };
-        status = ask();
-    }
-    if (status == PP_OK && found.kind == PP_OVERLAPPING && carry == &first && pair.own
-        && pair.settings.given.carryTolerance > 0)
-        pair.own->carry = std::make_unique<pp_carry>(first);
-    return status;
+    const pp_status status = ask();
+    if (status != PP_OK || found.kind != PP_OVERLAPPING || !state || pair.real)
+        return status;
+    // A new contact is solved from nothing. YADE saves no pairs that do not touch: what such a pair remembers would make a loaded run
+    // another one, by the last digits.
+    *state = {};
+    return ask();
 }
 
 void Ig2_ConicPP_ConicPP_ScGeom::fill(Pair& pair, pp_contact& found)

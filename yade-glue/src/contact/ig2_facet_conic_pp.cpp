@@ -14,13 +14,14 @@ using yade::Vector3r;
 
 namespace {
 
-    pp_status contactWith(const FlatPair& pair, const BoundaryPoints& vertices, pp_flat_contact& found)
+    // `state`: of the pair with this triangle, or null.
+    pp_status contactWith(const FlatPair& pair, const BoundaryPoints& vertices, pp_pair_state* state, pp_flat_contact& found)
     {
         double rows[9];
         for (std::size_t i = 0; i < 3; ++i)
             std::copy_n(vertices[i].data(), 3, rows + 3 * i);
         const pp_pose turn = pair.turn();
-        return pp_contact_triangle(pair.particle->handle(), &turn, rows, &pair.settings.library, &found);
+        return pp_contact_triangle(pair.particle->handle(), &turn, rows, &pair.settings.library, state, &found);
     }
 
     // The body, if it has a facet that meets the same bodies as `own`.
@@ -53,7 +54,7 @@ BoundaryPoints Ig2_Facet_ConicPP_ScGeom::pointsOf(const FlatPair& pair) const
 
 pp_status Ig2_Facet_ConicPP_ScGeom::detect(FlatPair& pair, const BoundaryPoints& points, pp_flat_contact& found)
 {
-    const pp_status status = contactWith(pair, points, found);
+    const pp_status status = contactWith(pair, points, pair.state(), found);
     if (status != PP_OK || found.kind != PP_OVERLAPPING)
         return status;
     pp_flat_contact ofOwner;
@@ -95,7 +96,7 @@ bool Ig2_Facet_ConicPP_ScGeom::leavesTo(const Neighbour& neighbour, const FacetC
         if (slope != Slope::unclear && !solve)
             return true;
     }
-    return contactWith(pair, neighbour.vertices, other) == PP_OK && other.kind == PP_OVERLAPPING
+    return contactWith(pair, neighbour.vertices, nullptr, other) == PP_OK && other.kind == PP_OVERLAPPING
         && yieldsTo(facetContact(neighbour.vertices, other, neighbour.id, pair.particle->boundingRadius()), own, neighbour.common);
 }
 

@@ -61,7 +61,7 @@ bool Ig2_Flat_ConicPP::contact(FlatPair& pair)
         return keep(pair);
     }
     const BoundaryPoints points = pointsOf(pair);
-    if (pair.isKeptOff(points)) {
+    if (pair.isKeptApart(points)) {
         pair.counts.add(Count::motion);
         return leaveApart(pair);
     }

@@ -5,7 +5,7 @@
 
 #include "abi/primitives.hpp"
 #include "ig2_other_conic_pp.hpp"
-#include "pair/kept_off.hpp"
+#include "pair/kept_apart.hpp"
 
 namespace potential_particles {
 
@@ -20,7 +20,7 @@ public:
             const boost::shared_ptr<yade::Interaction>& interaction) noexcept override;
 
 protected:
-    // The points of the boundary for KeptOff.
+    // The points of the boundary for KeptApart.
     virtual BoundaryPoints pointsOf(const FlatPair& pair) const = 0;
     // The contact; positions from the particle's centre, world axes. A boundary that leaves its contact to another
     // answers separated by the distance 0.

@@ -31,7 +31,7 @@ pp_status Ig2_Wall_ConicPP_ScGeom::detect(FlatPair& pair, const BoundaryPoints& 
     const Vector3r normal = Vector3r::Unit(wall.axis) * (wall.sense < 0 ? -1 : 1);
     const pp_pose turn = pair.turn();
     const pp_status status = pp_contact_plane(pair.particle->handle(), &turn, points[0].data(), normal.data(),
-                                              &pair.settings.library, &found);
+                                              &pair.settings.library, pair.state(), &found);
     if (status != PP_OK || found.kind != PP_OVERLAPPING || wall.sense == 0 || Vector3r(found.normal).dot(normal) < 0)
         return status;
     // The centre is behind a wall that pushes to one side only: the overlap is as far as the particle reaches behind it.

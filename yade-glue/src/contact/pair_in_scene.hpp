@@ -55,6 +55,9 @@ struct PairInScene {
     yade::ScGeom* geom = nullptr;
     ScGeomConicPP* own = nullptr; // geom, if it is one with memory
 
+    // What the library keeps of the pair, if its geometry has a place for that.
+    pp_pair_state* state() const { return own ? &own->state : nullptr; }
+
     // Most pairs are answered without.
     pp_pose pose1() const { return poseOf(state1, yade::Vector3r::Zero()); }
     pp_pose pose2() const { return poseOf(state2, shift2); }

@@ -9,7 +9,7 @@
 // the body with the lower id.
 #pragma once
 
-#include "pair/kept_off.hpp"
+#include "pair/kept_apart.hpp"
 
 #include <potential_particles.h>
 

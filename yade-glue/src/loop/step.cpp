@@ -40,7 +40,7 @@ void Step::look(BodyInStep& body, const boost::shared_ptr<yade::Shape>& shape, c
         const Particle* particle = particleOf(shape, body.keeper);
         const yade::Vector3r& position = state.se3.position;
         const yade::Quaternionr& orientation = state.se3.orientation;
-        if (!particle->handle() || frameOf(state, yade::Vector3r::Zero(), body.frame) != PP_OK)
+        if (!particle->handle() || !position.allFinite() || !isUnit(orientation))
             particle = nullptr;
         const double radius = particle ? particle->boundingRadius() : 0;
         const double way = (position - body.position).norm() + radius * wayOfTurn(body.orientation, orientation);

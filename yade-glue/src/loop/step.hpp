@@ -8,6 +8,8 @@
 #include "blocks.hpp"
 #include "particle/particle.hpp"
 
+#include <potential_particles.h>
+
 #include <atomic>
 #include <cstdint>
 #include <memory>
@@ -45,9 +47,6 @@ private:
     yade::Vector3r position = yade::Vector3r::Zero();
     yade::Quaternionr orientation = yade::Quaternionr::Identity();
     std::shared_ptr<const Particle> keeper; // of particles that the shape cannot hold itself
-
-public:
-    pp_frame frame;
 };
 
 // A pair of bodies, where YADE keeps their interaction in its list. Written by the thread that has the interaction.
@@ -59,7 +58,6 @@ struct alignas(64) PairInStep {
     // Where its data lies, to be fetched before its turn; never followed, since it may be gone. A geometry only if they touch.
     Guess<const void*> interaction = nullptr;
     Guess<const void*> geom = nullptr;
-    Guess<const void*> carry = nullptr;
     Guess<const void*> phys = nullptr;
 
     // An interaction that YADE made anew is looked at once more, so that its memory becomes the same as by InteractionLoop.
@@ -74,7 +72,6 @@ struct alignas(64) PairInStep {
     {
         interaction = &pair;
         geom = nullptr;
-        carry = nullptr;
         phys = nullptr;
         id1 = pair.id1;
         id2 = pair.id2;
@@ -137,7 +134,6 @@ public:
         if (!geom)
             return;
         fetch(geom, geomSize);
-        fetch(next->carry, sizeof(pp_carry));
         fetch(next->phys, physSize);
         for (const BodyInStep* body : bodiesOfNext)
             if (body)
@@ -149,8 +145,8 @@ private:
     // of one.
     static constexpr std::size_t ahead = 6;
     static constexpr std::size_t lineSize = 64;
-    // What a contact touches of ScGeom, KnKsPhys and State.
-    static constexpr std::size_t geomSize = 256, physSize = 480, stateSize = 240;
+    // What a contact touches of ScGeomConicPP, KnKsPhys and State.
+    static constexpr std::size_t geomSize = 256 + sizeof(pp_pair_state), physSize = 480, stateSize = 240;
     static constexpr std::uint64_t busy = ~std::uint64_t(0);
 
     static void fetch(const void* place, std::size_t size)

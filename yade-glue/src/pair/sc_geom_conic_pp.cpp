@@ -6,14 +6,15 @@
 #include <boost/serialization/binary_object.hpp>
 
 #include <algorithm>
+#include <cstring>
 
 namespace potential_particles {
 
 namespace {
     constexpr char digits[] = "0123456789abcdef";
-    // What a memory took up in files of class version 0; it was the first part of what it is now.
-    constexpr std::size_t oldSize = 64;
-    static_assert(oldSize < sizeof(pp_memory));
+    // The remembered solution in files: of class version 0 it is all, since then room follows, written as 0 and not read.
+    constexpr std::size_t solutionSize = sizeof(pp_pair_state::solution), sizeInFiles = 128;
+    static_assert(solutionSize == 64);
 }
 
 ScGeomConicPP::ScGeomConicPP() = default;
@@ -26,9 +27,9 @@ void ScGeomConicPP::callPostLoad() { ScGeom::callPostLoad(); }
 // In hexadecimal digits: the library may keep bit patterns in it that no decimal number carries.
 std::string ScGeomConicPP::pyMemory() const
 {
-    const auto* bytes = reinterpret_cast<const unsigned char*>(&memory);
+    const auto* bytes = reinterpret_cast<const unsigned char*>(state.solution);
     std::string text;
-    for (std::size_t i = 0; i < sizeof memory; ++i) {
+    for (std::size_t i = 0; i < solutionSize; ++i) {
         text += digits[bytes[i] >> 4];
         text += digits[bytes[i] & 15];
     }
@@ -37,11 +38,10 @@ std::string ScGeomConicPP::pyMemory() const
 
 void ScGeomConicPP::pySetMemory(const std::string& hexadecimal)
 {
-    if (hexadecimal.size() != 2 * sizeof memory && hexadecimal.size() != 2 * oldSize)
+    if (hexadecimal.size() != 2 * solutionSize && hexadecimal.size() != 2 * sizeInFiles)
         throw std::invalid_argument("memory: " + std::to_string(hexadecimal.size()) + " hexadecimal digits given, not "
-                                    + std::to_string(2 * sizeof memory));
-    pp_memory next = { { 0 } };
-    auto* bytes = reinterpret_cast<unsigned char*>(&next);
+                                    + std::to_string(2 * solutionSize));
+    unsigned char bytes[sizeInFiles];
     for (std::size_t i = 0; i < hexadecimal.size() / 2; ++i) {
         unsigned byte = 0;
         for (std::size_t j = 0; j < 2; ++j) {
@@ -52,9 +52,8 @@ void ScGeomConicPP::pySetMemory(const std::string& hexadecimal)
         }
         bytes[i] = static_cast<unsigned char>(byte);
     }
-    memory = next;
-    apart.forget();
-    carry.reset();
+    std::memcpy(state.solution, bytes, solutionSize);
+    forgetUnsaved();
 }
 
 void ScGeomConicPP::pySetAttr(const std::string& key, const py::object& value)
@@ -88,10 +87,12 @@ template <class Archive> void ScGeomConicPP::serialize(Archive& archive, unsigne
 {
     requireReadable<ScGeomConicPP>(version);
     serializeBase<yade::ScGeom>(archive, *this, "ScGeom");
-    if (version == 0)
-        memory = { { 0 } };
-    auto bytes = boost::serialization::make_binary_object(&memory, version == 0 ? oldSize : sizeof memory);
+    char place[sizeInFiles] = {};
+    std::memcpy(place, state.solution, solutionSize);
+    auto bytes = boost::serialization::make_binary_object(place, version == 0 ? solutionSize : sizeInFiles);
     archive& boost::serialization::make_nvp("memory", bytes);
+    if (Archive::is_loading::value)
+        std::memcpy(state.solution, place, solutionSize);
     saved.store(Archive::is_saving::value, std::memory_order_relaxed);
 }
 

@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// ScGeom that also holds what the library remembers about the pair.
+// ScGeom that also holds the state that the library keeps of the pair.
 #pragma once
 
 #include "abi/archive.hpp"
 #include "abi/scgeom.hpp"
 #include "kept_apart.hpp"
-#include "kept_off.hpp"
 
 #include <boost/serialization/access.hpp>
 
 #include <potential_particles.h>
 
+#include <algorithm>
 #include <atomic>
-#include <memory>
+#include <iterator>
 
 namespace potential_particles {
 
@@ -26,13 +26,10 @@ public:
     ~ScGeomConicPP() override;
     PP_ABI_SERIALIZABLE_OVERRIDES
 
-    pp_memory memory = { { 0 } };
+    // Saved but for its last contact.
+    pp_pair_state state {};
     // Not saved: made again by the first look after loading, and after saving.
     KeptApart apart;
-    // Not saved: what is carried on from the last contact, while the pair touches.
-    std::unique_ptr<pp_carry> carry;
-    // Not saved: separation of a particle from a flat boundary; the members above serve pairs of particles only.
-    std::unique_ptr<KeptOff> off;
 
     // At each look, first: drops what is not saved if the pair was saved since the last, so that a run goes on from a save as
     // one that is loaded from it does. By the thread that looks, since a script may save from another.
@@ -41,12 +38,16 @@ public:
         if (!saved.load(std::memory_order_relaxed))
             return;
         saved.store(false, std::memory_order_relaxed);
-        apart.forget();
-        carry.reset();
-        off.reset();
+        forgetUnsaved();
     }
 
 private:
+    void forgetUnsaved()
+    {
+        std::fill(std::begin(state.last_contact), std::end(state.last_contact), 0.0);
+        apart.forget();
+    }
+
     std::atomic<bool> saved { false };
 
     friend class boost::serialization::access;

@@ -20,11 +20,4 @@ inline pp_pose poseOf(const yade::State& state, const yade::Vector3r& shift)
     return { { at.x(), at.y(), at.z() }, { turn.w(), turn.x(), turn.y(), turn.z() } };
 }
 
-// The same, prepared; not written where the status is none of PP_OK.
-inline pp_status frameOf(const yade::State& state, const yade::Vector3r& shift, pp_frame& frame)
-{
-    const pp_pose pose = poseOf(state, shift);
-    return pp_frame_from_pose(&pose, &frame);
-}
-
 } // namespace potential_particles

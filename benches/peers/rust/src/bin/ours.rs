@@ -5,8 +5,7 @@
 use peers::scene::{Group, Placement};
 use peers::server::{Answer, Contestant, serve};
 use potential_particles::{
-    BackEnd, Carried, Contact, DetectError, Formulation, Kind, Memory, Particle, Plane, Pose, Settings, detect,
-    detect_batch_carried,
+    BackEnd, Contact, DetectError, Formulation, Kind, PairState, Particle, Plane, Pose, Settings, detect, detect_batch,
 };
 use std::hint::black_box;
 
@@ -19,7 +18,7 @@ struct Ours {
     a: Vec<Pose>,
     /// Of each time, of each pair.
     b: Vec<Vec<Pose>>,
-    memories: Vec<Memory>,
+    states: Vec<PairState>,
     answers: Vec<Answer>,
     /// What is left of the bits of an answer in the index of the next pair: 0, but all are there to make it wait.
     kept_of_answer: Option<usize>,
@@ -31,7 +30,6 @@ struct Batch {
     /// A and B of each pair in turn, at each time.
     poses: Vec<Vec<Pose>>,
     pairs: Vec<[u32; 2]>,
-    carried: Vec<Carried>,
 }
 
 fn main() {
@@ -42,7 +40,8 @@ fn main() {
         let mut settings = Settings { solve_separated: all, ..Settings::default() };
         settings.gap_tolerance = tolerance.parse().ok()?;
         match way {
-            "midway" | "carried" => {}
+            "midway" => {}
+            "carried" => settings.carry_tolerance = CARRY_TOLERANCE,
             "closest" => settings.formulation = Formulation::Closest,
             "cone_program" => settings.back_end = BackEnd::ConeProgram,
             _ => return None,
@@ -61,7 +60,7 @@ impl Ours {
             settings,
             a: group.pairs.iter().map(|pair| pose(&pair.a)).collect(),
             b: (0..times).map(|time| group.pairs.iter().map(|pair| pose(&pair.b[time])).collect()).collect(),
-            memories: vec![Memory::default(); group.pairs.len()],
+            states: vec![PairState::default(); group.pairs.len()],
             answers: vec![Answer::Failed; group.pairs.len()],
             kept_of_answer,
         }
@@ -71,10 +70,10 @@ impl Ours {
 impl Contestant for Ours {
     fn pass(&mut self, time: usize, warm: bool) {
         let mut wait = 0;
-        for i in 0..self.memories.len() {
+        for i in 0..self.states.len() {
             let i = i + wait;
-            let memory = warm.then_some(&mut self.memories[i]);
-            let found = detect(&self.particle, &self.a[i], &self.particle, &self.b[time][i], &self.settings, memory);
+            let state = warm.then_some(&mut self.states[i]);
+            let found = detect(&self.particle, &self.a[i], &self.particle, &self.b[time][i], &self.settings, state);
             if let (Some(kept), Ok(contact)) = (self.kept_of_answer, &found) {
                 wait = contact.overlap.to_bits() as usize & kept;
             }
@@ -93,7 +92,6 @@ impl Batch {
         Self {
             poses: ours.b.iter().map(both).collect(),
             pairs: (0..ours.a.len() as u32).map(|i| [2 * i, 2 * i + 1]).collect(),
-            carried: vec![Carried::default(); ours.a.len()],
             ours,
         }
     }
@@ -103,11 +101,8 @@ impl Contestant for Batch {
     fn pass(&mut self, time: usize, warm: bool) {
         let ours = &mut self.ours;
         let particles = vec![&ours.particle; 2 * ours.a.len()];
-        let (memories, carried): (&mut [Memory], &mut [Carried]) =
-            if warm { (&mut ours.memories, &mut self.carried) } else { (&mut [], &mut []) };
-        let poses = &self.poses[time];
-        let found =
-            detect_batch_carried(&particles, poses, &self.pairs, &ours.settings, CARRY_TOLERANCE, 1, memories, carried);
+        let states: &mut [PairState] = if warm { &mut ours.states } else { &mut [] };
+        let found = detect_batch(&particles, &self.poses[time], &self.pairs, &ours.settings, 1, states);
         for (kept, found) in ours.answers.iter_mut().zip(found.expect("settings in range")) {
             *kept = answer(&found);
         }
