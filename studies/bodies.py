@@ -3,11 +3,12 @@
 
 import numpy as np
 import yade
-from potential_particles import ConicPotentialParticle, body
+from potential_particles import ConicPotentialParticle, body, mesh
 from potential_particles.polyhedron import Polyhedron
 from potential_particles.shape import Shape
 
 MASS_TOLERANCE = 1e-8  # of volume and inertia, relative
+REACH_TOLERANCE = 1e-4  # of the bounding radius
 
 
 def shape_of_planes(normals, offsets, r, k, R, name):
@@ -21,6 +22,12 @@ def shape_of_planes(normals, offsets, r, k, R, name):
     volume, _, inertia, error = particle.massProperties(MASS_TOLERANCE)
     return Shape(planes, r, k, R, volume, tuple(inertia[i, i] for i in range(3)), error, (0.0, 0.0, 0.0),
                  (1.0, 0.0, 0.0, 0.0), particle.boundingRadius, name)  # fmt: skip
+
+
+def reach(shape):
+    """Radius of the least ball about the centroid that holds a shape, m; `bounding_radius` may be a tenth larger."""
+    surface = mesh(shape, REACH_TOLERANCE)
+    return float(np.linalg.norm(surface.points, axis=1).max() + surface.error)
 
 
 def potential_body(shape_class, shape, *place, **more):

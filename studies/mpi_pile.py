@@ -25,6 +25,7 @@ import machine
 import mpi_pile_report as report
 import pyramids
 import settings
+from bodies import reach
 from box import Box
 from contact_functor import LIBRARY, ContactFunctor
 from loose_grid import loose_grid
@@ -44,7 +45,7 @@ class Pile:
     def __init__(self, count):
         self.count = count
         self.shape = pyramid(pyramids.SIZE)
-        self.grid = loose_grid(count, self.shape.bounding_radius, pyramids.JITTER, pyramids.SEED)
+        self.grid = loose_grid(count, reach(self.shape), pyramids.JITTER, pyramids.SEED)
         half_width = self.grid.half_width + 0.3 * self.grid.height
         self.box = Box(half_width, half_width, self.grid.height + pyramids.SIZE, thickness=pyramids.SIZE)
         self.ids = range(5, 5 + count)

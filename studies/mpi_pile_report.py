@@ -11,6 +11,7 @@ from potential_particles.output.drawn import ShapeMeshes, copies
 from potential_particles.output.view import framing_view
 
 import pyramids
+from bodies import reach
 from panels import PANEL_PIXELS, save_panels
 from summary import print_table, write_summary
 
@@ -85,7 +86,7 @@ def _draw(path, pile, pictures, ranks):
         states["position"] + side * axis
         for _, _, states in pictures
         for side in (-1, 1)
-        for axis in pile.shape.bounding_radius * np.eye(3)
+        for axis in reach(pile.shape) * np.eye(3)
     ]
     view = framing_view(np.vstack(ends), pyramids.VIEW_FROM, pyramids.VIEW_ANGLE, PANEL_PIXELS[0] / PANEL_PIXELS[1])
     panels = [

@@ -29,7 +29,7 @@ from yade import O
 
 import machine
 import settings
-from bodies import potential_body
+from bodies import potential_body, reach
 from box import BODY_MASK, SLAB_ONLY, Box
 from contact_functor import BUILTIN, LIBRARY, ContactFunctor
 from loose_grid import loose_grid
@@ -81,7 +81,7 @@ def main():
     out = settings.folder("OUTPUT", HERE.parent / "out" / "pyramids")
     contact = ContactFunctor(kind)
     shape = pyramid(SIZE)
-    grid = loose_grid(count, shape.bounding_radius, JITTER, SEED)
+    grid = loose_grid(count, reach(shape), JITTER, SEED)
     # The walls only guard against losing a body that slides far: the heap stays clear of them.
     half_width = grid.half_width + grid.height
     box = Box(half_width, half_width, grid.height + SIZE, thickness=SIZE)
@@ -187,7 +187,7 @@ def draw(path, states, shape, grid):
         state.positions + side * axis
         for state in states
         for side in (-1, 1)
-        for axis in shape.bounding_radius * np.eye(3)
+        for axis in reach(shape) * np.eye(3)
     ]
     view = framing_view(np.vstack(ends), VIEW_FROM, VIEW_ANGLE, PANEL_PIXELS[0] / PANEL_PIXELS[1])
     panels = [

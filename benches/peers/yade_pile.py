@@ -25,7 +25,7 @@ from yade import Body, O, Quaternion, Vector3, polyhedra_utils, utils
 
 import pyramids
 import yade_level_set
-from bodies import potential_body
+from bodies import potential_body, reach
 from box import BODY_MASK, SLAB_MASK, SLAB_ONLY, Box
 from contact_functor import BUILTIN, LIBRARY, ContactFunctor
 from loose_grid import loose_grid
@@ -56,7 +56,7 @@ class Scene:
     def __init__(self, kind, count, dissipation=True):
         self.kind, self.dissipation, self.ids = kind, dissipation, []
         self.shape = pyramid(pyramids.SIZE)
-        self.grid = loose_grid(count, self.shape.bounding_radius, pyramids.JITTER, SEED)
+        self.grid = loose_grid(count, reach(self.shape), pyramids.JITTER, SEED)
         self.box = Box(self.grid.half_width, self.grid.half_width, self.grid.height, thickness=pyramids.SIZE)
         self.contact = ContactFunctor(LIBRARY if kind == OURS else BUILTIN, measure_time=False) if kind in (OURS, POTENTIAL) else None
         self.angle = np.radians(pyramids.FRICTION_ANGLE) if dissipation else 0.0
@@ -238,7 +238,7 @@ def windows():
 def bounce():
     """One pyramid dropped onto the floor, without friction or damping: how far its energy in flight strays from that at the start."""
     scene = Scene(JOB["kind"], 1, dissipation=False)
-    scene.add((0, 0, scene.shape.bounding_radius + DROP), TILT)
+    scene.add((0, 0, reach(scene.shape) + DROP), TILT)
     scene.finish()
     # So short a step that what is left is the geometry's: the laws give no force in the first step of a contact.
     O.dt /= BOUNCE_STEPS_PER_STEP

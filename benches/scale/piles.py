@@ -17,7 +17,7 @@ from yade import O, utils
 
 import loose_grid
 import pyramids
-from bodies import potential_body
+from bodies import potential_body, reach
 from box import BODY_MASK, SLAB_ONLY, Box
 from contact_functor import LIBRARY, ContactFunctor
 from pyramid import pyramid
@@ -39,7 +39,7 @@ class Pile:
         self.kind, self.count, self.loop, self.watched = kind, count, loop, watched
         self.contact = ContactFunctor(LIBRARY, measure_time=False) if kind == PYRAMIDS else None
         self.shape = pyramid(pyramids.SIZE)
-        self.ball = self.shape.bounding_radius if kind == PYRAMIDS else SPHERE_RADIUS
+        self.ball = reach(self.shape) if kind == PYRAMIDS else SPHERE_RADIUS
         self.grid = loose_grid.loose_grid(count, self.ball, pyramids.JITTER, SEED)
         self.box = Box(self.grid.half_width, self.grid.half_width, self.grid.height, thickness=pyramids.SIZE)
         self.material = yade.FrictMat(

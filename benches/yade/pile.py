@@ -21,6 +21,7 @@ import yade
 from yade import O
 
 import pyramids
+from bodies import reach
 from box import Box
 from contact_functor import LIBRARY, ContactFunctor
 from loose_grid import loose_grid
@@ -35,7 +36,7 @@ BLOCKS, BLOCK_STEPS = 300, 2
 def settle(count, steps, scene):
     """The pile of studies/pyramids.py with another number of bodies."""
     shape = pyramid(pyramids.SIZE)
-    grid = loose_grid(count, shape.bounding_radius, pyramids.JITTER, pyramids.SEED)
+    grid = loose_grid(count, reach(shape), pyramids.JITTER, pyramids.SEED)
     half_width = grid.half_width + 0.3 * grid.height
     box = Box(half_width, half_width, grid.height + pyramids.SIZE, thickness=pyramids.SIZE)
     pyramids.build_scene(ContactFunctor(LIBRARY), shape, grid, box)

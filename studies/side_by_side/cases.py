@@ -12,6 +12,7 @@ import yade
 from yade import O
 
 import pyramids
+from bodies import reach
 from box import SLAB_ONLY, SLAB_SPHERICITY, Box
 from loose_grid import loose_grid
 from particles import ball, block, half_height, material, octahedron, plain_body
@@ -106,7 +107,7 @@ def loop(functor, springs, viscous=0.0, local=0.0, gravity=GRAVITY, never_erase=
 
 def heap(case, kinds, seed):
     """The kinds, one body each, on a loose grid in a box with walls."""
-    radius = max(kind.bounding_radius for kind in kinds)
+    radius = max(reach(kind) for kind in kinds)
     grid = loose_grid(len(kinds), radius, 0.03 * case.size, seed)
     box = Box(1.15 * grid.half_width, 1.15 * grid.half_width, grid.height + case.size, thickness=case.size)
     stuff = case.material()

@@ -13,6 +13,7 @@ import yade
 from yade import O
 
 import pyramids
+from bodies import reach
 from box import Box
 from contact_functor import BUILTIN, LIBRARY, ContactFunctor
 from loose_grid import loose_grid
@@ -78,7 +79,7 @@ def measure_stages(count, stages, rounds=ROUNDS, progress=None):
     """stages: (name, step) in order. Lets `count` pyramids fall and stops to measure at each."""
     contact = ContactFunctor(LIBRARY, measure_time=False)
     shape = pyramid(pyramids.SIZE)
-    grid = loose_grid(count, shape.bounding_radius, pyramids.JITTER, pyramids.SEED)
+    grid = loose_grid(count, reach(shape), pyramids.JITTER, pyramids.SEED)
     half_width = grid.half_width + grid.height
     box = Box(half_width, half_width, grid.height + pyramids.SIZE, thickness=pyramids.SIZE)
     O.reset()

@@ -9,6 +9,7 @@ import numpy as np
 from yade import O
 
 import pyramids
+from bodies import reach
 from box import Box
 from contact_functor import ContactFunctor
 from loose_grid import loose_grid
@@ -21,7 +22,7 @@ SIZE = pyramids.SIZE
 def build(count, functor):
     """Pyramids above a floor between four walls; returns the box."""
     shape = pyramid(SIZE)
-    grid = loose_grid(count, shape.bounding_radius, pyramids.JITTER, pyramids.SEED)
+    grid = loose_grid(count, reach(shape), pyramids.JITTER, pyramids.SEED)
     # So near that a shaken heap comes to lean on the walls.
     half_width = grid.half_width + 0.3 * grid.height
     box = Box(half_width, half_width, grid.height + SIZE, thickness=SIZE)
