@@ -6,7 +6,7 @@
     drawn.py       YADE's bodies as triangles
     view.py        a pinhole camera
     graphics.py    OpenGL without a display
-    light.py       the shadows of the sun
+    light.py       sun and sky
     picture.py     the picture of a scene
     recorder.py    frames for ParaView, while the scene runs
 """

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What VTK's shaders add to a surface: the shadow of the sun, and boundaries that fade into the paper.
+"""What VTK's shaders add to a surface: the shadow of the sun, the light of the sky, and boundaries that fade into the paper.
 
 Coordinates are those of the picture: the middle of the scene at 0, its radius 1.
 """
@@ -11,6 +11,8 @@ from vtkmodules.vtkRenderingCore import vtkRenderer, vtkTexture, vtkWindowToImag
 from .view import View, unit
 
 SUN = unit([-0.45, -0.55, 1.0])  # from the scene to the sun
+# The sky is brightest here, and half as bright from the other side, so that faces differ in the shadow too.
+SKY = unit([0.45, -0.3, 0.85])
 SUN_PIXELS = 1500  # of its map, along each side
 SUN_REACH = 1.02  # half the width of its map
 SUN_NEAR, SUN_FAR = 1.9, 4.1  # of its map, from where it stands
@@ -33,8 +35,12 @@ _SHADOW = """
     }}
   diffuseColor *= seen / 9.0;
 """
+_SKY = """
+  ambientColor *= 0.75 + 0.25 * dot(normalVCVSOutput, vec3({sky}));
+"""
 _FADING = """
   float far = clamp(({outer} - distance(vertexVCVSOutput.xyz, vec3({middle}))) / {width}, 0.0, 1.0);
+  if (far == 0.0) discard;
   far = far * far * (3.0 - 2.0 * far);
   gl_FragData[0] = gl_FragData[0].a < 1.0 ? vec4(gl_FragData[0].rgb, far * gl_FragData[0].a)
                                           : vec4(mix(vec3(1.0), gl_FragData[0].rgb, far), 1.0);
@@ -81,10 +87,10 @@ def read(window, depth=False):
 
 
 def light(actor, shadows, view, fading):
-    """Lets what is in shadows (sun_map; or None) shadow an actor in a picture of this view, and the actor vanish far away if it is fading."""
+    """Lets what is in shadows (sun_map; or None) shadow an actor in a picture of this view, and the actor vanish far away if it fades."""
     right, up, forward = view.axes()
     to_camera = np.stack([right, up, -forward])
-    code = "//VTK::Light::Impl\n"
+    code = _SKY.format(sky=_numbers(to_camera @ SKY)) + "//VTK::Light::Impl\n"
     if shadows is not None:
         actor.GetProperty().SetTexture("sunMap", shadows)  # the name by which VTK declares it
         # From the world to the map: 0 to 1 in all three.

@@ -12,8 +12,9 @@ SAMPLES = 2  # along each side of a pixel
 PAPER = 1.0
 BOUNDARY_COLOUR = (0.92, 0.915, 0.905)
 GLASS = 0.12  # opacity of the boundaries between the eye and the bodies
-SKY = 0.47  # share of the light that comes from the sky; the rest is the sun's
+SKY = 0.6  # share of the light that comes from the sky; the rest is the sun's
 GAP = 0.1  # how far apart surfaces may be that darken each other, in radii of the scene
+ROUGH = 0.01  # nearer than this, VTK's half-precision places cannot tell a gap from a surface
 NEAR = 1.1  # boundaries that far from the middle, in radii of the scene, are held by the view
 
 
@@ -132,7 +133,7 @@ def _renderer(view):
     occlusion = vtkSSAOPass()
     occlusion.SetDelegatePass(vtkRenderStepsPass())
     occlusion.SetRadius(GAP)
-    occlusion.SetBias(0.02 * GAP)
+    occlusion.SetBias(ROUGH)
     occlusion.BlurOn()
     renderer.SetPass(occlusion)
     return renderer
