@@ -118,6 +118,12 @@ def test_plot():
     count, _ = shown(imread(path("behind.png")), 0)
     check.true(count > 300, "bodies are seen through a boundary in front of them")
     O.reset()
+    O.bodies.append(utils.box((0, 0, 0), (1, 1, 1)))
+    potential_particles.plot(path("walls.png"), size=(100, 100))
+    # The side that the sun does not reach, the one that it grazes, and the top.
+    shades = np.unique(np.round(imread(path("walls.png"))[30:70, 30:70, 0], 1))
+    check.true(len(shades) > 1 and shades.max() < 0.97, f"a scene of boundaries alone is drawn: {shades}")
+    O.reset()
     check.raises(ValueError, lambda: potential_particles.plot(path("empty.png")), "an empty scene", "nothing to draw")
     O.materials.append(FrictMat())
     add(cube(), (0, 0, 0), (1, 1, 1))

@@ -4,7 +4,7 @@ import numpy as np
 import yade
 
 from . import vtk_files
-from .drawn import ShapeMeshes, drawn
+from .drawn import ShapeMeshes, Triangles, drawn
 from .view import View, framing_view
 
 VIEW_ANGLE = 0.42  # full height, radians
@@ -12,7 +12,7 @@ SAMPLES = 2  # along each side of a pixel
 PAPER = 1.0
 BOUNDARY_COLOUR = (0.92, 0.915, 0.905)
 GLASS = 0.12  # opacity of the boundaries between the eye and the bodies
-SKY = 0.6  # share of the light that comes from the sky; the rest is the sun's
+SKY_SHARE = 0.6  # of the light; the rest is the sun's
 GAP = 0.1  # how far apart surfaces may be that darken each other, in radii of the scene
 ROUGH = 0.01  # nearer than this, VTK's half-precision places cannot tell a gap from a surface
 NEAR = 1.1  # boundaries that far from the middle, in radii of the scene, are held by the view
@@ -69,7 +69,8 @@ def _render(window, of_bodies, of_boundaries, view, width, height):
     middle, radius = _ball((of_bodies if len(of_bodies.corners) else of_boundaries).corners.reshape(-1, 3))
     view = View((view.eye - middle) / radius, (view.target - middle) / radius, view.angle)
     bodies = _actor(of_bodies, middle, radius)
-    behind, before = (_actor(part, middle, radius, BOUNDARY_COLOUR) for part in _sides(of_boundaries, view, middle, radius))
+    parts = _sides(of_boundaries, view, middle, radius) if bodies else (of_boundaries, Triangles.together([]))
+    behind, before = (_actor(part, middle, radius, BOUNDARY_COLOUR) for part in parts)
     shadows = light.sun_map(window, bodies) if bodies else None
     renderer = _renderer(view)
     if bodies:
@@ -106,8 +107,8 @@ def _actor(triangles, middle, radius, colour=None):
     actor.SetMapper(mapper)
     surface = actor.GetProperty()
     surface.SetColor(colour or (1.0, 1.0, 1.0))
-    surface.SetAmbient(SKY)
-    surface.SetDiffuse(1.0 - SKY)
+    surface.SetAmbient(SKY_SHARE)
+    surface.SetDiffuse(1.0 - SKY_SHARE)
     surface.BackfaceCullingOn()
     return actor
 
