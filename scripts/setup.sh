@@ -15,11 +15,11 @@ readonly PACKAGES=(
     g++ cmake make python3-dev libboost-python-dev libboost-serialization-dev libeigen3-dev libgl-dev
     # to check it: objdump and nm; leaks and bad memory accesses (libc6-dbg is what valgrind reads)
     binutils valgrind libc6-dbg
-    # to check what YADE's window draws: a display, and OpenGL, of the processor
-    xvfb xauth libgl1-mesa-dri
+    # OpenGL of the processor, with which VTK draws pictures; a display, to check what YADE's window draws
+    libegl1 libgl1-mesa-dri xvfb xauth
     # pictures and summaries
     python3-matplotlib python3-numpy
-    # shapes: convex hulls, and files of surfaces; files for ParaView
+    # shapes: convex hulls, and files of surfaces; pictures, and files for ParaView
     python3-scipy python3-vtk9
     # progress bars
     python3-tqdm

@@ -1,49 +1,53 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""YADE bodies made of potential particles: shape, box, mass."""
+"""Shapes whose planes are given, and bodies of them for either contact functor."""
 
 import numpy as np
-from yade import Body, Quaternion, Vector3
+import yade
+from potential_particles import ConicPotentialParticle, body, mesh
+from potential_particles.polyhedron import Polyhedron
+from potential_particles.shape import Shape
 
-from surface_mesh import polyhedron_faces
-
-
-def potential_body(shape_class, surface, material, position, orientation=(1, 0, 0, 0), **shape):
-    """A body without mass yet, at `position` (m); orientation w, x, y, z, local to world."""
-    body = Body()
-    body.shape = potential_shape(shape_class, surface, **shape)
-    body.mat = material
-    body.state.pos = body.state.refPos = Vector3(*map(float, position))
-    turn = Quaternion(*map(float, orientation))
-    turn.normalize()
-    body.state.ori = body.state.refOri = turn
-    return body
+MASS_TOLERANCE = 1e-8  # of volume and inertia, relative
+REACH_TOLERANCE = 1e-4  # of the bounding radius
 
 
-def potential_shape(shape_class, surface, **more):
-    """A PotentialParticle, or a class derived from it, with the planes of a PotentialSurface."""
-    a, b, c = ([float(value) for value in column] for column in surface.normals.T)
-    if not hasattr(shape_class, "automaticBox"):
-        # YADE's own class knows no corners: without them its box would be a cube about a ball.
-        more = {"AabbMinMax": True, "vertices": _corners(surface), **more}
-    offsets = [float(d) for d in surface.offsets]
-    return shape_class(a=a, b=b, c=c, d=offsets, r=surface.r, k=surface.k, R=surface.R, **more)
+def shape_of_planes(normals, offsets, r, k, R, name):
+    """The Shape with these planes n_i.x <= d_i, whose centroid and principal axes must be those of its frame.
+
+    The builders of potential_particles.shapes are given faces, and find planes and frame; comparisons with closed forms and
+    with YADE's own functor give the planes themselves.
+    """
+    planes = tuple((*map(float, normal), float(offset)) for normal, offset in zip(normals, offsets))
+    particle = ConicPotentialParticle(planes=list(planes), r=r, k=k, R=R)
+    volume, _, inertia, error = particle.massProperties(MASS_TOLERANCE)
+    return Shape(planes, r, k, R, volume, tuple(inertia[i, i] for i in range(3)), error, (0.0, 0.0, 0.0),
+                 (1.0, 0.0, 0.0, 0.0), particle.boundingRadius, name)  # fmt: skip
 
 
-def give_mass(body, volume, principal_inertia):
-    """volume in m^3; inertia for density 1 about the centroid, along the local axes, m^5."""
-    density = body.mat.density
-    body.state.mass = volume * density
-    body.state.inertia = Vector3(*(float(value) * density for value in principal_inertia))
-    body.aspherical = True
+def reach(shape):
+    """Radius of the least ball about the centroid that holds a shape, m; `bounding_radius` may be a tenth larger."""
+    surface = mesh(shape, REACH_TOLERANCE)
+    return float(np.linalg.norm(surface.points, axis=1).max() + surface.error)
 
 
-def fix(body):
-    """Holds a body where it is, whatever pushes it."""
-    body.state.blockedDOFs = "xyzXYZ"
+def potential_body(shape_class, shape, *place, **more):
+    """As potential_particles.body, with the shape as a ConicPotentialParticle or as YADE's own PotentialParticle."""
+    made = body(shape, *place, **more)
+    if shape_class is not ConicPotentialParticle:
+        made.shape = _plain(shape, made.shape.isBoundary)
+    return made
 
 
-def _corners(surface):
+def _plain(shape, is_boundary):
+    a, b, c, d = (list(column) for column in zip(*shape.planes))
+    # YADE's own class knows no corners: without them its box is a cube about a ball, which is right for k = 1 alone.
+    corners = [] if shape.k == 1.0 else _corners(shape)
+    return yade.PotentialParticle(a=a, b=b, c=c, d=d, r=shape.r, k=shape.k, R=shape.R, isBoundary=is_boundary,
+                                  AabbMinMax=bool(corners), vertices=corners)  # fmt: skip
+
+
+def _corners(shape):
     """Corners of a polyhedron that holds the particle: each face at d + r/sqrt(1-k)."""
-    faces = polyhedron_faces(surface.normals, surface.offsets + surface.r / np.sqrt(1.0 - surface.k))
-    corners = np.unique(np.round(np.vstack(faces), 12), axis=0)
-    return [Vector3(*corner) for corner in corners]
+    planes = np.array(shape.planes)
+    sharp = Polyhedron.of_planes(planes[:, :3], planes[:, 3] + shape.r / np.sqrt(1.0 - shape.k))
+    return [yade.Vector3(*corner) for corner in np.unique(np.round(sharp.corners, 12), axis=0)]

@@ -12,8 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from bodies import fix, potential_body
-from potential_surface import PotentialSurface
+from bodies import potential_body, shape_of_planes
 
 # Functors that need k > 0 get just enough: the faces bulge by less than k/2 of the half
 # thickness, and their normals turn by less than k radians.
@@ -56,8 +55,5 @@ def _slab(shape_class, material, centre, half_size, rounding):
     """A fixed slab; half_size along x, y, z, m."""
     half_size = np.asarray(half_size)
     offsets = np.repeat(half_size - rounding, 2)
-    surface = PotentialSurface(SLAB_NORMALS, offsets, rounding, SLAB_SPHERICITY, np.linalg.norm(half_size))
-    body = potential_body(shape_class, surface, material, centre, isBoundary=True)
-    body.mask = SLAB_MASK
-    fix(body)
-    return body
+    shape = shape_of_planes(SLAB_NORMALS, offsets, rounding, SLAB_SPHERICITY, np.linalg.norm(half_size), "slab")
+    return potential_body(shape_class, shape, material, centre, isBoundary=True, fixed=True, mask=SLAB_MASK)

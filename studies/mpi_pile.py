@@ -25,11 +25,12 @@ import machine
 import mpi_pile_report as report
 import pyramids
 import settings
+from bodies import reach
 from box import Box
 from contact_functor import LIBRARY, ContactFunctor
 from loose_grid import loose_grid
 from progress import Progress
-from pyramid import Pyramid
+from pyramid import pyramid
 
 # How far a centre moves before boxes and borders are made anew: large, it costs pairs; small, exchanges between ranks.
 VERLET_DISTANCE = 0.06 * pyramids.SIZE
@@ -43,17 +44,15 @@ class Pile:
 
     def __init__(self, count):
         self.count = count
-        self.pyramid = Pyramid(pyramids.SIZE)
-        # A coarse mesh is enough for many bodies.
-        self.ball_radius = self.pyramid.ball_radius
-        self.grid = loose_grid(count, self.ball_radius, pyramids.JITTER, pyramids.SEED)
+        self.shape = pyramid(pyramids.SIZE)
+        self.grid = loose_grid(count, reach(self.shape), pyramids.JITTER, pyramids.SEED)
         half_width = self.grid.half_width + 0.3 * self.grid.height
         self.box = Box(half_width, half_width, self.grid.height + pyramids.SIZE, thickness=pyramids.SIZE)
         self.ids = range(5, 5 + count)
 
     def build(self):
         """Fills YADE's scene; on rank 0."""
-        ids = pyramids.build_scene(ContactFunctor(LIBRARY), self.pyramid, self.grid, self.box)
+        ids = pyramids.build_scene(ContactFunctor(LIBRARY), self.shape, self.grid, self.box)
         assert list(ids) == list(self.ids)
         mpi.safe_boxes(VERLET_DISTANCE)
 
@@ -155,7 +154,7 @@ class Run:
         if mpi.rank():
             return None
         below, outside = self.pile.box.lost(states["position"])
-        weight = self.pile.count * self.pile.pyramid.volume * pyramids.DENSITY * pyramids.GRAVITY
+        weight = self.pile.count * self.pile.shape.volume * pyramids.DENSITY * pyramids.GRAVITY
         return {
             "bodies": self.pile.count,
             "ranks": mpi.ranks(),

@@ -7,12 +7,11 @@ import sys
 import matplotlib
 import numpy as np
 
-from potential_particles import ConicPotentialParticle
 from potential_particles.output.drawn import ShapeMeshes, copies
 from potential_particles.output.view import framing_view
 
 import pyramids
-from bodies import potential_shape
+from bodies import reach
 from panels import PANEL_PIXELS, save_panels
 from summary import print_table, write_summary
 
@@ -32,8 +31,8 @@ def rotations(orientations):
 
 def kinetic(pile, states):
     """Kinetic energy of all bodies, J."""
-    mass = pile.pyramid.volume * pyramids.DENSITY
-    inertia = pile.pyramid.principal_inertia * pyramids.DENSITY
+    mass = pile.shape.volume * pyramids.DENSITY
+    inertia = np.array(pile.shape.inertia) * pyramids.DENSITY
     turning = np.einsum("bji,bj->bi", rotations(states["orientation"]), states["angular_velocity"])
     return float(0.5 * mass * (states["velocity"] ** 2).sum() + 0.5 * (inertia * turning**2).sum())
 
@@ -82,12 +81,12 @@ def write(out, pile, result, pictures):
 def _draw(path, pile, pictures, ranks):
     """The first and the last state; colour tells the worker."""
     table = matplotlib.colormaps["tab10"](np.arange(10))[:, :3]
-    mesh = ShapeMeshes(0.01).of(potential_shape(ConicPotentialParticle, pile.pyramid.surface))
+    mesh = ShapeMeshes(0.01).of(pile.shape.particle())
     ends = [
         states["position"] + side * axis
         for _, _, states in pictures
         for side in (-1, 1)
-        for axis in pile.ball_radius * np.eye(3)
+        for axis in reach(pile.shape) * np.eye(3)
     ]
     view = framing_view(np.vstack(ends), pyramids.VIEW_FROM, pyramids.VIEW_ANGLE, PANEL_PIXELS[0] / PANEL_PIXELS[1])
     panels = [

@@ -6,9 +6,9 @@ shape, which YADE wants there; x, y, z are principal axes of inertia by symmetry
 """
 
 import numpy as np
+from potential_particles import ConicPotentialParticle
 
-from potential_surface import PotentialSurface
-from surface_mesh import surface_mesh
+from bodies import MASS_TOLERANCE, shape_of_planes
 
 # All relative to the base edge, which is the size of the particle.
 HEIGHT = 1.0
@@ -16,36 +16,25 @@ ROUNDING = 0.05
 SPHERICITY = 0.02
 
 
-class Pyramid:
-    """A pyramid of base edge `size`: its surface, and mass properties for density 1."""
-
-    def __init__(self, size, height=HEIGHT, rounding=ROUNDING, sphericity=SPHERICITY):
-        self.size, self.height = size, height
-        self.rounding, self.sphericity = rounding, sphericity
-        below = 0.25 * height  # centroid of the sharp pyramid above its base
-        while True:
-            unit = _unit_surface(height, below, rounding, sphericity)
-            volume, centroid, inertia = unit.mass_properties()
-            if abs(centroid[2]) < 1e-8:
-                break
-            below += centroid[2]
-        self.surface = PotentialSurface(
-            unit.normals, unit.offsets * size, unit.r * size, unit.k, unit.R * size
-        )
-        self.volume = volume * size**3
-        self.principal_inertia = np.diag(inertia) * size**5
-        # Of a ball about the centre that holds it.
-        self.ball_radius = float(np.linalg.norm(surface_mesh(self.surface)[0], axis=1).max())
+def pyramid(size, rounding=ROUNDING, sphericity=SPHERICITY):
+    """The Shape of a pyramid of base edge `size` (m); rounding relative to it."""
+    below = 0.25 * HEIGHT  # centroid of the sharp pyramid above its base
+    while True:
+        normals, offsets, r, k, R = unit = _unit(below, rounding, sphericity)
+        planes = np.column_stack([normals, offsets]).tolist()
+        shift = ConicPotentialParticle(planes=planes, r=r, k=k, R=R).massProperties(MASS_TOLERANCE)[1][2]
+        if abs(shift) < 1e-8:
+            return shape_of_planes(*unit, name="pyramid").scaled(size)
+        below += shift
 
 
-def _unit_surface(height, below, r, k):
-    """Pyramid of base edge 1 whose base plane lies `below` under the origin."""
-    slope = np.hypot(height, 0.5)
-    across, up = height / slope, 0.5 / slope
+def _unit(below, r, k):
+    """Normals, offsets, r, k and R of a pyramid of base edge 1 whose base plane lies `below` under the origin."""
+    slope = np.hypot(HEIGHT, 0.5)
+    across, up = HEIGHT / slope, 0.5 / slope
     normals = [(across, 0, up), (-across, 0, up), (0, across, up), (0, -across, up), (0, 0, -1)]
     side = 0.5 * across - below * up
     # Offsets reduced by r, as YADE has them: the rounding brings the faces back out.
     offsets = np.array([side] * 4 + [below]) - r
     # The shadow sphere passes near the corners, so that its share of S there is about k.
-    shadow = np.sqrt(0.5 + below**2)
-    return PotentialSurface(normals, offsets, r, k, shadow)
+    return normals, offsets, r, k, np.sqrt(0.5 + below**2)

@@ -29,12 +29,12 @@ from yade import O
 
 import machine
 import settings
-from bodies import give_mass, potential_body
+from bodies import potential_body, reach
 from box import BODY_MASK, SLAB_ONLY, Box
 from contact_functor import BUILTIN, LIBRARY, ContactFunctor
 from loose_grid import loose_grid
 from panels import PANEL_PIXELS, save_panels
-from pyramid import Pyramid
+from pyramid import HEIGHT, ROUNDING, SPHERICITY, pyramid
 from recorded_run import RecordedRun
 from summary import print_table, write_summary
 from watch import Watch, unbalanced_force
@@ -80,13 +80,12 @@ def main():
     kind = settings.choice("FUNCTOR", LIBRARY, (LIBRARY, BUILTIN), "contact functor")
     out = settings.folder("OUTPUT", HERE.parent / "out" / "pyramids")
     contact = ContactFunctor(kind)
-    pyramid = Pyramid(SIZE)
-    ball_radius = pyramid.ball_radius
-    grid = loose_grid(count, ball_radius, JITTER, SEED)
+    shape = pyramid(SIZE)
+    grid = loose_grid(count, reach(shape), JITTER, SEED)
     # The walls only guard against losing a body that slides far: the heap stays clear of them.
     half_width = grid.half_width + grid.height
     box = Box(half_width, half_width, grid.height + SIZE, thickness=SIZE)
-    ids = build_scene(contact, pyramid, grid, box)
+    ids = build_scene(contact, shape, grid, box)
     clear(out)
 
     watch = Watch(ids, GRAVITY)
@@ -106,8 +105,8 @@ def main():
         print(f"interrupted at step {O.iter:,}: drawing and summing up what there is", flush=True)
         run.keep_last()
     watch.save(out / "history.csv")
-    draw(out / "pyramids.png", run.states, O.bodies[ids[0]].shape, ball_radius, grid)
-    summary = summarise(run, contact, pyramid, box, count, steps, interrupted)
+    draw(out / "pyramids.png", run.states, shape, grid)
+    summary = summarise(run, contact, shape, box, count, steps, interrupted)
     summary["total_seconds"] = time.perf_counter() - started
     write_summary(out / "summary.json", summary)
     print_summary(summary, out)
@@ -121,13 +120,13 @@ def clear(out):
         old.unlink()
 
 
-def build_scene(contact, pyramid, grid, box):
+def build_scene(contact, shape, grid, box):
     """Fills YADE's scene; returns the ids of the pyramids."""
     material = yade.FrictMat(young=-1, poisson=-1, frictionAngle=np.radians(FRICTION_ANGLE), density=DENSITY)
     O.materials.append(material)
     O.bodies.append(box.slabs(contact.shape_class, material))
     ids = [
-        append_pyramid(contact, pyramid, material, position, orientation)
+        append(contact, shape, material, position, orientation)
         for position, orientation in zip(grid.positions, grid.orientations)
     ]
     O.engines = engines(contact)
@@ -137,12 +136,9 @@ def build_scene(contact, pyramid, grid, box):
     return ids
 
 
-def append_pyramid(contact, pyramid, material, position, orientation):
-    """Puts a pyramid at `position`, m, with `orientation` w, x, y, z into YADE's scene; returns its id."""
-    body = potential_body(contact.shape_class, pyramid.surface, material, position, orientation)
-    give_mass(body, pyramid.volume, pyramid.principal_inertia)
-    body.mask = BODY_MASK
-    return O.bodies.append(body)
+def append(contact, shape, material, position, orientation):
+    """Puts a body at `position`, m, with `orientation` w, x, y, z into YADE's scene; returns its id."""
+    return O.bodies.append(potential_body(contact.shape_class, shape, material, position, orientation, mask=BODY_MASK))
 
 
 def engines(contact):
@@ -182,16 +178,16 @@ def engines(contact):
     ]
 
 
-def draw(path, states, shape, ball_radius, grid):
+def draw(path, states, shape, grid):
     """The panels of the paper's Fig. 3; colour tells the layer in which a body started."""
     shades = matplotlib.colormaps["viridis"](np.linspace(0.12, 0.9, grid.layers[-1] + 1))
     colours = shades[:, :3][grid.layers]
-    mesh = ShapeMeshes(MESH_TOLERANCE).of(shape)
+    mesh = ShapeMeshes(MESH_TOLERANCE).of(shape.particle())
     ends = [
         state.positions + side * axis
         for state in states
         for side in (-1, 1)
-        for axis in ball_radius * np.eye(3)
+        for axis in reach(shape) * np.eye(3)
     ]
     view = framing_view(np.vstack(ends), VIEW_FROM, VIEW_ANGLE, PANEL_PIXELS[0] / PANEL_PIXELS[1])
     panels = [
@@ -211,12 +207,12 @@ def draw(path, states, shape, ball_radius, grid):
     )
 
 
-def summarise(run, contact, pyramid, box, count, steps, interrupted):
+def summarise(run, contact, shape, box, count, steps, interrupted):
     """Everything worth keeping about the run, as plain values; units in the names."""
     watch = run.watch
     last = watch.look()
     below, outside = box.lost(watch.poses()[0])
-    weight = count * pyramid.volume * DENSITY * GRAVITY
+    weight = count * shape.volume * DENSITY * GRAVITY
     support = sum(O.forces.f(slab)[2] for slab in range(5))
     return {
         "bodies": count,
@@ -253,10 +249,10 @@ def summarise(run, contact, pyramid, box, count, steps, interrupted):
         "seed": SEED,
         "parameters": {
             "size_m": SIZE,
-            "height_over_size": pyramid.height,
-            "rounding_over_size": pyramid.rounding,
-            "sphericity": pyramid.sphericity,
-            "mass_kg": pyramid.volume * DENSITY,
+            "height_over_size": HEIGHT,
+            "rounding_over_size": ROUNDING,
+            "sphericity": SPHERICITY,
+            "mass_kg": shape.volume * DENSITY,
             "density_kg_per_m3": DENSITY,
             "friction_angle_degrees": FRICTION_ANGLE,
             "gravity_m_per_s2": GRAVITY,

@@ -7,39 +7,15 @@ slope face passes through the toe, where the line comes out of the rock, and the
 `size` above it. The toe is the origin.
 """
 
-from dataclasses import dataclass
-
 import numpy as np
 
+from potential_particles.polyhedron import Polyhedron
+
 from joint_planes import Plane, sliding
-from surface_mesh import polyhedron_faces
 
 FACE_DIP = 70.0  # of the slope face, where none is given, degrees
 MARGIN = 0.5  # of rock beyond the wedge, relative to the size
 UP = np.array([0.0, 0.0, 1.0])
-
-
-@dataclass
-class Polyhedron:
-    """{x: normals . x <= offsets}; unit outward normals, world frame."""
-
-    normals: np.ndarray
-    offsets: np.ndarray
-
-    def faces(self):
-        """Corner polygons, counter-clockwise from outside."""
-        return polyhedron_faces(self.normals, self.offsets)
-
-    def centroid(self):
-        """Of the volume."""
-        volume, first = 0.0, np.zeros(3)
-        for polygon in self.faces():
-            for one, other in zip(polygon[1:-1], polygon[2:]):
-                # The tetrahedron between the triangle and the origin, counted with its sign.
-                part = polygon[0] @ np.cross(one, other)
-                volume += part
-                first += part * (polygon[0] + one + other) / 4.0
-        return first / volume
 
 
 class WedgeBlocks:
@@ -73,7 +49,7 @@ class WedgeBlocks:
         through the centroid. Each such point gives one point on A and one on B; returned are
         (ends on A, ends on B), (2, 3) each, of those that lie on the faces, or None if there are none.
         """
-        centroid, tangent = self.wedge.centroid(), np.tan(np.radians(self.limit.friction_angle))
+        centroid, tangent = self.wedge.centroid, np.tan(np.radians(self.limit.friction_angle))
         lines = []
         for normal in (self.plane_a.normal, self.plane_b.normal):
             pull = normal - tangent * self.limit.line  # along the reaction
@@ -126,7 +102,7 @@ class WedgeBlocks:
         """Half spaces that bound the fixed rock behind, below and on both sides of the wedge."""
         along = np.array([self.limit.line[0], self.limit.line[1], 0.0])
         along /= np.linalg.norm(along)
-        corners = np.vstack(self.wedge.faces())
+        corners = self.wedge.corners
         margin = MARGIN * self.size
         across = np.cross(UP, along)
         return [
@@ -136,4 +112,4 @@ class WedgeBlocks:
 
 def _polyhedron(half_spaces):
     normals, offsets = zip(*half_spaces)
-    return Polyhedron(np.array(normals), np.array(offsets))
+    return Polyhedron.of_planes(np.array(normals), np.array(offsets))

@@ -68,7 +68,7 @@ def save_study(path, blocks, rests, slide, sweep, note):
 
 
 def _view(states, blocks):
-    corners = [np.vstack(p.faces()) for p in (blocks.wedge, blocks.block_a, blocks.block_b, blocks.base)]
+    corners = [p.corners for p in (blocks.wedge, blocks.block_a, blocks.block_b, blocks.base)]
     start, end = (state.corners[state.bodies == 0].mean((0, 1)) for _, state in (states[0], states[-1]))
     points = np.vstack([*corners, corners[0] + end - start])
     along = blocks.limit.line * [1.0, 1.0, 0.0]
@@ -80,7 +80,7 @@ def _view(states, blocks):
 
 def _render(triangles, blocks, view):
     triangles.colours = COLOURS[triangles.bodies]
-    middle, lowest = np.vstack(blocks.base.faces()).mean(0), np.vstack(blocks.base.faces()).min(0)[2]
+    middle, lowest = blocks.base.corners.mean(0), blocks.base.corners.min(0)[2]
     return render(triangles, floor(lowest, 6.0 * blocks.size, middle[:2]), view, *PIXELS)
 
 
@@ -151,7 +151,7 @@ def _face(axis, blocks, joint, rests, slide):
 
 
 def _corners(polyhedron):
-    return np.unique(np.round(np.vstack(polyhedron.faces()), 12), axis=0)
+    return np.unique(np.round(polyhedron.corners, 12), axis=0)
 
 
 # --- sweep -----------------------------------------------------------------------------------

@@ -13,10 +13,10 @@ from dataclasses import dataclass
 
 import numpy as np
 import yade
-from yade import Matrix3, O, Quaternion, Vector3
+from yade import O, Vector3
 
-from bodies import fix, give_mass, potential_body
-from potential_surface import PotentialSurface
+from potential_particles import body, shapes
+
 from stepping import advance
 
 GRAVITY = 9.81  # m/s^2
@@ -54,9 +54,9 @@ class WedgeScene:
         O.materials.append(material)
         radii = []
         for polyhedron in (blocks.wedge, blocks.block_a, blocks.block_b, blocks.base):
-            body = self._body(polyhedron, material, free=not radii)
-            O.bodies.append(body)
-            radii.append(body.shape.boundingRadius)
+            block = self._body(polyhedron, material, free=not radii)
+            O.bodies.append(block)
+            radii.append(block.shape.boundingRadius)
         state = O.bodies[WEDGE].state
         self.weight = state.mass * GRAVITY
         self.overlap = case.overlap * case.size
@@ -92,33 +92,11 @@ class WedgeScene:
         ]
 
     def _body(self, polyhedron, material, free):
-        """A block with its origin in the centroid of the true shape; the wedge along principal axes."""
-        case = self.case
-        origin, turn = polyhedron.centroid(), np.eye(3)
-        reach = max(np.linalg.norm(corner - origin) for corner in np.vstack(polyhedron.faces()))
-
-        def make():
-            offsets = polyhedron.offsets - polyhedron.normals @ origin - self.rounding
-            surface = PotentialSurface(
-                polyhedron.normals @ turn, offsets, self.rounding, case.sphericity, reach
-            )
-            orientation = _quaternion(turn)
-            return potential_body(self.contact.shape_class, surface, material, origin, orientation)
-
-        body = make()
-        for _ in range(3):
-            origin = origin + np.array(body.shape.centroid)
-            body = make()
-        if not free:
-            fix(body)
-            body.mask = FIXED_MASK
-            return body
-        _, axes = np.linalg.eigh(_matrix(body.shape.inertia))
-        turn = axes * np.sign(np.linalg.det(axes))
-        body = make()
-        give_mass(body, body.shape.volume, np.diag(_matrix(body.shape.inertia)))
-        body.mask = FREE_MASK
-        return body
+        """A block where it stands in the slope."""
+        r = self.rounding / (2.0 * polyhedron.ball_radius)
+        planes = np.column_stack([polyhedron.normals, polyhedron.offsets])
+        shape = shapes.from_planes(planes, r, self.case.sphericity)
+        return body(shape, material, fixed=not free, mask=FREE_MASK if free else FIXED_MASK)
 
     def _time_step(self, state, radii, regularisation):
         """s; from the springs, and from the tilting of the wedge on its slightly curved faces.
@@ -232,13 +210,3 @@ def _joint(interaction):
         point=np.array(geom.contactPoint),
         overlap=geom.penetrationDepth,
     )
-
-
-def _matrix(matrix3):
-    return np.array([[matrix3[i, j] for j in range(3)] for i in range(3)])
-
-
-def _quaternion(turn):
-    """w, x, y, z of a rotation matrix."""
-    quaternion = Quaternion(Matrix3(*map(float, turn.ravel())))
-    return quaternion[3], quaternion[0], quaternion[1], quaternion[2]

@@ -25,12 +25,12 @@ from yade import Body, O, Quaternion, Vector3, polyhedra_utils, utils
 
 import pyramids
 import yade_level_set
-from bodies import fix, give_mass, potential_body
+from bodies import potential_body, reach
 from box import BODY_MASK, SLAB_MASK, SLAB_ONLY, Box
 from contact_functor import BUILTIN, LIBRARY, ContactFunctor
 from loose_grid import loose_grid
 from polyhedron import Polyhedron
-from pyramid import Pyramid
+from pyramid import pyramid
 
 OURS, POTENTIAL, POLYHEDRA, LEVEL_SET = "ours", "potential", "polyhedra", "levelset"
 SEED = 7
@@ -44,13 +44,19 @@ BOUNCE_STEPS_PER_STEP = 20
 DROP, TILT = 0.05, (0.9, 0.3, 0.2, 0.1)  # of the bouncing body: height in m, orientation
 
 
+def planes_of(shape):
+    """Normals (n, 3) and offsets (n,)."""
+    planes = np.array(shape.planes)
+    return planes[:, :3], planes[:, 3]
+
+
 class Scene:
     """Engines and the shape of one kind; `ids` of its bodies."""
 
     def __init__(self, kind, count, dissipation=True):
         self.kind, self.dissipation, self.ids = kind, dissipation, []
-        self.pyramid = Pyramid(pyramids.SIZE)
-        self.grid = loose_grid(count, self.pyramid.ball_radius, pyramids.JITTER, SEED)
+        self.shape = pyramid(pyramids.SIZE)
+        self.grid = loose_grid(count, reach(self.shape), pyramids.JITTER, SEED)
         self.box = Box(self.grid.half_width, self.grid.half_width, self.grid.height, thickness=pyramids.SIZE)
         self.contact = ContactFunctor(LIBRARY if kind == OURS else BUILTIN, measure_time=False) if kind in (OURS, POTENTIAL) else None
         self.angle = np.radians(pyramids.FRICTION_ANGLE) if dissipation else 0.0
@@ -117,37 +123,33 @@ class Scene:
             O.bodies.append(wall)
 
     def _potential(self):
-        body = potential_body(self.contact.shape_class, self.pyramid.surface, self.material, (0, 0, 0))
-        give_mass(body, self.pyramid.volume, self.pyramid.principal_inertia)
-        return body
+        return potential_body(self.contact.shape_class, self.shape, self.material)
 
     def _polyhedron(self):
         """Sharp, and inside the rounded one: else its corners would stick out by a twentieth of the size."""
         corners = self._sharp()
         body = polyhedra_utils.polyhedra(self.material, v=[Vector3(*map(float, corner)) for corner in corners])
         self.own = (body.state.ori, body.state.pos)
-        mass = self.pyramid.volume * pyramids.DENSITY
+        mass = self.shape.volume * pyramids.DENSITY
         body.state.inertia *= mass / body.state.mass
         body.state.mass = mass
         return body
 
     def _sharp(self):
-        surface = self.pyramid.surface
-        corners = Polyhedron(surface.normals, surface.offsets + surface.r).corners
-        low, high = 0.5, 1.0
-        for _ in range(40):
-            middle = 0.5 * (low + high)
-            inside = surface.scale(middle * corners).max() <= 1.0
-            low, high = (middle, high) if inside else (low, middle)
-        return low * corners
+        normals, offsets = planes_of(self.shape)
+        corners = Polyhedron(normals, offsets + self.shape.r).corners
+        lengths, ways = np.linalg.norm(corners, axis=1), [Vector3(*corner) for corner in corners]
+        reach = self.shape.particle().surfaceDistance(ways) / lengths
+        return reach.min() * corners
 
     def _level_set(self):
         if not hasattr(self, "field"):
-            surface = self.pyramid.surface
-            core = Polyhedron(surface.normals, surface.offsets)
-            self.field = yade_level_set.signed_distances(core.corners, core.triangles, surface.r)
+            core = Polyhedron(*planes_of(self.shape))
+            self.field = yade_level_set.signed_distances(core.corners, core.triangles, self.shape.r)
         body = yade_level_set.body(*self.field, self.material)
-        give_mass(body, self.pyramid.volume, self.pyramid.principal_inertia)
+        body.state.mass = self.shape.volume * pyramids.DENSITY
+        body.state.inertia = Vector3(*self.shape.inertia) * pyramids.DENSITY
+        body.aspherical = True
         return body
 
     def _engines(self):
@@ -236,7 +238,7 @@ def windows():
 def bounce():
     """One pyramid dropped onto the floor, without friction or damping: how far its energy in flight strays from that at the start."""
     scene = Scene(JOB["kind"], 1, dissipation=False)
-    scene.add((0, 0, scene.pyramid.ball_radius + DROP), TILT)
+    scene.add((0, 0, reach(scene.shape) + DROP), TILT)
     scene.finish()
     # So short a step that what is left is the geometry's: the laws give no force in the first step of a contact.
     O.dt /= BOUNCE_STEPS_PER_STEP
@@ -254,12 +256,12 @@ def bounce():
 def describe():
     """Shape, mass and laws, for those who are not YADE."""
     scene = Scene(OURS, JOB["count"])
-    surface, mass = scene.pyramid.surface, scene.pyramid.volume * pyramids.DENSITY
+    (normals, offsets), mass = planes_of(scene.shape), scene.shape.volume * pyramids.DENSITY
     # Of the critical damping of two bodies, whose effective mass at a corner is about a quarter.
     damping = 2.0 * pyramids.VISCOUS_DAMPING * np.sqrt(pyramids.NORMAL_STIFFNESS * 0.25 * mass)
     return {
-        "normals": surface.normals.tolist(), "offsets": surface.offsets.tolist(), "r": surface.r, "mass": mass,
-        "inertia": [float(value) * pyramids.DENSITY for value in scene.pyramid.principal_inertia],
+        "normals": normals.tolist(), "offsets": offsets.tolist(), "r": scene.shape.r, "mass": mass,
+        "inertia": [value * pyramids.DENSITY for value in scene.shape.inertia],
         "half_width": float(scene.box.half_x), "height": float(scene.box.height),
         "laws": [pyramids.NORMAL_STIFFNESS, damping, 0.5 * damping, float(np.tan(scene.angle)), pyramids.GRAVITY, pyramids.TIME_STEP],
     }

@@ -17,11 +17,10 @@ from yade import O, utils
 
 import loose_grid
 import pyramids
-from bodies import give_mass, potential_body
+from bodies import potential_body, reach
 from box import BODY_MASK, SLAB_ONLY, Box
 from contact_functor import LIBRARY, ContactFunctor
-from pyramid import Pyramid
-from surface_mesh import surface_mesh
+from pyramid import pyramid
 
 PYRAMIDS, SPHERES = "pyramids", "spheres"
 SEED = 7
@@ -39,9 +38,8 @@ class Pile:
         """loop: another contact loop than the demo's; watched: whether the collider runs only when BoundWatch asks."""
         self.kind, self.count, self.loop, self.watched = kind, count, loop, watched
         self.contact = ContactFunctor(LIBRARY, measure_time=False) if kind == PYRAMIDS else None
-        self.pyramid = Pyramid(pyramids.SIZE)
-        mesh = surface_mesh(self.pyramid.surface)
-        self.ball = float(np.linalg.norm(mesh[0], axis=1).max()) if kind == PYRAMIDS else SPHERE_RADIUS
+        self.shape = pyramid(pyramids.SIZE)
+        self.ball = reach(self.shape) if kind == PYRAMIDS else SPHERE_RADIUS
         self.grid = loose_grid.loose_grid(count, self.ball, pyramids.JITTER, SEED)
         self.box = Box(self.grid.half_width, self.grid.half_width, self.grid.height, thickness=pyramids.SIZE)
         self.material = yade.FrictMat(
@@ -120,9 +118,7 @@ class Pile:
 
     def _append(self, position, orientation):
         if self.kind == PYRAMIDS:
-            body = potential_body(self.contact.shape_class, self.pyramid.surface, self.material, position, orientation)
-            give_mass(body, self.pyramid.volume, self.pyramid.principal_inertia)
-            body.mask = BODY_MASK
+            body = potential_body(self.contact.shape_class, self.shape, self.material, position, orientation, mask=BODY_MASK)
         else:
             body = utils.sphere(tuple(map(float, position)), SPHERE_RADIUS, material=self.material, mask=BODY_MASK)
         number = O.bodies.append(body)

@@ -16,19 +16,18 @@ from pathlib import Path
 STUDIES = Path(sys.argv[0]).resolve().parent.parent.parent / "studies"
 sys.path.insert(0, str(STUDIES))
 
-import numpy as np
 import potential_particles  # noqa: F401 (a saved scene holds its classes)
 import yade
 from yade import O
 
 import pyramids
+from bodies import reach
 from box import Box
 from contact_functor import LIBRARY, ContactFunctor
 from loose_grid import loose_grid
 from progress import Progress
-from pyramid import Pyramid
+from pyramid import pyramid
 from stepping import advance
-from surface_mesh import surface_mesh
 
 # So short that the machine leaves some of them alone.
 BLOCKS, BLOCK_STEPS = 300, 2
@@ -36,12 +35,11 @@ BLOCKS, BLOCK_STEPS = 300, 2
 
 def settle(count, steps, scene):
     """The pile of studies/pyramids.py with another number of bodies."""
-    pyramid = Pyramid(pyramids.SIZE)
-    ball_radius = float(np.linalg.norm(surface_mesh(pyramid.surface)[0], axis=1).max())
-    grid = loose_grid(count, ball_radius, pyramids.JITTER, pyramids.SEED)
+    shape = pyramid(pyramids.SIZE)
+    grid = loose_grid(count, reach(shape), pyramids.JITTER, pyramids.SEED)
     half_width = grid.half_width + 0.3 * grid.height
     box = Box(half_width, half_width, grid.height + pyramids.SIZE, thickness=pyramids.SIZE)
-    pyramids.build_scene(ContactFunctor(LIBRARY), pyramid, grid, box)
+    pyramids.build_scene(ContactFunctor(LIBRARY), shape, grid, box)
     progress = Progress(steps)
     for stop in range(min(steps, 100), steps + 1, 100):
         advance(stop)

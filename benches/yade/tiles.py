@@ -25,7 +25,7 @@ from yade import O
 import pyramids
 from box import Box
 from contact_functor import LIBRARY, ContactFunctor
-from pyramid import Pyramid
+from pyramid import pyramid
 
 CELLS = (6, 6, 14)  # bodies of a tile, as they start
 WIDTH = 0.15  # of a cell, m: two bodies never touch across
@@ -87,12 +87,12 @@ def lay(tile, across, along):
 
 def fill(positions, orientations, half_x, half_y, height):
     """The scene of pyramids.py with these bodies; returns their ids."""
-    pyramid = Pyramid(pyramids.SIZE)
+    shape = pyramid(pyramids.SIZE)
     contact = ContactFunctor(LIBRARY, measure_time=False)
     material = yade.FrictMat(young=-1, poisson=-1, frictionAngle=np.radians(pyramids.FRICTION_ANGLE), density=pyramids.DENSITY)
     O.materials.append(material)
     O.bodies.append(Box(half_x, half_y, height, thickness=pyramids.SIZE).slabs(contact.shape_class, material))
-    ids = [pyramids.append_pyramid(contact, pyramid, material, *pose) for pose in zip(positions, orientations)]
+    ids = [pyramids.append(contact, shape, material, *pose) for pose in zip(positions, orientations)]
     O.engines = pyramids.engines(contact)
     contact.prepare()
     O.dt = pyramids.TIME_STEP

@@ -14,7 +14,8 @@ from yade import Matrix3, O, Vector3, utils
 
 from cases import Springs, loop
 from contact_functor import ContactFunctor
-from particles import block, material, pyramid
+from particles import block, half_height, material, plain_body
+from pyramid import pyramid
 
 STIFFNESS = 1e4  # N/m, or N/m^3 on faces of about 1 m^2
 SPEED = 1.0  # m/s
@@ -63,7 +64,7 @@ class HeadOn:
     def __init__(self, steps_per_contact, keep=False, bounces=BOUNCES):
         """keep: the law's neverErase, which spares it the step without force at the start of a contact."""
         self.cube = block(0.5, 0.1, 0.1)
-        self.half = self.cube.half_height()
+        self.half = half_height(self.cube)
         self.inner, self.outer = self.half + GAP, 3.0 * self.half + 2.0 * GAP
         self.ideal = np.pi * np.sqrt(0.5 * self.cube.volume / STIFFNESS)
         self.step = self.ideal / steps_per_contact
@@ -77,11 +78,11 @@ class HeadOn:
         stuff = material(0.0, 1.0)
         pair = []
         for side in (-1, 1):
-            cube = self.cube.body(stuff, (side * self.inner, 0.0, 0.0), (1.0, side * TWIST, 0.0, 0.0))
+            cube = plain_body(self.cube, stuff, (side * self.inner, 0.0, 0.0), (1.0, side * TWIST, 0.0, 0.0))
             cube.state.vel = Vector3(-side * SPEED, 0.0, 0.0)
             pair.append(O.bodies.append(cube))
         for side in (-1, 1):
-            O.bodies.append(self.cube.body(stuff, (side * self.outer, 0.0, 0.0), fixed=True))
+            O.bodies.append(plain_body(self.cube, stuff, (side * self.outer, 0.0, 0.0), fixed=True))
         springs = Springs(STIFFNESS, STIFFNESS, self.step)
         O.engines = loop(contact.functor, springs, gravity=0.0, never_erase=self.keep)
         O.dt = self.step
@@ -150,7 +151,7 @@ def momentum_change(kind, area):
         (pyramid(1.0, 0.1, 0.1), (0.8, -0.1, 0.1), (0.2, 0.7, 0.4, -0.5), (-1.0, 0.0, 0.1), (-0.4, 0.6, 0.1)),
     ]
     for particle, position, orientation, velocity, spin in start:
-        body = particle.body(stuff, position, orientation)
+        body = plain_body(particle, stuff, position, orientation)
         body.state.vel, body.state.angVel = Vector3(*velocity), Vector3(*spin)
         body.state.angMom = world_inertia(body.state) * body.state.angVel
         O.bodies.append(body)

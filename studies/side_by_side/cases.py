@@ -12,10 +12,11 @@ import yade
 from yade import O
 
 import pyramids
+from bodies import reach
 from box import SLAB_ONLY, SLAB_SPHERICITY, Box
 from loose_grid import loose_grid
-from particles import Ball, block, material, octahedron, pyramid
-from pyramid import ROUNDING, SPHERICITY
+from particles import ball, block, half_height, material, octahedron, plain_body
+from pyramid import pyramid
 
 GRAVITY = 9.81
 TOWER_CUBES = 10
@@ -106,20 +107,20 @@ def loop(functor, springs, viscous=0.0, local=0.0, gravity=GRAVITY, never_erase=
 
 def heap(case, kinds, seed):
     """The kinds, one body each, on a loose grid in a box with walls."""
-    radius = max(kind.ball_radius for kind in kinds)
+    radius = max(reach(kind) for kind in kinds)
     grid = loose_grid(len(kinds), radius, 0.03 * case.size, seed)
     box = Box(1.15 * grid.half_width, 1.15 * grid.half_width, grid.height + case.size, thickness=case.size)
     stuff = case.material()
     O.bodies.append(box.slabs(yade.PotentialParticle, stuff))
     return [
-        O.bodies.append(kind.body(stuff, position, orientation))
+        O.bodies.append(plain_body(kind, stuff, position, orientation))
         for kind, position, orientation in zip(kinds, grid.positions, grid.orientations)
     ]
 
 
 def place_pyramids(case, _springs, _area):
     """The pyramids of the demo, a dozen of them."""
-    kind = pyramid(case.size, ROUNDING, SPHERICITY)
+    kind = pyramid(case.size)
     return heap(case, [kind] * 12, pyramids.SEED)
 
 
@@ -141,7 +142,7 @@ def place_mixed(case, _springs, _area):
         pyramid(0.8 * s, 0.02, 0.3),
         octahedron(0.4 * s, 0.03 * s, 0.05),
         octahedron(0.4 * s, 0.15 * s, 0.6),
-        Ball(0.4 * s),
+        ball(0.4 * s),
     ]
     return heap(case, kinds, seed=7)
 
@@ -161,13 +162,13 @@ def place_tower(case, springs, area):
     cube, stuff = tower_cube(case), case.material()
     # Rounded by half its thickness: its surface is flat, see box.py.
     plate = block((2.0 * case.size, 2.0 * case.size, 0.5 * case.size), 0.5 * case.size, SLAB_SPHERICITY)
-    height = plate.half_height()
-    O.bodies.append(plate.body(stuff, (0.0, 0.0, -height), fixed=True))
+    height = half_height(plate)
+    O.bodies.append(plain_body(plate, stuff, (0.0, 0.0, -height), fixed=True))
     overlaps = np.zeros(TOWER_CUBES) if area else tower_overlaps(case, springs)
-    half, height, ids = cube.half_height(), 0.0, []
+    half, height, ids = half_height(cube), 0.0, []
     for overlap in overlaps:
         height += half - overlap
-        ids.append(O.bodies.append(cube.body(stuff, (0.0, 0.0, height))))
+        ids.append(O.bodies.append(plain_body(cube, stuff, (0.0, 0.0, height))))
         height += half
     return ids
 

@@ -4,6 +4,7 @@
 import numpy as np
 
 from cases import tower_cube, tower_overlaps
+from particles import half_height
 from touching import DOUBT, ConeJudge
 
 # Below these a difference is rounding, or the cone solver's own, and neither is better.
@@ -95,6 +96,6 @@ def _rise(record):
 
 def _tower_error(case, record):
     """Distance of the cubes' mean height from where their weights hold them, over the size."""
-    half = tower_cube(case).half_height()
+    half = half_height(tower_cube(case))
     ideal = np.cumsum(2.0 * half - tower_overlaps(case, case.springs(False))) - half
     return float(abs(record.height[-1] - ideal.mean()) / case.size)

@@ -13,11 +13,11 @@ import yade
 from yade import O
 
 import pyramids
+from bodies import reach
 from box import Box
 from contact_functor import BUILTIN, LIBRARY, ContactFunctor
 from loose_grid import loose_grid
-from particles import pyramid
-from pyramid import ROUNDING, SPHERICITY, Pyramid
+from pyramid import pyramid
 from stepping import advance
 
 # A measurement: so many windows of so many steps. They are so short that some run without another program
@@ -78,9 +78,8 @@ class Stage:
 def measure_stages(count, stages, rounds=ROUNDS, progress=None):
     """stages: (name, step) in order. Lets `count` pyramids fall and stops to measure at each."""
     contact = ContactFunctor(LIBRARY, measure_time=False)
-    shape = Pyramid(pyramids.SIZE)
-    ball_radius = pyramid(pyramids.SIZE, ROUNDING, SPHERICITY).ball_radius
-    grid = loose_grid(count, ball_radius, pyramids.JITTER, pyramids.SEED)
+    shape = pyramid(pyramids.SIZE)
+    grid = loose_grid(count, reach(shape), pyramids.JITTER, pyramids.SEED)
     half_width = grid.half_width + grid.height
     box = Box(half_width, half_width, grid.height + pyramids.SIZE, thickness=pyramids.SIZE)
     O.reset()

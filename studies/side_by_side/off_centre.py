@@ -22,7 +22,8 @@ import settings
 from bounce import world_inertia
 from cases import Springs, loop
 from contact_functor import BUILTIN, DROP_IN, ContactFunctor
-from particles import block, material, pyramid
+from particles import block, material, plain_body
+from pyramid import pyramid
 
 ROUNDING = 0.1  # m; bodies of 1 m
 STEPS = (1e-4, 5e-5, 2.5e-5)  # s at 10,000 N/m, where an impact lasts some 200 of the first
@@ -55,7 +56,7 @@ def impact(kind, seed, step, stiffness):
     for side, shape in ((1, cube), (-1, pyramid(1.0, ROUNDING, 0.1) if seed % 2 else cube)):
         turn = chance.normal(size=4)
         beside = chance.uniform(-0.25, 0.25, size=2)
-        body = shape.body(stuff, (-0.95 * side, *beside), tuple(turn / np.linalg.norm(turn)))
+        body = plain_body(shape, stuff, (-0.95 * side, *beside), tuple(turn / np.linalg.norm(turn)))
         body.state.vel = Vector3(side, *chance.uniform(-0.2, 0.2, size=2))
         body.state.angVel = Vector3(*chance.uniform(-1.0, 1.0, size=3))
         body.state.angMom = world_inertia(body.state) * body.state.angVel

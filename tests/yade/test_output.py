@@ -11,7 +11,8 @@ import potential_particles
 from potential_particles import shapes
 from harness import Checks, O, cube, plain, pyramid, pyramid_planes, turned
 from potential_particles.output import vtk_files
-from potential_particles.output.rasteriser import NOTHING, nearest_triangles
+from potential_particles.output import picture
+from potential_particles.output.drawn import ShapeMeshes, drawn
 
 import yade
 
@@ -72,26 +73,6 @@ def test_mesh_files():
     check.true(not [name for name in os.listdir(folder) if name.endswith(".part")], "no unfinished file stays")
 
 
-def test_rasteriser():
-    """Against the nearest of many random triangles, by the sign of areas at each pixel's centre."""
-    random = np.random.default_rng(7)
-    corners = np.concatenate([random.uniform(-5, 25, (60, 3, 2)), random.uniform(1, 2, (60, 3, 1))], axis=2)
-    closeness, index = nearest_triangles(corners, 20, 15)
-    x, y = np.meshgrid(np.arange(20) + 0.5, np.arange(15) + 0.5)
-    best, name = np.full(x.shape, -np.inf), np.full(x.shape, NOTHING)
-    for i, (a, b, c) in enumerate(corners):
-        area = np.linalg.det([b[:2] - a[:2], c[:2] - a[:2]])
-        if area >= 0:
-            continue
-        parts = [((q[0] - p[0]) * (y - p[1]) - (q[1] - p[1]) * (x - p[0])) / area for p, q in ((b, c), (c, a), (a, b))]
-        near = sum(part * corner[2] for part, corner in zip(parts, (a, b, c)))
-        seen = (np.min(parts, axis=0) >= 0) & (near > best)
-        best[seen], name[seen] = near[seen], i
-    check.true((index == name).all(), f"nearest triangle, {(index != name).sum()} of {index.size} pixels differ")
-    hit = index != NOTHING
-    check.true(hit.any() and np.allclose(closeness[hit], best[hit]), "and how near it is")
-
-
 def add(shape, position, colour, **more):
     shape.color = colour
     body = Body()
@@ -135,7 +116,13 @@ def test_plot():
     check.true(columns[0] < columns[1] < columns[2], f"in their places: {columns}")
     potential_particles.plot(path("behind.png"), towards=(0, 1, 0.4), size=(300, 200))
     count, _ = shown(imread(path("behind.png")), 0)
-    check.true(count > 300, "a boundary in front of the bodies is left out")
+    check.true(count > 300, "bodies are seen through a boundary in front of them")
+    O.reset()
+    O.bodies.append(utils.box((0, 0, 0), (1, 1, 1)))
+    potential_particles.plot(path("walls.png"), size=(100, 100))
+    # The side that the sun does not reach, the one that it grazes, and the top.
+    shades = np.unique(np.round(imread(path("walls.png"))[30:70, 30:70, 0], 1))
+    check.true(len(shades) > 1 and shades.max() < 0.97, f"a scene of boundaries alone is drawn: {shades}")
     O.reset()
     check.raises(ValueError, lambda: potential_particles.plot(path("empty.png")), "an empty scene", "nothing to draw")
     O.materials.append(FrictMat())
@@ -146,6 +133,136 @@ def test_plot():
         potential_particles.plot(path("one.png"), size=(100, 100))
         potential_particles.plot(path("one.png"), size=(100, 100))
     check.true(len(told) <= 1, "what is not drawn is said once")
+
+
+def rays(view, width, height):
+    """Directions from the eye through the pixels, (height, width, 3), of a pinhole camera."""
+    right, up, forward = view.axes()
+    x, y = np.meshgrid(np.arange(width) + 0.5 - width / 2, height / 2 - np.arange(height) - 0.5)
+    scale = 0.5 * height / np.tan(0.5 * view.angle)
+    return forward + np.multiply.outer(x / scale, right) + np.multiply.outer(y / scale, up)
+
+
+def grown(mask, pixels):
+    """A mask with all within so many pixels of it."""
+    for _ in range(pixels):
+        padded = np.pad(mask, 1)
+        mask = padded[1:-1, 1:-1] | padded[:-2, 1:-1] | padded[2:, 1:-1] | padded[1:-1, :-2] | padded[1:-1, 2:]
+    return mask
+
+
+def seen(image):
+    """Pixels that are not paper."""
+    return (image < 0.97).any(2)
+
+
+def test_outline():
+    """The silhouette of an ellipse of a sphere, and of a sharp cube, against rays that meet them; at any place and size."""
+    width, height = 300, 240
+    for size, middle in ((1.0, np.zeros(3)), (1e-4, np.array([2.0, -1.0, 3.0])), (1e5, np.array([1e8, 0.0, -1e8]))):
+        for kind in ("sphere", "cube"):
+            O.reset()
+            O.materials.append(FrictMat())
+            if kind == "sphere":
+                O.bodies.append(utils.sphere(middle, size, color=(1, 0, 0)))
+            else:
+                add(cube_of(size), middle, (1, 0, 0), ori=turned((1, 2, 3), 0.7))
+            triangles = drawn(list(O.bodies), ShapeMeshes(1e-3))
+            view = picture.framing(*triangles, (0.5, -0.8, 0.4), width / height)
+            image = picture.render(*triangles, view, width, height)
+            eye, way = view.eye - middle, rays(view, width, height)
+            if kind == "sphere":
+                nearest = eye - way * ((way @ eye) / (way**2).sum(-1))[:, :, None]
+                hit = np.linalg.norm(nearest, axis=-1) < size
+            else:
+                turn = np.array(O.bodies[0].state.ori.toRotationMatrix())
+                with np.errstate(divide="ignore"):
+                    bounds = np.sort([(side * size - eye @ turn) / (way @ turn) for side in (-1, 1)], axis=0)
+                hit = bounds[0].max(-1) < bounds[1].min(-1)
+            check.true(hit.mean() > 0.1 and not (seen(image) & ~grown(hit, 2)).any(), f"a {kind} of {size:g}: empty outside its outline")
+            inside = ~grown(~hit, 2)
+            check.true(seen(image)[inside].all(), f"a {kind} of {size:g}: filled within its outline")
+            red = image[inside]
+            check.true((red[:, 0] > 0.2).all() and (red[:, 1:] < 0.02).all(), f"a {kind} of {size:g}: in its colour, {red.mean(0)}")
+
+
+def cube_of(size):
+    """A cube of half edge `size`, with edges too sharp to be seen as round."""
+    planes = [(*axis, size * (1 - 1e-4)) for axis in np.concatenate([np.eye(3), -np.eye(3)])]
+    return yade.ConicPotentialParticle(planes=planes, r=1e-4 * size, k=0, R=2 * size)
+
+
+def test_light():
+    """A red cube above a floor: where the sun, at (-0.45, -0.55, 1), does not reach, the floor is darker, and nowhere else."""
+    O.reset()
+    O.materials.append(FrictMat())
+    add(cube_of(0.5), (0, 0, 1), (1, 0, 0))
+    # Out of the picture, so that the floor on it is all of one colour: that fades with the distance from the bodies' middle.
+    for x, y in ((-4, -4), (4, 4)):
+        O.bodies.append(utils.sphere((x, y, 1), 0.1, color=(1, 0, 0)))
+    O.bodies.append(utils.wall(0.0, axis=2))
+    triangles = drawn(list(O.bodies), ShapeMeshes(1e-3))
+    width, height = 320, 320
+    view = picture.framing_view(np.array([(x, y, 0.0) for x in (-2, 2) for y in (-2, 2)]), (0, 0, 1), 0.42, 1.0)
+    image = picture.render(*triangles, view, width, height)
+    way = rays(view, width, height)
+    ground = view.eye + way * (-view.eye[2] / way[:, :, 2])[:, :, None]
+    # To the sun: into the cube |x|, |y|, |z - 1| < 0.5 or not.
+    sun = np.array([-0.45, -0.55, 1.0])
+    bounds = np.sort([((0, 0, 1) + side * np.full(3, 0.5) - ground) / sun for side in (-1, 1)], axis=0)
+    shade = bounds[0].max(-1) < bounds[1].min(-1)
+    red = image[:, :, 0] - image[:, :, 1] > 0.2
+    floor = ~grown(red, 12)
+    bright, dark = image[floor & ~grown(shade, 3)], image[floor & ~grown(~shade, 3)]
+    check.true(len(bright) > 500 and len(dark) > 500, f"light and shade are seen: {len(bright)} and {len(dark)} pixels")
+    check.true(dark.max() < bright.min() - 0.1, f"shade is darker: up to {dark.max():.2f}, light from {bright.min():.2f}")
+    wide = picture.framing_view(np.array([(x, y, 0.0) for x in (-20, 20) for y in (-20, 20)]), (0, 0, 1), 0.42, 1.0)
+    image = picture.render(*triangles, wide, width, height)
+    check.true(image[160, 180].max() < 0.97 and image[0].min() > 0.99, "the floor fades into the paper")
+
+
+def test_transparent():
+    """A facet before a body shows it, in its hue; one behind it changes nothing."""
+    from matplotlib.image import imread
+
+    def drawn_with(y):
+        O.reset()
+        O.materials.append(FrictMat())
+        O.bodies.append(utils.sphere((0, 0, 0), 0.5, color=(1, 0, 0)))
+        if y is not None:
+            O.bodies.append(utils.facet([(-0.6, y, -0.4), (0.6, y, -0.4), (0, y, 0.6)]))
+        potential_particles.plot(path("one.png"), towards=(0, -1, 0), size=(200, 200))
+        return imread(path("one.png"))[:, :, :3]
+
+    without, front, back = drawn_with(None)[100, 100], drawn_with(-0.6)[100, 100], drawn_with(0.6)[100, 100]
+    check.true(front[0] - front[1] > 0.3, f"the body is seen through it: {front}")
+    check.true(front[1] > without[1] + 0.02, f"as through a pale glass: {front}, without it {without}")
+    check.true(np.allclose(back, without, atol=0.02), f"behind it changes nothing: {back}")
+
+
+def test_graphics():
+    """Without OpenGL there is an error that names the packages; several pictures, from several threads, are alike."""
+    import ctypes
+    from concurrent.futures import ThreadPoolExecutor
+    mixed_scene()
+    triangles = drawn(list(O.bodies), ShapeMeshes(0.02))
+    view = picture.framing(*triangles, (0.5, -0.8, 0.4), 1.0)
+    first = picture.render(*triangles, view, 100, 100)
+    with ThreadPoolExecutor(2) as threads:
+        again = list(threads.map(lambda _: picture.render(*triangles, view, 100, 100), range(4)))
+    check.true(all((image == first).all() for image in again), "pictures of one scene are equal, in several threads")
+    load = ctypes.CDLL
+
+    def without_egl(name, *more, **others):
+        if name.startswith("libEGL"):
+            raise OSError(f"{name}: cannot open shared object file")
+        return load(name, *more, **others)
+
+    ctypes.CDLL = without_egl
+    try:
+        check.raises(RuntimeError, lambda: potential_particles.plot(path("none.png")), "no OpenGL", "apt install python3-vtk9 libegl1")
+    finally:
+        ctypes.CDLL = load
 
 
 def test_recorder():
@@ -188,7 +305,10 @@ def test_recorder():
 
 test_mesh()
 test_mesh_files()
-test_rasteriser()
+test_outline()
+test_light()
+test_transparent()
+test_graphics()
 test_plot()
 test_recorder()
 check.finish()

@@ -59,12 +59,12 @@ for build, text in [
 
 # Four blocks that meet as they should: the wedge's centroid lies above both joints, each other block below.
 blocks = WedgeBlocks(PAPER.plane_a, PAPER.plane_b, size=2.0)
-sides = {name: (getattr(blocks, name).centroid() @ blocks.plane_a.normal > 0,
-                getattr(blocks, name).centroid() @ blocks.plane_b.normal > 0)
+sides = {name: (getattr(blocks, name).centroid @ blocks.plane_a.normal > 0,
+                getattr(blocks, name).centroid @ blocks.plane_b.normal > 0)
          for name in ("wedge", "block_a", "block_b", "base")}
 check.equal(sides, {"wedge": (True, True), "block_a": (False, True), "block_b": (True, False),
                     "base": (False, False)}, "which block lies where")
-corners = np.vstack(blocks.wedge.faces())
+corners = blocks.wedge.corners
 check.close(np.ptp(corners[:, 2]), 2.0, 1e-9, "height of the wedge")
 
 # The simulation: the paper's wedge with flat and with rounded faces, then size, stiffness and density in turn.

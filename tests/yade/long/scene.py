@@ -9,11 +9,11 @@ import numpy as np
 from yade import O
 
 import pyramids
+from bodies import reach
 from box import Box
 from contact_functor import ContactFunctor
 from loose_grid import loose_grid
-from pyramid import Pyramid
-from surface_mesh import surface_mesh
+from pyramid import pyramid
 
 SLABS = 5  # the first bodies: floor and walls
 SIZE = pyramids.SIZE
@@ -21,13 +21,12 @@ SIZE = pyramids.SIZE
 
 def build(count, functor):
     """Pyramids above a floor between four walls; returns the box."""
-    pyramid = Pyramid(SIZE)
-    ball_radius = float(np.linalg.norm(surface_mesh(pyramid.surface)[0], axis=1).max())
-    grid = loose_grid(count, ball_radius, pyramids.JITTER, pyramids.SEED)
+    shape = pyramid(SIZE)
+    grid = loose_grid(count, reach(shape), pyramids.JITTER, pyramids.SEED)
     # So near that a shaken heap comes to lean on the walls.
     half_width = grid.half_width + 0.3 * grid.height
     box = Box(half_width, half_width, grid.height + SIZE, thickness=SIZE)
-    pyramids.build_scene(ContactFunctor(functor), pyramid, grid, box)
+    pyramids.build_scene(ContactFunctor(functor), shape, grid, box)
     return box
 
 

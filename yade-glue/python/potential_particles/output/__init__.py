@@ -3,10 +3,10 @@
 
     mesh.py        a closed mesh of a shape, and its file .stl or .vtp
     vtk_files.py   files for ParaView, through VTK's Python modules
-    rasteriser.py  which triangle is nearest at each pixel
-    view.py        a pinhole camera
-    light.py       a sun and a sky with shadows
     drawn.py       YADE's bodies as triangles
+    view.py        a pinhole camera
+    graphics.py    OpenGL without a display
+    light.py       sun and sky
     picture.py     the picture of a scene
     recorder.py    frames for ParaView, while the scene runs
 """

@@ -1,19 +1,21 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Pictures of the scene without a display: triangles in numpy, with sun, shadows and a sky."""
+"""Pictures of the scene without a display, drawn by VTK: sun, shadows, darkened gaps, and boundaries one can see through."""
 import numpy as np
 import yade
 
+from . import vtk_files
 from .drawn import ShapeMeshes, Triangles, drawn
-from .light import brightness
-from .rasteriser import NOTHING, interpolate, nearest_triangles
-from .view import framing_view, unit
+from .view import View, framing_view
 
 VIEW_ANGLE = 0.42  # full height, radians
 SAMPLES = 2  # along each side of a pixel
 PAPER = 1.0
-BOUNDARY_COLOUR = (0.80, 0.79, 0.77)
-# Boundaries fade into the paper between these distances from the middle, in radii of the scene.
-FADE = (1.1, 2.2)
+BOUNDARY_COLOUR = (0.92, 0.915, 0.905)
+GLASS = 0.12  # opacity of the boundaries between the eye and the bodies
+SKY_SHARE = 0.6  # of the light; the rest is the sun's
+GAP = 0.1  # how far apart surfaces may be that darken each other, in radii of the scene
+ROUGH = 0.01  # nearer than this, VTK's half-precision places cannot tell a gap from a surface
+NEAR = 1.1  # boundaries that far from the middle, in radii of the scene, are held by the view
 
 
 def plot(file, towards=(0.46, -0.84, 0.42), size=(1000, 800), tolerance=None, bodies=None):
@@ -21,8 +23,9 @@ def plot(file, towards=(0.46, -0.84, 0.42), size=(1000, 800), tolerance=None, bo
 
     towards: direction from the scene to the eye, world axes. size: width and height in pixels. tolerance: of the meshes of
     particles (see `mesh`); without one it follows from the size of the bodies on the picture. bodies: ids; without them, all.
-    The camera stands so that all bodies are seen. Of boundaries (Box, Facet, Wall, shapes with isBoundary) what would hide
-    the bodies is left out. Needs no display. ValueError for a scene that has nothing to draw.
+    The camera stands so that all bodies are seen, through those boundaries (Box, Facet, Wall, shapes with isBoundary) that would
+    hide them. Needs no display. ValueError for a scene that has nothing to draw; RuntimeError with the packages to install
+    where there is no OpenGL.
     """
     from matplotlib.image import imsave
     scene = [body for body in yade.O.bodies if body is not None] if bodies is None else [yade.O.bodies[i] for i in bodies]
@@ -46,7 +49,7 @@ def framing(of_bodies, of_boundaries, towards, aspect):
     limits = of_boundaries.corners.reshape(-1, 3)
     if len(points) and len(limits):
         middle, radius = _ball(points)
-        limits = limits[np.linalg.norm(limits - middle, axis=1) <= FADE[0] * radius]
+        limits = limits[np.linalg.norm(limits - middle, axis=1) <= NEAR * radius]
     points = np.concatenate([points, limits])
     if not len(points):
         raise ValueError("there is nothing to draw: the scene has no body with a shape that can be drawn")
@@ -55,31 +58,86 @@ def framing(of_bodies, of_boundaries, towards, aspect):
 
 def render(of_bodies, of_boundaries, view, width, height):
     """An RGB image (height, width, 3), 0 to 1, of triangles (drawn.Triangles) as the view sees them."""
+    from .graphics import with_graphics
+    return with_graphics(_render, of_bodies, of_boundaries, view, width, height)
+
+
+def _render(window, of_bodies, of_boundaries, view, width, height):
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+    from . import light
+    # In VTK's single precision, whatever the place and the size of the scene.
     middle, radius = _ball((of_bodies if len(of_bodies.corners) else of_boundaries).corners.reshape(-1, 3))
-    scene = Triangles.together([of_bodies, _behind(of_boundaries, view, middle)])
-    columns, rows = SAMPLES * width, SAMPLES * height
-    corners = view.project(scene.corners, columns, rows)
-    closeness, index = nearest_triangles(corners, columns, rows)
-    seen, closeness = (array.reshape(height, SAMPLES, width, SAMPLES).swapaxes(1, 2).reshape(height * width, -1)
-                       for array in (index, closeness))
-    # Samples of a pixel that see the same triangle share the light at the first of them.
-    first = (seen[:, :, None] == seen[:, None, :]).argmax(2)
-    pixel, sample = np.nonzero((first == np.arange(SAMPLES**2)) & (seen != NOTHING))
-    chosen = seen[pixel, sample]
-    x, y = pixel % width * SAMPLES + sample % SAMPLES + 0.5, pixel // width * SAMPLES + sample // SAMPLES + 0.5
-    points = view.points(x, y, closeness[pixel, sample], columns, rows)
-    normals = unit(interpolate(corners, scene.normals, chosen, x, y))
-    light = brightness(points, normals, of_bodies.corners)
-    is_boundary = chosen >= len(of_bodies.corners)
-    # Light adds up linearly; colours are given, and screens expect them, with the usual gamma.
-    colours = np.where(is_boundary[:, None], BOUNDARY_COLOUR, scene.colours[chosen] ** 2.2)
-    far = np.linalg.norm(points - middle, axis=1) / radius
-    inward = np.clip((FADE[1] - far) / (FADE[1] - FADE[0]), 0.0, 1.0)
-    solid = np.where(is_boundary, inward**2 * (3.0 - 2.0 * inward), 1.0)[:, None]
-    image = np.full((height * width, SAMPLES**2, 3), PAPER, np.float32)
-    image[pixel, sample] = solid * np.clip(colours * light[:, None], 0.0, 1.0) + (1.0 - solid) * PAPER
-    image = np.take_along_axis(image, first[:, :, None], axis=1).mean(1)
-    return image.reshape(height, width, 3) ** (1.0 / 2.2)
+    view = View((view.eye - middle) / radius, (view.target - middle) / radius, view.angle)
+    bodies = _actor(of_bodies, middle, radius)
+    parts = _sides(of_boundaries, view, middle, radius) if bodies else (of_boundaries, Triangles.together([]))
+    behind, before = (_actor(part, middle, radius, BOUNDARY_COLOUR) for part in parts)
+    shadows = light.sun_map(window, bodies) if bodies else None
+    renderer = _renderer(view)
+    if bodies:
+        light.light(bodies, shadows, view, fading=False)
+    if behind:
+        light.light(behind, shadows, view, fading=True)
+    if before:
+        before.GetProperty().SetOpacity(GLASS)
+        light.light(before, None, view, fading=True)
+    for actor in filter(None, (bodies, behind, before)):
+        renderer.AddActor(actor)
+    window.SetSize(SAMPLES * width, SAMPLES * height)
+    window.AddRenderer(renderer)
+    window.Render()
+    image = vtk_to_numpy(light.read(window).GetPointData().GetScalars())
+    # VTK counts rows from below.
+    image = image.reshape(height, SAMPLES, width, SAMPLES, 3)[::-1].mean((1, 3), dtype=np.float32)
+    return image / 255.0
+
+
+def _actor(triangles, middle, radius, colour=None):
+    """Triangles as an actor of VTK, None without any; each in its own colour where there is not one for all."""
+    from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper
+    if not len(triangles.corners):
+        return None
+    points = ((triangles.corners.reshape(-1, 3) - middle) / radius).astype(np.float32)
+    data = {"normal": triangles.normals.reshape(-1, 3).astype(np.float32)}
+    if colour is None:
+        data["colour"] = np.repeat(np.round(255.0 * triangles.colours).astype(np.uint8), 3, axis=0)
+    mapper, actor = vtkPolyDataMapper(), vtkActor()
+    mapper.SetInputData(vtk_files.triangles(points, np.arange(len(points)).reshape(-1, 3), data, normals="normal"))
+    mapper.SetScalarModeToUsePointFieldData()
+    mapper.SelectColorArray("colour")
+    actor.SetMapper(mapper)
+    surface = actor.GetProperty()
+    surface.SetColor(colour or (1.0, 1.0, 1.0))
+    surface.SetAmbient(SKY_SHARE)
+    surface.SetDiffuse(1.0 - SKY_SHARE)
+    surface.BackfaceCullingOn()
+    return actor
+
+
+def _renderer(view):
+    """A renderer with a camera, the sun, and gaps and contacts that are darker than what the sky reaches."""
+    from vtkmodules.vtkRenderingCore import vtkLight, vtkRenderer
+    from vtkmodules.vtkRenderingOpenGL2 import vtkRenderStepsPass, vtkSSAOPass
+    from .light import FADE, SUN
+    renderer, sun = vtkRenderer(), vtkLight()
+    renderer.SetBackground(PAPER, PAPER, PAPER)
+    renderer.SetAutomaticLightCreation(False)
+    sun.SetLightTypeToSceneLight()
+    sun.SetPosition(SUN)
+    sun.SetFocalPoint(0.0, 0.0, 0.0)
+    renderer.AddLight(sun)
+    camera, distance = renderer.GetActiveCamera(), np.linalg.norm(view.eye)
+    camera.SetPosition(view.eye)
+    camera.SetFocalPoint(view.target)
+    camera.SetViewUp(view.axes()[1])
+    camera.SetViewAngle(np.degrees(view.angle))
+    camera.SetClippingRange(max(distance - FADE[1], 0.01 * distance), distance + FADE[1])
+    occlusion = vtkSSAOPass()
+    occlusion.SetDelegatePass(vtkRenderStepsPass())
+    occlusion.SetRadius(GAP)
+    occlusion.SetBias(ROUGH)
+    occlusion.BlurOn()
+    renderer.SetPass(occlusion)
+    return renderer
 
 
 def _ball(points):
@@ -88,9 +146,10 @@ def _ball(points):
     return middle, np.linalg.norm(points - middle, axis=1).max()
 
 
-def _behind(boundaries, view, middle):
-    """The boundaries without the triangles between the eye and the middle of the bodies."""
-    corners = boundaries.corners
+def _sides(boundaries, view, middle, radius):
+    """The boundaries behind the middle of the bodies or beside it, and those between it and the eye."""
+    corners = (boundaries.corners - middle) / radius
     normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    side = [((point - corners[:, 0]) * normal).sum(1) for point in (view.eye, middle)]
-    return boundaries.where(side[0] * side[1] >= 0.0)
+    side = [((point - corners[:, 0]) * normal).sum(1) for point in (view.eye, np.zeros(3))]
+    hidden = side[0] * side[1] < 0.0
+    return boundaries.where(~hidden), boundaries.where(hidden)

@@ -21,21 +21,6 @@ class View:
         right = unit(across if np.linalg.norm(across) > 1e-6 else np.cross(forward, [0.0, 1.0, 0.0]))
         return np.stack([right, np.cross(right, forward), forward])
 
-    def project(self, points, width, height):
-        """Points (..., 3) as x, y in pixels and closeness (rasteriser.py); NaN behind the eye."""
-        right, up, depth = np.moveaxis((points - self.eye) @ self.axes().T, -1, 0)
-        scale = 0.5 * height / np.tan(0.5 * self.angle)
-        with np.errstate(divide="ignore", invalid="ignore"):
-            closeness = np.where(depth > 0.0, 1.0 / depth, np.nan)
-        return np.stack([0.5 * width + scale * right * closeness, 0.5 * height - scale * up * closeness, closeness], axis=-1)
-
-    def points(self, x, y, closeness, width, height):
-        """The points (n, 3) that `project` takes to x, y and closeness, (n,) each."""
-        scale = 0.5 * height / np.tan(0.5 * self.angle)
-        right, up, forward = self.axes()
-        rays = forward + np.multiply.outer((x - 0.5 * width) / scale, right) - np.multiply.outer((y - 0.5 * height) / scale, up)
-        return self.eye + rays / closeness[:, None]
-
 
 def framing_view(points, towards, angle, aspect, margin=1.03):
     """The view from direction `towards` (scene to eye) that just holds `points` (n, 3).
