@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Two steps of 1,000 bodies: all their pairs in one call, on two threads, first from nothing and then from memory.
+//! Two steps of 1,000 bodies: all their pairs in one call, on two threads, first from nothing and then from state.
 //!
 //!     cargo run --release --example step
 
-use potential_particles::{Flags, Kind, Memory, Particle, Plane, Pose, Settings, detect_batch};
+use potential_particles::{Flags, Kind, PairState, Particle, Plane, Pose, Settings, detect_batch};
 
 const SIDE: i32 = 10;
 const THREADS: usize = 2;
@@ -15,11 +15,11 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let cells: Vec<_> = (0..SIDE.pow(3)).map(|i| [i % SIDE, i / SIDE % SIDE, i / SIDE.pow(2)]).collect();
     let particles = vec![&cube; cells.len()]; // bodies of one shape share one particle
     let pairs = neighbours(&cells);
-    let mut memories = vec![Memory::default(); pairs.len()];
+    let mut states = vec![PairState::default(); pairs.len()];
     for step in 0..2 {
         let poses = cells.iter().map(|&cell| pose(cell, step)).collect::<Result<Vec<_>, _>>()?;
         // The call itself fails only if nothing was done; each pair has a result of its own, where an error is not "apart".
-        let contacts = detect_batch(&particles, &poses, &pairs, &Settings::default(), THREADS, &mut memories)?;
+        let contacts = detect_batch(&particles, &poses, &pairs, &Settings::default(), THREADS, &mut states)?;
         let found: Vec<_> = contacts.iter().flatten().collect();
         let solved = found.iter().filter(|one| !one.flags.contains(Flags::REJECTED)).count();
         let overlapping = found.iter().filter(|one| one.kind == Kind::Overlapping).count();
