@@ -3,7 +3,7 @@
 use crate::bounds::dual_bound::DualBound;
 use crate::bounds::rounding::Rounding;
 use crate::bounds::sensitivity::Sensitivity;
-use crate::linalg::number::smaller;
+use crate::linalg::number::{larger, smaller};
 use crate::model::kkt_check::Change;
 use crate::model::local_model::{self, LocalModel, Start, Step};
 use crate::model::problem::Problem;
@@ -33,6 +33,8 @@ pub(crate) struct Solution {
     pub lower: f64,
     /// Upper bound up to `rounding`.
     pub upper: f64,
+    /// The difference of both, which may be less than they are rounded by.
+    pub open: f64,
     /// Bound on the rounding of both.
     pub rounding: f64,
     /// Whether rounding moves λ by so little that `rounding` holds to first order.
@@ -78,6 +80,7 @@ impl Solution {
             into: None,
             lower: f64::NEG_INFINITY,
             upper: f64::INFINITY,
+            open: f64::INFINITY,
             rounding: f64::INFINITY,
             linear: false,
             iterations,
@@ -121,6 +124,7 @@ impl Solution {
             into: None,
             lower: estimate - height,
             upper,
+            open: larger(upper - estimate, 0.0) + height,
             rounding: of_optimum.unwrap_or_else(|| rounding.of_merit(problem, lambda)),
             linear: of_optimum.is_some(),
             iterations: 0,

@@ -16,8 +16,8 @@ use nalgebra::{Matrix3, Vector3};
 pub(crate) enum BoundaryPart {
     /// A plane through a point, by its unit normal and by a normal of any length that is exact.
     Plane { point: Vector3<f64>, normal: Vector3<f64>, given: Vector3<f64> },
-    /// The plane of three points, which have this unit normal.
-    Inside { vertices: [Vector3<f64>; 3], normal: Vector3<f64> },
+    /// The plane of three points, which have this unit normal. The sides at the first have a sine of 1/`condition` between them.
+    Inside { vertices: [Vector3<f64>; 3], normal: Vector3<f64>, condition: f64 },
     /// The line through two points of a triangle with this third one. They come in an order of their own, so that all triangles that share
     /// an edge find the same bits.
     Edge { ends: [Vector3<f64>; 2], third: Vector3<f64> },
@@ -46,12 +46,18 @@ impl BoundaryPart {
         }
     }
 
+    /// What its place is rounded by in numbers of 32 digits, relative to the lengths by which it is given: the rounding of two sides turns
+    /// their plane.
+    pub fn wide_condition(&self) -> f64 {
+        if let Self::Inside { condition, .. } = self { 1.0 + 2.0 * condition } else { 1.0 }
+    }
+
     /// Its frame beside a particle, whose pose is subtracted before anything is turned.
     pub fn frame(&self, pose: &Pose) -> PartFrame {
         let from_centre = |point: &Vector3<f64>| point - pose.position();
         match self {
             Self::Plane { point, normal, .. } => plane_frame(normal, &from_centre(point), from_centre(point).norm()),
-            Self::Inside { vertices, normal } => {
+            Self::Inside { vertices, normal, .. } => {
                 let farthest = vertices.iter().map(|v| from_centre(v).norm()).fold(0.0, f64::max);
                 plane_frame(normal, &from_centre(&vertices[0]), farthest)
             }
@@ -85,7 +91,7 @@ impl BoundaryPart {
                 let axes = plane_axes(&wide_unit(&wide(given)), normal);
                 (axes, Vector3::new(zero, zero, axes[2].dot(&difference(pose.position(), point))))
             }
-            Self::Inside { vertices: [a, b, c], normal } => {
+            Self::Inside { vertices: [a, b, c], normal, .. } => {
                 let axes = plane_axes(&wide_unit(&difference(b, a).cross(&difference(c, a))), normal);
                 (axes, Vector3::new(zero, zero, axes[2].dot(&difference(pose.position(), a))))
             }
@@ -194,7 +200,7 @@ mod tests {
         let pose = Pose::new([0.4, 0.1, 0.9], [1.0, 0.2, -0.3, 0.5]).unwrap();
         let parts = [
             BoundaryPart::Plane { point: a, normal, given: normal },
-            BoundaryPart::Inside { vertices: [a, b, c], normal },
+            BoundaryPart::Inside { vertices: [a, b, c], normal, condition: 2.0 },
             BoundaryPart::Edge { ends: [a, b], third: c },
             BoundaryPart::Corner { at: c, others: [a, b] },
         ];

@@ -141,20 +141,20 @@ fn of(value: f64) -> DoubleDouble {
 impl<'a> ExtendedBody<'a> {
     /// Both bodies of a pair about x₀, solver frame.
     pub fn both(pair: &Pair, bodies: [&'a Body<'a>; 2], x: &Vector3<f64>) -> [Self; 2] {
-        let (pose_a, of_b, centre) = match pair.given {
+        let (pose_a, of_b, centre, lengths) = match pair.given {
             Given::Poses([pose_a, pose_b]) => {
                 let (of_b, to_a) = (axes(pose_b), difference(pose_a.position(), pose_b.position()));
-                (pose_a, of_b, Vector3::from(of_b.map(|axis| axis.dot(&to_a))))
+                (pose_a, of_b, Vector3::from(of_b.map(|axis| axis.dot(&to_a))), pair.lengths)
             }
             Given::Boundary(pose_a, part) => {
                 let (of_part, centre) = part.wide_frame(pose_a);
-                (pose_a, of_part, centre)
+                (pose_a, of_part, centre, pair.lengths * part.wide_condition())
             }
         };
         let identity = [0, 1, 2].map(|i| wide(&Vector3::ith(i, 1.0)));
         let of_a = axes(pose_a).map(|axis| Vector3::from(of_b.map(|b| b.dot(&axis))));
         let at_origin = wide(&Vector3::zeros());
-        [Self::new(bodies[0], of_a, (centre, pair.lengths), x), Self::new(bodies[1], identity, (at_origin, 0.0), x)]
+        [Self::new(bodies[0], of_a, (centre, lengths), x), Self::new(bodies[1], identity, (at_origin, 0.0), x)]
     }
 
     fn new(body: &'a Body<'a>, axes: [Wide; 3], (centre, lengths): (Wide, f64), x: &Vector3<f64>) -> Self {

@@ -276,6 +276,8 @@ impl Extended<'_> {
         let slope = rounded(&(of_a.gradient * weights.0 + of_b.gradient * weights.1)).rows(0, self.dimensions).norm();
         let slope = slope + a * of_a.turn + b * of_b.turn;
         let height = 0.5 * slope * slope / (LESS * (a * self.bodies[0].soft() + b * self.bodies[1].soft()));
+        // The difference is taken before it is rounded.
+        let above = larger((upper - dual).rounded(), 0.0);
         let (estimate, gradients) = (dual.rounded(), values.map(|of| rounded(&of.gradient)));
         Solution {
             gradients,
@@ -284,8 +286,8 @@ impl Extended<'_> {
             estimate,
             slope,
             lower: estimate - height,
-            // The difference is taken before it is rounded.
-            upper: estimate + larger((upper - dual).rounded(), 0.0),
+            upper: estimate + above,
+            open: above + height,
             rounding: larger(problem.weighted(error[0], error[1], lambda.rounded()), larger(error[0], error[1])),
             linear: true,
             rate: optimum.as_ref().map_or(0.0, |optimum| approximate(optimum).rate(problem)),
