@@ -24,6 +24,8 @@ pub(super) struct Search<'a> {
     pub particle: &'a Particle,
     pub pose: &'a Pose,
     pub settings: &'a Settings,
+    /// Whether all parts are solved in extended precision, as their bounds in doubles did not tell enough.
+    pub precise: bool,
     pub flags: Flags,
     pub iterations: u32,
 }
@@ -36,6 +38,8 @@ pub(super) struct Least {
     pub rotation: Matrix3<f64>,
     centre: Vector3<f64>,
     pub lengths: f64,
+    /// Whether both are right to the last digits, as the solution is.
+    precise: bool,
     pub solution: Solution,
     /// How steeply S falls from there into the triangle; negative where it rises.
     into: f64,
@@ -60,6 +64,7 @@ impl Search<'_> {
         let frame = part.frame(self.pose);
         let pair = Pair::on_boundary(self.particle, self.pose, &part, &frame);
         let mut call = Call::new(&pair, self.settings);
+        call.precise = self.precise;
         let start = Start { x: from.push(0.0), lambda: 1.0 };
         let model = call.model(&start, Problem::OnBoundary);
         let solved = call.solve(Problem::OnBoundary, start.lambda, model)?;
@@ -76,7 +81,7 @@ impl Search<'_> {
         // Of a point that is known to the last digits the frame has to be, too.
         let precise = call.flags.contains(Flags::EXTENDED);
         let PartFrame { rotation, centre, lengths } = if precise { part.precise_frame(self.pose) } else { frame };
-        Ok(Least { part, rotation, centre, lengths, solution, into, point_bound })
+        Ok(Least { part, rotation, centre, lengths, precise, solution, into, point_bound })
     }
 
     pub fn on_plane(&mut self, plane: BoundaryPart) -> Result<Closest, DetectError> {
@@ -90,11 +95,13 @@ impl Search<'_> {
         let x = inside.solution.x.xy();
         let mut on_edges = [None; 3];
         // Where rounding hides which side of an edge it is on, S is no less on the edge than it can be on the triangle.
-        for i in (0..3).filter(|i| placed.from_edge(*i, &x) <= inside.shift()) {
+        let from_edges = inside.from_edges(triangle, self.pose, placed);
+        for i in (0..3).filter(|i| from_edges[*i] <= inside.shift()) {
             on_edges[i] = Some(self.on_edge(triangle, i)?);
         }
         let Some((mut least, mut feature)) = least_of(&on_edges) else {
-            let point_bound = if placed.depth(&x) > inside.point_bound { inside.point_bound } else { f64::INFINITY };
+            let point_bound =
+                if from_edges.iter().all(|d| *d > inside.point_bound) { inside.point_bound } else { f64::INFINITY };
             let (least, extent) = (Least { point_bound, ..inside }, placed.extent(&x));
             return Ok(Closest { open: inside.solution.open, least, feature: Feature::Interior, extent });
         };
@@ -131,6 +138,7 @@ impl Search<'_> {
         let along = edge.frame(self.pose).rotation.column(0).into_owned();
         let [from, to] = ends.map(|end| along.dot(&(end - self.pose.position())));
         let least = self.on_part(edge, Vector2::new(smaller(larger(from, 0.0), to), 0.0))?;
+        let [from, to] = if least.precise { edge.wide_ends(self.pose) } else { [from, to] };
         let x = least.solution.x.x;
         let end = match () {
             () if x <= from + least.shift() => usize::from(reversed),
@@ -157,7 +165,14 @@ impl Least {
 
     /// Bound on the rounding of the place of the point beside other parts.
     fn shift(&self) -> f64 {
-        shift_in_a(self.from_centre().norm(), self.lengths)
+        let length = self.from_centre().norm();
+        shift_in_a(length, if self.precise { length } else { self.lengths })
+    }
+
+    /// Distances of a point of the plane of a triangle from its edges; negative beyond.
+    fn from_edges(&self, triangle: &Triangle, pose: &Pose, placed: &PlacedTriangle) -> [f64; 3] {
+        let x = self.solution.x.xy();
+        if self.precise { self.part.wide_from_edges(&triangle.vertices, pose, &x) } else { placed.from_edges(&x) }
     }
 
     /// How steeply S may fall into the boundary from there: 0 but for rounding.
@@ -194,6 +209,11 @@ impl Closest {
         let Solution { estimate, upper, rounding, .. } = self.least.solution;
         let most = body.most_surplus(larger(upper, 1.0));
         Scale::between(estimate, upper - self.open - most - rounding, larger(estimate, upper) + rounding)
+    }
+
+    /// Whether so much is open, beside what the regularisation adds, that it may be no answer.
+    pub fn is_wide(&self) -> bool {
+        Solution::is_wide(self.open + self.least.solution.rounding, self.least.solution.upper)
     }
 
     /// Whether the regularisation may be all that keeps s from being less than 1. The part decides alone, as it does of s: all triangles

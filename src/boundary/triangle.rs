@@ -17,16 +17,15 @@ impl PlacedTriangle {
     }
 
     /// Distance of a point from edge i; negative beyond it, outside the triangle.
-    pub fn from_edge(&self, i: usize, x: &Vector2<f64>) -> f64 {
+    fn from_edge(&self, i: usize, x: &Vector2<f64>) -> f64 {
         let along = self.0[(i + 1) % 3] - self.0[i];
         let length = along.norm();
         // An edge that is lost beside its distance has nothing beyond it.
         if length > 0.0 { along.perp(&(x - self.0[i])) / length } else { f64::INFINITY }
     }
 
-    /// Distance of a point of the triangle from its nearest edge; negative outside.
-    pub fn depth(&self, x: &Vector2<f64>) -> f64 {
-        self.from_edge(0, x).min(self.from_edge(1, x)).min(self.from_edge(2, x))
+    pub fn from_edges(&self, x: &Vector2<f64>) -> [f64; 3] {
+        [0, 1, 2].map(|i| self.from_edge(i, x))
     }
 
     /// The point nearest to the origin.

@@ -2,6 +2,7 @@
 
 use crate::bounds::dual_bound::DualBound;
 use crate::bounds::rounding::Rounding;
+use crate::bounds::scale::WIDE;
 use crate::bounds::sensitivity::Sensitivity;
 use crate::linalg::number::{larger, smaller};
 use crate::model::kkt_check::Change;
@@ -158,6 +159,11 @@ impl Solution {
         };
         let of = |i: usize| place(i) * self.gradient_norms[i];
         problem.weighted(of(0), of(1), self.lambda)
+    }
+
+    /// Whether so much is open of S, beside what a regularisation adds, that it may be no answer.
+    pub fn is_wide(open: f64, upper: f64) -> bool {
+        !(open <= WIDE * larger(upper, 1.0))
     }
 
     /// Bound on the error of the optimal S.

@@ -9,7 +9,7 @@ use crate::linalg::graded_basis::any_across;
 use crate::linalg::number::larger;
 use crate::linalg::wide::{Wide, difference, rounded, wide};
 use crate::pose::Pose;
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::{Matrix3, Vector2, Vector3};
 
 /// A part of a boundary as the caller gave it, world frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -147,6 +147,31 @@ impl BoundaryPart {
                 Some(into_corner(falls, (rounded(&sides[0]) + rounded(&sides[1])).norm()))
             }
         }
+    }
+}
+
+impl BoundaryPart {
+    /// The coordinates of the ends of an edge along it, of 32 digits before they are rounded.
+    pub fn wide_ends(&self, pose: &Pose) -> [f64; 2] {
+        let Self::Edge { ends, .. } = self else { return [f64::NEG_INFINITY, f64::INFINITY] };
+        let (axes, _) = self.wide_frame(pose);
+        ends.map(|end| axes[0].dot(&difference(&end, pose.position())).rounded())
+    }
+
+    /// Distances of a point of a plane, in its frame, from the edges of a triangle there; negative beyond. Of 32 digits before they are
+    /// rounded.
+    pub fn wide_from_edges(&self, vertices: &[Vector3<f64>; 3], pose: &Pose, x: &Vector2<f64>) -> [f64; 3] {
+        let (axes, centre) = self.wide_frame(pose);
+        let from_centre = wide(&x.push(0.0)) - centre;
+        let point = axes[0] * from_centre.x + axes[1] * from_centre.y + axes[2] * from_centre.z;
+        [0, 1, 2].map(|i| {
+            let (from, to) = (&vertices[i], &vertices[(i + 1) % 3]);
+            if from == to {
+                return f64::INFINITY;
+            }
+            let inwards = axes[2].cross(&wide_unit(&difference(to, from)));
+            inwards.dot(&(point - difference(from, pose.position()))).rounded()
+        })
     }
 }
 

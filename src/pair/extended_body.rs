@@ -21,6 +21,9 @@ const ROUNDING: f64 = 64.0;
 /// Bound on the rounding of a depth in doubles, relative to its terms: 3ε are derived.
 const OF_DEPTH: f64 = 8.0 * f64::EPSILON;
 
+/// Bound on the rounding of e + n·δ, or of a depth after a step, in the same units.
+pub(crate) const DEPTH_AFTER: f64 = 8.0;
+
 /// Bound on the relative rounding of a sum over so many planes.
 fn rounding_of_sums(count: u32) -> f64 {
     (ROUNDING + f64::from(count)) * DoubleDouble::UNIT
@@ -62,7 +65,7 @@ impl Plane {
     /// The depth after a step, in the arithmetic of the model: the rounding of the depth before it is a shift of the plane.
     fn after(&self, depth: DoubleDouble, v: &Wide) -> (f64, f64) {
         let change = self.normal.dot(v);
-        let doubt = 8.0 * DoubleDouble::UNIT * (depth.rounded().abs() + self.length * rounded(v).norm());
+        let doubt = DEPTH_AFTER * DoubleDouble::UNIT * (depth.rounded().abs() + self.length * rounded(v).norm());
         ((depth + change).rounded(), doubt)
     }
 
@@ -72,7 +75,7 @@ impl Plane {
 
     /// Bound on the rounding of a depth at x₀ + δ, |δ| = `length`, beyond that of e, which is that of the data.
     fn doubt(&self, length: f64) -> f64 {
-        8.0 * DoubleDouble::UNIT * (self.excess.rounded().abs() + self.length * length)
+        DEPTH_AFTER * DoubleDouble::UNIT * (self.excess.rounded().abs() + self.length * length)
     }
 
     /// The depth at x₀ + δ in doubles, and a bound on its rounding: what is clearly on or off needs no more digits.
