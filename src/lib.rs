@@ -21,7 +21,7 @@
 //! | `reference` | the paper's second-order cone programs, as an independent back end (feature `cone-program`) |
 //! | `contact` | point, normal and overlap from a solution; [`detect`](detect()), the whole on one screen; many pairs at once |
 //! | `section` | the contact area |
-//! | `flat` | the contact with a flat boundary: a plane, or a triangle of a mesh |
+//! | `boundary` | the contact with a flat boundary: a plane, or a triangle of a mesh |
 //! | `surface` | a closed mesh of triangles on the surface |
 //! | [`packing`] | bodies placed in a container without overlap, as a start for a simulation |
 //! | [`planar`] | the same for particles of the plane |

@@ -83,15 +83,15 @@ struct Worst {
     point: [f64; 2],
 }
 
-#[test]
-fn contacts_known_to_40_digits() {
+/// Every known contact by these settings, within its bounds.
+fn worst_of_known(settings: &Settings) -> BTreeMap<String, Worst> {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/flats.jsonl");
     let text = std::fs::read_to_string(path).unwrap_or_else(|error| panic!("{path}: {error}"));
     let mut families: BTreeMap<String, Worst> = BTreeMap::new();
     for line in text.lines() {
         let known: Known = serde_json::from_str(line).expect("a contact per line");
         let (particle, pose) = (known.shape.particle(), known.place.pose());
-        let contact = known.contact(&particle, &pose, &solved());
+        let contact = known.contact(&particle, &pose, settings);
         let (family, s) = (&known.family, support::number(&known.s));
         let error = support::minus(contact.s, &known.s).abs();
         assert!(error <= contact.gap, "{family}: s {s} off by {error:e}, {contact:?}");
@@ -99,7 +99,8 @@ fn contacts_known_to_40_digits() {
             assert_eq!(contact.kind == Kind::Overlapping, s < 1.0, "{family}: s {s}, {contact:?}");
         }
         // With cheap proofs the kind is the same.
-        assert_eq!(known.contact(&particle, &pose, &Settings::default()).kind, contact.kind, "{family}: s {s}");
+        let quick = Settings { solve_separated: false, ..*settings };
+        assert_eq!(known.contact(&particle, &pose, &quick).kind, contact.kind, "{family}: s {s}");
         let worst = families.entry(family.clone()).or_default();
         worst.count += 1;
         let scale = s.max(1.0);
@@ -115,6 +116,20 @@ fn contacts_known_to_40_digits() {
         println!("{family:18} {count:5} {:10.1e} {:8.1e} {:10.1e} {:8.1e}", s[0], s[1], point[0], point[1]);
     }
     assert!(families.values().map(|worst| worst.count).sum::<usize>() >= 200);
+    families
+}
+
+#[test]
+fn contacts_known_to_40_digits() {
+    worst_of_known(&solved());
+}
+
+#[test]
+fn contacts_known_to_40_digits_to_the_last_digits() {
+    let families = worst_of_known(&Settings { gap_tolerance: 1e-14, ..solved() });
+    for (family, worst) in families {
+        assert!(worst.s[1] <= 1e-13, "{family}: a gap of {:e}", worst.s[1]);
+    }
 }
 
 #[test]

@@ -40,7 +40,7 @@ pub struct FlatContact {
     /// flat face on several triangles the regularisation alone tells them apart: at its default to some percent of the size, at 1e-4
     /// to 1e-6 of it.
     pub s: f64,
-    /// |s − s*| ≤ gap: rounding to first order, as of [`crate::Contact::gap`] in doubles.
+    /// |s − s*| ≤ gap: rounding to first order in doubles, as of [`crate::Contact::gap`].
     pub gap: f64,
     /// Estimated bound on the distance of `on_boundary` to x*, length.
     pub point_bound: f64,
@@ -63,8 +63,9 @@ pub struct FlatContact {
 /// Contact of A at a pose with a plane, which it may touch from either side.
 ///
 /// Of the settings, `gap_tolerance`, `flat_regularisation` (values below the default count as the default) and `solve_separated`
-/// count; the answer is always in doubles. Where the centre of A lies on the plane
-/// to rounding, A counts as in front of it: the normal is minus the plane's ([`Flags::NORMAL_BY_BOUNDARY`]).
+/// count. As for a pair, a `gap_tolerance` below 1e-13, or a gap in doubles that is too wide, is answered in extended precision
+/// ([`Flags::EXTENDED`]). Where the centre of A lies on the plane to rounding, A counts as in front of it: the normal is minus
+/// the plane's ([`Flags::NORMAL_BY_BOUNDARY`]).
 ///
 /// A state of A and this boundary may be given, as for a pair of particles; nothing is kept in it so far.
 ///
@@ -79,7 +80,7 @@ pub struct FlatContact {
 /// ```
 ///
 /// # Errors
-/// A setting out of range, or no answer from the solver.
+/// A setting out of range, or no answer from the solver; bounds of s on both sides of 1 with a gap above 1e-2 are none.
 pub fn contact_with_plane(
     a: &Particle,
     pose: &Pose,

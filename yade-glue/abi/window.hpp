@@ -22,7 +22,7 @@ public:
 };
 PP_ABI_SIZE(GlShapeFunctor, 88);
 
-// Only found as a part of the renderer (src/window.cpp), and used through Python. Of the classes between Engine and it
+// Only found as a part of the renderer (src/drawing/window.cpp), and used through Python. Of the classes between Engine and it
 // nothing is needed.
 class GlShapeDispatcher : public Engine {
 public:
