@@ -104,7 +104,9 @@ fn worst_of_known(settings: &Settings) -> BTreeMap<String, Worst> {
         let worst = families.entry(family.clone()).or_default();
         worst.count += 1;
         let scale = s.max(1.0);
-        worst.s = [worst.s[0].max(error / scale), worst.s[1].max(contact.gap / scale)];
+        // In a core s is the root of what the regularisation adds: there the gap of S counts.
+        let gap = if s > 1e-6 { contact.gap / scale } else { contact.gap * contact.gap };
+        worst.s = [worst.s[0].max(error / scale), worst.s[1].max(gap)];
         if let Some(x) = &known.x {
             let off = support::distance(&boundary_point(&contact), x);
             assert!(off <= contact.point_bound, "{family}: x off by {off:e}, {contact:?}");
