@@ -66,6 +66,9 @@ pub struct Triangle {
     pub(super) vertices: [Vector3<f64>; 3],
     /// Unit normal, world frame: from its front the vertices run counter-clockwise.
     pub(super) normal: Vector3<f64>,
+    /// The vertex between the two shorter sides, from which the normal is known best, and 1/sin of their angle.
+    base: usize,
+    condition: f64,
 }
 
 /// Sine of the angle between the two shorter sides, below which it is rounding: each side is off by a unit of rounding, and so
@@ -96,12 +99,13 @@ impl Triangle {
             return Err(BoundaryError::Area(0.5 * area * unit * unit));
         }
         let normal = if area > NARROW * product { cross / area } else { precise_normal(&vertices, base, unit) };
-        Ok(Self { vertices, normal })
+        Ok(Self { vertices, normal, base, condition: product / area })
     }
 
     /// Its plane.
     pub(super) fn inside(&self) -> BoundaryPart {
-        BoundaryPart::Inside { vertices: self.vertices, normal: self.normal }
+        let vertices = [0, 1, 2].map(|i| self.vertices[(self.base + i) % 3]);
+        BoundaryPart::Inside { vertices, normal: self.normal, condition: self.condition }
     }
 
     /// Edge i, between the vertices i and i + 1, in the order of their coordinates; and whether that is the other way round.

@@ -9,7 +9,7 @@ use crate::flags::Flags;
 use crate::linalg::number::{larger, smaller};
 use crate::model::local_model::Start;
 use crate::model::problem::Problem;
-use crate::pair::body::Body;
+use crate::pair::body::{Body, shift_in_a};
 use crate::pair::boundary_part::{BoundaryPart, PartFrame};
 use crate::pair::pair::Pair;
 use crate::pair::separation::MARGIN;
@@ -24,6 +24,8 @@ pub(super) struct Search<'a> {
     pub particle: &'a Particle,
     pub pose: &'a Pose,
     pub settings: &'a Settings,
+    /// Whether all parts are solved in extended precision, as their bounds in doubles did not tell enough.
+    pub precise: bool,
     pub flags: Flags,
     pub iterations: u32,
 }
@@ -36,6 +38,8 @@ pub(super) struct Least {
     pub rotation: Matrix3<f64>,
     centre: Vector3<f64>,
     pub lengths: f64,
+    /// Whether both are right to the last digits, as the solution is.
+    precise: bool,
     pub solution: Solution,
     /// How steeply S falls from there into the triangle; negative where it rises.
     into: f64,
@@ -48,8 +52,8 @@ pub(super) struct Least {
 pub(super) struct Closest {
     pub least: Least,
     pub feature: Feature,
-    /// Lower bound of S on the whole boundary, up to the rounding of the solution.
-    pub lower: f64,
+    /// Bound on how far S on the whole boundary may be below its upper bound, up to the rounding of the solution.
+    open: f64,
     /// Bound on the way to any point of the boundary.
     pub extent: f64,
 }
@@ -60,6 +64,7 @@ impl Search<'_> {
         let frame = part.frame(self.pose);
         let pair = Pair::on_boundary(self.particle, self.pose, &part, &frame);
         let mut call = Call::new(&pair, self.settings);
+        call.precise = self.precise;
         let start = Start { x: from.push(0.0), lambda: 1.0 };
         let model = call.model(&start, Problem::OnBoundary);
         let solved = call.solve(Problem::OnBoundary, start.lambda, model)?;
@@ -76,12 +81,12 @@ impl Search<'_> {
         // Of a point that is known to the last digits the frame has to be, too.
         let precise = call.flags.contains(Flags::EXTENDED);
         let PartFrame { rotation, centre, lengths } = if precise { part.precise_frame(self.pose) } else { frame };
-        Ok(Least { part, rotation, centre, lengths, solution, into, point_bound })
+        Ok(Least { part, rotation, centre, lengths, precise, solution, into, point_bound })
     }
 
     pub fn on_plane(&mut self, plane: BoundaryPart) -> Result<Closest, DetectError> {
         let least = self.on_part(plane, Vector2::zeros())?;
-        Ok(Closest { lower: least.solution.lower, least, feature: Feature::Interior, extent: f64::INFINITY })
+        Ok(Closest { open: least.solution.open, least, feature: Feature::Interior, extent: f64::INFINITY })
     }
 
     /// The least S on a triangle is that on its plane, or on an edge beyond which that lies.
@@ -89,13 +94,16 @@ impl Search<'_> {
         let inside = self.on_part(triangle.inside(), placed.nearest())?;
         let x = inside.solution.x.xy();
         let mut on_edges = [None; 3];
-        for i in (0..3).filter(|i| placed.is_beyond(*i, &x)) {
+        // Where rounding hides which side of an edge it is on, S is no less on the edge than it can be on the triangle.
+        let from_edges = inside.from_edges(triangle, self.pose, placed);
+        for i in (0..3).filter(|i| from_edges[*i] <= inside.shift()) {
             on_edges[i] = Some(self.on_edge(triangle, i)?);
         }
         let Some((mut least, mut feature)) = least_of(&on_edges) else {
-            let point_bound = if placed.depth(&x) > inside.point_bound { inside.point_bound } else { f64::INFINITY };
+            let point_bound =
+                if from_edges.iter().all(|d| *d > inside.point_bound) { inside.point_bound } else { f64::INFINITY };
             let (least, extent) = (Least { point_bound, ..inside }, placed.extent(&x));
-            return Ok(Closest { lower: inside.solution.lower, least, feature: Feature::Interior, extent });
+            return Ok(Closest { open: inside.solution.open, least, feature: Feature::Interior, extent });
         };
         if least.into > 0.0 {
             // S falls into the triangle: rounding may have decided which edges the point of the plane lies beyond.
@@ -116,10 +124,11 @@ impl Search<'_> {
             }
         }
         let extent = placed.extent(&inside.rotation.tr_mul(&(least.rotation * least.from_centre())).xy());
-        let height = least.height(&self.body(), extent);
         // No point of the triangle is below the least of its plane.
         let of_plane = inside.solution.lower - inside.solution.rounding - least.solution.rounding;
-        Ok(Closest { lower: larger(least.solution.estimate - height, of_plane), least, feature, extent })
+        let to_plane = larger(least.solution.upper - of_plane, f64::EPSILON * least.solution.upper);
+        let open = smaller(least.open(&self.body(), extent), to_plane);
+        Ok(Closest { open, least, feature, extent })
     }
 
     /// The least S on edge i, from the edge alone.
@@ -129,10 +138,11 @@ impl Search<'_> {
         let along = edge.frame(self.pose).rotation.column(0).into_owned();
         let [from, to] = ends.map(|end| along.dot(&(end - self.pose.position())));
         let least = self.on_part(edge, Vector2::new(smaller(larger(from, 0.0), to), 0.0))?;
+        let [from, to] = if least.precise { edge.wide_ends(self.pose) } else { [from, to] };
         let x = least.solution.x.x;
         let end = match () {
-            () if x < from => usize::from(reversed),
-            () if x > to => usize::from(!reversed),
+            () if x <= from + least.shift() => usize::from(reversed),
+            () if x >= to - least.shift() => usize::from(!reversed),
             () => return Ok((least, Feature::Edge(i as u8))),
         };
         let vertex = (i + end) % 3;
@@ -153,15 +163,27 @@ impl Least {
         self.solution.x - self.centre
     }
 
+    /// Bound on the rounding of the place of the point beside other parts.
+    fn shift(&self) -> f64 {
+        let length = self.from_centre().norm();
+        shift_in_a(length, if self.precise { length } else { self.lengths })
+    }
+
+    /// Distances of a point of the plane of a triangle from its edges; negative beyond.
+    fn from_edges(&self, triangle: &Triangle, pose: &Pose, placed: &PlacedTriangle) -> [f64; 3] {
+        let x = self.solution.x.xy();
+        if self.precise { self.part.wide_from_edges(&triangle.vertices, pose, &x) } else { placed.from_edges(&x) }
+    }
+
     /// How steeply S may fall into the boundary from there: 0 but for rounding.
     fn descent(&self) -> f64 {
         larger(self.into, 0.0) + self.solution.slope
     }
 
-    /// How far S may fall on a boundary of this extent.
-    fn height(&self, body: &Body, extent: f64) -> f64 {
+    /// How far S on a boundary of this extent may be below its upper bound.
+    fn open(&self, body: &Body, extent: f64) -> f64 {
         let (descent, within) = (self.descent(), self.within(body, extent));
-        smaller(descent * within, 0.5 * descent * descent / body.sphere_curvature())
+        self.solution.open + smaller(descent * within, 0.5 * descent * descent / body.sphere_curvature())
     }
 
     /// Bound on the way to any point of a boundary of this extent where S is no larger.
@@ -186,7 +208,12 @@ impl Closest {
     pub fn scale(&self, body: &Body) -> Scale {
         let Solution { estimate, upper, rounding, .. } = self.least.solution;
         let most = body.most_surplus(larger(upper, 1.0));
-        Scale::between(estimate, self.lower - most - rounding, larger(estimate, upper) + rounding)
+        Scale::between(estimate, upper - self.open - most - rounding, larger(estimate, upper) + rounding)
+    }
+
+    /// Whether so much is open, beside what the regularisation adds, that it may be no answer.
+    pub fn is_wide(&self) -> bool {
+        Solution::is_wide(self.open + self.least.solution.rounding, self.least.solution.upper)
     }
 
     /// Whether the regularisation may be all that keeps s from being less than 1. The part decides alone, as it does of s: all triangles
@@ -213,8 +240,7 @@ impl Closest {
     /// Bound on the distance of the point to the minimum: that of its part, or since S rises from the minimum at least as the square of the
     /// way times the least curvature, or from where it can be at all.
     pub fn point_bound(&self, body: &Body) -> f64 {
-        let Solution { upper, rounding, .. } = self.least.solution;
-        let open = larger(upper - self.lower, 0.0) + 2.0 * rounding;
+        let open = self.open + 2.0 * self.least.solution.rounding;
         let by_convexity = 2.0 * (2.0 * open / body.sphere_curvature()).sqrt();
         smaller(smaller(self.least.point_bound, by_convexity), self.least.within(body, self.extent))
     }

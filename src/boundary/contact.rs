@@ -138,8 +138,12 @@ impl Call<'_> {
             return Ok(FlatContact::apart(&apart));
         }
         let (particle, pose, settings) = (self.particle, self.pose, self.settings);
-        let mut search = Search { particle, pose, settings, flags: Flags::NONE, iterations: 0 };
-        let found = closest(&mut search)?;
+        let mut search = Search { particle, pose, settings, precise: false, flags: Flags::NONE, iterations: 0 };
+        let mut found = closest(&mut search)?;
+        if found.is_wide() {
+            search.precise = true;
+            found = closest(&mut search)?;
+        }
         let scale = found.scale(&search.body());
         if scale.is_undecided() {
             return Err(SolveError::Undecided { low: scale.low, high: scale.high }.into());

@@ -16,26 +16,23 @@ impl PlacedTriangle {
         Self(triangle.vertices.map(|vertex| (rotation * (vertex - pose.position()) + pair.centre).xy()))
     }
 
-    /// Whether a point lies beyond edge i, outside the triangle.
-    pub fn is_beyond(&self, i: usize, x: &Vector2<f64>) -> bool {
+    /// Distance of a point from edge i; negative beyond it, outside the triangle.
+    fn from_edge(&self, i: usize, x: &Vector2<f64>) -> f64 {
         let along = self.0[(i + 1) % 3] - self.0[i];
-        along.perp(&(x - self.0[i])) < 0.0
+        let length = along.norm();
+        // An edge that is lost beside its distance has nothing beyond it.
+        if length > 0.0 { along.perp(&(x - self.0[i])) / length } else { f64::INFINITY }
     }
 
-    /// Distance of a point of the triangle from its nearest edge; negative outside.
-    pub fn depth(&self, x: &Vector2<f64>) -> f64 {
-        let from_edge = |i: usize| {
-            let along = self.0[(i + 1) % 3] - self.0[i];
-            along.perp(&(x - self.0[i])) / along.norm()
-        };
-        from_edge(0).min(from_edge(1)).min(from_edge(2))
+    pub fn from_edges(&self, x: &Vector2<f64>) -> [f64; 3] {
+        [0, 1, 2].map(|i| self.from_edge(i, x))
     }
 
     /// The point nearest to the origin.
     pub fn nearest(&self) -> Vector2<f64> {
         let origin = Vector2::zeros();
         let (mut nearest, mut least) = (origin, f64::INFINITY);
-        for i in (0..3).filter(|i| self.is_beyond(*i, &origin)) {
+        for i in (0..3).filter(|i| self.from_edge(*i, &origin) < 0.0) {
             let (from, along) = (self.0[i], self.0[(i + 1) % 3] - self.0[i]);
             // Of an edge that is lost beside its distance, its beginning.
             let share = (-from.dot(&along) / along.norm_squared()).clamp(0.0, 1.0);

@@ -3,6 +3,7 @@
 use crate::bounds::dual_bound::DualBound;
 use crate::bounds::rounding::{of_slope, of_sums};
 use crate::bounds::solution::{Ending, Solution};
+use crate::linalg::number::larger;
 use crate::model::kkt_check::Change;
 use crate::model::local_model::{self, Axes, LocalModel, Start};
 use crate::model::problem::{Problem, TURN};
@@ -36,6 +37,7 @@ pub(crate) fn judged(x: &Vector3<f64>, lambda: f64, s: f64, bodies: [&Body; 2], 
         estimate: s * s,
         lower: linear.max(by_model),
         upper,
+        open: larger(upper - linear.max(by_model), 0.0),
         rounding,
         ending: Ending::Converged,
         ..Solution::unsettled(*x, lambda, 0)

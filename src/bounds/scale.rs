@@ -25,7 +25,7 @@ const ROUNDING: f64 = 2.0 * f64::EPSILON;
 const UNDERFLOW: f64 = 1.5e-154;
 
 /// Largest gap of an answer that leaves open whether s is below 1.
-const WIDE: f64 = 1e-2;
+pub(crate) const WIDE: f64 = 1e-2;
 
 impl Scale {
     /// With the regularisation taken out again.
@@ -55,12 +55,8 @@ impl Scale {
 
     /// Whether it is no answer: it leaves open on which side of 1 s lies, by more than [`WIDE`].
     pub fn is_undecided(&self) -> bool {
-        !(self.low >= 1.0 || self.high <= 1.0) && self.is_wide()
-    }
-
-    /// Whether the gap says little; one that is no number does.
-    pub fn is_wide(&self) -> bool {
-        !(self.gap <= WIDE * larger(self.s, 1.0))
+        // What is no number is no answer either.
+        !(self.low >= 1.0 || self.high <= 1.0 || self.gap <= WIDE)
     }
 
     /// Whether s cannot be told from 0, as where a constraint is slack.

@@ -2,8 +2,9 @@
 
 use crate::bounds::dual_bound::DualBound;
 use crate::bounds::rounding::Rounding;
+use crate::bounds::scale::WIDE;
 use crate::bounds::sensitivity::Sensitivity;
-use crate::linalg::number::smaller;
+use crate::linalg::number::{larger, smaller};
 use crate::model::kkt_check::Change;
 use crate::model::local_model::{self, LocalModel, Start, Step};
 use crate::model::problem::Problem;
@@ -33,6 +34,8 @@ pub(crate) struct Solution {
     pub lower: f64,
     /// Upper bound up to `rounding`.
     pub upper: f64,
+    /// The difference of both, which may be less than they are rounded by.
+    pub open: f64,
     /// Bound on the rounding of both.
     pub rounding: f64,
     /// Whether rounding moves λ by so little that `rounding` holds to first order.
@@ -78,6 +81,7 @@ impl Solution {
             into: None,
             lower: f64::NEG_INFINITY,
             upper: f64::INFINITY,
+            open: f64::INFINITY,
             rounding: f64::INFINITY,
             linear: false,
             iterations,
@@ -121,6 +125,7 @@ impl Solution {
             into: None,
             lower: estimate - height,
             upper,
+            open: larger(upper - estimate, 0.0) + height,
             rounding: of_optimum.unwrap_or_else(|| rounding.of_merit(problem, lambda)),
             linear: of_optimum.is_some(),
             iterations: 0,
@@ -154,6 +159,11 @@ impl Solution {
         };
         let of = |i: usize| place(i) * self.gradient_norms[i];
         problem.weighted(of(0), of(1), self.lambda)
+    }
+
+    /// Whether so much is open of S, beside what a regularisation adds, that it may be no answer.
+    pub fn is_wide(open: f64, upper: f64) -> bool {
+        !(open <= WIDE * larger(upper, 1.0))
     }
 
     /// Bound on the error of the optimal S.

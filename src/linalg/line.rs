@@ -9,9 +9,18 @@
 pub(crate) struct Line {
     /// At α = 0.
     slope: f64,
+    /// Of all that is on for every α.
     curvature: f64,
-    /// Where a plane switches, and what that adds to the curvature.
-    switches: Vec<(f64, f64)>,
+    switches: Vec<Switch>,
+}
+
+/// Where a plane switches.
+#[derive(Debug)]
+struct Switch {
+    alpha: f64,
+    /// What the plane adds to the curvature while it is on.
+    curvature: f64,
+    comes_on: bool,
 }
 
 impl Line {
@@ -26,31 +35,42 @@ impl Line {
 
     /// A plane with weight 2w. Its share of the slope at α = 0 is in that already.
     pub fn add_plane(&mut self, depth: f64, rate: f64, w2: f64) {
-        let curvature = w2 * rate * rate;
-        if depth > 0.0 {
-            self.curvature += curvature;
+        let (curvature, is_on, comes_on) = (w2 * rate * rate, depth > 0.0, rate > 0.0);
+        if rate == 0.0 || (!is_on && !comes_on) {
+            return;
         }
-        if (depth > 0.0) != (rate > 0.0) && rate != 0.0 {
-            self.switches.push((-depth / rate, if rate > 0.0 { curvature } else { -curvature }));
+        if is_on && comes_on {
+            self.curvature += curvature;
+        } else {
+            self.switches.push(Switch { alpha: -depth / rate, curvature, comes_on });
         }
     }
 
     /// α where the function is least; 0 if it does not fall.
     pub fn least(mut self) -> f64 {
-        self.switches.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let (mut alpha, mut slope, mut curvature) = (0.0, self.slope, self.curvature);
-        if !(slope < 0.0) {
+        if !(self.slope < 0.0) {
             return 0.0;
         }
-        for (end, change) in self.switches {
-            let least = alpha - slope / curvature;
-            if least <= end {
+        self.switches.sort_by(|a, b| a.alpha.total_cmp(&b.alpha));
+        // What planes give that are on until later, and what those give that have come on: sums without a difference, since a plane
+        // may be stiffer by many digits than what is left when it has gone off.
+        let mut until_later = vec![0.0; self.switches.len() + 1];
+        for (i, switch) in self.switches.iter().enumerate().rev() {
+            until_later[i] = until_later[i + 1] + if switch.comes_on { 0.0 } else { switch.curvature };
+        }
+        let (mut alpha, mut slope, mut on) = (0.0, self.slope, self.curvature);
+        for (switch, later) in self.switches.iter().zip(&until_later) {
+            let least = alpha - slope / (on + later);
+            if least <= switch.alpha {
                 return least;
             }
-            slope += curvature * (end - alpha);
-            (alpha, curvature) = (end, curvature + change);
+            slope += (on + later) * (switch.alpha - alpha);
+            alpha = switch.alpha;
+            if switch.comes_on {
+                on += switch.curvature;
+            }
         }
-        alpha - slope / curvature
+        alpha - slope / on
     }
 }
 
@@ -80,5 +100,14 @@ mod tests {
         line.add_plane(0.0, 1e10, 1.0);
         assert!((line.least() / 1e-20 - 1.0).abs() < 1e-12);
         assert_eq!(Line::new(1.0).least(), 0.0);
+    }
+
+    #[test]
+    fn a_stiff_plane_that_goes_off_leaves_no_rounding() {
+        let mut line = Line::new(-1.0);
+        line.add_curvature(1e-6);
+        line.add_plane(1e-30, -1e-10, 1e30);
+        // Without the plane, which takes 1e-10 of the slope away, the minimum is at 1e6.
+        assert!((line.least() / 1e6 - 1.0).abs() < 1e-9);
     }
 }

@@ -9,15 +9,15 @@ use crate::linalg::graded_basis::any_across;
 use crate::linalg::number::larger;
 use crate::linalg::wide::{Wide, difference, rounded, wide};
 use crate::pose::Pose;
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::{Matrix3, Vector2, Vector3};
 
 /// A part of a boundary as the caller gave it, world frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum BoundaryPart {
     /// A plane through a point, by its unit normal and by a normal of any length that is exact.
     Plane { point: Vector3<f64>, normal: Vector3<f64>, given: Vector3<f64> },
-    /// The plane of three points, which have this unit normal.
-    Inside { vertices: [Vector3<f64>; 3], normal: Vector3<f64> },
+    /// The plane of three points, which have this unit normal. The sides at the first have a sine of 1/`condition` between them.
+    Inside { vertices: [Vector3<f64>; 3], normal: Vector3<f64>, condition: f64 },
     /// The line through two points of a triangle with this third one. They come in an order of their own, so that all triangles that share
     /// an edge find the same bits.
     Edge { ends: [Vector3<f64>; 2], third: Vector3<f64> },
@@ -46,12 +46,18 @@ impl BoundaryPart {
         }
     }
 
+    /// What its place is rounded by in numbers of 32 digits, relative to the lengths by which it is given: the rounding of two sides turns
+    /// their plane.
+    pub fn wide_condition(&self) -> f64 {
+        if let Self::Inside { condition, .. } = self { 1.0 + 2.0 * condition } else { 1.0 }
+    }
+
     /// Its frame beside a particle, whose pose is subtracted before anything is turned.
     pub fn frame(&self, pose: &Pose) -> PartFrame {
         let from_centre = |point: &Vector3<f64>| point - pose.position();
         match self {
             Self::Plane { point, normal, .. } => plane_frame(normal, &from_centre(point), from_centre(point).norm()),
-            Self::Inside { vertices, normal } => {
+            Self::Inside { vertices, normal, .. } => {
                 let farthest = vertices.iter().map(|v| from_centre(v).norm()).fold(0.0, f64::max);
                 plane_frame(normal, &from_centre(&vertices[0]), farthest)
             }
@@ -85,7 +91,7 @@ impl BoundaryPart {
                 let axes = plane_axes(&wide_unit(&wide(given)), normal);
                 (axes, Vector3::new(zero, zero, axes[2].dot(&difference(pose.position(), point))))
             }
-            Self::Inside { vertices: [a, b, c], normal } => {
+            Self::Inside { vertices: [a, b, c], normal, .. } => {
                 let axes = plane_axes(&wide_unit(&difference(b, a).cross(&difference(c, a))), normal);
                 (axes, Vector3::new(zero, zero, axes[2].dot(&difference(pose.position(), a))))
             }
@@ -144,6 +150,31 @@ impl BoundaryPart {
     }
 }
 
+impl BoundaryPart {
+    /// The coordinates of the ends of an edge along it, of 32 digits before they are rounded.
+    pub fn wide_ends(&self, pose: &Pose) -> [f64; 2] {
+        let Self::Edge { ends, .. } = self else { return [f64::NEG_INFINITY, f64::INFINITY] };
+        let (axes, _) = self.wide_frame(pose);
+        ends.map(|end| axes[0].dot(&difference(&end, pose.position())).rounded())
+    }
+
+    /// Distances of a point of a plane, in its frame, from the edges of a triangle there; negative beyond. Of 32 digits before they are
+    /// rounded.
+    pub fn wide_from_edges(&self, vertices: &[Vector3<f64>; 3], pose: &Pose, x: &Vector2<f64>) -> [f64; 3] {
+        let (axes, centre) = self.wide_frame(pose);
+        let from_centre = wide(&x.push(0.0)) - centre;
+        let point = axes[0] * from_centre.x + axes[1] * from_centre.y + axes[2] * from_centre.z;
+        [0, 1, 2].map(|i| {
+            let (from, to) = (&vertices[i], &vertices[(i + 1) % 3]);
+            if from == to {
+                return f64::INFINITY;
+            }
+            let inwards = axes[2].cross(&wide_unit(&difference(to, from)));
+            inwards.dot(&(point - difference(from, pose.position()))).rounded()
+        })
+    }
+}
+
 /// The steepest fall between two sides with these falls along them, where the sum of their unit vectors is so long: a direction
 /// between them is a sum of both with shares that add up to at least 1, and to 2 over that length at most.
 fn into_corner(falls: [f64; 2], sum: f64) -> f64 {
@@ -194,7 +225,7 @@ mod tests {
         let pose = Pose::new([0.4, 0.1, 0.9], [1.0, 0.2, -0.3, 0.5]).unwrap();
         let parts = [
             BoundaryPart::Plane { point: a, normal, given: normal },
-            BoundaryPart::Inside { vertices: [a, b, c], normal },
+            BoundaryPart::Inside { vertices: [a, b, c], normal, condition: 2.0 },
             BoundaryPart::Edge { ends: [a, b], third: c },
             BoundaryPart::Corner { at: c, others: [a, b] },
         ];

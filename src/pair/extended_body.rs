@@ -21,6 +21,9 @@ const ROUNDING: f64 = 64.0;
 /// Bound on the rounding of a depth in doubles, relative to its terms: 3ε are derived.
 const OF_DEPTH: f64 = 8.0 * f64::EPSILON;
 
+/// Bound on the rounding of e + n·δ, or of a depth after a step, in the same units.
+pub(crate) const DEPTH_AFTER: f64 = 8.0;
+
 /// Bound on the relative rounding of a sum over so many planes.
 fn rounding_of_sums(count: u32) -> f64 {
     (ROUNDING + f64::from(count)) * DoubleDouble::UNIT
@@ -62,7 +65,7 @@ impl Plane {
     /// The depth after a step, in the arithmetic of the model: the rounding of the depth before it is a shift of the plane.
     fn after(&self, depth: DoubleDouble, v: &Wide) -> (f64, f64) {
         let change = self.normal.dot(v);
-        let doubt = 8.0 * DoubleDouble::UNIT * (depth.rounded().abs() + self.length * rounded(v).norm());
+        let doubt = DEPTH_AFTER * DoubleDouble::UNIT * (depth.rounded().abs() + self.length * rounded(v).norm());
         ((depth + change).rounded(), doubt)
     }
 
@@ -72,7 +75,7 @@ impl Plane {
 
     /// Bound on the rounding of a depth at x₀ + δ, |δ| = `length`, beyond that of e, which is that of the data.
     fn doubt(&self, length: f64) -> f64 {
-        8.0 * DoubleDouble::UNIT * (self.excess.rounded().abs() + self.length * length)
+        DEPTH_AFTER * DoubleDouble::UNIT * (self.excess.rounded().abs() + self.length * length)
     }
 
     /// The depth at x₀ + δ in doubles, and a bound on its rounding: what is clearly on or off needs no more digits.
@@ -141,20 +144,20 @@ fn of(value: f64) -> DoubleDouble {
 impl<'a> ExtendedBody<'a> {
     /// Both bodies of a pair about x₀, solver frame.
     pub fn both(pair: &Pair, bodies: [&'a Body<'a>; 2], x: &Vector3<f64>) -> [Self; 2] {
-        let (pose_a, of_b, centre) = match pair.given {
+        let (pose_a, of_b, centre, lengths) = match pair.given {
             Given::Poses([pose_a, pose_b]) => {
                 let (of_b, to_a) = (axes(pose_b), difference(pose_a.position(), pose_b.position()));
-                (pose_a, of_b, Vector3::from(of_b.map(|axis| axis.dot(&to_a))))
+                (pose_a, of_b, Vector3::from(of_b.map(|axis| axis.dot(&to_a))), pair.lengths)
             }
             Given::Boundary(pose_a, part) => {
                 let (of_part, centre) = part.wide_frame(pose_a);
-                (pose_a, of_part, centre)
+                (pose_a, of_part, centre, pair.lengths * part.wide_condition())
             }
         };
         let identity = [0, 1, 2].map(|i| wide(&Vector3::ith(i, 1.0)));
         let of_a = axes(pose_a).map(|axis| Vector3::from(of_b.map(|b| b.dot(&axis))));
         let at_origin = wide(&Vector3::zeros());
-        [Self::new(bodies[0], of_a, (centre, pair.lengths), x), Self::new(bodies[1], identity, (at_origin, 0.0), x)]
+        [Self::new(bodies[0], of_a, (centre, lengths), x), Self::new(bodies[1], identity, (at_origin, 0.0), x)]
     }
 
     fn new(body: &'a Body<'a>, axes: [Wide; 3], (centre, lengths): (Wide, f64), x: &Vector3<f64>) -> Self {

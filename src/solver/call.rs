@@ -50,6 +50,8 @@ pub(crate) struct Call<'a> {
     pub flags: Flags,
     /// Who answers.
     pub back_end: BackEnd,
+    /// Whether extended precision is asked for whatever doubles say.
+    pub precise: bool,
 }
 
 impl<'a> Call<'a> {
@@ -57,7 +59,7 @@ impl<'a> Call<'a> {
         let (body_a, body_b) = Body::both(pair, settings.least_sphericity());
         // The cone programs are those of two particles.
         let back_end = if pair.b.is_boundary() { BackEnd::Fast } else { settings.back_end };
-        Self { pair, body_a, body_b, settings, iterations: 0, flags: Flags::default(), back_end }
+        Self { pair, body_a, body_b, settings, iterations: 0, flags: Flags::default(), back_end, precise: false }
     }
 
     /// Both bodies, as the solver sees them.
@@ -92,7 +94,8 @@ impl<'a> Call<'a> {
         }
         let (bodies, goal) = (self.bodies(), self.goal(problem));
         let step = model.optimum(bodies, problem, lambda);
-        if let Some(solution) = step.as_ref().and_then(|step| newton::accepted(bodies, &goal, &model, step)) {
+        let accepts = |step| if self.precise { None } else { newton::accepted(bodies, &goal, &model, step) };
+        if let Some(solution) = step.as_ref().and_then(accepts) {
             self.count(&solution);
             return Ok(Solved { solution, model });
         }
@@ -119,6 +122,7 @@ impl<'a> Call<'a> {
         let flat = goal.problem.weighted(a.most_surplus(level), b.most_surplus(level), solution.lambda);
         let explained = solution.least_rounding([a, b], model, goal.problem) + flat + goal.tolerance * level;
         match solution.ending {
+            _ if self.precise => true,
             Ending::Separated => false,
             Ending::Unsettled => true,
             _ if !solution.linear || self.leaves_open(solution, goal.problem) => true,
@@ -130,7 +134,7 @@ impl<'a> Call<'a> {
     fn leaves_open(&self, solution: &Solution, problem: Problem) -> bool {
         let scale = self.scale(solution, problem);
         let slack = problem.held().is_some() && scale.may_be_zero() && scale.high > NEAR_ZERO;
-        slack || (scale.is_wide() && !self.settings.raises_regularisation())
+        slack || Solution::is_wide(solution.gap(), solution.upper)
     }
 
     #[cold]

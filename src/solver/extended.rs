@@ -22,7 +22,7 @@ use crate::model::dual_search::DualSearch;
 use crate::model::local_model::{self, Start};
 use crate::model::problem::Problem;
 use crate::pair::body::Body;
-use crate::pair::extended_body::{ExtendedBody, Undecided, WideQuadratic, WideValue};
+use crate::pair::extended_body::{DEPTH_AFTER, ExtendedBody, Undecided, WideQuadratic, WideValue};
 use crate::pair::pair::{Given, Pair};
 use crate::solver::newton::{self, Goal};
 use nalgebra::{Matrix3, Vector3};
@@ -258,6 +258,13 @@ impl Extended<'_> {
         WideModel { undecided, axes, sides, soft }
     }
 
+    /// The slope that the optimum of the quadratics has, by multipliers that are negative by rounding at most.
+    fn slope_of_model(&self, optimum: &Optimum<DoubleDouble>, (a, b): (f64, f64)) -> f64 {
+        let stiffest = a * self.bodies[0].stiffest() + b * self.bodies[1].stiffest();
+        let left = rounded(&optimum.slope(self.problem)).norm();
+        left + DEPTH_AFTER * DoubleDouble::UNIT * stiffest * rounded(&optimum.step).norm()
+    }
+
     fn gradient_of_a(&self, found: &Found) -> Wide {
         self.bodies[0].value(&found.delta).gradient
     }
@@ -274,8 +281,12 @@ impl Extended<'_> {
         let upper = self.upper(delta, &values);
         let error = values.map(|of| of.rounding());
         let slope = rounded(&(of_a.gradient * weights.0 + of_b.gradient * weights.1)).rows(0, self.dimensions).norm();
+        // Where the places of 32 digits are too coarse for the forces to balance, those of the quadratics still do.
+        let slope = optimum.as_ref().map_or(slope, |optimum| smaller(slope, self.slope_of_model(optimum, (a, b))));
         let slope = slope + a * of_a.turn + b * of_b.turn;
         let height = 0.5 * slope * slope / (LESS * (a * self.bodies[0].soft() + b * self.bodies[1].soft()));
+        // The difference is taken before it is rounded.
+        let above = larger((upper - dual).rounded(), 0.0);
         let (estimate, gradients) = (dual.rounded(), values.map(|of| rounded(&of.gradient)));
         Solution {
             gradients,
@@ -284,8 +295,8 @@ impl Extended<'_> {
             estimate,
             slope,
             lower: estimate - height,
-            // The difference is taken before it is rounded.
-            upper: estimate + larger((upper - dual).rounded(), 0.0),
+            upper: estimate + above,
+            open: above + height,
             rounding: larger(problem.weighted(error[0], error[1], lambda.rounded()), larger(error[0], error[1])),
             linear: true,
             rate: optimum.as_ref().map_or(0.0, |optimum| approximate(optimum).rate(problem)),

@@ -57,7 +57,7 @@ pub struct Plane {
     pub height: Wide,
     /// Of a triangle.
     pub corners: Option<[Wide2; 3]>,
-    /// Distance of the farthest point that gives it.
+    /// Distance of the farthest point that gives it, times what its sides make of their rounding.
     pub farthest: f64,
 }
 
@@ -67,9 +67,9 @@ impl Plane {
         let columns = [0, 1, 2].map(|j| Wide3([0, 1, 2].map(|i| rotation[i].0[j])));
         let local = |v: &Wide3| Wide3([0, 1, 2].map(|j| columns[j].dot(v)));
         let from_centre = |p: &[f64; 3]| local(&Wide3([0, 1, 2].map(|i| Wide::difference(p[i], position[i]))));
-        let (normal, point, vertices) = match boundary {
+        let (normal, point, vertices, condition) = match boundary {
             Boundary::Plane { point, normal } => {
-                (unit(&local(&Wide3(normal.map(Wide::from)))), from_centre(point), None)
+                (unit(&local(&Wide3(normal.map(Wide::from)))), from_centre(point), None, 1.0)
             }
             Boundary::Triangle(vertices) => {
                 let at = vertices.map(|v| from_centre(&v));
@@ -79,7 +79,8 @@ impl Plane {
                 // Their differences have no rounding in world axes.
                 let sides = [next, last]
                     .map(|i| local(&Wide3([0, 1, 2].map(|c| Wide::difference(vertices[i][c], vertices[base][c])))));
-                (unit(&cross3(&unit(&sides[0]), &unit(&sides[1]))), at[base], Some(at))
+                let across = cross3(&unit(&sides[0]), &unit(&sides[1]));
+                (unit(&across), at[base], Some(at), 1.0 / across.norm().f64())
             }
         };
         let plain = normal.f64();
@@ -92,7 +93,7 @@ impl Plane {
             normal,
             height: normal.dot(&point),
             corners: vertices.map(|at| at.map(|v| [axes[0].dot(&v), axes[1].dot(&v)])),
-            farthest: given.iter().map(|v| v.norm().f64()).fold(0.0, f64::max),
+            farthest: condition * given.iter().map(|v| v.norm().f64()).fold(0.0, f64::max),
         }
     }
 

@@ -160,13 +160,13 @@ impl Scene<'_> {
         if settings.gap_tolerance < 1e-13 && level == default {
             levels.push(1e-5 * settings.gap_tolerance);
         }
-        let flat = self.case.particle.sphericity() < level;
-        let mut regularised: Vec<Least> = Vec::new();
-        for level in levels {
-            if regularised.is_empty() || self.case.particle.sphericity() < level {
-                regularised.push(self.least(level));
-            }
-        }
+        // The weight of the sphere decides, not k: R may be larger than the particle.
+        let (particle, weight) = (&self.case.particle, |k: f64, radius: f64| k / (radius * radius));
+        let own = weight(particle.sphericity(), particle.shadow_radius());
+        let is_raised = |level: f64| !(own >= weight(level, particle.bounding_radius()));
+        let flat = is_raised(level);
+        let regularised: Vec<Least> =
+            levels.iter().filter(|l| **l == levels[0] || flat).map(|level| self.least(*level)).collect();
         let given = if flat { self.as_given(default) } else { regularised[0] };
         Truth { given, regularised }
     }
@@ -175,7 +175,8 @@ impl Scene<'_> {
     fn as_given(&self, default: f64) -> Least {
         let level = AS_GIVEN * default;
         let found = self.least(level);
-        if self.case.particle.sphericity() > level {
+        let particle = &self.case.particle;
+        if particle.sphericity() / particle.shadow_radius().powi(2) > level / particle.bounding_radius().powi(2) {
             return found;
         }
         // The least S of k = 0 is met within as many bounding radii.
