@@ -363,7 +363,7 @@ typedef struct pp_flat_contact {
     // Where on T the point x* lies: PP_ON_INTERIOR, PP_ON_EDGE + i or PP_ON_VERTEX + i.
     uint32_t feature;
     // Sum of PP_FLAG_... bits: REJECTED with BY_SPHERES, or with BY_FACE (of A, or T itself);
-    // ROUNDING_LIMITED, DEFAULT_REGULARISATION, NORMAL_BY_BOUNDARY.
+    // ROUNDING_LIMITED, EXTENDED, DEFAULT_REGULARISATION, NORMAL_BY_BOUNDARY.
     uint32_t flags;
     // Quadratics solved.
     uint32_t iterations;
@@ -374,7 +374,7 @@ typedef struct pp_flat_contact {
     // the place of the contact is known to some percent of the size with the default, to 1e-6 of the size
     // with 1e-4.
     double s;
-    // Bound on the error of s, with rounding to first order (as in struct pp_contact for doubles).
+    // Bound on the error of s, with rounding to first order in doubles (as in struct pp_contact).
     double gap;
     // Estimated bound on the distance of on_boundary to the exact x*, length.
     double point_bound;
@@ -728,8 +728,9 @@ pp_status pp_contact_area(const struct pp_particle *a,
 // (of any length). A may touch it from either side; where its centre lies on the plane to rounding, A counts
 // as in front of it (PP_FLAG_NORMAL_BY_BOUNDARY).
 //
-// settings: may be NULL (defaults); gap_tolerance, flat_regularisation and solve_separated count. The answer
-// is always in doubles. state: may be NULL; else that of A and this boundary, in which nothing is kept so far.
+// settings: may be NULL (defaults); gap_tolerance, flat_regularisation and solve_separated count. A
+// gap_tolerance below 1e-13, or a gap in doubles that is too wide, is answered in extended precision
+// (PP_FLAG_EXTENDED). state: may be NULL; else that of A and this boundary, in which nothing is kept so far.
 // Pointers: point and normal hold 3 numbers each.
 // Errors: PP_NULL_POINTER, PP_BAD_POSITION, PP_BAD_ORIENTATION, PP_BAD_POINT, PP_UNKNOWN_FORMULATION,
 // PP_UNKNOWN_BACK_END, PP_NO_CONE_PROGRAM, PP_BAD_SETTING, PP_SOLVER_FAILED.
@@ -746,8 +747,9 @@ pp_status pp_contact_plane(const struct pp_particle *a,
 // vertices: three points, world frame, one after the other; seen from the front they run
 // counter-clockwise. Where the centre of A lies on the triangle to rounding, A counts as in front of it
 // (PP_FLAG_NORMAL_BY_BOUNDARY).
-// settings: may be NULL (defaults); gap_tolerance, flat_regularisation and solve_separated count. The answer
-// is always in doubles. state: may be NULL; else that of A and this boundary, in which nothing is kept so far.
+// settings: may be NULL (defaults); gap_tolerance, flat_regularisation and solve_separated count. A
+// gap_tolerance below 1e-13, or a gap in doubles that is too wide, is answered in extended precision
+// (PP_FLAG_EXTENDED). state: may be NULL; else that of A and this boundary, in which nothing is kept so far.
 // Pointers: vertices holds 9 numbers.
 // Errors: those of pp_contact_plane, and PP_DEGENERATE_TRIANGLE.
 pp_status pp_contact_triangle(const struct pp_particle *a,

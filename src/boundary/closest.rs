@@ -107,8 +107,8 @@ impl Search<'_> {
         };
         if least.into > 0.0 {
             // S falls into the triangle: rounding may have decided which edges the point of the plane lies beyond.
-            for i in 0..3 {
-                on_edges[i] = Some(on_edges[i].map_or_else(|| self.on_edge(triangle, i), Ok)?);
+            for (i, on_edge) in on_edges.iter_mut().enumerate() {
+                *on_edge = Some(on_edge.map_or_else(|| self.on_edge(triangle, i), Ok)?);
             }
             (least, feature) = least_of(&on_edges).unwrap_or((least, feature));
         }

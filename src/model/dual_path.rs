@@ -130,7 +130,7 @@ impl<'a, N: Number> DualPath<'a, N> {
             Problem::Midway => y - x,
             Problem::OnB => *y,
             Problem::OnA => *x,
-            Problem::OnBoundary => x - x,
+            Problem::OnBoundary => Vector3::repeat(N::of(0.0)),
         }
     }
 

@@ -232,9 +232,9 @@ mod tests {
         for part in parts {
             let (frame, (axes, centre)) = (part.frame(&pose), part.wide_frame(&pose));
             assert!((frame.centre - rounded(&centre)).norm() < 1e-15, "{part:?}");
-            for i in 0..3 {
-                assert!((frame.rotation.column(i) - rounded(&axes[i])).norm() < 1e-15, "{part:?}");
-                let square = (axes[i].dot(&axes[i]) - DoubleDouble::from(1.0)).rounded();
+            for (i, axis) in axes.iter().enumerate() {
+                assert!((frame.rotation.column(i) - rounded(axis)).norm() < 1e-15, "{part:?}");
+                let square = (axis.dot(axis) - DoubleDouble::from(1.0)).rounded();
                 assert!(square.abs() < 16.0 * DoubleDouble::UNIT, "{part:?}");
             }
             // The first coordinates of the points that give the part are all that they have.
