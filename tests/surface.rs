@@ -145,6 +145,28 @@ fn sharp_bodies_need_few_triangles() {
     assert!(pyramid.triangles.len() < 100, "{}", pyramid.triangles.len());
 }
 
+/// Lengths from 1e-92 to 1e92 leave a mesh that is closed and says how far off it is, or none; either ends soon.
+#[test]
+fn normals_of_any_length_end_at_the_most_vertices() {
+    let mut most = 0;
+    for case in 0..30 {
+        let planes: Vec<Plane> = (0..12)
+            .map(|i| {
+                let (z, phi) = (1.0 - (2.0 * f64::from(i) + 1.0) / 12.0, f64::from(i + case) * 2.399963);
+                let s = (1.0 - z * z).sqrt();
+                let length = 10f64.powf(92.0 * (f64::from(i * 5 + case) * 1.7).sin());
+                Plane { normal: length * Vector::new(s * phi.cos(), s * phi.sin(), z), offset: 0.9 * length }
+            })
+            .collect();
+        let Ok(body) = Particle::new(&planes, 1e-3, 0.0, 1.0) else { continue };
+        if let Ok(mesh) = SurfaceMesh::of(&body, 1e-3) {
+            assert_closed("normals of any length", &mesh);
+            most = most.max(mesh.vertices.len());
+        }
+    }
+    assert!(most > 1_000 && most <= 51_000, "{most}");
+}
+
 #[test]
 fn a_tolerance_out_of_range_is_refused() {
     let sphere = Particle::sphere(1.0).unwrap();

@@ -38,17 +38,18 @@ const SAME: f64 = 1e-9;
 const ROUNDING: f64 = 32.0 * f64::EPSILON;
 
 impl Patch {
-    /// p at its corners.
-    pub fn corners(&self) -> &[Vector3<f64>; 4] {
-        &self.corners
-    }
-
     /// p(u, v), and the area of the image of du dv.
     pub fn at(&self, u: f64, v: f64) -> (Vector3<f64>, f64) {
         let [a, b, c, d] = &self.corners;
         let (inner, outer) = (a + v * (b - a), c + v * (d - c));
         let along = (1.0 - u) * (b - a) + u * (d - c);
         (inner + u * (outer - inner), (outer - inner).cross(&along).norm())
+    }
+
+    /// ∂p/∂u and ∂p/∂v at (u, v).
+    pub fn along(&self, u: f64, v: f64) -> [Vector3<f64>; 2] {
+        let [a, b, c, d] = &self.corners;
+        [(1.0 - v) * (c - a) + v * (d - b), (1.0 - u) * (b - a) + u * (d - c)]
     }
 
     /// The intervals of v into which the patch is divided to begin with.
