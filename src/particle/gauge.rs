@@ -136,6 +136,11 @@ impl Piece {
         self.planes.len()
     }
 
+    /// A lower bound of g(p), by the bounding ball.
+    pub fn least(&self, p: &Vector3<f64>) -> f64 {
+        self.least * p.norm()
+    }
+
     pub fn plane_weight(&self) -> f64 {
         self.plane_weight
     }

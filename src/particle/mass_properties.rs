@@ -309,11 +309,15 @@ fn jumps(piece: &Piece, corners: &[Vector3<f64>; 4], nodes: &[Node]) -> [f64; 2]
     let at_corners = [0, last, last * POINTS, POINTS * POINTS - 1].map(|i| nodes[i].on_ray.gauge);
     let undecided = piece.undecided(corners, &at_corners);
     let mut sum = [0.0; 2];
+    if undecided.is_empty() {
+        return sum;
+    }
+    let between = sensitivity_between(piece, nodes);
     for plane in &undecided {
         let (mut jumps, mut most) = ([0.0_f64; 2], 0.0_f64);
         for node in nodes {
             let OnRay { gauge, tangent, slope, .. } = node.on_ray;
-            let scale = 2.0 * piece.plane_weight() * node.sensitivity / slope;
+            let scale = 2.0 * piece.plane_weight() * between * node.sensitivity / slope;
             let across = plane.n.dot(&node.p) / gauge;
             for (jump, along) in jumps.iter_mut().zip(&node.along) {
                 let rate = plane.n.dot(along) - across * tangent.dot(along);
@@ -329,12 +333,29 @@ fn jumps(piece: &Piece, corners: &[Vector3<f64>; 4], nodes: &[Node]) -> [f64; 2]
     }
     let both = sum[0] + sum[1];
     if both > 0.0 {
-        let gap = gap(nodes);
+        let gap = between * gap(nodes);
         if gap < both {
             return sum.map(|bound| gap / both * bound);
         }
     }
     sum
+}
+
+/// How much larger the sensitivity may be between the nodes: it is at most of degree −6 in g, of which the tangents at the nodes
+/// give a lower bound.
+fn sensitivity_between(piece: &Piece, nodes: &[Node]) -> f64 {
+    let mut most = 1.0_f64;
+    for i in 0..POINTS - 1 {
+        for j in 0..POINTS - 1 {
+            let around = [(0, 0), (0, 1), (1, 0), (1, 1)].map(|(k, l)| &nodes[(i + k) * POINTS + j + l]);
+            let lowest = |values: [f64; 4]| values.into_iter().fold(f64::INFINITY, f64::min);
+            let at_nodes = lowest(around.map(|node| node.on_ray.gauge));
+            let of_ball = lowest(around.map(|node| piece.least(&node.p)));
+            let below = around.iter().map(|node| lowest(around.map(|other| node.on_ray.tangent.dot(&other.p))));
+            most = most.max(at_nodes / below.fold(of_ball, f64::max));
+        }
+    }
+    most.powi(6)
 }
 
 /// A bound on the error that follows from convexity.

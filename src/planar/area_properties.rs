@@ -233,7 +233,19 @@ fn jump(piece: &Piece, corners: &[Vector3<f64>; 2], along: &Vector3<f64>, nodes:
         most.min(quadrature::OF_JUMP * jump)
     };
     let sum = undecided.iter().map(of_line).sum::<f64>();
-    if sum > 0.0 { sum.min(gap(nodes)) } else { sum }
+    if sum > 0.0 { sensitivity_between(piece, nodes) * sum.min(gap(nodes)) } else { sum }
+}
+
+/// How much larger the sensitivity may be between the nodes: it is at most of degree −5 in g, of which the tangents at the nodes
+/// give a lower bound.
+fn sensitivity_between(piece: &Piece, nodes: &[Node]) -> f64 {
+    let of_part = |part: &[Node]| {
+        let (before, after) = (&part[0], &part[1]);
+        let of_tangent = |node: &Node| node.1.tangent.dot(&before.0).min(node.1.tangent.dot(&after.0));
+        let below = of_tangent(before).max(of_tangent(after));
+        before.1.gauge.min(after.1.gauge) / below.max(piece.least(&before.0).min(piece.least(&after.0)))
+    };
+    nodes.windows(2).map(of_part).fold(1.0, f64::max).powi(5)
 }
 
 /// A bound on the error that follows from convexity.
