@@ -312,12 +312,13 @@ fn jumps(piece: &Piece, corners: &[Vector3<f64>; 4], nodes: &[Node]) -> [f64; 2]
     if undecided.is_empty() {
         return sum;
     }
-    let between = sensitivity_between(piece, nodes);
+    // The largest anywhere, since the jump and a corner without area may be at different points.
+    let sensitivity = sensitivity(piece, nodes);
     for plane in &undecided {
         let (mut jumps, mut most) = ([0.0_f64; 2], 0.0_f64);
         for node in nodes {
             let OnRay { gauge, tangent, slope, .. } = node.on_ray;
-            let scale = 2.0 * piece.plane_weight() * between * node.sensitivity / slope;
+            let scale = 2.0 * piece.plane_weight() * sensitivity / slope;
             let across = plane.n.dot(&node.p) / gauge;
             for (jump, along) in jumps.iter_mut().zip(&node.along) {
                 let rate = plane.n.dot(along) - across * tangent.dot(along);
@@ -333,7 +334,7 @@ fn jumps(piece: &Piece, corners: &[Vector3<f64>; 4], nodes: &[Node]) -> [f64; 2]
     }
     let both = sum[0] + sum[1];
     if both > 0.0 {
-        let gap = between * gap(nodes);
+        let gap = sensitivity * gap(nodes);
         if gap < both {
             return sum.map(|bound| gap / both * bound);
         }
@@ -341,9 +342,9 @@ fn jumps(piece: &Piece, corners: &[Vector3<f64>; 4], nodes: &[Node]) -> [f64; 2]
     sum
 }
 
-/// How much larger the sensitivity may be between the nodes: it is at most of degree −6 in g, of which the tangents at the nodes
-/// give a lower bound.
-fn sensitivity_between(piece: &Piece, nodes: &[Node]) -> f64 {
+/// The largest sensitivity, also between the nodes: it is at most of degree −6 in g, of which the tangents at the nodes give a
+/// lower bound.
+fn sensitivity(piece: &Piece, nodes: &[Node]) -> f64 {
     let mut most = 1.0_f64;
     for i in 0..POINTS - 1 {
         for j in 0..POINTS - 1 {
@@ -355,10 +356,10 @@ fn sensitivity_between(piece: &Piece, nodes: &[Node]) -> f64 {
             most = most.max(at_nodes / below.fold(of_ball, f64::max));
         }
     }
-    most.powi(6)
+    nodes.iter().map(|node| node.sensitivity).fold(0.0, f64::max) * most.powi(6)
 }
 
-/// A bound on the error that follows from convexity.
+/// A bound on the error of the integral of g that follows from convexity.
 fn gap(nodes: &[Node]) -> f64 {
     let (mut low, mut high, mut rule) = (0.0, 0.0, 0.0);
     for i in 0..POINTS {
@@ -374,8 +375,7 @@ fn gap(nodes: &[Node]) -> f64 {
             }
         }
     }
-    let sensitivity = nodes.iter().map(|node| node.sensitivity).fold(0.0, f64::max);
-    sensitivity * f64::max(high - rule, rule - low)
+    f64::max(high - rule, rule - low)
 }
 
 /// The integrands where the ray through p leaves the particle, at τ p, times `area`.

@@ -224,8 +224,8 @@ fn jump(piece: &Piece, corners: &[Vector3<f64>; 2], along: &Vector3<f64>, nodes:
     let undecided = piece.undecided(corners, &[nodes[0].1.gauge, nodes[POINTS - 1].1.gauge]);
     let of_line = |line: &Undecided| {
         let (mut jump, mut most) = (0.0_f64, 0.0_f64);
-        for (p, on_ray, sensitivity) in nodes {
-            let scale = 2.0 * piece.plane_weight() * sensitivity / on_ray.slope;
+        for (p, on_ray, _) in nodes {
+            let scale = 2.0 * piece.plane_weight() / on_ray.slope;
             let rate = line.n.dot(along) - line.n.dot(p) / on_ray.gauge * on_ray.tangent.dot(along);
             jump = jump.max(scale / on_ray.gauge * rate * rate);
             most = most.max(scale * on_ray.gauge * line.square);
@@ -233,22 +233,22 @@ fn jump(piece: &Piece, corners: &[Vector3<f64>; 2], along: &Vector3<f64>, nodes:
         most.min(quadrature::OF_JUMP * jump)
     };
     let sum = undecided.iter().map(of_line).sum::<f64>();
-    if sum > 0.0 { sensitivity_between(piece, nodes) * sum.min(gap(nodes)) } else { sum }
+    if sum > 0.0 { sensitivity(piece, nodes) * sum.min(gap(nodes)) } else { sum }
 }
 
-/// How much larger the sensitivity may be between the nodes: it is at most of degree −5 in g, of which the tangents at the nodes
-/// give a lower bound.
-fn sensitivity_between(piece: &Piece, nodes: &[Node]) -> f64 {
+/// The largest sensitivity, also between the nodes: it is at most of degree −5 in g, of which the tangents at the nodes give a
+/// lower bound.
+fn sensitivity(piece: &Piece, nodes: &[Node]) -> f64 {
     let of_part = |part: &[Node]| {
         let (before, after) = (&part[0], &part[1]);
         let of_tangent = |node: &Node| node.1.tangent.dot(&before.0).min(node.1.tangent.dot(&after.0));
         let below = of_tangent(before).max(of_tangent(after));
         before.1.gauge.min(after.1.gauge) / below.max(piece.least(&before.0).min(piece.least(&after.0)))
     };
-    nodes.windows(2).map(of_part).fold(1.0, f64::max).powi(5)
+    nodes.iter().map(|node| node.2).fold(0.0, f64::max) * nodes.windows(2).map(of_part).fold(1.0, f64::max).powi(5)
 }
 
-/// A bound on the error that follows from convexity.
+/// A bound on the error of the integral of g that follows from convexity.
 fn gap(nodes: &[Node]) -> f64 {
     let (mut low, mut high) = (0.0, 0.0);
     for i in 1..POINTS {
@@ -258,7 +258,7 @@ fn gap(nodes: &[Node]) -> f64 {
         high += width * 0.5 * (before.1.gauge + after.1.gauge);
     }
     let rule: f64 = nodes.iter().zip(RULE).map(|((_, on_ray, _), (_, weight, _))| weight * on_ray.gauge).sum();
-    nodes.iter().map(|node| node.2).fold(0.0, f64::max) * f64::max(high - rule, rule - low)
+    f64::max(high - rule, rule - low)
 }
 
 /// Angles at which the circle is divided to begin with, rising, the last one turn after the first.

@@ -118,7 +118,6 @@ fn difference<const D: usize>(found: &Moments<D>, reference: &Moments<D>) -> f64
 }
 
 pub fn run(seed: u64, count: u64, threads: usize, stop: &AtomicBool, progress: &ProgressBar) -> Tally {
-    if let Ok(i) = std::env::var("DUMP") { return one(seed, i.parse().unwrap()); }
     let total = Mutex::new(Tally::default());
     let next = AtomicU64::new(0);
     std::thread::scope(|scope| {
@@ -129,7 +128,6 @@ pub fn run(seed: u64, count: u64, threads: usize, stop: &AtomicBool, progress: &
                     if index >= count || stop.load(Ordering::Relaxed) {
                         break;
                     }
-                    let begin = Instant::now();
                     let tally = one(seed, index);
                     total.lock().expect("no thread panics while it holds the sum").merge(tally);
                     progress.inc(1);
@@ -203,11 +201,6 @@ fn any(seed: u64, index: u64, random: &mut Random) -> Tally {
         }
     };
     let planes = made.plane_count();
-    if let Ok(wanted) = std::env::var("DUMP") { if wanted == index.to_string() {
-        eprintln!("r {:e} k {:e} R {:e}", made.rounding_radius(), made.sphericity(), made.shadow_radius());
-        for p in made.planes() { eprintln!("{:?} {:?} |n| {:e} dist {:e}", p.normal.normalize().as_slice(), p.offset, p.normal.norm(), p.offset / p.normal.norm()); }
-        for t in [1e-2, 1e-3, 1e-4,1e-5,1e-6,1e-7,1e-8, 1e-9] { let m = made.mass_properties(t); eprintln!("{t:e} {:.15e} {:e} {:?}", m.volume, m.error, m.centroid.as_slice()); }
-    }}
     compared((seed, index, "any shape", planes), None, |tolerance| of_space(&made, tolerance))
 }
 
