@@ -21,6 +21,7 @@ mod line;
 #[path = "../../benches/work_precision/machine.rs"]
 #[allow(dead_code)]
 mod machine;
+mod mass;
 mod memories;
 mod pairs;
 mod placed_boundary;
@@ -138,7 +139,12 @@ fn run(arguments: &Arguments, seed: u64) -> Result<u64, String> {
         bar.finish_and_clear();
     }
 
+    let bar = progress("particles", arguments.mass);
+    let mass = mass::run(seed, arguments.mass, threads, &stop, &bar);
+    bar.finish_and_clear();
+
     let findings = Findings {
+        mass,
         seed,
         first,
         settle_every,
@@ -154,7 +160,7 @@ fn run(arguments: &Arguments, seed: u64) -> Result<u64, String> {
     };
     findings.write(&arguments.output).map_err(|error| format!("{}: {error}", arguments.output.display()))?;
     findings.print();
-    Ok(findings.failures())
+    Ok(findings.failures() + findings.mass.failures())
 }
 
 fn progress(what: &'static str, length: u64) -> ProgressBar {

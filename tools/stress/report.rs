@@ -6,6 +6,7 @@ use crate::judge::{Doubt, Failure, PATHS};
 use crate::ledger::{Fault, Ledger};
 use crate::line::Line;
 use crate::machine::Machine;
+use crate::mass;
 use crate::sweeps::Sweep;
 use crate::tally::{Distribution, OfFamily, Tally};
 use serde::Serialize;
@@ -25,6 +26,7 @@ pub struct Findings {
     /// Seconds of one evaluation of S, ∇S and ∇²S of both particles, 5 + 5 planes.
     pub evaluation: f64,
     pub tally: Tally,
+    pub mass: mass::Tally,
     pub walks: u64,
     pub sweeps: Vec<Sweep>,
     /// By name.
@@ -85,6 +87,7 @@ struct Summary<'a> {
     families: Vec<FamilySummary<'a>>,
     sweeps: &'a [Sweep],
     parts: Vec<PartSummary<'a>>,
+    mass: &'a mass::Tally,
     seconds: f64,
     machine: &'a Machine,
 }
@@ -286,6 +289,7 @@ impl Findings {
             families: FAMILIES.iter().map(|f| f.name).zip(&t.families).map(family).collect(),
             sweeps: &self.sweeps,
             parts: self.parts.iter().map(|(part, ledger)| PartSummary::of(part, ledger)).collect(),
+            mass: &self.mass,
             seconds: self.seconds,
             machine: &self.machine,
         }
@@ -303,11 +307,16 @@ impl Findings {
             targets.push(Target::at_most(format!("{part}: failures"), 0.0, ledger.failures() as f64));
             targets.push(Target::at_most(format!("{part}: unsettled"), MOST_UNSETTLED, ledger.share_unsettled()));
         }
+        if self.mass.particles > 0 {
+            let failures = self.mass.failures() as f64;
+            targets.push(Target::at_most("mass properties with too small an estimate", 0.0, failures));
+        }
         targets
     }
 
     /// Tables by family, call and motion, and the targets.
     pub fn print(&self) {
+        self.mass.print();
         let t = &self.tally;
         println!(
             "\n| family | poses | failed | gap, median | worst | error of s, median | worst | point, median | worst | time, median | p99.99 | slowest |"
