@@ -66,8 +66,8 @@ impl Search<'_> {
         let mut call = Call::new(&pair, self.settings);
         call.precise = self.precise;
         let start = Start { x: from.push(0.0), lambda: 1.0 };
-        let model = call.model(&start, Problem::OnBoundary);
-        let solved = call.solve(Problem::OnBoundary, start.lambda, model)?;
+        let mut model = call.model(&start, Problem::OnBoundary);
+        let solved = call.solve(Problem::OnBoundary, start.lambda, &mut model)?;
         let solution = solved.solution;
         let into = solution.into.or_else(|| part.descent(&solution.gradients[0], &frame)).unwrap_or(0.0);
         let point_bound = call.point_bound(&solved, Problem::OnBoundary);

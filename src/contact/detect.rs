@@ -180,14 +180,14 @@ fn solved(
         }
         None => call.cold(),
     };
-    let model = call.model(&start, Problem::Midway);
+    let mut model = call.model(&start, Problem::Midway);
     let overlapped = last.filter(|last| last.overlapping && settings.formulation == Formulation::Closest);
     if let Some(points) = overlapped.and_then(|last| call.closest_from_memory(&last, &model)) {
         remember(state, closest::midway_between(&points));
         let local = LocalContact::closest(pair, &points, settings.weight_on_a, true);
         return Ok(local.placed(pair, pose_b, summary(&call)));
     }
-    let midway = call.solve(Problem::Midway, start.lambda, model)?;
+    let midway = call.solve(Problem::Midway, start.lambda, &mut model)?;
     let scale = call.scale(&midway.solution, Problem::Midway);
     let separated = midway.solution.ending == Ending::Separated;
     if !separated && scale.s >= 1.0 && scale.low < 1.0 && settings.raises_regularisation() {

@@ -66,6 +66,32 @@ impl Axes {
     }
 }
 
+impl Axes {
+    /// Those of a boundary, if it is one. The others are columns of zeros: so the quadratics have neither slope nor planes across it, and
+    /// no step leads off it.
+    #[inline(always)]
+    fn on_boundary(self, bodies: [&Body; 2], points: &[LocalPoint; 2]) -> Option<Matrix3<f64>> {
+        match self {
+            Self::OfB | Self::Graded => None,
+            Self::OfBoundary(dimensions) => Some(first_axes(Matrix3::identity(), dimensions)),
+            Self::GradedOnBoundary(dimensions) => Some(graded_on_boundary(bodies, points, dimensions)),
+        }
+    }
+}
+
+#[inline(never)]
+fn graded_on_boundary(bodies: [&Body; 2], points: &[LocalPoint; 2], dimensions: usize) -> Matrix3<f64> {
+    let normals = ActiveNormals { bodies, points, weights: (1.0, 0.0), dimensions };
+    let axes = if dimensions > 1 { graded_basis::aligned(&normals) } else { Matrix3::identity() };
+    first_axes(axes, dimensions)
+}
+
+/// So many of the axes, and zeros for the others.
+fn first_axes(mut axes: Matrix3<f64>, dimensions: usize) -> Matrix3<f64> {
+    (dimensions..3).for_each(|i| axes.column_mut(i).fill(0.0));
+    axes
+}
+
 /// Bounding radius of the smaller body.
 #[inline(always)]
 pub(crate) fn smallest([a, b]: [&Body; 2]) -> f64 {
@@ -94,33 +120,13 @@ impl LocalModel {
     /// At a point with its active sets. The stiffest planes are those of the sum with these weights.
     #[inline(always)]
     pub fn of(bodies: [&Body; 2], x: Vector3<f64>, points: [LocalPoint; 2], weights: (f64, f64), axes: Axes) -> Self {
-        if let Axes::OfBoundary(dimensions) | Axes::GradedOnBoundary(dimensions) = axes {
-            let graded = matches!(axes, Axes::GradedOnBoundary(_));
-            return Self::on_boundary(bodies, x, points, dimensions, graded);
-        }
-        let (q_a, q_b) = (bodies[0].at(&points[0], None), bodies[1].at(&points[1], None));
-        let mut model = Self { x, axes: None, points, q_a, q_b };
+        let own = axes.on_boundary(bodies, &points);
+        let (q_a, q_b) = (bodies[0].at(&points[0], own.as_ref()), bodies[1].at(&points[1], own.as_ref()));
+        let mut model = Self { x, axes: own, points, q_a, q_b };
         if axes == Axes::Graded && model.has_soft_direction(weights) {
             model.grade(bodies, weights);
         }
         model
-    }
-
-    /// On a boundary the other axes are columns of zeros: so the quadratics have neither slope nor planes across it, and no step
-    /// leads off it.
-    #[inline(never)]
-    fn on_boundary(
-        bodies: [&Body; 2],
-        x: Vector3<f64>,
-        points: [LocalPoint; 2],
-        dimensions: usize,
-        graded: bool,
-    ) -> Self {
-        let normals = ActiveNormals { bodies, points: &points, weights: (1.0, 0.0), dimensions };
-        let mut axes = if graded && dimensions > 1 { graded_basis::aligned(&normals) } else { Matrix3::identity() };
-        (dimensions..3).for_each(|i| axes.column_mut(i).fill(0.0));
-        let [q_a, q_b] = [0, 1].map(|i| bodies[i].at(&points[i], Some(&axes)));
-        Self { x, axes: Some(axes), points, q_a, q_b }
     }
 
     /// ∇S_A and ∇S_B after a step to an optimum, solver's frame: on a boundary, what they have across it as well, which the

@@ -15,6 +15,7 @@ use crate::settings::{BackEnd, Settings};
 use crate::solver::newton::{self, Goal};
 use crate::solver::{extended, initial_guess};
 use nalgebra::Vector3;
+use std::ops::ControlFlow::{self, Break, Continue};
 use thiserror::Error;
 
 /// A gap this many times what rounding, regularisation and tolerance explain is looked at in extended precision.
@@ -34,10 +35,11 @@ pub(crate) enum SolveError {
     ConeProgram(#[from] ConeProgramError),
 }
 
-/// A solution, with the quadratics that it is the optimum of or, of other solvers, those at its point.
-pub(crate) struct Solved {
+/// A solution, with the quadratics that it is the optimum of or, of other solvers, those at its point. They stay where the caller has
+/// them: copying takes a twentieth of a call from memory.
+pub(crate) struct Solved<'m> {
     pub solution: Solution,
-    pub model: LocalModel,
+    pub model: &'m LocalModel,
 }
 
 /// The pair, what is asked, and what it has cost so far.
@@ -82,41 +84,68 @@ impl<'a> Call<'a> {
         Axes::of(self.bodies())
     }
 
-    /// Solves a problem from the quadratics at a point and a guess of λ:
+    /// Solves a problem from the quadratics at a point, which become those of the solution, and a guess of λ:
     ///
     /// 1. one Newton step, which is enough for nearly all pairs from memory;
     /// 2. Newton's method from there;
     /// 3. in extended precision, where doubles do not settle it ([`Self::wants_more`]).
     #[inline(always)]
-    pub fn solve(&mut self, problem: Problem, lambda: f64, model: LocalModel) -> Result<Solved, SolveError> {
+    pub fn solve<'m>(
+        &mut self,
+        problem: Problem,
+        lambda: f64,
+        model: &'m mut LocalModel,
+    ) -> Result<Solved<'m>, SolveError> {
+        let step = match self.first_step(problem, lambda, model) {
+            Break(solution) => return Ok(Solved { solution, model }),
+            Continue(step) => step,
+        };
+        let solution = self.go_on(problem, lambda, model, step)?;
+        Ok(Solved { solution, model })
+    }
+
+    /// The solution of one Newton step, if that is all that it takes; else the step to go on with, if there is one.
+    #[inline(always)]
+    fn first_step(&mut self, problem: Problem, lambda: f64, model: &LocalModel) -> ControlFlow<Solution, Option<Step>> {
         if self.back_end == BackEnd::ConeProgram {
-            return self.by_cone_program(problem);
+            return Continue(None);
         }
         let (bodies, goal) = (self.bodies(), self.goal(problem));
-        let step = model.optimum(bodies, problem, lambda);
-        let accepts = |step| if self.precise { None } else { newton::accepted(bodies, &goal, &model, step) };
-        if let Some(solution) = step.as_ref().and_then(accepts) {
-            self.count(&solution);
-            return Ok(Solved { solution, model });
+        let Some(optimum) = model.quadratics(bodies, problem).solve(lambda) else { return Continue(None) };
+        let step = model.step(bodies, optimum);
+        let Some(solution) = newton::accepted(bodies, &goal, model, &step) else { return Continue(Some(step)) };
+        if self.precise {
+            return Continue(Some(step));
         }
-        self.go_on(&goal, lambda, model, step)
+        self.count(&solution);
+        Break(solution)
     }
 
     /// From a first step that does not settle it, if there is one.
     #[inline(never)]
-    fn go_on(&mut self, goal: &Goal, lambda: f64, model: LocalModel, step: Option<Step>) -> Result<Solved, SolveError> {
-        let mut solved = newton::solve(self.bodies(), goal, lambda, self.axes(), model, step);
-        if self.wants_more(&solved, goal) {
-            self.iterations += solved.solution.iterations;
-            solved = self.extended(goal, solved)?;
+    fn go_on(
+        &mut self,
+        problem: Problem,
+        lambda: f64,
+        model: &mut LocalModel,
+        step: Option<Step>,
+    ) -> Result<Solution, SolveError> {
+        if self.back_end == BackEnd::ConeProgram {
+            return self.by_cone_program(problem, model);
         }
-        self.count(&solved.solution);
-        Ok(solved)
+        let goal = self.goal(problem);
+        let mut solution = newton::solve(self.bodies(), &goal, lambda, self.axes(), model, step);
+        if self.wants_more(&solution, model, &goal) {
+            self.iterations += solution.iterations;
+            solution = self.extended(&goal, solution, model)?;
+        }
+        self.count(&solution);
+        Ok(solution)
     }
 
     /// Whether a solution in doubles is unsettled, its gap wider than rounding, regularisation and tolerance explain, or than was asked
     /// for, or its bounds leave open what matters: on which side of 1 s lies, or whether the constraint of closest is slack.
-    fn wants_more(&self, Solved { solution, model }: &Solved, goal: &Goal) -> bool {
+    fn wants_more(&self, solution: &Solution, model: &LocalModel, goal: &Goal) -> bool {
         let [a, b] = self.bodies();
         let level = solution.upper.max(1.0);
         let flat = goal.problem.weighted(a.most_surplus(level), b.most_surplus(level), solution.lambda);
@@ -138,25 +167,25 @@ impl<'a> Call<'a> {
     }
 
     #[cold]
-    fn extended(&mut self, goal: &Goal, first: Solved) -> Result<Solved, SolveError> {
+    fn extended(&mut self, goal: &Goal, first: Solution, model: &mut LocalModel) -> Result<Solution, SolveError> {
         // Where Newton's method ended without a solution may be anywhere, and so may what it began with from memory.
-        let known = first.solution.ending != Ending::Unsettled;
-        let start = if known { first.solution.start() } else { self.cold() };
+        let known = first.ending != Ending::Unsettled;
+        let start = if known { first.start() } else { self.cold() };
         let solution = extended::solve(self.pair, self.bodies(), goal, &start);
         let settled = solution.ending != Ending::Unsettled;
-        if known && !(settled && solution.gap() < first.solution.gap()) {
+        if known && !(settled && solution.gap() < first.gap()) {
             return Ok(first);
         }
         if !settled {
             return Err(SolveError::Unsettled);
         }
         self.flags.insert(Flags::EXTENDED);
-        let model = self.model(&solution.start(), goal.problem);
-        Ok(Solved { solution, model })
+        *model = self.model(&solution.start(), goal.problem);
+        Ok(solution)
     }
 
     #[cold]
-    fn by_cone_program(&mut self, problem: Problem) -> Result<Solved, SolveError> {
+    fn by_cone_program(&mut self, problem: Problem, model: &mut LocalModel) -> Result<Solution, SolveError> {
         let found = match problem {
             Problem::OnB => reference::closest(self.pair, Role::B)?,
             Problem::OnA => reference::closest(self.pair, Role::A)?,
@@ -167,7 +196,8 @@ impl<'a> Call<'a> {
         let weight = found.weight.min(1.0 - 0.5 * f64::EPSILON);
         let lambda = weight / (1.0 - weight);
         let solution = judged(&found.x, lambda, found.s, self.bodies(), problem);
-        Ok(Solved { solution, model: self.model(&Start { x: solution.x, lambda }, problem) })
+        *model = self.model(&Start { x: solution.x, lambda }, problem);
+        Ok(solution)
     }
 
     pub(super) fn count(&mut self, solution: &Solution) {

@@ -96,15 +96,15 @@ impl Call<'_> {
         if self.centre_is_inside(problem) {
             return Ok(None);
         }
-        let (lambda, model) = match midway {
-            Some(Solved { solution, model }) => (towards(solution, problem), *model),
+        let (lambda, mut model) = match midway {
+            Some(Solved { solution, model }) => (towards(solution, problem), **model),
             None => {
                 let start = self.cold();
                 (start.lambda, self.model(&start, problem))
             }
         };
-        let Solved { solution, model } = self.solve(problem, lambda, model)?;
-        let found = self.certified(problem, &solution, &model);
+        let Solved { solution, model } = self.solve(problem, lambda, &mut model)?;
+        let found = self.certified(problem, &solution, model);
         let free = if problem == Problem::OnB { self.pair.a } else { self.pair.b };
         if free.sphericity() > 0.0 || !found.scale.may_be_zero() {
             return Ok(Some(found));

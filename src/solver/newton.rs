@@ -11,7 +11,6 @@ use crate::model::local_model::{self, Axes, LocalModel, Step};
 use crate::model::problem::Problem;
 use crate::pair::body::Body;
 use crate::settings::LEAST_OF_DOUBLES;
-use crate::solver::call::Solved;
 use crate::solver::line_search::{self, Merit};
 use nalgebra::Vector3;
 use std::ops::ControlFlow::{self, Break, Continue};
@@ -94,20 +93,21 @@ impl Quality {
     }
 }
 
-/// Solves for the goal, beginning with the quadratics at a point, and with the step from there if it is known.
+/// Solves for the goal, beginning with the quadratics at a point, and with the step from there if it is known; `model` becomes that of the
+/// solution.
 pub(crate) fn solve(
     bodies: [&Body; 2],
     goal: &Goal,
     lambda: f64,
     axes: Axes,
-    model: LocalModel,
+    model: &mut LocalModel,
     first: Option<Step>,
-) -> Solved {
+) -> Solution {
     let mut search = Search { bodies, goal, axes, model, lambda, first, attempt: None, best: None, iterations: 0 };
     while search.iterations < MOST_ITERATIONS {
         match search.iterate() {
             Continue(()) => {}
-            Break(Some(solution)) => return Solved { solution, model: search.model },
+            Break(Some(solution)) => return solution,
             Break(None) => break,
         }
     }
@@ -120,7 +120,7 @@ struct Search<'a> {
     goal: &'a Goal,
     axes: Axes,
     /// The model at hand.
-    model: LocalModel,
+    model: &'a mut LocalModel,
     lambda: f64,
     /// The step from there, while it is the first.
     first: Option<Step>,
@@ -151,7 +151,7 @@ impl Search<'_> {
         let Some(step) = next else { return Break(None) };
         self.lambda = step.optimum.lambda;
         if step.change == Change::Leaving {
-            self.model = self.model.without_leaving(self.bodies, &step, self.weights(), self.axes);
+            *self.model = self.model.without_leaving(self.bodies, &step, self.weights(), self.axes);
             self.attempt = None;
             return Continue(());
         }
@@ -169,8 +169,8 @@ impl Search<'_> {
     /// Shortens the last step if it did not reduce the merit.
     fn shorten_if_failed(&mut self) {
         let problem = self.goal.problem;
-        if let Some(last) = self.attempt.as_ref().filter(|last| !last.is_descent(self.bodies, problem, &self.model)) {
-            self.model = last.shortened(self.bodies, problem, self.lambda, self.axes);
+        if let Some(last) = self.attempt.as_ref().filter(|last| !last.is_descent(self.bodies, problem, self.model)) {
+            *self.model = last.shortened(self.bodies, problem, self.lambda, self.axes);
         }
     }
 
@@ -183,7 +183,7 @@ impl Search<'_> {
         if !separating && !optimal {
             return None;
         }
-        let of_step = Solution::of(&self.model, self.bodies, self.goal.problem, step);
+        let of_step = Solution::of(self.model, self.bodies, self.goal.problem, step);
         let solution = Solution { iterations: self.iterations, ..of_step };
         if separating && solution.separates(max_regularisation_error(self.bodies)) {
             return Some(Solution { ending: Ending::Separated, ..solution });
@@ -191,7 +191,7 @@ impl Search<'_> {
         if !optimal {
             return None;
         }
-        let quality = Quality::of(&solution, self.bodies, self.goal, &self.model);
+        let quality = Quality::of(&solution, self.bodies, self.goal, self.model);
         let solution = Solution { ending: quality.ending(), ..solution };
         let short = step.length <= SHORT * local_model::smallest(self.bodies);
         if quality.precise || ((short || quality.rounded) && quality.telling) {
@@ -199,7 +199,7 @@ impl Search<'_> {
         }
         if self.best.as_ref().is_none_or(|best| solution.gap() < best.solution.gap()) {
             let age = self.best.as_ref().map_or(0, |best| best.age);
-            self.best = Some(Best { solution, model: self.model, age });
+            self.best = Some(Best { solution, model: *self.model, age });
         }
         None
     }
@@ -215,20 +215,20 @@ impl Search<'_> {
     /// Goes to the optimum of the model.
     fn take(&mut self, step: &Step) {
         let x = self.model.x + step.v;
-        self.attempt = Some(Attempt { from: self.model, step: step.v, lambda: self.lambda, merit: self.merit() });
+        self.attempt = Some(Attempt { from: *self.model, step: step.v, lambda: self.lambda, merit: self.merit() });
         let points = self.bodies.map(|body| body.locate(&x));
-        self.model = LocalModel::of(self.bodies, x, points, self.weights(), self.axes);
+        *self.model = LocalModel::of(self.bodies, x, points, self.weights(), self.axes);
     }
 
-    /// The best solution with its model, or where the search ended.
-    fn end(self) -> Solved {
+    /// The best solution, to whose model it goes back, or where the search ended.
+    fn end(self) -> Solution {
         let iterations = self.iterations;
         match self.best {
-            Some(Best { solution, model, .. }) => Solved { solution: Solution { iterations, ..solution }, model },
-            None => {
-                let solution = Solution::unsettled(self.model.x, self.lambda, iterations);
-                Solved { solution, model: self.model }
+            Some(best) => {
+                *self.model = best.model;
+                Solution { iterations, ..best.solution }
             }
+            None => Solution::unsettled(self.model.x, self.lambda, iterations),
         }
     }
 
