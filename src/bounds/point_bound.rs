@@ -35,7 +35,7 @@ pub(crate) fn point_bound(solution: &Solution, model: &LocalModel, bodies: [&Bod
         let (shift, blur) = bodies[i].after(&model.points[i], length);
         let planes = sensitivity.to_planes(i, q.count, problem, solution.lambda, bodies[i].plane_weight());
         // The force, rounded at either end of the step.
-        let force = weight * solution.forces[i];
+        let force = weight * solution.force(problem, i, q);
         sum += shift + blur * planes + force * turn + sensitivity.to_sums(q, weight, q.terms(&in_axes));
         sides[i] =
             SIDES * f64::EPSILON * q.expansion + solution.sums[i] + bodies[i].sphere_slope(solution.values[i]) * shift;

@@ -10,6 +10,7 @@ use crate::model::local_model::{self, LocalModel, Start, Step};
 use crate::model::problem::Problem;
 use crate::pair::body::Body;
 use crate::pair::local_point::LocalPoint;
+use crate::particle::potential::Quadratic;
 use nalgebra::Vector3;
 
 /// Where a solver ended; everything in the solver's frame, potentials as regularised.
@@ -20,7 +21,7 @@ pub(crate) struct Solution {
     /// ∇S_A and ∇S_B at the optimum, and their lengths.
     pub gradients: [Vector3<f64>; 2],
     pub gradient_norms: [f64; 2],
-    /// Sums of those lengths at both ends of the last step.
+    /// On a boundary, whose quadratics leave a part of them out: sums of those lengths at both ends of the last step.
     pub forces: [f64; 2],
     /// S_A and S_B at x: midway equal but for rounding; closest, that of the held body 1 but for rounding.
     pub values: [f64; 2],
@@ -103,8 +104,12 @@ impl Solution {
             Change::None => problem.merit(s_a, s_b, lambda),
             _ => model.merit(problem, lambda),
         };
-        let [of_a, of_b] = model.gradients(bodies, step);
-        let gradient_norms = [of_a.length, of_b.length];
+        let (gradients, forces) = if problem == Problem::OnBoundary {
+            model.gradients_on_boundary(bodies, &step.v)
+        } else {
+            ([model.to_solver(&optimum.gradients[0]), model.to_solver(&optimum.gradients[1])], [f64::NAN; 2])
+        };
+        let gradient_norms = [gradients[0].norm(), gradients[1].norm()];
         let rounding = Rounding::after(model, bodies, problem, step, gradient_norms);
         let of_optimum = rounding.of_optimum(problem, optimum);
         let force = problem.weighted(gradient_norms[0], gradient_norms[1], lambda);
@@ -116,9 +121,9 @@ impl Solution {
         Self {
             x: model.x + step.v,
             lambda,
-            gradients: [of_a.gradient, of_b.gradient],
+            gradients,
             gradient_norms,
-            forces: [of_a.both_ends, of_b.both_ends],
+            forces,
             values: [s_a, s_b],
             estimate,
             slope,
@@ -140,6 +145,12 @@ impl Solution {
     /// Where another search goes on from here.
     pub fn start(&self) -> Start {
         Start { x: self.x, lambda: self.lambda }
+    }
+
+    /// The lengths of ∇S of a body at both ends of the last step together, which began with this quadratic.
+    #[inline(always)]
+    pub fn force(&self, problem: Problem, body: usize, q: &Quadratic) -> f64 {
+        if problem == Problem::OnBoundary { self.forces[body] } else { self.gradient_norms[body] + q.gradient.norm() }
     }
 
     /// Whether the optimum exceeds 1 for sure, where a regularisation adds no more than `flat`: what it adds proves nothing.

@@ -156,7 +156,7 @@ fn anew<T>(
         let flags = by.with(Flags::REJECTED);
         Ok(answer(Contact { flags, distance, ..Contact::separated(settings.formulation, 1.0) }))
     };
-    begin(a, b, settings, last, rejected, |pair| solved(pair, [a.1, b.1], settings, state).map(&answer))
+    begin(a, b, settings, last, rejected, |pair| solved(pair, b.1, settings, state, last.is_some()).map(&answer))
 }
 
 /// The contact of a pair that is not rejected by a separation test. In a frame of its own: it is large, and most pairs of a scene
@@ -164,13 +164,14 @@ fn anew<T>(
 #[inline(never)]
 fn solved(
     pair: &Pair,
-    [pose_a, pose_b]: [&Pose; 2],
+    pose_b: &Pose,
     settings: &Settings,
     mut state: Option<&mut PairState>,
+    remembers: bool,
 ) -> Result<Contact, DetectError> {
     let mut call = Call::new(pair, settings);
-    // Read once more: handed on through memory it would hold up the proofs of separation.
-    let last = state.as_deref().and_then(|state| state.remembered((pair.a, pose_a), (pair.b, pose_b)));
+    // Unpacked once more: handed on through memory it would hold up the proofs of separation.
+    let last = state.as_deref().filter(|_| remembers).map(|state| state.unpacked());
     let start = match last {
         Some(last) => {
             if settings.back_end == BackEnd::Fast {
@@ -195,7 +196,7 @@ fn solved(
         let flat_regularisation = Settings::default().flat_regularisation;
         // Of a contact with other settings than were given nothing is carried on.
         let settings = Settings { flat_regularisation, carry_tolerance: 0.0, ..*settings };
-        let contact = solved(pair, [pose_a, pose_b], &settings, state)?;
+        let contact = solved(pair, pose_b, &settings, state, remembers)?;
         return Ok(Contact { flags: contact.flags.with(Flags::DEFAULT_REGULARISATION), ..contact });
     }
     if scale.is_undecided() {

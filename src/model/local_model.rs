@@ -129,28 +129,13 @@ impl LocalModel {
         model
     }
 
-    /// ∇S_A and ∇S_B after a step to an optimum, solver's frame: on a boundary, what they have across it as well, which the
-    /// quadratics leave out, and bounds on their lengths at both ends of the step together.
-    #[inline(always)]
-    pub fn gradients(&self, bodies: [&Body; 2], step: &Step) -> [Force; 2] {
-        if bodies[1].particle.is_boundary() {
-            return self.gradients_on_boundary(bodies, &step.v);
-        }
-        let of = |q: &Quadratic, gradient: &Vector3<f64>| {
-            let length = gradient.norm();
-            Force { gradient: self.to_solver(gradient), length, both_ends: length + q.gradient.norm() }
-        };
-        [of(&self.q_a, &step.optimum.gradients[0]), of(&self.q_b, &step.optimum.gradients[1])]
-    }
-
+    /// ∇S_A and ∇S_B after a step on a boundary, solver's frame, with what they have across it, which the quadratics leave out; and the
+    /// sums of their lengths where the step begins and ends.
     #[inline(never)]
-    fn gradients_on_boundary(&self, bodies: [&Body; 2], v: &Vector3<f64>) -> [Force; 2] {
-        [0, 1].map(|i| {
-            let whole = bodies[i].at(&self.points[i], None);
-            let gradient = whole.gradient + whole.hessian.times(v);
-            let length = gradient.norm();
-            Force { gradient, length, both_ends: length + whole.gradient.norm() }
-        })
+    pub fn gradients_on_boundary(&self, bodies: [&Body; 2], v: &Vector3<f64>) -> ([Vector3<f64>; 2], [f64; 2]) {
+        let whole = [0, 1].map(|i| bodies[i].at(&self.points[i], None));
+        let gradients = [0, 1].map(|i| whole[i].gradient + whole[i].hessian.times(v));
+        (gradients, [0, 1].map(|i| whole[i].gradient.norm() + gradients[i].norm()))
     }
 
     /// Whether the planes of the sum with these weights leave a direction without resistance, or nearly.
@@ -272,16 +257,6 @@ impl StiffNormals for ActiveNormals<'_> {
             });
         }
     }
-}
-
-/// ∇S of a body at the end of a step.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Force {
-    /// Solver's frame.
-    pub gradient: Vector3<f64>,
-    pub length: f64,
-    /// Sum of the lengths where the step begins and ends.
-    pub both_ends: f64,
 }
 
 /// A potential along a vector, as the particle has it: without what the regularisation adds.

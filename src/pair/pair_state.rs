@@ -101,7 +101,7 @@ impl PairState {
     /// The remembered solution, if there is one that these two bodies can have had.
     #[inline(always)]
     pub(crate) fn remembered(&self, a: (&Particle, &Pose), b: (&Particle, &Pose)) -> Option<Remembered> {
-        let [filled, x, y, z, lambda, overlapping, of_p1, of_p2] = self.solution;
+        let [filled, x, y, z, lambda, ..] = self.solution;
         let between = (b.1.position() - a.1.position()).amax();
         let reach = smaller(between + REACH * (a.0.bounding_radius() + b.0.bounding_radius()), f64::MAX);
         // Written so that what is not a number fails. The factors are checked with the λ that they give.
@@ -109,8 +109,14 @@ impl PairState {
             && [x, y, z].iter().all(|c| c.abs() <= reach)
             && lambda >= LAMBDA_RANGE.0
             && lambda <= LAMBDA_RANGE.1;
-        let (x, overlapping, closest) = (Vector3::new(x, y, z), overlapping == 1.0, [of_p1, of_p2]);
-        usable.then_some(Remembered { x, lambda, overlapping, closest })
+        usable.then(|| self.unpacked())
+    }
+
+    /// The remembered solution of a state that was found to have one.
+    #[inline(always)]
+    pub(crate) fn unpacked(&self) -> Remembered {
+        let [_, x, y, z, lambda, overlapping, of_p1, of_p2] = self.solution;
+        Remembered { x: Vector3::new(x, y, z), lambda, overlapping: overlapping == 1.0, closest: [of_p1, of_p2] }
     }
 
     #[inline(always)]
