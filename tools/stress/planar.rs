@@ -146,7 +146,7 @@ fn places(a: &Particle, b: &Particle, random: &mut Random) -> [Place; 2] {
 }
 
 /// π/2 to three doubles.
-const QUARTER: [f64; 3] = [std::f64::consts::FRAC_PI_2, 6.123_233_995_736_766e-17, -1.497_384_904_859_183_3e-33];
+const QUARTER: [f64; 3] = [std::f64::consts::FRAC_PI_2, 6.123_233_995_736_766e-17, -1.497_384_904_859_169_8e-33];
 
 /// Terms of the series: the last is below 1e-40 for angles up to π/4.
 const TERMS: i32 = 36;
