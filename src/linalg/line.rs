@@ -9,9 +9,17 @@
 pub(crate) struct Line {
     /// At α = 0.
     slope: f64,
+    /// That of the quadratic and of the planes that are on all along.
     curvature: f64,
-    /// Where a plane switches, and what that adds to the curvature.
-    switches: Vec<(f64, f64)>,
+    switches: Vec<Switch>,
+}
+
+/// Where a plane comes on or goes off.
+#[derive(Debug)]
+struct Switch {
+    at: f64,
+    curvature: f64,
+    comes_on: bool,
 }
 
 impl Line {
@@ -26,31 +34,40 @@ impl Line {
 
     /// A plane with weight 2w. Its share of the slope at α = 0 is in that already.
     pub fn add_plane(&mut self, depth: f64, rate: f64, w2: f64) {
-        let curvature = w2 * rate * rate;
-        if depth > 0.0 {
+        let (curvature, is_on) = (w2 * rate * rate, depth > 0.0);
+        if is_on != (rate > 0.0) && rate != 0.0 {
+            self.switches.push(Switch { at: -depth / rate, curvature, comes_on: !is_on });
+        } else if is_on {
             self.curvature += curvature;
-        }
-        if (depth > 0.0) != (rate > 0.0) && rate != 0.0 {
-            self.switches.push((-depth / rate, if rate > 0.0 { curvature } else { -curvature }));
         }
     }
 
     /// α where the function is least; 0 if it does not fall.
     pub fn least(mut self) -> f64 {
-        self.switches.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let (mut alpha, mut slope, mut curvature) = (0.0, self.slope, self.curvature);
-        if !(slope < 0.0) {
-            return 0.0;
+        self.switches.sort_by(|a, b| a.at.total_cmp(&b.at));
+        // No curvature is subtracted, since the difference may be the rounding of the stiffest planes alone: before each switch, that of the
+        // planes yet to go off is summed up from the last one.
+        let mut on = vec![0.0; self.switches.len() + 1];
+        for (place, switch) in self.switches.iter().enumerate().rev() {
+            on[place] = on[place + 1] + if switch.comes_on { 0.0 } else { switch.curvature };
         }
-        for (end, change) in self.switches {
-            let least = alpha - slope / curvature;
-            if least <= end {
+        let (mut alpha, mut slope, mut curvature) = (0.0, self.slope, self.curvature);
+        for (switch, on) in self.switches.iter().zip(on) {
+            // After a switch rounding may leave no slope.
+            if !(slope < 0.0) {
+                return alpha;
+            }
+            let least = alpha - slope / (curvature + on);
+            if least <= switch.at {
                 return least;
             }
-            slope += curvature * (end - alpha);
-            (alpha, curvature) = (end, curvature + change);
+            slope += (curvature + on) * (switch.at - alpha);
+            alpha = switch.at;
+            if switch.comes_on {
+                curvature += switch.curvature;
+            }
         }
-        alpha - slope / curvature
+        if slope < 0.0 { alpha - slope / curvature } else { alpha }
     }
 }
 
@@ -80,5 +97,14 @@ mod tests {
         line.add_plane(0.0, 1e10, 1.0);
         assert!((line.least() / 1e-20 - 1.0).abs() < 1e-12);
         assert_eq!(Line::new(1.0).least(), 0.0);
+    }
+
+    #[test]
+    fn a_stiff_plane_that_goes_off_leaves_the_soft_curvature() {
+        let mut line = Line::new(-4.0);
+        line.add_curvature(1.0);
+        line.add_plane(1e-20, -1.0, 1e20);
+        // The slope is −3 once the plane is off.
+        assert!((line.least() - 3.0).abs() < 1e-15);
     }
 }
