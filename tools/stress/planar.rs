@@ -284,6 +284,7 @@ fn well_formed(c: &Contact, faults: &mut Vec<(Fault, String)>) {
         && (c.normal.norm() - 1.0).abs() < 1e-14
         && [c.point, c.branch_a, c.branch_b].iter().all(finite)
         && overlapping == (c.s < 1.0)
+        && (c.s_b.is_nan() || overlapping == (c.s_b < 1.0))
         && overlapping == c.overlap.is_finite()
         && overlapping == finite(&c.point_on_a);
     if !fine {
