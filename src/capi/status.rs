@@ -14,7 +14,8 @@ pub const PP_OK: pp_status = 0;
 pub const PP_NULL_POINTER: pp_status = 1;
 /// A pose holds a position that is not finite.
 pub const PP_BAD_POSITION: pp_status = 2;
-/// A pose holds a quaternion that is not finite, or of a length outside [1e-150, 1e150].
+/// A pose holds a quaternion that is not finite, or of a length outside [1e-150, 1e150]; or, in the
+/// plane, an angle that is not finite, or beyond 2^30 radians.
 pub const PP_BAD_ORIENTATION: pp_status = 3;
 /// A point or direction is not finite, or a direction has no length.
 pub const PP_BAD_POINT: pp_status = 4;
@@ -68,7 +69,7 @@ const MESSAGES: &[(pp_status, &CStr)] = &[
     (PP_BAD_POSITION, c"a position is not finite"),
     (
         PP_BAD_ORIENTATION,
-        c"an orientation quaternion (w, x, y, z) is not finite, or of a length outside [1e-150, 1e150]",
+        c"an orientation quaternion (w, x, y, z) is not finite, or of a length outside [1e-150, 1e150]; or, in the plane, an angle is not finite or beyond 2^30 radians: take whole turns off it",
     ),
     (PP_BAD_POINT, c"a point or direction is not finite, or a direction has no length"),
     (PP_UNKNOWN_FORMULATION, c"unknown formulation: use PP_MIDWAY or PP_CLOSEST"),

@@ -1,17 +1,18 @@
 //! A body in numbers of 32 digits, about a point of reference.
 //!
-//! Everything is taken from the data as the caller gave it: the rotation from both quaternions, the centre from both positions, the
+//! Everything is taken from the data as the caller gave it: the rotations from quaternion or angle, the centre from both positions, the
 //! weights from r, k and R. The depth of a plane at x₀ + δ is e + n·δ, where e = n·x₀ − d is found once: whatever e has lost to
 //! rounding is a shift of the plane, the same for every δ.
 
 use crate::linalg::double_double::DoubleDouble;
 use crate::linalg::line::Line;
 use crate::linalg::number::{Number, larger, smaller};
+use crate::linalg::sine_and_cosine::sine_and_cosine;
 use crate::linalg::symmetric::Symmetric;
 use crate::linalg::wide::{Wide, difference, rounded, wide};
 use crate::pair::body::Body;
 use crate::pair::pair::{Given, Pair};
-use crate::pose::Pose;
+use crate::pose::{Pose, Turn};
 use nalgebra::{Matrix3, Vector3};
 
 /// Bound on the rounding of e and of a rotated normal, in units of [`DoubleDouble::UNIT`] and of the lengths that enter
@@ -399,9 +400,20 @@ const CANCELLED: f64 = 1e-8;
 /// How much farther planes are gathered than they are needed.
 const MARGIN: f64 = 2.0;
 
-/// The axes of a body in the world, from its quaternion of any length.
+/// The axes of a body in the world, from its rotation as given.
 fn axes(pose: &Pose) -> [Wide; 3] {
-    let [w, x, y, z] = pose.orientation();
+    match pose.turn() {
+        Turn::Quaternion(quaternion) => axes_of(quaternion),
+        Turn::Angle(angle) => {
+            let (sine, cosine) = sine_and_cosine(angle);
+            let (zero, one) = (of(0.0), of(1.0));
+            [Vector3::new(cosine, sine, zero), Vector3::new(-sine, cosine, zero), Vector3::new(zero, zero, one)]
+        }
+    }
+}
+
+/// The axes that a quaternion of any length turns those of the world to.
+fn axes_of([w, x, y, z]: [f64; 4]) -> [Wide; 3] {
     let p = DoubleDouble::product;
     let (ww, xx, yy, zz) = (p(w, w), p(x, x), p(y, y), p(z, z));
     let square = ww + xx + yy + zz;

@@ -1,5 +1,6 @@
 //! Poses of the plane: a shift and a turn about z.
 
+use crate::linalg::sine_and_cosine::LARGEST;
 use crate::pose;
 use nalgebra::{Matrix2, Vector2};
 use thiserror::Error;
@@ -11,8 +12,10 @@ pub enum PoseError {
     /// A position (x, y) that is not finite.
     #[error("position ({0:?}, {1:?}) is not finite")]
     Position(f64, f64),
-    /// An angle that is not finite.
-    #[error("angle {0:?} is not finite: give it in radians, anticlockwise")]
+    /// An angle that is not finite, or beyond 2³⁰ radians.
+    #[error(
+        "angle {0:?} is not finite or beyond 2^30 = 1073741824: give it in radians, anticlockwise, less whole turns"
+    )]
     Angle(f64),
 }
 
@@ -33,22 +36,19 @@ pub struct Pose {
 }
 
 impl Pose {
-    /// From a position and the paper's angle θ: radians, anticlockwise, local to world.
+    /// From a position and the paper's angle θ: radians, anticlockwise, local to world, from −2³⁰ to 2³⁰. It counts as exact.
     ///
     /// # Errors
-    /// A position or angle that is not finite.
+    /// A position or angle that is not finite, or an angle beyond that range.
     pub fn new(position: [f64; 2], angle: f64) -> Result<Self, PoseError> {
         let [x, y] = position;
         if !(x.is_finite() && y.is_finite()) {
             return Err(PoseError::Position(x, y));
         }
-        if !angle.is_finite() {
+        if !(-LARGEST..=LARGEST).contains(&angle) {
             return Err(PoseError::Angle(angle));
         }
-        let (sin, cos) = angle.sin_cos();
-        // tan(θ/2) = sin/(1 + cos) = (1 − cos)/sin, whichever does not cancel.
-        let orientation = if cos >= 0.0 { [1.0 + cos, 0.0, 0.0, sin] } else { [sin, 0.0, 0.0, 1.0 - cos] };
-        let in_space = pose::Pose::new([x, y, 0.0], orientation).map_err(|_| PoseError::Angle(angle))?;
+        let in_space = pose::Pose::about_z([x, y, 0.0], angle);
         let rotation = in_space.rotation().fixed_view::<2, 2>(0, 0).into();
         Ok(Self { position: position.into(), rotation, in_space })
     }

@@ -6,7 +6,8 @@
 pub struct pp_pose_2d {
     /// Centre of the particle (origin of its local frame), world frame, length units of the caller.
     pub position: [f64; 2],
-    /// Angle of the local axes in the world, radians, anticlockwise; any finite number.
+    /// Angle of the local axes in the world, radians, anticlockwise, from -2^30 to 2^30; beyond, take
+    /// whole turns off. It counts as exact.
     pub angle: f64,
 }
 
