@@ -443,7 +443,8 @@ typedef int32_t (*pp_placed)(void *context, const struct pp_placement *placement
 typedef struct pp_pose_2d {
     // Centre of the particle (origin of its local frame), world frame, length units of the caller.
     double position[2];
-    // Angle of the local axes in the world, radians, anticlockwise; any finite number.
+    // Angle of the local axes in the world, radians, anticlockwise, from -2^30 to 2^30; beyond, take
+    // whole turns off. It counts as exact.
     double angle;
 } pp_pose_2d;
 
@@ -555,7 +556,8 @@ typedef struct pp_mass_properties {
 // A pose holds a position that is not finite.
 #define PP_BAD_POSITION 2
 
-// A pose holds a quaternion that is not finite, or of a length outside [1e-150, 1e150].
+// A pose holds a quaternion that is not finite, or of a length outside [1e-150, 1e150]; or, in the
+// plane, an angle that is not finite, or beyond 2^30 radians.
 #define PP_BAD_ORIENTATION 3
 
 // A point or direction is not finite, or a direction has no length.
@@ -867,7 +869,7 @@ pp_status pp_contact_detect_batch_2d(const struct pp_particle_2d *const *particl
 // settings, state: may be NULL, and are as of pp_contact_detect. out: the answer; see struct pp_contact_2d
 // for frames, units and signs.
 // Pointers: state and out are not used by another call at the same time.
-// Errors: PP_NULL_POINTER, PP_BAD_POSITION, PP_BAD_ORIENTATION (an angle that is not finite),
+// Errors: PP_NULL_POINTER, PP_BAD_POSITION, PP_BAD_ORIENTATION (an angle that is not finite or beyond 2^30),
 // PP_UNKNOWN_FORMULATION, PP_UNKNOWN_BACK_END, PP_NO_CONE_PROGRAM, PP_BAD_SETTING, PP_SOLVER_FAILED.
 pp_status pp_contact_detect_2d(const struct pp_particle_2d *a,
                                const struct pp_pose_2d *pose_a,
@@ -882,8 +884,9 @@ pp_status pp_contact_detect_2d(const struct pp_particle_2d *a,
 //
 // on: PP_ON_A or PP_ON_B. settings: may be NULL (defaults); the formulation and solve_separated do not
 // matter. out: the point, or slack = 1 where there is none.
-// Errors: PP_NULL_POINTER, PP_BAD_POSITION, PP_BAD_ORIENTATION (an angle that is not finite), PP_BAD_INDEX
-// (on), PP_UNKNOWN_FORMULATION, PP_UNKNOWN_BACK_END, PP_NO_CONE_PROGRAM, PP_BAD_SETTING, PP_SOLVER_FAILED.
+// Errors: PP_NULL_POINTER, PP_BAD_POSITION, PP_BAD_ORIENTATION (an angle that is not finite or beyond 2^30),
+// PP_BAD_INDEX (on), PP_UNKNOWN_FORMULATION, PP_UNKNOWN_BACK_END, PP_NO_CONE_PROGRAM, PP_BAD_SETTING,
+// PP_SOLVER_FAILED.
 pp_status pp_closest_point_2d(const struct pp_particle_2d *a,
                               const struct pp_pose_2d *pose_a,
                               const struct pp_particle_2d *b,

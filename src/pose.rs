@@ -37,12 +37,14 @@ const ORTHONORMAL: f64 = 1e-6;
 #[repr(C)]
 pub struct Pose {
     position: Vector3<f64>,
-    turn: Turn,
+    /// A quaternion of any length; or, where its w is infinite, as that of no pose is, an angle about z in place of x. The extended tier
+    /// takes its own digits of the rotation from it.
+    turn: [f64; 4],
     rotation: Matrix3<f64>,
 }
 
-/// A rotation as given: the extended tier takes its own digits from it.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// A rotation as given.
+#[derive(Clone, Copy, Debug)]
 pub(crate) enum Turn {
     /// (w, x, y, z), of any length.
     Quaternion([f64; 4]),
@@ -80,14 +82,14 @@ impl Pose {
             tj * k + ti * w,
             1.0 - (ti * i + tj * j),
         );
-        Ok(Self { position: Vector3::from(position), turn: Turn::Quaternion(orientation), rotation })
+        Ok(Self { position: Vector3::from(position), turn: orientation, rotation })
     }
 
     /// From a position and an angle about z, all of them finite.
     pub(crate) fn about_z(position: [f64; 3], angle: f64) -> Self {
         let (sin, cos) = angle.sin_cos();
         let rotation = Matrix3::new(cos, -sin, 0.0, sin, cos, 0.0, 0.0, 0.0, 1.0);
-        Self { position: Vector3::from(position), turn: Turn::Angle(angle), rotation }
+        Self { position: Vector3::from(position), turn: [f64::INFINITY, angle, 0.0, 0.0], rotation }
     }
 
     /// No rotation, at a position.
@@ -117,7 +119,7 @@ impl Pose {
 
     /// The quaternion (w, x, y, z), local to world, as it was given: of any length.
     pub fn orientation(&self) -> [f64; 4] {
-        match self.turn {
+        match self.turn() {
             Turn::Quaternion(orientation) => orientation,
             Turn::Angle(angle) => {
                 let (sin, cos) = (0.5 * angle).sin_cos();
@@ -128,7 +130,10 @@ impl Pose {
 
     /// The rotation as given.
     pub(crate) fn turn(&self) -> Turn {
-        self.turn
+        match self.turn {
+            [f64::INFINITY, angle, ..] => Turn::Angle(angle),
+            quaternion => Turn::Quaternion(quaternion),
+        }
     }
 
     /// Local to world.

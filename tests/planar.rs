@@ -194,6 +194,8 @@ fn each_violation_is_its_own_error_and_names_the_value() {
     assert!(matches!(position, PoseError::Position(..)) && position.to_string().contains("(0.0, NaN)"));
     let angle = Pose::new([0.0; 2], f64::INFINITY).unwrap_err();
     assert!(matches!(angle, PoseError::Angle(_)) && angle.to_string().contains("angle inf"));
+    let turns = Pose::new([0.0; 2], -1.1e9).unwrap_err().to_string();
+    assert!(turns.contains("-1100000000.0") && turns.contains("whole turns") && Pose::new([0.0; 2], -1.07e9).is_ok());
     let bad = Settings { gap_tolerance: 0.0, ..Settings::default() };
     let (circle, home) = (Particle::circle(1.0).unwrap(), Pose::new([0.0; 2], 0.0).unwrap());
     assert!(detect(&circle, &home, &circle, &home, &bad, None).is_err());

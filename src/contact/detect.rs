@@ -213,8 +213,10 @@ fn solved(
     let points = if settings.formulation == Formulation::Closest { call.closest(&midway)? } else { None };
     let local = match &points {
         Some(points) => {
+            // By rounding, midway and closest may lie on different sides of 1: the kind is that of the scales that are answered.
+            remembered.overlapping = closest::is_overlap(points);
             remembered = closest::seen_from(remembered, values, points);
-            LocalContact::closest(pair, points, settings.weight_on_a, overlapping)
+            LocalContact::closest(pair, points, settings.weight_on_a, remembered.overlapping)
         }
         None => {
             let local = LocalContact::midway(&call, &midway, scale, overlapping).ok_or_else(DetectError::no_surface)?;

@@ -4,7 +4,7 @@ use crate::bounds::scale::Scale;
 use crate::bounds::solution::Solution;
 use crate::contact::contact::{Contact, Kind};
 use crate::flags::Flags;
-use crate::linalg::number::larger;
+use crate::linalg::number::{larger, smaller};
 use crate::model::local_model::Piece;
 use crate::model::problem::Problem;
 use crate::pair::body;
@@ -96,12 +96,15 @@ impl LocalContact {
         let across =
             Across::of(pair, &[p1.gradients[0], p2.gradients[1]], [p1.gradient_norms[0], p2.gradient_norms[1]]);
         let way = p1.x - p2.x;
+        // What lies beyond 1 by rounding is taken back to it, which counts as error.
+        let told = |s: f64| if overlapping { smaller(s, LARGEST_BELOW_1) } else { larger(s, 1.0) };
+        let gap = |scale: &Scale| scale.gap + (told(scale.s) - scale.s).abs();
         Self {
             formulation: Formulation::Closest,
-            s: p2.scale.s,
-            s_b: p1.scale.s,
+            s: told(p2.scale.s),
+            s_b: told(p1.scale.s),
             lambda: p2.lambda,
-            gap: p2.scale.gap.max(p1.scale.gap),
+            gap: gap(&p2.scale).max(gap(&p1.scale)),
             point_bound: p2.bound.max(p1.bound),
             point: p2.x + weight_on_a * way,
             normal: across.normal(),
@@ -259,6 +262,9 @@ fn normal_of_extremes(pair: &Pair, gradients: &[Vector3<f64>; 2]) -> (Vector3<f6
         None => (direction(&-pair.centre).unwrap_or_else(Vector3::x), true),
     }
 }
+
+/// The double before 1.
+const LARGEST_BELOW_1: f64 = 1.0 - 0.5 * f64::EPSILON;
 
 /// Square of the difference of two unit vectors that is too small to tell a direction.
 const OPPOSED: f64 = 1e-6;

@@ -161,6 +161,14 @@ fn from_between([value_a, value_b]: [f64; 2], lambda: f64) -> [f64; 2] {
     [lambda / (s_b + (s_a - 1.0) / lambda), lambda * (s_a + lambda * (s_b - 1.0))]
 }
 
+/// Whether the particles overlap, by the scale that tells it best: s_A at P2 and s_B at P1 lie on the same side of 1, but that of a large
+/// body lies nearer to it.
+pub(crate) fn is_overlap([p1, p2]: &[CertifiedPoint; 2]) -> bool {
+    let from_1 = |point: &CertifiedPoint| (point.scale.s - 1.0) / point.scale.gap;
+    let (of_p1, of_p2) = (from_1(p1), from_1(p2));
+    if of_p1.abs() > of_p2.abs() { of_p1 < 0.0 } else { of_p2 < 0.0 }
+}
+
 /// What to remember of P1 and P2 with the place and λ of midway, where S_A and S_B have these values.
 pub(crate) fn seen_from(midway: Remembered, values: [f64; 2], [p1, p2]: &[CertifiedPoint; 2]) -> Remembered {
     let [of_p1, of_p2] = from_between(values, midway.lambda);

@@ -307,6 +307,8 @@ static void bad_input_is_refused(void) {
             CHECK_STATUS(LENGTH(circle, &home, circle, &bad), expected);
             CHECK_STATUS(pp_particle_potential_2d(circle, &bad, origin, &f, NULL), expected);
         }
+        const pp_pose_2d turned = {.angle = value == 0 ? 1.1e9 : -1.1e9};
+        CHECK_STATUS(DETECT(circle, &turned, circle, &beside), PP_BAD_ORIENTATION);
         CHECK_UNTOUCHED(f);
         for (int j = 0; j < 2; j++) {
             pp_contact_2d spoilt[3] = {good, good, good};

@@ -283,13 +283,17 @@ fn well_formed(c: &Contact, faults: &mut Vec<(Fault, String)>) {
         && c.point_bound >= 0.0
         && (c.normal.norm() - 1.0).abs() < 1e-14
         && [c.point, c.branch_a, c.branch_b].iter().all(finite)
+        && overlapping == (c.s < 1.0)
+        && (c.s_b.is_nan() || overlapping == (c.s_b < 1.0))
         && overlapping == c.overlap.is_finite()
         && overlapping == finite(&c.point_on_a);
     if !fine {
         faults.push((Fault::Malformed, format!("{c:?}")));
     }
-    if c.gap > MOST_GAP && c.s - c.gap < 1.0 && 1.0 < c.s + c.gap {
-        faults.push((Fault::SaysNothing, format!("s={:e} ± {:e}", c.s, c.gap)));
+    // Either scale of closest tells whether they touch.
+    let is_open = |s: f64| !((s - 1.0).abs() >= c.gap);
+    if c.gap > MOST_GAP && is_open(c.s) && is_open(c.s_b) {
+        faults.push((Fault::SaysNothing, format!("s={:e}, {:e} ± {:e}", c.s, c.s_b, c.gap)));
     }
 }
 

@@ -56,8 +56,9 @@ pub(super) fn contact(
 ///
 /// on: PP_ON_A or PP_ON_B. settings: may be NULL (defaults); the formulation and solve_separated do not
 /// matter. out: the point, or slack = 1 where there is none.
-/// Errors: PP_NULL_POINTER, PP_BAD_POSITION, PP_BAD_ORIENTATION (an angle that is not finite or beyond 2^30), PP_BAD_INDEX
-/// (on), PP_UNKNOWN_FORMULATION, PP_UNKNOWN_BACK_END, PP_NO_CONE_PROGRAM, PP_BAD_SETTING, PP_SOLVER_FAILED.
+/// Errors: PP_NULL_POINTER, PP_BAD_POSITION, PP_BAD_ORIENTATION (an angle that is not finite or beyond 2^30),
+/// PP_BAD_INDEX (on), PP_UNKNOWN_FORMULATION, PP_UNKNOWN_BACK_END, PP_NO_CONE_PROGRAM, PP_BAD_SETTING,
+/// PP_SOLVER_FAILED.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pp_closest_point_2d(
     a: *const pp_particle_2d,
