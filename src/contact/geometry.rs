@@ -96,14 +96,15 @@ impl LocalContact {
         let across =
             Across::of(pair, &[p1.gradients[0], p2.gradients[1]], [p1.gradient_norms[0], p2.gradient_norms[1]]);
         let way = p1.x - p2.x;
-        // What lies beyond 1 by rounding is taken back to it.
+        // What lies beyond 1 by rounding is taken back to it, which counts as error.
         let told = |s: f64| if overlapping { smaller(s, LARGEST_BELOW_1) } else { larger(s, 1.0) };
+        let gap = |scale: &Scale| scale.gap + (told(scale.s) - scale.s).abs();
         Self {
             formulation: Formulation::Closest,
             s: told(p2.scale.s),
             s_b: told(p1.scale.s),
             lambda: p2.lambda,
-            gap: p2.scale.gap.max(p1.scale.gap),
+            gap: gap(&p2.scale).max(gap(&p1.scale)),
             point_bound: p2.bound.max(p1.bound),
             point: p2.x + weight_on_a * way,
             normal: across.normal(),
