@@ -388,3 +388,23 @@ fn the_length_of_normals_changes_nothing() {
         }
     }
 }
+
+/// Two tall blocks whose faces lie 2e-8 of their size apart or overlap by some more: with any regularisation there is an answer, and the
+/// right kind. A proof of separation on the way leaves the upper bound where it is, and a raised regularisation widens the gap by itself.
+#[test]
+fn blocks_face_to_face_are_answered_by_any_regularisation() {
+    let (a, b) = (cuboid([5.0, 5.0, 14.0], 4e-3, 0.0, 20.0), cuboid([5.0, 5.0, 11.0], 4e-3, 0.0, 20.0));
+    let orientation = [0.9999999998739891, -2.3675613622455604e-13, 1.5875192733942338e-05, 3.036264186188587e-11];
+    let at_a = pose([-114.99953205051497, -3.309720340851244e-10, 26.000135299378865], orientation);
+    let orientation = [0.9999999998609699, -3.55642490621162e-13, 1.667514058417154e-05, 3.014308169986809e-11];
+    for flat_regularisation in [1e-13, 1e-8, 1e-4, 1e-2, 2.5e-2, 0.1] {
+        for (closer, kind) in [(0.0, Kind::Separated), (8.5e-5, Kind::Overlapping), (1e-3, Kind::Overlapping)] {
+            let at_b = pose([closer - 124.99961318552711, -2.54879564075102e-10, 24.000147783915253], orientation);
+            for solve_separated in [true, false] {
+                let settings = Settings { flat_regularisation, solve_separated, ..Settings::default() };
+                let found = detect(&a, &at_a, &b, &at_b, &settings, None).expect("an answer");
+                assert_eq!(found.kind, kind, "{flat_regularisation:e}, {closer:e} closer: {found:?}");
+            }
+        }
+    }
+}

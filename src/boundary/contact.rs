@@ -145,15 +145,15 @@ impl Call<'_> {
             found = closest(&mut search)?;
         }
         let scale = found.scale(&search.body());
-        if scale.is_undecided() {
-            return Err(SolveError::Undecided { low: scale.low, high: scale.high }.into());
-        }
         if found.may_hide_an_overlap(&search.body()) && settings.raises_regularisation() {
             // Where the bulge of a raised regularisation may hide an overlap, the particle as it is decides.
             let flat_regularisation = Settings::default().flat_regularisation;
             let settings = Settings { flat_regularisation, ..*settings };
             let contact = Call { settings: &settings, ..*self }.contact(None, closest)?;
             return Ok(FlatContact { flags: contact.flags.with(Flags::DEFAULT_REGULARISATION), ..contact });
+        }
+        if scale.is_undecided() {
+            return Err(SolveError::Undecided { low: scale.low, high: scale.high }.into());
         }
         self.described(&search, &found, scale)
     }

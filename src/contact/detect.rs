@@ -199,7 +199,8 @@ fn solved(
         let contact = solved(pair, pose_b, &settings, state, remembers)?;
         return Ok(Contact { flags: contact.flags.with(Flags::DEFAULT_REGULARISATION), ..contact });
     }
-    if scale.is_undecided() {
+    // What is proved apart may have any upper bound; a raised regularisation was asked for with the gap that it leaves.
+    if !separated && scale.is_undecided() && !settings.raises_regularisation() {
         return Err(SolveError::Undecided { low: scale.low, high: scale.high }.into());
     }
     let overlapping = !separated && scale.s < 1.0;
