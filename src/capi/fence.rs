@@ -127,6 +127,11 @@ impl<T> From<&mut MaybeUninit<T>> for Output<T> {
     }
 }
 
+/// Refuses a buffer that is NULL but said to have room, whatever there is to be written.
+pub(super) fn check_room<T>(buffer: *mut T, capacity: usize) -> Result<(), pp_status> {
+    if capacity > 0 && buffer.is_null() { Err(PP_NULL_POINTER) } else { Ok(()) }
+}
+
 /// Writes rows of N doubles and how many there are; with too little room, only how many there are.
 ///
 /// # Safety
@@ -138,6 +143,7 @@ pub(super) unsafe fn write_rows<const N: usize>(
     count: *mut usize,
 ) -> Result<(), pp_status> {
     let count = unsafe { output(count) }?;
+    check_room(to, capacity)?;
     if rows.len() > capacity {
         count.write(rows.len());
         return Err(PP_BUFFER_TOO_SMALL);

@@ -1,6 +1,6 @@
 //! The surface of a particle as a mesh.
 
-use super::fence::{borrow, fenced, output, outputs};
+use super::fence::{borrow, check_room, fenced, output, outputs};
 use super::particle::pp_particle;
 use super::status::*;
 use crate::{MeshError, SurfaceMesh};
@@ -35,6 +35,8 @@ pub unsafe extern "C" fn pp_particle_mesh(
     fenced(|| {
         let particle = &unsafe { borrow(particle) }?.0;
         let (vertex_count, triangle_count) = unsafe { (output(vertex_count)?, output(triangle_count)?) };
+        check_room(vertices, vertex_capacity)?;
+        check_room(triangles, triangle_capacity)?;
         let mesh = SurfaceMesh::of(particle, tolerance).map_err(|error| match error {
             MeshError::Tolerance(_) => PP_BAD_TOLERANCE,
             MeshError::NoSurface => PP_SOLVER_FAILED,

@@ -44,6 +44,8 @@ static void definition_in_space(void) {
     count = 99;
     CHECK_STATUS(pp_particle_planes(sphere, NULL, 0, &count), PP_OK);
     CHECK(count == 0);
+    /* Though there is nothing to write. */
+    CHECK_STATUS(pp_particle_planes(sphere, NULL, 1, &count), PP_NULL_POINTER);
     CHECK_STATUS(pp_particle_sphericity(sphere, &got), PP_OK);
     CHECK(got == 1);
     CHECK_STATUS(pp_particle_shadow_radius(sphere, &got), PP_OK);
@@ -60,6 +62,7 @@ static void definition_in_space(void) {
     CHECK_STATUS(pp_particle_shadow_radius(particle, NULL), PP_NULL_POINTER);
     CHECK_STATUS(pp_particle_planes(NULL, rows, SIDES, &count), PP_NULL_POINTER);
     CHECK_STATUS(pp_particle_planes(particle, NULL, SIDES, &count), PP_NULL_POINTER);
+    CHECK_STATUS(pp_particle_planes(particle, NULL, 1, &count), PP_NULL_POINTER);
     CHECK_STATUS(pp_particle_planes(particle, rows, SIDES, NULL), PP_NULL_POINTER);
     CHECK_UNTOUCHED(got);
     CHECK_UNTOUCHED(count);
@@ -97,6 +100,7 @@ static void definition_in_the_plane(void) {
     CHECK_STATUS(pp_particle_rounding_radius_2d(particle, NULL), PP_NULL_POINTER);
     CHECK_STATUS(pp_particle_lines_2d(NULL, rows, SIDES, &count), PP_NULL_POINTER);
     CHECK_STATUS(pp_particle_lines_2d(particle, NULL, SIDES, &count), PP_NULL_POINTER);
+    CHECK_STATUS(pp_particle_lines_2d(particle, NULL, 1, &count), PP_NULL_POINTER);
     CHECK_UNTOUCHED(got);
     CHECK_UNTOUCHED(count);
     pp_particle_free_2d(particle);
@@ -145,6 +149,7 @@ static void bounds_in_the_plane(void) {
     CHECK_STATUS(pp_particle_box_2d(particle, &nowhere, lower, upper), PP_BAD_ORIENTATION);
     CHECK_STATUS(pp_particle_corners_2d(NULL, corners, 64, &count), PP_NULL_POINTER);
     CHECK_STATUS(pp_particle_corners_2d(particle, NULL, 64, &count), PP_NULL_POINTER);
+    CHECK_STATUS(pp_particle_corners_2d(particle, NULL, 1, &count), PP_NULL_POINTER);
     CHECK_STATUS(pp_particle_surface_distance_2d(NULL, along, &distance), PP_NULL_POINTER);
     CHECK_STATUS(pp_particle_surface_distance_2d(particle, NULL, &distance), PP_NULL_POINTER);
     CHECK_STATUS(pp_particle_surface_distance_2d(particle, along, NULL), PP_NULL_POINTER);

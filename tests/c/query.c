@@ -188,6 +188,9 @@ static void corners_hold_the_particle(void) {
     check_fill(corners, 3 * count * sizeof *corners);
     CHECK_STATUS(pp_particle_corners(NULL, corners, count, &needed), PP_NULL_POINTER);
     CHECK_STATUS(pp_particle_corners(cube, NULL, count, &needed), PP_NULL_POINTER);
+    /* Whether what there is would have fitted or not. */
+    CHECK_STATUS(pp_particle_corners(cube, NULL, 1, &needed), PP_NULL_POINTER);
+    CHECK_STATUS(pp_particle_corners(cube, NULL, 10 * count, &needed), PP_NULL_POINTER);
     CHECK_STATUS(pp_particle_corners(cube, corners, count, NULL), PP_NULL_POINTER);
     CHECK_UNTOUCHED(needed);
     check_untouched(corners, 3 * count * sizeof *corners, "corners", __FILE__, __LINE__);

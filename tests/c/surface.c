@@ -50,6 +50,9 @@ static void bad_input_is_refused(void) {
     CHECK_STATUS(pp_particle_mesh(ball, 0.1, NULL, NULL, 0, NULL, NULL, 0, &faces, NULL), PP_NULL_POINTER);
     CHECK_STATUS(pp_particle_mesh(ball, 0.1, NULL, NULL, 0, &points, NULL, 0, NULL, NULL), PP_NULL_POINTER);
     CHECK_STATUS(pp_particle_mesh(ball, 0.1, NULL, NULL, 1000, &points, NULL, 1000, &faces, NULL), PP_NULL_POINTER);
+    /* Whether what there is would have fitted or not; the other buffer is asked for its size. */
+    CHECK_STATUS(pp_particle_mesh(ball, 0.1, NULL, NULL, 1, &points, NULL, 0, &faces, NULL), PP_NULL_POINTER);
+    CHECK_STATUS(pp_particle_mesh(ball, 0.1, NULL, NULL, 0, &points, NULL, 1, &faces, NULL), PP_NULL_POINTER);
     const double bad[] = {0.0, -1.0, 1e-6, 2.0, NAN, INFINITY};
     for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++)
         CHECK_STATUS(pp_particle_mesh(ball, bad[i], NULL, NULL, 0, &points, NULL, 0, &faces, NULL), PP_BAD_TOLERANCE);
