@@ -233,7 +233,9 @@ fn corners(faces: &[(Vector3<f64>, f64)], half: f64, dimensions: usize) -> Vec<V
                     continue;
                 }
                 let slack = SLACK * corner.norm();
-                let kept = all.iter().all(|(n, h)| n.dot(&corner) <= h + slack);
+                // Of planes through one line rounding may leave an inverse; what it gives lies on none of them.
+                let met = [i, j, k].iter().all(|&face| (all[face].0.dot(&corner) - all[face].1).abs() <= slack);
+                let kept = met && all.iter().all(|(n, h)| n.dot(&corner) <= h + slack);
                 if kept && !corners.iter().any(|c| (c - corner).norm() <= slack) {
                     corners.push(corner);
                 }
@@ -241,4 +243,67 @@ fn corners(faces: &[(Vector3<f64>, f64)], half: f64, dimensions: usize) -> Vec<V
         }
     }
     corners.into_iter().map(|c| c * unit).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::particle::particle::Particle;
+    use crate::particle::plane::Plane;
+
+    fn of_cuboid(half: [f64; 3], r: f64) -> Vec<Plane> {
+        let sides = (0..3).flat_map(|axis| [1.0, -1.0].map(|sign| (axis, sign)));
+        sides.map(|(axis, sign)| Plane { normal: Vector3::ith(axis, sign), offset: half[axis] - r }).collect()
+    }
+
+    /// A tilted frame, in which nothing cancels by chance.
+    fn tilted(planes: &[Plane]) -> Vec<Plane> {
+        let turn = nalgebra::Rotation3::from_euler_angles(0.3, -0.7, 1.1);
+        planes.iter().map(|plane| Plane { normal: turn * plane.normal, ..*plane }).collect()
+    }
+
+    #[test]
+    fn a_cuboid_has_its_eight_corners_also_where_each_plane_is_given_twice_or_nearly() {
+        let (half, r) = ([3.0, 2.0, 1.0], 1e-3);
+        let reach = Vector3::from(half).norm();
+        for nudge in [0.0, 1e-17, 1e-16, 1e-15, 1e-13] {
+            let mut planes = tilted(&of_cuboid(half, r));
+            let again = planes.iter().map(|plane| Plane { offset: plane.offset * (1.0 + nudge), ..*plane });
+            planes.extend(again.collect::<Vec<_>>());
+            let particle = Particle::new(&planes, r, 0.0, 0.0).unwrap();
+            assert_eq!(particle.bounding_corners().len(), 8, "{nudge:e}");
+            for corner in particle.bounding_corners() {
+                assert!((corner.norm() / reach - 1.0).abs() < 2e-5, "{nudge:e}: {corner}");
+            }
+        }
+    }
+
+    #[test]
+    fn ball_polyhedron_and_box_hold_every_point_of_the_surface() {
+        for (k, shadow) in [(0.0, 0.0), (0.3, 2.5)] {
+            let particle = Particle::new(&tilted(&of_cuboid([3.0, 2.0, 1.0], 0.2)), 0.2, k, shadow).unwrap();
+            let (lower, upper) = particle.bounds.aligned_box(&Matrix3::identity(), &Vector3::zeros());
+            for i in 0..500 {
+                let (z, phi) = (1.0 - (2.0 * f64::from(i) + 1.0) / 500.0, f64::from(i) * 2.399963);
+                let e = Vector3::new((1.0 - z * z).sqrt() * phi.cos(), (1.0 - z * z).sqrt() * phi.sin(), z);
+                let x = particle.surface_distance(&Vector3::zeros(), &e).unwrap() * e;
+                assert!(x.norm() <= particle.bounding_radius());
+                assert!((0..3).all(|axis| lower[axis] <= x[axis] && x[axis] <= upper[axis]));
+                for f in [e, Vector3::x(), -Vector3::z()] {
+                    assert!(f.dot(&x) <= particle.support(&f));
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn reach_holds_the_level_sets() {
+        let particle = Particle::cube(0.9, 0.1, 0.2, 1.5);
+        for e in [Vector3::x(), Vector3::new(1.0, 1.0, 1.0).normalize(), Vector3::new(0.3, -0.9, 0.1).normalize()] {
+            for distance in [0.5, 1.0, 1.3, 2.0, 5.0] {
+                let level = 1.0 + particle.potential(&(distance * e));
+                assert!(distance <= particle.bounds.reach(level.max(1.0)), "{distance} at {level}");
+            }
+        }
+    }
 }

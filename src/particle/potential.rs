@@ -172,3 +172,70 @@ pub fn on_line(shape: &Shape, sphere_weight: f64, y: &Vector3<f64>, e: &Vector3<
         curvature: 2.0 * (w * steep + m * e.norm_squared()),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::particle::particle::Particle;
+    use crate::particle::plane::Plane;
+
+    const R: f64 = 0.3;
+    const K: f64 = 0.2;
+    const SHADOW: f64 = 1.4;
+
+    /// So many planes that they are kept in several clusters.
+    fn planes() -> Vec<Plane> {
+        let plane = |i: i32| {
+            let (z, phi) = (1.0 - (2.0 * f64::from(i) + 1.0) / 60.0, f64::from(i) * 2.399963);
+            let s = (1.0 - z * z).sqrt();
+            let length = 1.0 + 0.5 * f64::from(i % 3);
+            Plane { normal: length * Vector3::new(s * phi.cos(), s * phi.sin(), z), offset: length * 0.7 }
+        };
+        (0..60).map(plane).collect()
+    }
+
+    fn points() -> [Vector3<f64>; 4] {
+        [[0.1, 0.2, -0.1], [0.8, 0.3, 0.2], [-0.5, 0.6, 0.9], [2.0, -3.0, 1.0]].map(Vector3::from)
+    }
+
+    /// (1-k)/r² Σ⟨n·x − d⟩² + k/R² |x|².
+    fn by_definition(x: &Vector3<f64>) -> f64 {
+        let excess = |plane: &Plane| (plane.normal.dot(x) - plane.offset).max(0.0);
+        let squares: f64 = planes().iter().map(|plane| excess(plane).powi(2)).sum();
+        (1.0 - K) / (R * R) * squares + K / (SHADOW * SHADOW) * x.norm_squared()
+    }
+
+    #[test]
+    fn every_way_to_ask_gives_the_value_of_the_definition() {
+        let particle = Particle::new(&planes(), R, K, SHADOW).unwrap();
+        for x in points() {
+            let expected = by_definition(&x);
+            let line = on_line(&particle, particle.sphere_weight, &x, &Vector3::x());
+            for found in [value(&particle, &x), local(&particle, &x).value, tangent(&particle, &x).value, line.value] {
+                assert!((found - expected).abs() <= 1e-13 * expected, "{found} for {expected}");
+            }
+        }
+    }
+
+    /// S is quadratic between its kinks, where central differences are exact but for rounding; a kink within a step h costs h.
+    #[test]
+    fn derivatives_are_those_of_the_value() {
+        let particle = Particle::new(&planes(), R, K, SHADOW).unwrap();
+        let h = 1e-6;
+        for x in points() {
+            let (here, tangent) = (local(&particle, &x), tangent(&particle, &x));
+            let scale = here.gradient.norm() + 1.0;
+            assert!((tangent.gradient - here.gradient).norm() <= 1e-13 * scale);
+            for axis in 0..3 {
+                let step = h * Vector3::ith(axis, 1.0);
+                let slope = (by_definition(&(x + step)) - by_definition(&(x - step))) / (2.0 * h);
+                assert!((here.gradient[axis] - slope).abs() <= 1e-7 * scale, "{} for {slope}", here.gradient[axis]);
+                let bend = (particle.gradient(&(x + step)) - particle.gradient(&(x - step))) / (2.0 * h);
+                assert!((here.hessian.matrix().column(axis) - bend).norm() <= 1e-6 * scale);
+                let line = on_line(&particle, particle.sphere_weight, &x, &Vector3::ith(axis, 1.0));
+                assert!((line.slope - here.gradient[axis]).abs() <= 1e-13 * scale);
+                assert!((line.curvature - here.hessian.matrix()[(axis, axis)]).abs() <= 1e-12 * scale);
+            }
+        }
+    }
+}
