@@ -145,6 +145,34 @@ fn sharp_bodies_need_few_triangles() {
     assert!(pyramid.triangles.len() < 100, "{}", pyramid.triangles.len());
 }
 
+/// Normals of lengths from 1e-40 to 1e40 leave a mesh that is closed and says how far off it is, or none; either ends soon.
+#[test]
+fn normals_of_any_length_end_at_the_most_vertices() {
+    let mut state = 3_u64;
+    let mut random = || {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (state >> 11) as f64 / (1_u64 << 53) as f64
+    };
+    let (tolerance, mut most) = (1e-3, 0);
+    for _ in 0..40 {
+        let planes: Vec<Plane> = (0..12)
+            .map(|_| {
+                let normal = Vector::from_fn(|_, _| random() + random() + random() - 1.5).normalize();
+                let length = 10f64.powf(40.0 * (2.0 * random() - 1.0));
+                Plane { normal: length * normal, offset: length * (0.8 + 0.2 * random()) }
+            })
+            .collect();
+        let Ok(body) = Particle::new(&planes, 10f64.powf(-9.0 * random()), 0.0, 1.0) else { continue };
+        if let Ok(mesh) = SurfaceMesh::of(&body, tolerance) {
+            assert_closed("normals of any length", &mesh);
+            let count = mesh.vertices.len();
+            assert!(count < 51_000 || mesh.error > tolerance * body.bounding_radius(), "{count}, {}", mesh.error);
+            most = most.max(count);
+        }
+    }
+    assert_eq!(most, 51_000);
+}
+
 #[test]
 fn a_tolerance_out_of_range_is_refused() {
     let sphere = Particle::sphere(1.0).unwrap();

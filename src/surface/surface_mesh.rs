@@ -43,8 +43,13 @@ pub enum MeshError {
 /// Least tolerance: a sphere has about a million triangles then.
 const FINEST: f64 = 1e-5;
 
-/// More vertices than any particle needs at the least tolerance, whatever rounding does.
-const MOST_VERTICES: u32 = 4_000_000;
+/// Most vertices times the tolerance, and beside that: ten times as many as a sphere has, which needs more than other bodies of its radius.
+/// Only rounding asks for more, as where normals are of very different lengths; the error of the mesh then says so.
+const MOST_VERTICES: f64 = 50.0;
+const FEW_VERTICES: f64 = 1_000.0;
+
+/// Most flips of diagonals after one change, for each triangle: more are a circle that rounding leads in.
+const MOST_FLIPS: usize = 4;
 
 /// Part of the way from an edge to the opposite corner below which a point is put on the edge: no sliver is needed there.
 const NEAR_EDGE: f64 = 1e-3;
@@ -123,9 +128,13 @@ impl<'a> Refinement<'a> {
     }
 
     fn run(&mut self) {
+        let most = (FEW_VERTICES + MOST_VERTICES / self.tolerance) as usize;
         while let Some(Candidate { triangle, corners, rise }) = self.candidates.pop() {
             // Triangles change after they were considered; then they have been considered again.
-            if self.mesh.triangle(triangle).corners == corners && (self.points.len() as u32) < MOST_VERTICES {
+            if self.points.len() >= most {
+                break;
+            }
+            if self.mesh.triangle(triangle).corners == corners {
                 self.refine(triangle, rise.place);
             }
         }
@@ -208,8 +217,9 @@ impl<'a> Refinement<'a> {
     /// the triangles that were changed.
     fn make_convex(&mut self, mut edges: Vec<(u32, usize)>) -> Vec<u32> {
         let mut changed = Vec::new();
+        let most = MOST_FLIPS * self.mesh.len() as usize;
         while let Some((t, i)) = edges.pop() {
-            if self.bends_inwards(t, i) {
+            if changed.len() < 2 * most && self.bends_inwards(t, i) {
                 for part in self.mesh.flip(t, i) {
                     edges.push((part, 0));
                     changed.push(part);
