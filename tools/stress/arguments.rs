@@ -31,6 +31,9 @@ pub struct Arguments {
     /// Leave the continuity sweeps out.
     #[arg(long)]
     pub no_sweeps: bool,
+    /// Particles whose volume, centroid and inertia are held against closed forms or a finer tolerance.
+    #[arg(long, default_value_t = 0)]
+    pub mass: u64,
     /// Only this family of pairs.
     #[arg(long)]
     pub family: Option<String>,

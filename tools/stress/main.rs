@@ -18,6 +18,7 @@ mod line;
 #[path = "../../benches/work_precision/machine.rs"]
 #[allow(dead_code)]
 mod machine;
+mod mass;
 mod pairs;
 #[path = "../../benches/scene/random.rs"]
 #[allow(dead_code)]
@@ -104,7 +105,12 @@ fn run(arguments: &Arguments, seed: u64) -> Result<u64, String> {
         bar.finish_and_clear();
     }
 
+    let bar = progress("particles", arguments.mass);
+    let mass = mass::run(seed, arguments.mass, threads, &stop, &bar);
+    bar.finish_and_clear();
+
     let findings = Findings {
+        mass,
         seed,
         first,
         settle_every,
@@ -119,7 +125,7 @@ fn run(arguments: &Arguments, seed: u64) -> Result<u64, String> {
     };
     findings.write(&arguments.output).map_err(|error| format!("{}: {error}", arguments.output.display()))?;
     findings.print();
-    Ok(findings.tally.failures())
+    Ok(findings.tally.failures() + findings.mass.failures())
 }
 
 fn progress(what: &'static str, length: u64) -> ProgressBar {

@@ -5,6 +5,7 @@ use crate::clock::{CALLS, Call};
 use crate::judge::{Doubt, Failure, PATHS};
 use crate::line::Line;
 use crate::machine::Machine;
+use crate::mass;
 use crate::sweeps::Sweep;
 use crate::tally::{Distribution, OfFamily, Tally};
 use serde::Serialize;
@@ -24,6 +25,7 @@ pub struct Findings {
     /// Seconds of one evaluation of S, ∇S and ∇²S of both particles, 5 + 5 planes.
     pub evaluation: f64,
     pub tally: Tally,
+    pub mass: mass::Tally,
     pub walks: u64,
     pub sweeps: Vec<Sweep>,
     pub machine: Machine,
@@ -78,6 +80,7 @@ struct Summary<'a> {
     calls: Vec<Calls<'a>>,
     families: Vec<FamilySummary<'a>>,
     sweeps: &'a [Sweep],
+    mass: &'a mass::Tally,
     seconds: f64,
     machine: &'a Machine,
 }
@@ -238,6 +241,7 @@ impl Findings {
             calls: calls.collect(),
             families: FAMILIES.iter().map(|f| f.name).zip(&t.families).map(family).collect(),
             sweeps: &self.sweeps,
+            mass: &self.mass,
             seconds: self.seconds,
             machine: &self.machine,
         }
@@ -251,11 +255,16 @@ impl Findings {
             targets.push(Target::at_most(format!("{call}: p99.99, ms"), MOST_P99_99, 1e-3 * of.p99_99));
             targets.push(Target::at_most(format!("{call}: slowest, ms"), MOST_SLOWEST, 1e-3 * of.slowest));
         }
+        if self.mass.particles > 0 {
+            let failures = self.mass.failures() as f64;
+            targets.push(Target::at_most("mass properties with too small an estimate", 0.0, failures));
+        }
         targets
     }
 
     /// Tables by family, call and motion, and the targets.
     pub fn print(&self) {
+        self.mass.print();
         let t = &self.tally;
         println!(
             "\n| family | poses | failed | gap, median | worst | error of s, median | worst | point, median | worst | time, median | p99.99 | slowest |"
