@@ -70,8 +70,7 @@ fn assert_near(
     let rounding = 1e-13;
     assert!(found.error <= tolerance, "error {:e} for {tolerance:e}", found.error);
     for (what, error) in ["volume", "centroid", "inertia"].into_iter().zip(errors) {
-        // The centroid has both the error of ∫x and that of the volume.
-        assert!(error <= 2.0 * found.error + rounding, "{what}: off by {error:e}, said {:e}", found.error);
+        assert!(error <= found.error + rounding, "{what}: off by {error:e}, said {:e}", found.error);
     }
 }
 

@@ -4,16 +4,21 @@
 //! plane at height h (`direction_mesh`) covers dω = h dA/|p|³, so that with τ = ρ/|p| they are integrals of h τ³/3,
 //! h τ⁴/4 p and h τ⁵/5 p pᵀ over its area: polynomials on a flat face, where τ = 1.
 //!
-//! On a ray through p the surface is reached at τ ≤ 1, where Newton's method from τ = 1 does not overshoot, since S is convex. Planes that are
-//! active at no corner of a patch are active nowhere on rays through it up to there, and are left out.
+//! Each cell is integrated by the product of the Lobatto and Kronrod rule of 7 points with itself (`quadrature`). Its error is
+//! bounded by two parts, each of which is found for both directions of the cell:
 //!
-//! On each cell the product of Kronrod's rule of 7 points with itself is compared with those in which one factor is Gauss' rule of
-//! the 3 points among them, once in u and once in v. The cell with the largest difference is halved in that direction, until
-//! the estimated errors of all cells add up to less than the tolerance. The error of the rule with 7 points, of degree 11, is
-//! mostly far less than its difference from the other, of degree 5: what halving a cell changes shows how far. Where a second
-//! derivative jumps within a cell it need not be less, and a direction in which a cell was never halved counts [`UNSEEN`] times.
+//! - As far as g = 1/τ is analytic over the cell, the error is a share of the difference from the rule of 4 points, by how
+//!   far from the cell g may be singular.
+//! - A plane that is active in a part of the cell only lets ∇²g jump, by what `gauge` says. Whatever the place of that jump,
+//!   the error is at most `quadrature::OF_JUMP` times it. Where the jump is sharper than the cell is wide, convexity says more: g lies
+//!   below its bilinear interpolant between neighbouring points, and above its tangents there.
+//!
+//! The second part does not ask what the points have seen, so that no feature is overlooked between them. The cell with the largest bound is
+//! halved in the direction that has the larger part of it, until the bounds of all cells add up to less than the tolerance.
 
 use crate::particle::direction_mesh::{self, Patch};
+use crate::particle::gauge::{Gauge, OnRay, Piece};
+use crate::particle::quadrature::{self, POINTS, RULE};
 use crate::particle::shape::Shape;
 use nalgebra::{Matrix3, SVector, Vector3};
 use std::collections::BinaryHeap;
@@ -28,7 +33,7 @@ pub struct MassProperties {
     /// ∫ (|x|² I − x xᵀ) dV about the local origin, length⁵.
     pub inertia: Matrix3<f64>,
     /// Estimated bound on the relative error: of the volume, of each moment of inertia about an axis through the origin, and of the
-    /// centroid as a share of the radii of gyration across the axes' planes. It may exceed the tolerance where that cannot be reached.
+    /// centroid as a share of the radii of gyration across the axes' planes. It exceeds the tolerance where that cannot be reached.
     pub error: f64,
 }
 
@@ -38,102 +43,124 @@ pub const MASS_TOLERANCE: f64 = 1e-6;
 /// Least relative tolerance: where this is not enough, rounding leaves no more digits.
 pub(crate) const LEAST_TOLERANCE: f64 = 1e-12;
 
-/// Most cells: some seconds of work.
+/// Most cells, some seconds of work for some tens of planes; and most planes evaluated on all rays together, some tens of seconds.
 const MOST_CELLS: usize = 200_000;
+const MOST_WORK: usize = 1_000_000_000;
+
+/// Where the two parts of its error differ by less than this factor, a cell is halved in both directions.
+const ALIKE: f64 = 4.0;
+
+/// Most planes whose faces the cells follow. Of more the faces are so small that cells which do not need as many.
+const MOST_FACES: usize = 1_000;
 
 /// Share of the tolerance that overlaps and gaps of the mesh may take.
 const OF_MESH: f64 = 0.1;
 
-/// Estimated error over difference of the rules: in a direction in which the cell was never halved, and the least elsewhere. Chosen: over
-/// twice what closed forms ask for.
-const UNSEEN: f64 = 8.0;
-const LEAST_SHARE: f64 = 0.05;
+/// Least share of the tolerance that is left to the cells, where rounding takes more than all of it.
+pub(crate) const LEAST_PART: f64 = 0.1;
 
-/// Most Newton steps on a ray: far outside each halves the distance, and beside the surface each doubles the digits.
-const MOST_STEPS: usize = 200;
+/// How far the units in which errors are measured may be off, as a factor, and how often they are found anew.
+pub(crate) const SAME_UNITS: f64 = 1.05;
+const MOST_UNITS: usize = 8;
 
-/// Least step, relative.
-const ROUNDING: f64 = 4.0 * f64::EPSILON;
-
-/// Kronrod's rule of 7 points on [0, 1]: point, weight, and weight in Gauss' rule of 3 points.
-pub(crate) const RULE: [(f64, f64, f64); 7] = [
-    (0.019_754_365_645_989_858, 0.052_328_113_013_233_63, 0.0),
-    (0.112_701_665_379_258_31, 0.134_244_044_934_166_72, 5.0 / 18.0),
-    (0.282_878_125_326_598_72, 0.200_698_707_387_981_11, 0.0),
-    (0.5, 0.225_458_269_329_237_07, 4.0 / 9.0),
-    (0.717_121_874_673_401_3, 0.200_698_707_387_981_11, 0.0),
-    (0.887_298_334_620_741_7, 0.134_244_044_934_166_72, 5.0 / 18.0),
-    (0.980_245_634_354_010_1, 0.052_328_113_013_233_63, 0.0),
-];
+/// Rounding of a sum of moments, relative.
+pub(crate) const OF_SUMS: f64 = 4.0 * f64::EPSILON;
 
 /// V, ∫x dV (3), and xx, yy, zz, xy, yz, zx of ∫x xᵀ dV.
 type Moments = SVector<f64, 10>;
 
-/// A patch with what S is on rays through it: the weights, and the planes that may be active.
-struct Sector {
-    patch: Patch,
-    plane_weight: f64,
-    sphere_weight: f64,
-    planes: Vec<(Vector3<f64>, f64)>,
-}
-
-/// The moments of one cell, a rectangle of u and v on the patch of a sector.
+/// The moments of one cell, a rectangle of u and v on a patch.
 struct Cell {
-    sector: usize,
+    patch: usize,
     u: (f64, f64),
     v: (f64, f64),
     moments: Moments,
-    /// Differences of the two rules in u, and in v.
-    differences: [Moments; 2],
-    /// Estimated error over difference, in u and in v.
-    shares: [f64; 2],
-    /// Sum of both estimates, and which is larger.
-    error: f64,
-    largest: usize,
+    /// Bounds on the error of the rule in u and in v, and the rounding of the rays.
+    errors: [f64; 2],
+    rounding: f64,
+    /// Number of planes evaluated on all of its rays.
+    work: usize,
 }
 
-/// The length scales in which errors are measured: the radii of gyration about the origin.
+/// The units in which errors are measured: the volume and the radii of gyration about the origin.
 struct Norm {
     volume: f64,
-    /// L⁻¹, for ∫x xᵀ dV = V·L·Lᵀ.
+    /// ∫x xᵀ dV/V = L·Lᵀ.
+    square: Matrix3<f64>,
+    /// L⁻¹.
     unscaled: Matrix3<f64>,
+}
+
+/// A point of the rule on a cell.
+struct Node {
+    p: Vector3<f64>,
+    /// ∂p/∂u and ∂p/∂v, for u and v from 0 to 1 over the cell.
+    along: [Vector3<f64>; 2],
+    on_ray: OnRay,
+    /// The relative change of the moments, at the point, that a change of g makes.
+    sensitivity: f64,
 }
 
 /// Volume, centroid and inertia to a relative tolerance of at least [`LEAST_TOLERANCE`].
 pub(crate) fn of(shape: &Shape, tolerance: f64) -> MassProperties {
     let tolerance = tolerance.max(LEAST_TOLERANCE);
-    let mut patches = direction_mesh::along_faces(shape);
-    let (mut sectors, mut cells, mut norm) = first_pass(shape, &patches);
-    if !(norm.of_mesh(&patches) <= OF_MESH * tolerance) {
+    let gauge = Gauge::of(shape);
+    let follows_faces = shape.len() <= MOST_FACES;
+    let mut patches = if follows_faces { direction_mesh::along_faces(shape) } else { direction_mesh::plain(shape) };
+    let (mut cells, mut norm) = first_pass(&gauge, &patches);
+    if follows_faces && !(norm.of_mesh(&patches) <= OF_MESH * tolerance) {
         patches = direction_mesh::plain(shape);
-        (sectors, cells, norm) = first_pass(shape, &patches);
+        (cells, norm) = first_pass(&gauge, &patches);
     }
-    let of_mesh = norm.of_mesh(&patches);
-    cells.iter_mut().for_each(|cell| cell.judge(&norm));
+    for _ in 0..MOST_UNITS {
+        let of_mesh = norm.of_mesh(&patches);
+        let left = tolerance / SAME_UNITS - of_mesh - norm.of_sums();
+        let (refined, error) = refined(cells, &gauge, &patches, &norm, left.max(LEAST_PART * tolerance));
+        let found = Norm::of(&sum(&refined));
+        let change = norm.change_to(&found);
+        if change <= SAME_UNITS || refined.len() >= MOST_CELLS {
+            return properties(&sum(&refined), change * (error + of_mesh) + found.of_sums());
+        }
+        // Cells so coarse that they missed most of the particle gave units of another one.
+        norm = found;
+        cells = refined.iter().map(|cell| Cell::of(&gauge, &patches, cell.patch, cell.u, cell.v, &norm)).collect();
+    }
+    properties(&sum(&cells), f64::INFINITY)
+}
+
+/// Halves cells until their errors add up to less than the tolerance; the cells and that sum.
+fn refined(cells: Vec<Cell>, gauge: &Gauge, patches: &[Patch], norm: &Norm, tolerance: f64) -> (Vec<Cell>, f64) {
+    let total = |cells: &[Cell]| cells.iter().map(|cell| cell.error() + cell.rounding).sum::<f64>();
+    let mut error = total(&cells);
     let mut heap = BinaryHeap::from(cells);
-    let mut error = heap.iter().map(|cell| cell.error).sum::<f64>() + of_mesh;
-    while error > tolerance && heap.len() < MOST_CELLS {
+    let mut work: usize = heap.iter().map(|cell| cell.work).sum();
+    while error > tolerance && heap.len() < MOST_CELLS && work < MOST_WORK {
         let Some(worst) = heap.pop() else { break };
-        error -= worst.error;
-        for half in worst.halves(&sectors, &norm) {
-            error += half.error;
-            heap.push(half);
+        // What is left is rounding.
+        if worst.error() <= worst.rounding {
+            heap.push(worst);
+            break;
+        }
+        error -= worst.error() + worst.rounding;
+        for part in worst.parts(gauge, patches, norm) {
+            error += part.error() + part.rounding;
+            work += part.work;
+            heap.push(part);
         }
     }
     let cells = heap.into_vec();
-    let error = cells.iter().map(|cell| cell.error).sum::<f64>() + of_mesh;
-    properties(&sum(&cells), error)
+    let error = total(&cells);
+    (cells, error)
 }
 
 /// One cell on each part of each patch, and the norm that their moments give.
-fn first_pass(shape: &Shape, patches: &[Patch]) -> (Vec<Sector>, Vec<Cell>, Norm) {
-    // Behind these the origin lies: they may be active anywhere.
-    let behind: Vec<usize> = (0..shape.len()).filter(|&i| shape.offset(i) < 0.0).collect();
-    let sectors: Vec<Sector> = patches.iter().map(|patch| Sector::of(shape, *patch, &behind)).collect();
-    let parts = (0..sectors.len()).flat_map(|i| sectors[i].patch.intervals().map(move |v| (i, v)));
-    let cells: Vec<Cell> = parts.map(|(i, v)| Cell::of(&sectors, i, (0.0, 1.0), v)).collect();
-    let norm = Norm::of(&sum(&cells));
-    (sectors, cells, norm)
+fn first_pass(gauge: &Gauge, patches: &[Patch]) -> (Vec<Cell>, Norm) {
+    let all = |norm: &Norm| -> Vec<Cell> {
+        let parts = (0..patches.len()).flat_map(|i| patches[i].intervals().map(move |v| (i, v)));
+        parts.map(|(i, v)| Cell::of(gauge, patches, i, (0.0, 1.0), v, norm)).collect()
+    };
+    let norm = Norm::of(&sum(&all(&Norm::unit())));
+    (all(&norm), norm)
 }
 
 fn sum(cells: &[Cell]) -> Moments {
@@ -159,13 +186,21 @@ fn second(m: &Moments) -> Matrix3<f64> {
 }
 
 impl Norm {
+    fn unit() -> Self {
+        Self { volume: 1.0, square: Matrix3::identity(), unscaled: Matrix3::identity() }
+    }
+
     fn of(moments: &Moments) -> Self {
-        let scaled = (second(moments) / moments[0]).cholesky().map(|factor| factor.l());
-        let unscaled = scaled.and_then(|l| l.try_inverse()).unwrap_or_else(|| {
-            let length = second(moments).trace() / moments[0];
-            Matrix3::from_diagonal_element(1.0 / length.sqrt())
-        });
-        Self { volume: moments[0], unscaled }
+        let square = second(moments) / moments[0];
+        let unscaled = square.cholesky().and_then(|factor| factor.l().try_inverse());
+        match unscaled {
+            Some(unscaled) => Self { volume: moments[0], square, unscaled },
+            None => {
+                let radius = square.trace().sqrt();
+                let square = Matrix3::from_diagonal_element(radius * radius);
+                Self { volume: moments[0], square, unscaled: Matrix3::from_diagonal_element(1.0 / radius) }
+            }
+        }
     }
 
     /// Share of the volume by which overlaps and gaps of the mesh may be wrong.
@@ -177,90 +212,170 @@ impl Norm {
     fn of_change(&self, change: &Moments) -> f64 {
         let first = self.unscaled * first(change);
         let second = self.unscaled * second(change) * self.unscaled.transpose();
-        (change[0] * change[0] + first.norm_squared() + second.norm_squared()).sqrt() / self.volume
-    }
-}
-
-impl Sector {
-    fn of(shape: &Shape, patch: Patch, behind: &[usize]) -> Self {
-        let mut counted = behind.to_vec();
-        for corner in patch.corners() {
-            shape.visit_near(corner, 0.0, |i, _, excess| {
-                if excess > 0.0 {
-                    counted.push(i);
-                }
-            });
-        }
-        counted.sort_unstable();
-        counted.dedup();
-        let planes = counted.into_iter().map(|i| (shape.normal(i), shape.offset(i))).collect();
-        Self { patch, plane_weight: shape.plane_weight, sphere_weight: shape.sphere_weight, planes }
+        // The centroid has the error of ∫x and that of the volume.
+        (change[0].abs() + first.norm()).max(second.norm()) / self.volume
     }
 
-    /// τ ≤ 1 with S(τ p) = 1, for p on the patch, where S ≥ 1.
-    fn exit(&self, p: &Vector3<f64>) -> f64 {
-        let sphere = self.sphere_weight * p.norm_squared();
-        let mut tau = 1.0;
-        for _ in 0..MOST_STEPS {
-            let (mut value, mut half_slope) = (sphere * tau * tau - 1.0, sphere * tau);
-            for (n, d) in &self.planes {
-                let rate = n.dot(p);
-                let excess = (tau * rate - d).max(0.0);
-                value += self.plane_weight * excess * excess;
-                half_slope += self.plane_weight * excess * rate;
-            }
-            let step = 0.5 * value / half_slope;
-            // Also where a step is not a number.
-            if !(step > ROUNDING * tau) {
-                break;
-            }
-            tau -= step;
+    /// The rounding of sums of moments: where a particle is thin, that of its length counts.
+    fn of_sums(&self) -> f64 {
+        OF_SUMS * self.square.trace() * self.unscaled.norm_squared()
+    }
+
+    /// By what factor an error in these units may be larger in those; infinite if theirs are far smaller.
+    fn change_to(&self, other: &Self) -> f64 {
+        let lengths = (other.unscaled * self.square * other.unscaled.transpose()).symmetric_eigenvalues().max();
+        let change = self.volume / other.volume * lengths.max(1.0);
+        let back = (self.unscaled * other.square * self.unscaled.transpose()).symmetric_eigenvalues().max();
+        if change > 0.0 && self.volume / other.volume * back >= 1.0 / SAME_UNITS {
+            change.max(1.0)
+        } else {
+            f64::INFINITY
         }
-        tau
     }
 }
 
 impl Cell {
-    fn of(sectors: &[Sector], sector: usize, u: (f64, f64), v: (f64, f64)) -> Self {
-        let here = &sectors[sector];
+    fn of(gauge: &Gauge, patches: &[Patch], patch: usize, u: (f64, f64), v: (f64, f64), norm: &Norm) -> Self {
+        let here = &patches[patch];
         let (du, dv) = (u.1 - u.0, v.1 - v.0);
+        let at = |s: f64, t: f64| here.at(u.0 + s * du, v.0 + t * dv);
+        let corners = [(0.0, 0.0), (0.0, 1.0), (1.0, 0.0), (1.0, 1.0)].map(|(s, t)| at(s, t).0);
+        let piece = gauge.on(&corners, here.height);
         let mut moments = Moments::zeros();
         let mut differences = [Moments::zeros(); 2];
-        for (s, kronrod_u, gauss_u) in RULE {
-            for (t, kronrod_v, gauss_v) in RULE {
-                let (p, area) = here.patch.at(u.0 + s * du, v.0 + t * dv);
-                let at = moments_of_ray(&p, here.exit(&p), here.patch.height * area * du * dv);
-                moments += kronrod_u * kronrod_v * at;
-                differences[0] += (kronrod_u - gauss_u) * kronrod_v * at;
-                differences[1] += kronrod_u * (kronrod_v - gauss_v) * at;
+        let mut rounding = 0.0;
+        let mut nodes = Vec::with_capacity(POINTS * POINTS);
+        for (s, kronrod_u, lobatto_u) in RULE {
+            let mut near = Vector3::zeros();
+            for (t, kronrod_v, lobatto_v) in RULE {
+                let (p, area) = at(s, t);
+                let on_ray = piece.at(&p, &near);
+                near = on_ray.tangent;
+                let tau = 1.0 / on_ray.gauge;
+                let volume = here.height * area * du * dv;
+                let moment = moments_of_ray(&p, tau, volume);
+                moments += kronrod_u * kronrod_v * moment;
+                differences[0] += (kronrod_u - lobatto_u) * kronrod_v * moment;
+                differences[1] += kronrod_u * (kronrod_v - lobatto_v) * moment;
+                let x = (norm.unscaled * (tau * p)).norm();
+                let sensitivity = volume * tau.powi(4) * (1.0 + x).max(x * x) / norm.volume;
+                rounding += kronrod_u * kronrod_v * sensitivity * on_ray.rounding;
+                let along = here.along(u.0 + s * du, v.0 + t * dv);
+                nodes.push(Node { p, along: [du * along[0], dv * along[1]], on_ray, sensitivity });
             }
         }
-        Self { sector, u, v, moments, differences, shares: [UNSEEN; 2], error: 0.0, largest: 0 }
+        let shares = [0, 1].map(|direction| share(&nodes, direction));
+        let mut errors = [0, 1].map(|i| shares[i] * norm.of_change(&differences[i]));
+        let jumps = jumps(&piece, &corners, &nodes);
+        errors
+            .iter_mut()
+            .zip(jumps)
+            .zip(shares)
+            .for_each(|((error, jump), share)| *error += (1.0 + quadrature::DIFFERENCE_OF_JUMP * share) * jump);
+        Self { patch, u, v, moments, errors, rounding, work: piece.len() * POINTS * POINTS }
     }
 
-    fn judge(&mut self, norm: &Norm) {
-        let [in_u, in_v] = [0, 1].map(|i| self.shares[i] * norm.of_change(&self.differences[i]));
-        self.error = in_u + in_v;
-        self.largest = usize::from(in_v > in_u);
+    fn error(&self) -> f64 {
+        self.errors[0] + self.errors[1]
     }
 
-    /// Two halves. By what they change of the whole, the error of the whole, they are judged: their own is less.
-    fn halves(&self, sectors: &[Sector], norm: &Norm) -> [Self; 2] {
-        let halved = |(from, to): (f64, f64)| [(from, 0.5 * (from + to)), (0.5 * (from + to), to)];
-        let mut halves = match self.largest {
-            0 => halved(self.u).map(|u| Self::of(sectors, self.sector, u, self.v)),
-            _ => halved(self.v).map(|v| Self::of(sectors, self.sector, self.u, v)),
+    /// Two or four equal parts.
+    fn parts(&self, gauge: &Gauge, patches: &[Patch], norm: &Norm) -> Vec<Self> {
+        let divided = |(from, to): (f64, f64), own: f64, other: f64| {
+            let middle = 0.5 * (from + to);
+            if ALIKE * own >= other { vec![(from, middle), (middle, to)] } else { vec![(from, to)] }
         };
-        let change = norm.of_change(&(halves[0].moments + halves[1].moments - self.moments));
-        let differences: f64 = halves.iter().map(|half| norm.of_change(&half.differences[self.largest])).sum();
-        for half in &mut halves {
-            half.shares = self.shares;
-            // Also for 0/0.
-            half.shares[self.largest] = (change / differences).clamp(LEAST_SHARE, 1.0).max(LEAST_SHARE);
-            half.judge(norm);
-        }
-        halves
+        let of_u = divided(self.u, self.errors[0], self.errors[1]);
+        let of_v = divided(self.v, self.errors[1], self.errors[0]);
+        let parts = of_u.iter().flat_map(|&u| of_v.iter().map(move |&v| (u, v)));
+        parts.map(|(u, v)| Self::of(gauge, patches, self.patch, u, v, norm)).collect()
     }
+}
+
+/// Error over difference of the rules for the analytic part of g, the largest of all rows in a direction.
+fn share(nodes: &[Node], direction: usize) -> f64 {
+    let root = |node: &Node| node.on_ray.slope * node.on_ray.gauge;
+    let (row, step) = if direction == 0 { (1, POINTS) } else { (POINTS, 1) };
+    let of_row = |start: usize| {
+        let [first, middle, last] = [0, POINTS / 2, POINTS - 1].map(|i| root(&nodes[start + i * step]).powi(2));
+        quadrature::share(first, middle, last)
+    };
+    (0..POINTS).map(|i| of_row(i * row)).fold(0.0, f64::max)
+}
+
+/// Bounds on the errors in u and in v that planes make which are active in a part of the cell only.
+fn jumps(piece: &Piece, corners: &[Vector3<f64>; 4], nodes: &[Node]) -> [f64; 2] {
+    let last = POINTS - 1;
+    let at_corners = [0, last, last * POINTS, POINTS * POINTS - 1].map(|i| nodes[i].on_ray.gauge);
+    let undecided = piece.undecided(corners, &at_corners);
+    let mut sum = [0.0; 2];
+    if undecided.is_empty() {
+        return sum;
+    }
+    // The largest anywhere, since the jump and a corner without area may be at different points.
+    let sensitivity = sensitivity(piece, nodes);
+    for plane in &undecided {
+        let (mut jumps, mut most) = ([0.0_f64; 2], 0.0_f64);
+        for node in nodes {
+            let OnRay { gauge, tangent, slope, .. } = node.on_ray;
+            let scale = 2.0 * piece.plane_weight() * sensitivity / slope;
+            let across = plane.n.dot(&node.p) / gauge;
+            for (jump, along) in jumps.iter_mut().zip(&node.along) {
+                let rate = plane.n.dot(along) - across * tangent.dot(along);
+                *jump = jump.max(scale / gauge * rate * rate);
+            }
+            // Of the integral and of the rule.
+            most = most.max(scale * gauge * plane.square);
+        }
+        let bounds = jumps.map(|jump| quadrature::OF_JUMP * jump);
+        let both = bounds[0] + bounds[1];
+        let part = if both > most { most / both } else { 1.0 };
+        sum = [sum[0] + part * bounds[0], sum[1] + part * bounds[1]];
+    }
+    let both = sum[0] + sum[1];
+    if both > 0.0 {
+        let gap = sensitivity * gap(nodes);
+        if gap < both {
+            return sum.map(|bound| gap / both * bound);
+        }
+    }
+    sum
+}
+
+/// The largest sensitivity, also between the nodes: it is at most of degree −6 in g, of which the tangents at the nodes give a
+/// lower bound.
+fn sensitivity(piece: &Piece, nodes: &[Node]) -> f64 {
+    let mut most = 1.0_f64;
+    for i in 0..POINTS - 1 {
+        for j in 0..POINTS - 1 {
+            let around = [(0, 0), (0, 1), (1, 0), (1, 1)].map(|(k, l)| &nodes[(i + k) * POINTS + j + l]);
+            let lowest = |values: [f64; 4]| values.into_iter().fold(f64::INFINITY, f64::min);
+            let at_nodes = lowest(around.map(|node| node.on_ray.gauge));
+            let of_ball = lowest(around.map(|node| piece.least(&node.p)));
+            let below = around.iter().map(|node| lowest(around.map(|other| node.on_ray.tangent.dot(&other.p))));
+            most = most.max(at_nodes / below.fold(of_ball, f64::max));
+        }
+    }
+    nodes.iter().map(|node| node.sensitivity).fold(0.0, f64::max) * most.powi(6)
+}
+
+/// A bound on the error of the integral of g that follows from convexity.
+fn gap(nodes: &[Node]) -> f64 {
+    let (mut low, mut high, mut rule) = (0.0, 0.0, 0.0);
+    for i in 0..POINTS {
+        for j in 0..POINTS {
+            rule += RULE[i].1 * RULE[j].1 * nodes[i * POINTS + j].on_ray.gauge;
+            if i + 1 < POINTS && j + 1 < POINTS {
+                let around = [(0, 0), (0, 1), (1, 0), (1, 1)].map(|(k, l)| &nodes[(i + k) * POINTS + j + l]);
+                let area = (RULE[i + 1].0 - RULE[i].0) * (RULE[j + 1].0 - RULE[j].0);
+                let middle = 0.25 * around.iter().map(|node| node.p).sum::<Vector3<f64>>();
+                let below = around.iter().map(|node| node.on_ray.tangent.dot(&middle)).fold(0.0, f64::max);
+                low += area * below;
+                high += area * 0.25 * around.iter().map(|node| node.on_ray.gauge).sum::<f64>();
+            }
+        }
+    }
+    f64::max(high - rule, rule - low)
 }
 
 /// The integrands where the ray through p leaves the particle, at τ p, times `area`.
@@ -274,7 +389,7 @@ fn moments_of_ray(p: &Vector3<f64>, tau: f64, area: f64) -> Moments {
 /// Cells are ordered by their error.
 impl Ord for Cell {
     fn cmp(&self, other: &Self) -> std::cmp::Ordering {
-        self.error.total_cmp(&other.error)
+        self.error().total_cmp(&other.error())
     }
 }
 

@@ -10,18 +10,22 @@
 //! | `shape` | the validated definition with its clusters and bounding volumes |
 //! | `potential` | S, its gradient and its Hessian |
 //! | `ray_cast` | the distance from a point inside to the surface |
+//! | `gauge` | where rays through a piece of a plane leave the particle, and which planes are active there |
 //! | `direction_mesh` | a partition of all directions along faces and edges |
+//! | `quadrature` | a rule on an interval, and what its error is at most |
 //! | `mass_properties` | volume, centroid and inertia |
 //! | `particle` | the public interface |
 
 pub mod bounding_volumes;
 pub mod direction_mesh;
 pub mod error;
+pub mod gauge;
 pub mod linear_program;
 pub mod mass_properties;
 pub mod particle;
 pub mod plane;
 pub mod plane_clusters;
 pub mod potential;
+pub mod quadrature;
 pub mod ray_cast;
 pub mod shape;

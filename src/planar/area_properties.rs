@@ -1,11 +1,14 @@
 //! Area, centroid and second moments of a particle of the plane, and points of its boundary, by adaptive quadrature over rays.
 //!
-//! With ρ the distance from the origin to the boundary, A = ∫ρ²/2 dφ, ∫x dA = ∫ρ³/3 e dφ, ∫x xᵀ dA = ∫ρ⁴/4 e eᵀ dφ. All angles are divided
-//! to begin with where a side of the polygon {n_i·x ≤ d_i + r/√(1−k)} ends, and where beside its end the next line becomes active.
-//! Then the interval whose two rules differ most is halved, as in space (`particle::mass_properties`).
+//! All angles are divided to begin with where a side of the polygon {n_i·x ≤ d_i + r/√(1−k)} ends, and where beside its end the
+//! next line becomes active. Over the chord between two such points, at height h, and with the boundary at τ p on the ray through
+//! its point p, A = ∫h τ²/2 ds, ∫x dA = ∫h τ³/3 p ds, ∫x xᵀ dA = ∫h τ⁴/4 p pᵀ ds. Then the part of a chord with the largest bound on its
+//! error is halved, as in space (`particle::mass_properties`).
 
 use super::raised;
-use crate::particle::mass_properties::{LEAST_TOLERANCE, RULE};
+use crate::particle::gauge::{Gauge, OnRay, Piece, Undecided};
+use crate::particle::mass_properties::{LEAST_PART, LEAST_TOLERANCE, OF_SUMS, SAME_UNITS};
+use crate::particle::quadrature::{self, POINTS, RULE};
 use crate::particle::ray_cast;
 use crate::particle::shape::Shape;
 use nalgebra::{Matrix2, SVector, Vector2, Vector3};
@@ -37,50 +40,78 @@ const MOST_POINTS: usize = 1_000_000;
 /// A, ∫x dA (2), and xx, yy, xy of ∫x xᵀ dA.
 type Moments = SVector<f64, 6>;
 
+/// A part of a chord between two points of the boundary: p(u) = start + u (end − start).
 struct Interval {
-    from: f64,
-    to: f64,
+    start: Vector2<f64>,
+    end: Vector2<f64>,
+    u: (f64, f64),
     moments: Moments,
-    difference: Moments,
+    /// Bound on the error of the rule, and the rounding of the rays.
     error: f64,
+    rounding: f64,
+}
+
+/// The units in which errors are measured, as of [`mass_properties`](crate::particle::mass_properties).
+struct Norm {
+    area: f64,
+    square: Matrix2<f64>,
+    unscaled: Matrix2<f64>,
 }
 
 /// To a relative tolerance of at least [`LEAST_TOLERANCE`].
 pub(super) fn of(shape: &Shape, tolerance: f64) -> AreaProperties {
     let tolerance = tolerance.max(LEAST_TOLERANCE);
-    let angles = angles(shape);
-    let mut intervals: Vec<Interval> = angles.windows(2).map(|ends| Interval::of(shape, ends[0], ends[1])).collect();
-    let total: Moments = intervals.iter().map(|interval| interval.moments).sum();
-    let unscaled = second(&(total / total[0])).cholesky().and_then(|factor| factor.l().try_inverse());
-    let unscaled =
-        unscaled.unwrap_or_else(|| Matrix2::from_diagonal_element((total[0] / (total[3] + total[4])).sqrt()));
-    let judge = |interval: &mut Interval| {
-        let first = unscaled * Vector2::new(interval.difference[1], interval.difference[2]);
-        let second = unscaled * second(&interval.difference) * unscaled.transpose();
-        let square = interval.difference[0].powi(2) + first.norm_squared() + second.norm_squared();
-        interval.error = square.sqrt() / total[0];
+    let gauge = Gauge::of(shape);
+    let point = |angle: &f64| radius(shape, *angle) * Vector2::new(angle.cos(), angle.sin());
+    let points: Vec<Vector2<f64>> = angles(shape).iter().map(point).collect();
+    let all = |norm: &Norm| -> Vec<Interval> {
+        let chords = points.windows(2).filter(|ends| ends[0] != ends[1]);
+        chords.map(|ends| Interval::of(&gauge, (ends[0], ends[1]), (0.0, 1.0), norm)).collect()
     };
-    intervals.iter_mut().for_each(judge);
+    let unit = Norm { area: 1.0, square: Matrix2::identity(), unscaled: Matrix2::identity() };
+    let mut norm = Norm::of(&all(&unit).iter().map(|interval| interval.moments).sum());
+    let mut intervals = all(&norm);
+    loop {
+        let left = tolerance / SAME_UNITS - norm.of_sums();
+        intervals = refined(intervals, &gauge, &norm, left.max(LEAST_PART * tolerance));
+        let total: Moments = intervals.iter().map(|interval| interval.moments).sum();
+        let found = Norm::of(&total);
+        let change = norm.change_to(&found);
+        if change <= SAME_UNITS || intervals.len() >= MOST_INTERVALS {
+            let error: f64 = intervals.iter().map(|interval| interval.error + interval.rounding).sum();
+            return AreaProperties {
+                area: total[0],
+                centroid: Vector2::new(total[1], total[2]) / total[0],
+                second_moment: second(&total),
+                error: change * error + found.of_sums(),
+            };
+        }
+        let again = |old: &Interval| Interval::of(&gauge, (old.start, old.end), old.u, &found);
+        intervals = intervals.iter().map(again).collect();
+        norm = found;
+    }
+}
+
+/// Halves intervals until their errors add up to less than the tolerance.
+fn refined(intervals: Vec<Interval>, gauge: &Gauge, norm: &Norm, tolerance: f64) -> Vec<Interval> {
+    let mut error: f64 = intervals.iter().map(|interval| interval.error + interval.rounding).sum();
     let mut heap = BinaryHeap::from(intervals);
-    let mut error: f64 = heap.iter().map(|interval| interval.error).sum();
     while error > tolerance && heap.len() < MOST_INTERVALS {
-        let Some(Interval { from, to, error: worst, .. }) = heap.pop() else { break };
-        error -= worst;
-        let middle = 0.5 * (from + to);
-        for (from, to) in [(from, middle), (middle, to)] {
-            let mut half = Interval::of(shape, from, to);
-            judge(&mut half);
-            error += half.error;
+        let Some(worst) = heap.pop() else { break };
+        // What is left is rounding.
+        if worst.error <= worst.rounding {
+            heap.push(worst);
+            break;
+        }
+        error -= worst.error + worst.rounding;
+        let middle = 0.5 * (worst.u.0 + worst.u.1);
+        for u in [(worst.u.0, middle), (middle, worst.u.1)] {
+            let half = Interval::of(gauge, (worst.start, worst.end), u, norm);
+            error += half.error + half.rounding;
             heap.push(half);
         }
     }
-    let total: Moments = heap.iter().map(|interval| interval.moments).sum();
-    AreaProperties {
-        area: total[0],
-        centroid: Vector2::new(total[1], total[2]) / total[0],
-        second_moment: second(&total),
-        error: heap.iter().map(|interval| interval.error).sum(),
-    }
+    heap.into_vec()
 }
 
 /// Points of the boundary in order, so that no chord between two of them is further than `tolerance` (length) from the boundary.
@@ -117,21 +148,117 @@ fn radius(shape: &Shape, angle: f64) -> f64 {
     ray_cast::distance(shape, &Vector3::zeros(), &direction).unwrap_or(0.0)
 }
 
-impl Interval {
-    fn of(shape: &Shape, from: f64, to: f64) -> Self {
-        let width = to - from;
-        let (mut moments, mut difference) = (Moments::zeros(), Moments::zeros());
-        for (t, kronrod, gauss) in RULE {
-            let angle = from + t * width;
-            let rho = radius(shape, angle);
-            let (e, square) = (Vector2::new(angle.cos(), angle.sin()), width * rho * rho);
-            let (f, s) = (square * rho / 3.0, square * rho * rho / 4.0);
-            let at = Moments::from([square / 2.0, f * e.x, f * e.y, s * e.x * e.x, s * e.y * e.y, s * e.x * e.y]);
-            moments += kronrod * at;
-            difference += (kronrod - gauss) * at;
+impl Norm {
+    fn of(moments: &Moments) -> Self {
+        let square = second(moments) / moments[0];
+        match square.cholesky().and_then(|factor| factor.l().try_inverse()) {
+            Some(unscaled) => Self { area: moments[0], square, unscaled },
+            None => {
+                let radius = square.trace().sqrt();
+                let square = Matrix2::from_diagonal_element(radius * radius);
+                Self { area: moments[0], square, unscaled: Matrix2::from_diagonal_element(1.0 / radius) }
+            }
         }
-        Self { from, to, moments, difference, error: 0.0 }
     }
+
+    fn of_change(&self, change: &Moments) -> f64 {
+        let first = self.unscaled * Vector2::new(change[1], change[2]);
+        let second = self.unscaled * second(change) * self.unscaled.transpose();
+        (change[0].abs() + first.norm()).max(second.norm()) / self.area
+    }
+
+    fn of_sums(&self) -> f64 {
+        OF_SUMS * self.square.trace() * self.unscaled.norm_squared()
+    }
+
+    fn change_to(&self, other: &Self) -> f64 {
+        let ratio = |from: &Self, to: &Self| {
+            (to.unscaled * from.square * to.unscaled.transpose()).symmetric_eigenvalues().max()
+        };
+        let areas = self.area / other.area;
+        let is_near = areas * ratio(other, self) >= 1.0 / SAME_UNITS;
+        if is_near { (areas * ratio(self, other).max(1.0)).max(1.0) } else { f64::INFINITY }
+    }
+}
+
+impl Interval {
+    fn of(gauge: &Gauge, (start, end): (Vector2<f64>, Vector2<f64>), u: (f64, f64), norm: &Norm) -> Self {
+        let (chord, du) = (end - start, u.1 - u.0);
+        let at = |s: f64| raised(&(start + (u.0 + s * du) * chord));
+        // Twice the area of the triangle between the origin and the interval.
+        let area = start.perp(&chord).abs() * du;
+        let corners = [at(0.0), at(1.0)];
+        let piece = gauge.on(&corners, start.perp(&chord).abs() / chord.norm());
+        let along = du * raised(&chord);
+        let (mut moments, mut difference, mut rounding) = (Moments::zeros(), Moments::zeros(), 0.0);
+        let mut nodes = Vec::with_capacity(POINTS);
+        let mut near = Vector3::zeros();
+        for (s, kronrod, lobatto) in RULE {
+            let p = at(s);
+            let on_ray = piece.at(&p, &near);
+            near = on_ray.tangent;
+            let tau = 1.0 / on_ray.gauge;
+            let square = area * tau * tau;
+            let (f, g) = (square * tau / 3.0, square * tau * tau / 4.0);
+            let moment = Moments::from([square / 2.0, f * p.x, f * p.y, g * p.x * p.x, g * p.y * p.y, g * p.x * p.y]);
+            moments += kronrod * moment;
+            difference += (kronrod - lobatto) * moment;
+            let x = (norm.unscaled * (tau * p.xy())).norm();
+            let sensitivity = square * tau * (1.0 + x).max(x * x) / norm.area;
+            rounding += kronrod * sensitivity * on_ray.rounding;
+            nodes.push((p, on_ray, sensitivity));
+        }
+        let [first, middle, last] = [0, POINTS / 2, POINTS - 1].map(|i| (nodes[i].1.slope * nodes[i].1.gauge).powi(2));
+        let share = quadrature::share(first, middle, last);
+        let jump = jump(&piece, &corners, &along, &nodes);
+        let error = share * norm.of_change(&difference) + (1.0 + share * quadrature::DIFFERENCE_OF_JUMP) * jump;
+        Self { start, end, u, moments, error, rounding }
+    }
+}
+
+/// A point of the rule, the surface on the ray through it, and the relative change of the moments that a change of g makes.
+type Node = (Vector3<f64>, OnRay, f64);
+
+/// A bound on the error that lines make which are active in a part of the interval only.
+fn jump(piece: &Piece, corners: &[Vector3<f64>; 2], along: &Vector3<f64>, nodes: &[Node]) -> f64 {
+    let undecided = piece.undecided(corners, &[nodes[0].1.gauge, nodes[POINTS - 1].1.gauge]);
+    let of_line = |line: &Undecided| {
+        let (mut jump, mut most) = (0.0_f64, 0.0_f64);
+        for (p, on_ray, _) in nodes {
+            let scale = 2.0 * piece.plane_weight() / on_ray.slope;
+            let rate = line.n.dot(along) - line.n.dot(p) / on_ray.gauge * on_ray.tangent.dot(along);
+            jump = jump.max(scale / on_ray.gauge * rate * rate);
+            most = most.max(scale * on_ray.gauge * line.square);
+        }
+        most.min(quadrature::OF_JUMP * jump)
+    };
+    let sum = undecided.iter().map(of_line).sum::<f64>();
+    if sum > 0.0 { sensitivity(piece, nodes) * sum.min(gap(nodes)) } else { sum }
+}
+
+/// The largest sensitivity, also between the nodes: it is at most of degree −5 in g, of which the tangents at the nodes give a
+/// lower bound.
+fn sensitivity(piece: &Piece, nodes: &[Node]) -> f64 {
+    let of_part = |part: &[Node]| {
+        let (before, after) = (&part[0], &part[1]);
+        let of_tangent = |node: &Node| node.1.tangent.dot(&before.0).min(node.1.tangent.dot(&after.0));
+        let below = of_tangent(before).max(of_tangent(after));
+        before.1.gauge.min(after.1.gauge) / below.max(piece.least(&before.0).min(piece.least(&after.0)))
+    };
+    nodes.iter().map(|node| node.2).fold(0.0, f64::max) * nodes.windows(2).map(of_part).fold(1.0, f64::max).powi(5)
+}
+
+/// A bound on the error of the integral of g that follows from convexity.
+fn gap(nodes: &[Node]) -> f64 {
+    let (mut low, mut high) = (0.0, 0.0);
+    for i in 1..POINTS {
+        let (width, [before, after]) = (RULE[i].0 - RULE[i - 1].0, [&nodes[i - 1], &nodes[i]]);
+        let middle = 0.5 * (before.0 + after.0);
+        low += width * before.1.tangent.dot(&middle).max(after.1.tangent.dot(&middle));
+        high += width * 0.5 * (before.1.gauge + after.1.gauge);
+    }
+    let rule: f64 = nodes.iter().zip(RULE).map(|((_, on_ray, _), (_, weight, _))| weight * on_ray.gauge).sum();
+    f64::max(high - rule, rule - low)
 }
 
 /// Angles at which the circle is divided to begin with, rising, the last one turn after the first.

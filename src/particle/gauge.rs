@@ -1,0 +1,287 @@
+//! The gauge of a particle, g(p) = 1/τ where the ray through p leaves the particle at τ p, over a piece of a plane or a line.
+//!
+//! g is convex, and homogeneous of degree 1: its gradient q(p) at any p gives the supporting plane q·x ≤ 1 of the particle at
+//! p/g(p), and q(p)·y ≤ g(y) for all y. With x = p/g and P = I − x qᵀ its Hessian is
+//!
+//! ```text
+//! ∇²g(p) = Pᵀ ∇²S(x) P / (g · ∇S(x)·x)
+//! ```
+//!
+//! A plane is active at x where h(p) = n·p − d g(p) > 0. For d ≥ 0 that is a concave function, so that a plane that is active at
+//! the corners of a piece is active all over it, and with g replaced by a linear lower bound, one that is inactive at
+//! the corners is inactive all over it. For d < 0 it is the other way round. Where no plane is left undecided, the surface is a
+//! single quadric over the piece, and g is analytic.
+
+use crate::particle::shape::Shape;
+use crate::particle::{potential, ray_cast};
+use nalgebra::Vector3;
+
+/// Most Newton steps on a ray: far outside each halves the distance, and beside the surface each doubles the digits.
+const MOST_STEPS: usize = 200;
+
+/// Least step, relative.
+const ROUNDING: f64 = 4.0 * f64::EPSILON;
+
+/// Part of the terms of h below which its sign is not trusted.
+const UNDECIDED: f64 = 16.0 * f64::EPSILON;
+
+/// A particle with what does not depend on the piece.
+pub(crate) struct Gauge<'a> {
+    shape: &'a Shape,
+    /// Planes behind which the origin lies: they may be active anywhere.
+    behind: Vec<usize>,
+}
+
+/// The particle over the convex hull of some corners: the planes that may be active there.
+pub(crate) struct Piece {
+    planes: Vec<Counted>,
+    plane_weight: f64,
+    sphere_weight: f64,
+    /// 1 over the bounding radius: g ≥ |p| times it.
+    least: f64,
+    /// The gradient of g at the middle of the piece, if rounding leaves one.
+    tangent: Vector3<f64>,
+    /// A lower bound of g at each corner; between them, their linear interpolant is one.
+    lower: Vec<f64>,
+}
+
+struct Counted {
+    n: Vector3<f64>,
+    d: f64,
+    length: f64,
+    /// Largest n·p over the corners, less d times the lower bound of g there.
+    most: f64,
+}
+
+/// The surface on the ray through p.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct OnRay {
+    /// g(p).
+    pub gauge: f64,
+    /// ∇g(p).
+    pub tangent: Vector3<f64>,
+    /// ∇S(x)·x at x = p/g.
+    pub slope: f64,
+    /// Bound on the rounding of g.
+    pub rounding: f64,
+}
+
+/// A plane that is active in some part of the piece only.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Undecided {
+    pub n: Vector3<f64>,
+    /// The square of its excess where it is active, or of what lacks where it is not, is at most this.
+    pub square: f64,
+}
+
+impl<'a> Gauge<'a> {
+    pub fn of(shape: &'a Shape) -> Self {
+        let behind = (0..shape.len()).filter(|&i| shape.offset(i) < 0.0).collect();
+        Self { shape, behind }
+    }
+
+    /// Over the hull of `corners`, which lies in a plane or on a line at this distance from the origin.
+    pub fn on(&self, corners: &[Vector3<f64>], height: f64) -> Piece {
+        let shape = self.shape;
+        let least = 1.0 / shape.bounds.radius;
+        let middle = corners.iter().sum::<Vector3<f64>>() / corners.len() as f64;
+        let tangent = self.tangent(&middle).unwrap_or_else(Vector3::zeros);
+        let mut lower: Vec<f64> = corners.iter().map(|corner| tangent.dot(corner)).collect();
+        // The bounding ball, where the tangent plane at the middle says less.
+        if !lower.iter().all(|&bound| bound >= height * least) {
+            lower.iter_mut().for_each(|bound| *bound = height * least);
+        }
+        let mut found = Vec::new();
+        if !shape.is_sphere() {
+            found.extend_from_slice(&self.behind);
+            for (corner, bound) in corners.iter().zip(&lower) {
+                let early = UNDECIDED * shape.bounds.longest_normal * corner.norm() / bound;
+                shape.visit_near(&(corner / *bound), early, |i, _, excess| {
+                    if excess > -early {
+                        found.push(i);
+                    }
+                });
+            }
+            found.sort_unstable();
+            found.dedup();
+        }
+        let counted = |i: usize| {
+            let (n, d) = (shape.normal(i), shape.offset(i));
+            let most =
+                corners.iter().zip(&lower).map(|(p, bound)| n.dot(p) - d * bound).fold(f64::NEG_INFINITY, f64::max);
+            Counted { n, d, length: n.norm(), most }
+        };
+        Piece {
+            planes: found.into_iter().map(counted).collect(),
+            plane_weight: shape.plane_weight,
+            sphere_weight: shape.sphere_weight,
+            least,
+            tangent,
+            lower,
+        }
+    }
+
+    fn tangent(&self, p: &Vector3<f64>) -> Option<Vector3<f64>> {
+        let direction = p.normalize();
+        let x = ray_cast::distance(self.shape, &Vector3::zeros(), &direction)? * direction;
+        let gradient = potential::tangent(self.shape, &x).gradient;
+        let tangent = gradient / gradient.dot(&x);
+        tangent.iter().all(|part| part.is_finite()).then_some(tangent)
+    }
+}
+
+impl Piece {
+    /// Number of planes that are evaluated for each ray.
+    pub fn len(&self) -> usize {
+        self.planes.len()
+    }
+
+    /// A lower bound of g(p), by the bounding ball.
+    pub fn least(&self, p: &Vector3<f64>) -> f64 {
+        self.least * p.norm()
+    }
+
+    pub fn plane_weight(&self) -> f64 {
+        self.plane_weight
+    }
+
+    /// The surface on the ray through a point of the piece: Newton's method from outside, which does not overshoot, since S is convex.
+    /// `near` is ∇g at a point of the piece nearby, or 0.
+    pub fn at(&self, p: &Vector3<f64>, near: &Vector3<f64>) -> OnRay {
+        let (square, length) = (p.norm_squared(), p.norm());
+        let sphere = self.sphere_weight * square;
+        let mut tau = 1.0 / self.tangent.dot(p).max(near.dot(p)).max(self.least * length);
+        // The last point that was not found to be inside.
+        let mut outside = tau;
+        for i in 0..MOST_STEPS {
+            let (mut value, mut half_slope, mut half_curvature) = (sphere * tau * tau - 1.0, sphere * tau, sphere);
+            let (mut squares, mut mixed, mut steep) = (0.0, 0.0, 0.0);
+            for Counted { n, d, .. } in &self.planes {
+                let rate = n.dot(p);
+                let excess = (tau * rate - d).max(0.0);
+                squares += excess * excess;
+                mixed += excess * rate;
+                steep += if excess > 0.0 { rate * rate } else { 0.0 };
+            }
+            value += self.plane_weight * squares;
+            half_slope += self.plane_weight * mixed;
+            half_curvature += self.plane_weight * steep;
+            let step = 0.5 * value / half_slope;
+            if half_slope > 0.0 && value > -0.5 {
+                outside = tau;
+            }
+            // The rounding of a tangent may have put the start inside: one step leads outside again. Also where a step is not a number.
+            if !(step > ROUNDING * tau || i == 0 && step < -ROUNDING * tau) {
+                break;
+            }
+            tau -= step;
+            if step > 0.0 && 0.5 * half_curvature * step * step <= 0.25 * ROUNDING * tau * half_slope {
+                break;
+            }
+        }
+        let x = outside * p;
+        let (mut sum, mut rounding) = (Vector3::zeros(), 0.0);
+        for Counted { n, d, length: of_normal, .. } in &self.planes {
+            let excess = n.dot(&x) - d;
+            if excess > 0.0 {
+                sum += excess * n;
+                rounding += excess * (of_normal * outside * length + d.abs());
+            }
+        }
+        let half = self.plane_weight * sum + self.sphere_weight * x;
+        let half_slope = half.dot(&x);
+        let gauge = 1.0 / tau;
+        let usable = half_slope > 0.0;
+        OnRay {
+            gauge,
+            tangent: if usable { half / (half_slope * tau / outside) } else { p * (gauge / square) },
+            slope: 2.0 * half_slope,
+            rounding: gauge
+                * (ROUNDING + if usable { ROUNDING * self.plane_weight * rounding / half_slope } else { 0.0 }),
+        }
+    }
+
+    /// The planes that are neither active nor inactive all over the piece, by g at its corners.
+    pub fn undecided(&self, corners: &[Vector3<f64>], gauges: &[f64]) -> Vec<Undecided> {
+        let least = self.lower.iter().copied().fold(f64::INFINITY, f64::min);
+        let mut undecided = Vec::new();
+        for Counted { n, d, length, most } in &self.planes {
+            let over = |bounds: &[f64]| {
+                let h = corners.iter().zip(bounds).map(|(p, bound)| n.dot(p) - d * bound);
+                h.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), h| (h.min(low), h.max(high)))
+            };
+            let (low, high) = if *d >= 0.0 { (over(gauges).0, *most) } else { (over(&self.lower).0, over(gauges).1) };
+            let longest = corners.iter().map(|p| p.norm()).fold(0.0, f64::max);
+            let rounding = UNDECIDED * length * longest;
+            if high > rounding && low < -rounding {
+                let excess = high.min(-low) / least;
+                undecided.push(Undecided { n: *n, square: excess * excess });
+            }
+        }
+        undecided
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::particle::particle::Particle;
+
+    /// Pieces of the plane x = 1 from far wider than the particle to far smaller than its rounding.
+    fn pieces() -> impl Iterator<Item = [Vector3<f64>; 4]> {
+        [(0.0, 0.0, 2.0), (0.7, 0.6, 0.3), (0.72, 0.1, 0.1), (0.9, 0.9, 1e-3)].into_iter().map(|(y, z, half)| {
+            [(1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)]
+                .map(|(u, v)| Vector3::new(1.0, y + u * half, z + v * half))
+        })
+    }
+
+    fn inside(corners: &[Vector3<f64>; 4], i: u32, j: u32) -> Vector3<f64> {
+        let (u, v) = (f64::from(i) / 8.0, f64::from(j) / 8.0);
+        let [a, b, c, d] = corners;
+        (1.0 - u) * ((1.0 - v) * a + v * b) + u * ((1.0 - v) * c + v * d)
+    }
+
+    #[test]
+    fn rays_end_on_the_surface_and_tangents_lie_outside() {
+        for particle in
+            [Particle::cube(0.7, 0.3, 0.0, 1.0), Particle::cube(0.7, 1e-6, 0.1, 2.0), Particle::sphere(1.0).unwrap()]
+        {
+            let gauge = Gauge::of(&particle);
+            for corners in pieces() {
+                let piece = gauge.on(&corners, 1.0);
+                let tangent = piece.at(&corners[0], &Vector3::zeros()).tangent;
+                for (i, j) in (0..=8).flat_map(|i| (0..=8).map(move |j| (i, j))) {
+                    let p = inside(&corners, i, j);
+                    let on_ray = piece.at(&p, &tangent);
+                    let distance = particle.surface_distance(&Vector3::zeros(), &p.normalize()).unwrap();
+                    assert!((distance * on_ray.gauge / p.norm() - 1.0).abs() < 1e-13);
+                    assert!(tangent.dot(&p) <= on_ray.gauge * (1.0 + 1e-12));
+                    assert!((on_ray.tangent.dot(&p) / on_ray.gauge - 1.0).abs() < 1e-12);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn planes_that_are_decided_are_active_everywhere_or_nowhere() {
+        let particle = Particle::cube(0.7, 0.3, 0.0, 1.0);
+        let (gauge, mut counts) = (Gauge::of(&particle), Vec::new());
+        for corners in pieces() {
+            let piece = gauge.on(&corners, 1.0);
+            let gauges = corners.map(|corner| piece.at(&corner, &Vector3::zeros()).gauge);
+            let undecided = piece.undecided(&corners, &gauges);
+            for plane in particle.planes() {
+                let excess = |i, j| {
+                    let p = inside(&corners, i, j);
+                    plane.normal.dot(&p) / piece.at(&p, &Vector3::zeros()).gauge - plane.offset
+                };
+                let all = (0..=8).flat_map(|i| (0..=8).map(move |j| (i, j))).map(|(i, j)| excess(i, j));
+                let active = all.filter(|excess| *excess > 1e-14).count();
+                let is_undecided = undecided.iter().any(|other| other.n == plane.normal);
+                assert!(is_undecided || active == 0 || active == 81, "{active} of 81");
+            }
+            counts.push(undecided.len());
+        }
+        assert!(counts[0] > 0 && counts[3] == 0, "{counts:?}");
+    }
+}
