@@ -45,7 +45,7 @@ pub(crate) const LEAST_TOLERANCE: f64 = 1e-12;
 
 /// Most cells, some seconds of work for some tens of planes; and most planes evaluated on all rays together, some tens of seconds.
 const MOST_CELLS: usize = 200_000;
-const MOST_WORK: usize = 2_000_000_000;
+const MOST_WORK: usize = 1_000_000_000;
 
 /// Where the two parts of its error differ by less than this factor, a cell is halved in both directions.
 const ALIKE: f64 = 4.0;
