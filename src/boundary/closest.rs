@@ -2,6 +2,7 @@
 
 use super::boundary::{Feature, Triangle};
 use super::triangle::PlacedTriangle;
+use crate::bounds::point_bound::farthest_apart;
 use crate::bounds::scale::Scale;
 use crate::bounds::solution::Solution;
 use crate::contact::detect::DetectError;
@@ -42,7 +43,7 @@ pub(super) struct Least {
     precise: bool,
     pub solution: Solution,
     /// How steeply S falls from there into the triangle; negative where it rises.
-    into: f64,
+    inward_descent: f64,
     /// Bound on the distance of the point to that of the whole boundary, if it is certain that this lies on the part.
     point_bound: f64,
 }
@@ -53,48 +54,58 @@ pub(super) struct Closest {
     pub least: Least,
     pub feature: Feature,
     /// Bound on how far S on the whole boundary may be below its upper bound, up to the rounding of the solution.
-    open: f64,
+    duality_gap: f64,
     /// Bound on the way to any point of the boundary.
-    pub extent: f64,
+    extent: f64,
 }
 
 impl Search<'_> {
-    /// The least S on a part, sought from a point of its frame.
-    pub fn on_part(&mut self, part: BoundaryPart, from: Vector2<f64>) -> Result<Least, DetectError> {
-        let frame = part.frame(self.pose);
-        let pair = Pair::on_boundary(self.particle, self.pose, &part, &frame);
+    /// The least S on a part with its frame beside the particle, sought from a point of that.
+    fn on_part(&mut self, part: BoundaryPart, frame: &PartFrame, from: Vector2<f64>) -> Result<Least, DetectError> {
+        let pair = Pair::on_boundary(self.particle, self.pose, &part, frame);
         let mut call = Call::new(&pair, self.settings);
         call.precise = self.precise;
         let start = Start { x: from.push(0.0), lambda: 1.0 };
         let mut model = call.model(&start, Problem::OnBoundary);
         let solved = call.solve(Problem::OnBoundary, start.lambda, &mut model)?;
         let solution = solved.solution;
-        let into = solution.into.or_else(|| part.descent(&solution.gradients[0], &frame)).unwrap_or(0.0);
+        let inward_descent =
+            solution.inward_descent.or_else(|| part.descent(&solution.gradients[0], frame)).unwrap_or(0.0);
         let point_bound = call.point_bound(&solved, Problem::OnBoundary);
         // Where S rises into the triangle for sure, wherever the point may be, it is that of the triangle.
         let planes = f64::from(solved.model.q_a.count) * call.bodies()[0].stiffest_curvature();
         let doubt = solution.slope + (planes + call.bodies()[0].sphere_curvature()) * point_bound;
-        let is_all = part.dimensions() == 2 || -into > doubt;
+        let is_all = part.dimensions() == 2 || -inward_descent > doubt;
         let point_bound = if is_all { point_bound } else { f64::INFINITY };
         self.flags = self.flags.with(call.flags);
         self.iterations += call.iterations;
         // Of a point that is known to the last digits the frame has to be, too.
         let precise = call.flags.contains(Flags::EXTENDED);
-        let PartFrame { rotation, centre, lengths } = if precise { part.precise_frame(self.pose) } else { frame };
-        Ok(Least { part, rotation, centre, lengths, precise, solution, into, point_bound })
+        let PartFrame { rotation, centre, lengths } = if precise { part.precise_frame(self.pose) } else { *frame };
+        Ok(Least { part, rotation, centre, lengths, precise, solution, inward_descent, point_bound })
     }
 
-    pub fn on_plane(&mut self, plane: BoundaryPart) -> Result<Closest, DetectError> {
-        let least = self.on_part(plane, Vector2::zeros())?;
-        Ok(Closest { open: least.solution.open, least, feature: Feature::Interior, extent: f64::INFINITY })
+    pub fn on_plane(&mut self, plane: BoundaryPart, frame: &PartFrame) -> Result<Closest, DetectError> {
+        let least = self.on_part(plane, frame, Vector2::zeros())?;
+        Ok(Closest {
+            duality_gap: least.solution.duality_gap,
+            least,
+            feature: Feature::Interior,
+            extent: f64::INFINITY,
+        })
     }
 
     /// The least S on a triangle is that on its plane, or on an edge beyond which that lies.
-    pub fn on_triangle(&mut self, triangle: &Triangle, placed: &PlacedTriangle) -> Result<Closest, DetectError> {
-        let inside = self.on_part(triangle.inside(), placed.nearest())?;
+    pub fn on_triangle(
+        &mut self,
+        triangle: &Triangle,
+        frame: &PartFrame,
+        placed: &PlacedTriangle,
+    ) -> Result<Closest, DetectError> {
+        let inside = self.on_part(triangle.inside(), frame, placed.nearest())?;
         let x = inside.solution.x.xy();
         let mut on_edges = [None; 3];
-        // Where rounding hides which side of an edge it is on, S is no less on the edge than it can be on the triangle.
+        // An edge that the point cannot be told from by rounding counts as passed: S is no less there than on the triangle.
         let from_edges = inside.from_edges(triangle, self.pose, placed);
         for i in (0..3).filter(|i| from_edges[*i] <= inside.shift()) {
             on_edges[i] = Some(self.on_edge(triangle, i)?);
@@ -103,9 +114,9 @@ impl Search<'_> {
             let point_bound =
                 if from_edges.iter().all(|d| *d > inside.point_bound) { inside.point_bound } else { f64::INFINITY };
             let (least, extent) = (Least { point_bound, ..inside }, placed.extent(&x));
-            return Ok(Closest { open: inside.solution.open, least, feature: Feature::Interior, extent });
+            return Ok(Closest { duality_gap: inside.solution.duality_gap, least, feature: Feature::Interior, extent });
         };
-        if least.into > 0.0 {
+        if least.inward_descent > 0.0 {
             // S falls into the triangle: rounding may have decided which edges the point of the plane lies beyond.
             for (i, on_edge) in on_edges.iter_mut().enumerate() {
                 *on_edge = Some(on_edge.map_or_else(|| self.on_edge(triangle, i), Ok)?);
@@ -127,17 +138,18 @@ impl Search<'_> {
         // No point of the triangle is below the least of its plane.
         let of_plane = inside.solution.lower - inside.solution.rounding - least.solution.rounding;
         let to_plane = larger(least.solution.upper - of_plane, f64::EPSILON * least.solution.upper);
-        let open = smaller(least.open(&self.body(), extent), to_plane);
-        Ok(Closest { open, least, feature, extent })
+        let duality_gap = smaller(least.duality_gap(&self.body(), extent), to_plane);
+        Ok(Closest { duality_gap, least, feature, extent })
     }
 
     /// The least S on edge i, from the edge alone.
     fn on_edge(&mut self, triangle: &Triangle, i: usize) -> Result<(Least, Feature), DetectError> {
         let (ends, reversed) = triangle.edge(i);
         let edge = BoundaryPart::Edge { ends, third: triangle.vertices[(i + 2) % 3] };
-        let along = edge.frame(self.pose).rotation.column(0).into_owned();
+        let frame = edge.frame(self.pose);
+        let along = frame.rotation.column(0).into_owned();
         let [from, to] = ends.map(|end| along.dot(&(end - self.pose.position())));
-        let least = self.on_part(edge, Vector2::new(smaller(larger(from, 0.0), to), 0.0))?;
+        let least = self.on_part(edge, &frame, Vector2::new(smaller(larger(from, 0.0), to), 0.0))?;
         let [from, to] = if least.precise { edge.wide_ends(self.pose) } else { [from, to] };
         let x = least.solution.x.x;
         let end = match () {
@@ -148,7 +160,7 @@ impl Search<'_> {
         let vertex = (i + end) % 3;
         let others = [1, 2].map(|i| triangle.vertices[(vertex + i) % 3]);
         let corner = BoundaryPart::Corner { at: triangle.vertices[vertex], others };
-        Ok((self.on_part(corner, Vector2::zeros())?, Feature::Vertex(vertex as u8)))
+        Ok((self.on_part(corner, &corner.frame(self.pose), Vector2::zeros())?, Feature::Vertex(vertex as u8)))
     }
 
     /// The particle as it is solved for.
@@ -177,13 +189,13 @@ impl Least {
 
     /// How steeply S may fall into the boundary from there: 0 but for rounding.
     fn descent(&self) -> f64 {
-        larger(self.into, 0.0) + self.solution.slope
+        larger(self.inward_descent, 0.0) + self.solution.slope
     }
 
     /// How far S on a boundary of this extent may be below its upper bound.
-    fn open(&self, body: &Body, extent: f64) -> f64 {
+    fn duality_gap(&self, body: &Body, extent: f64) -> f64 {
         let (descent, within) = (self.descent(), self.within(body, extent));
-        self.solution.open + smaller(descent * within, 0.5 * descent * descent / body.sphere_curvature())
+        self.solution.duality_gap + smaller(descent * within, 0.5 * descent * descent / body.sphere_curvature())
     }
 
     /// Bound on the way to any point of a boundary of this extent where S is no larger.
@@ -208,12 +220,12 @@ impl Closest {
     pub fn scale(&self, body: &Body) -> Scale {
         let Solution { estimate, upper, rounding, .. } = self.least.solution;
         let most = body.most_surplus(larger(upper, 1.0));
-        Scale::between(estimate, upper - self.open - most - rounding, larger(estimate, upper) + rounding)
+        Scale::between(estimate, upper - self.duality_gap - most - rounding, larger(estimate, upper) + rounding)
     }
 
     /// Whether so much is open, beside what the regularisation adds, that it may be no answer.
-    pub fn is_wide(&self) -> bool {
-        Solution::is_wide(self.open + self.least.solution.rounding, self.least.solution.upper)
+    pub fn is_inconclusive(&self) -> bool {
+        Solution::is_inconclusive(self.duality_gap + self.least.solution.rounding, self.least.solution.upper)
     }
 
     /// Whether the regularisation may be all that keeps s from being less than 1. The part decides alone, as it does of s: all triangles
@@ -240,8 +252,8 @@ impl Closest {
     /// Bound on the distance of the point to the minimum: that of its part, or since S rises from the minimum at least as the square of the
     /// way times the least curvature, or from where it can be at all.
     pub fn point_bound(&self, body: &Body) -> f64 {
-        let open = self.open + 2.0 * self.least.solution.rounding;
-        let by_convexity = 2.0 * (2.0 * open / body.sphere_curvature()).sqrt();
+        let above = self.duality_gap + 2.0 * self.least.solution.rounding;
+        let by_convexity = farthest_apart(above, body.sphere_curvature());
         smaller(smaller(self.least.point_bound, by_convexity), self.least.within(body, self.extent))
     }
 }

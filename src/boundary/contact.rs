@@ -9,7 +9,7 @@ use crate::contact::contact::Kind;
 use crate::contact::detect::DetectError;
 use crate::flags::Flags;
 use crate::linalg::number::larger;
-use crate::pair::body::shift_in_a;
+use crate::pair::body::{Body, shift_in_a};
 use crate::pair::pair::Pair;
 use crate::pair::pair_state::PairState;
 use crate::pair::separation::Apart;
@@ -93,7 +93,7 @@ pub fn contact_with_plane(
     let frame = plane.frame(pose);
     let call = Call { particle: a, pose, normal: wall.normal, settings };
     let pair = Pair::on_boundary(a, pose, &plane, &frame);
-    call.contact(separation::proof_of_separation(&pair, None), |search| search.on_plane(plane))
+    call.contact(separation::proof_of_separation(&pair, None), |search| search.on_plane(plane, &frame))
 }
 
 /// Contact of A at a pose with a closed triangle, which it may touch from either side; otherwise as [`contact_with_plane`].
@@ -114,7 +114,7 @@ pub fn contact_with_triangle(
     let pair = Pair::on_boundary(a, pose, &plane, &frame);
     let placed = PlacedTriangle::of(triangle, pose, &pair);
     let apart = separation::proof_of_separation(&pair, Some(&placed));
-    call.contact(apart, |search| search.on_triangle(triangle, &placed))
+    call.contact(apart, |search| search.on_triangle(triangle, &frame, &placed))
 }
 
 /// What a call is about.
@@ -140,12 +140,13 @@ impl Call<'_> {
         let (particle, pose, settings) = (self.particle, self.pose, self.settings);
         let mut search = Search { particle, pose, settings, precise: false, flags: Flags::NONE, iterations: 0 };
         let mut found = closest(&mut search)?;
-        if found.is_wide() {
+        if found.is_inconclusive() {
             search.precise = true;
             found = closest(&mut search)?;
         }
-        let scale = found.scale(&search.body());
-        if found.may_hide_an_overlap(&search.body()) && settings.raises_regularisation() {
+        let body = search.body();
+        let scale = found.scale(&body);
+        if found.may_hide_an_overlap(&body) && settings.raises_regularisation() {
             // Where the bulge of a raised regularisation may hide an overlap, the particle as it is decides.
             let flat_regularisation = Settings::default().flat_regularisation;
             let settings = Settings { flat_regularisation, ..*settings };
@@ -155,21 +156,23 @@ impl Call<'_> {
         if scale.is_undecided() {
             return Err(SolveError::Undecided { low: scale.low, high: scale.high }.into());
         }
-        self.described(&search, &found, scale)
+        let contact = self.described(&body, &found, scale)?;
+        let flags = contact.flags.with(search.flags);
+        Ok(FlatContact { flags, iterations: search.iterations, ..contact })
     }
 
-    fn described(&self, search: &Search, found: &Closest, scale: Scale) -> Result<FlatContact, DetectError> {
+    /// Point, normal and overlap; what the search has cost is not known here.
+    fn described(&self, body: &Body, found: &Closest, scale: Scale) -> Result<FlatContact, DetectError> {
         let (least, position) = (&found.least, self.pose.position());
-        let (normal, by_boundary) = self.normal(search, found);
+        let (normal, by_boundary) = self.normal(body, found);
         let to_boundary = least.rotation * least.from_centre();
         let contact = FlatContact {
             kind: Kind::Separated,
             feature: found.feature,
-            flags: search.flags.with(if by_boundary { Flags::NORMAL_BY_BOUNDARY } else { Flags::NONE }),
-            iterations: search.iterations,
+            flags: if by_boundary { Flags::NORMAL_BY_BOUNDARY } else { Flags::NONE },
             s: scale.s,
             gap: scale.gap,
-            point_bound: found.point_bound(&search.body()),
+            point_bound: found.point_bound(body),
             normal,
             point: position + to_boundary,
             branch: to_boundary,
@@ -177,7 +180,7 @@ impl Call<'_> {
             ..FlatContact::UNKNOWN
         };
         if scale.s >= 1.0 {
-            return Ok(FlatContact { distance: found.distance(&search.body()), ..contact });
+            return Ok(FlatContact { distance: found.distance(body), ..contact });
         }
         let overlap = self.overlap(found, &normal)?;
         let branch = to_boundary + 0.5 * overlap * normal;
@@ -194,10 +197,10 @@ impl Call<'_> {
 
     /// Along the gradient; inside the boundary along its normal, at an edge at right angles to that. And whether the gradient vanishes
     /// to its rounding, so that it is minus the normal of the boundary.
-    fn normal(&self, search: &Search, found: &Closest) -> (Vector3<f64>, bool) {
+    fn normal(&self, body: &Body, found: &Closest) -> (Vector3<f64>, bool) {
         let (least, solution) = (&found.least, &found.least.solution);
         let shift = shift_in_a(least.from_centre().norm(), least.lengths);
-        let doubt = solution.slope + search.body().sphere_curvature() * shift;
+        let doubt = solution.slope + body.sphere_curvature() * shift;
         let mut across = solution.gradients[0];
         // What it has along the part is rounding.
         (0..least.part.dimensions()).for_each(|i| across[i] = 0.0);

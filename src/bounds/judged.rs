@@ -37,7 +37,7 @@ pub(crate) fn judged(x: &Vector3<f64>, lambda: f64, s: f64, bodies: [&Body; 2], 
         estimate: s * s,
         lower: linear.max(by_model),
         upper,
-        open: larger(upper - linear.max(by_model), 0.0),
+        duality_gap: larger(upper - linear.max(by_model), 0.0),
         rounding,
         ending: Ending::Converged,
         ..Solution::unsettled(*x, lambda, 0)

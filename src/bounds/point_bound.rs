@@ -57,8 +57,12 @@ pub(crate) fn point_bound(solution: &Solution, model: &LocalModel, bodies: [&Bod
 /// where it is at most `upper`, so that either is within √(2·open/curvature) of z.
 pub(crate) fn by_convexity(solution: &Solution, bodies: [&Body; 2], problem: Problem) -> f64 {
     let (weights, soft) = (problem.weights(solution.lambda), local_model::softest(bodies));
-    let open = solution.open + 2.0 * solution.rounding;
-    2.0 * (2.0 * open / (weights.0 * soft.0 + weights.1 * soft.1)).sqrt()
+    farthest_apart(solution.duality_gap + 2.0 * solution.rounding, weights.0 * soft.0 + weights.1 * soft.1)
+}
+
+/// Bound on the distance of two points at which a function of this curvature at least is no more than so much above its minimum.
+pub(crate) fn farthest_apart(above: f64, curvature: f64) -> f64 {
+    2.0 * (2.0 * above / curvature).sqrt()
 }
 
 #[cfg(test)]
@@ -80,7 +84,7 @@ mod tests {
         let side = 0.01;
         let points = [side, -side].map(|y| Vector3::new(0.5, y, 0.0));
         let level = a.value(&points[0]);
-        let open = Solution { open: level - 0.25, rounding: 0.0, ..Solution::unsettled(points[0], 1.0, 0) };
+        let open = Solution { duality_gap: level - 0.25, rounding: 0.0, ..Solution::unsettled(points[0], 1.0, 0) };
         let bound = by_convexity(&open, [&a, &b], Problem::Midway);
         assert!(a.value(&points[1]) <= level && (points[0] - points[1]).norm() <= bound * (1.0 + 1e-12), "{bound}");
         assert!(bound <= 2.0 * side * (1.0 + 1e-9), "{bound}");

@@ -25,7 +25,7 @@ const ROUNDING: f64 = 2.0 * f64::EPSILON;
 const UNDERFLOW: f64 = 1.5e-154;
 
 /// Largest gap of an answer that leaves open whether s is below 1.
-pub(crate) const WIDE: f64 = 1e-2;
+pub(crate) const INCONCLUSIVE: f64 = 1e-2;
 
 impl Scale {
     /// With the regularisation taken out again.
@@ -53,10 +53,10 @@ impl Scale {
         Self { s, gap: larger(s - low, high - s) + ROUNDING * s + UNDERFLOW, low, high: high * (1.0 + ROUNDING) }
     }
 
-    /// Whether it is no answer: it leaves open on which side of 1 s lies, by more than [`WIDE`].
+    /// Whether it is no answer: it leaves open on which side of 1 s lies, by more than [`INCONCLUSIVE`].
     pub fn is_undecided(&self) -> bool {
         // What is no number is no answer either.
-        !(self.low >= 1.0 || self.high <= 1.0 || self.gap <= WIDE)
+        !(self.low >= 1.0 || self.high <= 1.0 || self.gap <= INCONCLUSIVE)
     }
 
     /// Whether s cannot be told from 0, as where a constraint is slack.

@@ -2,7 +2,7 @@
 
 use crate::bounds::dual_bound::DualBound;
 use crate::bounds::rounding::Rounding;
-use crate::bounds::scale::WIDE;
+use crate::bounds::scale::INCONCLUSIVE;
 use crate::bounds::sensitivity::Sensitivity;
 use crate::linalg::number::{larger, smaller};
 use crate::model::kkt_check::Change;
@@ -30,13 +30,13 @@ pub(crate) struct Solution {
     /// Bound on what is left of the weighted slope, with all that is in doubt about it.
     pub slope: f64,
     /// How steeply S falls from a part of a boundary into the rest of it, where that came with the solution.
-    pub into: Option<f64>,
+    pub inward_descent: Option<f64>,
     /// Lower bound up to `rounding`.
     pub lower: f64,
     /// Upper bound up to `rounding`.
     pub upper: f64,
     /// The difference of both, which may be less than they are rounded by.
-    pub open: f64,
+    pub duality_gap: f64,
     /// Bound on the rounding of both.
     pub rounding: f64,
     /// Whether rounding moves λ by so little that `rounding` holds to first order.
@@ -79,10 +79,10 @@ impl Solution {
             values: [f64::NAN; 2],
             estimate: f64::NAN,
             slope: f64::INFINITY,
-            into: None,
+            inward_descent: None,
             lower: f64::NEG_INFINITY,
             upper: f64::INFINITY,
-            open: f64::INFINITY,
+            duality_gap: f64::INFINITY,
             rounding: f64::INFINITY,
             linear: false,
             iterations,
@@ -116,7 +116,7 @@ impl Solution {
         let DualBound { slope, height, certain } = DualBound::after(model, bodies, problem, step, (upper, force));
         let pushes = [step.checks[0].least_push, step.checks[1].least_push];
         let soft = local_model::softest(bodies);
-        let dimensions = bodies[0].particle.dimensions.min(bodies[1].particle.dimensions);
+        let dimensions = local_model::dimensions(bodies);
         let sensitivity = if certain { Sensitivity::of(optimum, problem, soft, pushes, dimensions) } else { None };
         Self {
             x: model.x + step.v,
@@ -127,10 +127,10 @@ impl Solution {
             values: [s_a, s_b],
             estimate,
             slope,
-            into: None,
+            inward_descent: None,
             lower: estimate - height,
             upper,
-            open: larger(upper - estimate, 0.0) + height,
+            duality_gap: larger(upper - estimate, 0.0) + height,
             rounding: of_optimum.unwrap_or_else(|| rounding.of_merit(problem, lambda)),
             linear: of_optimum.is_some(),
             iterations: 0,
@@ -173,8 +173,8 @@ impl Solution {
     }
 
     /// Whether so much is open of S, beside what a regularisation adds, that it may be no answer.
-    pub fn is_wide(open: f64, upper: f64) -> bool {
-        !(open <= WIDE * larger(upper, 1.0))
+    pub fn is_inconclusive(duality_gap: f64, upper: f64) -> bool {
+        !(duality_gap <= INCONCLUSIVE * larger(upper, 1.0))
     }
 
     /// Bound on the error of the optimal S.

@@ -19,8 +19,38 @@ pub(crate) trait StiffNormals {
     fn visit(&self, visit: impl FnMut(Vector3<f64>, f64));
 }
 
-/// Orthonormal axes (columns), stiffest first.
-pub(crate) fn aligned(normals: &impl StiffNormals) -> Matrix3<f64> {
+/// Orthonormal axes (columns) of points with so many coordinates, stiffest first. In place of the others there are zeros, so that a
+/// quadratic in these axes has neither slope nor planes across the boundary on which the points lie.
+pub(crate) fn aligned(normals: &impl StiffNormals, dimensions: usize) -> Matrix3<f64> {
+    if dimensions == 3 {
+        return aligned_in_space(normals);
+    }
+    let mut axes = first(dimensions);
+    if dimensions == 2 {
+        let aligned = aligned_in_space(&Projected(normals, dimensions));
+        (0..dimensions).for_each(|i| axes.set_column(i, &aligned.column(i)));
+    }
+    axes
+}
+
+/// The first axes, and zeros in place of the others.
+pub(crate) fn first(dimensions: usize) -> Matrix3<f64> {
+    Matrix3::from_fn(|i, j| if i == j && j < dimensions { 1.0 } else { 0.0 })
+}
+
+/// Normals of which the first coordinates count; the others are taken as 0.
+struct Projected<'a, T>(&'a T, usize);
+
+impl<T: StiffNormals> StiffNormals for Projected<'_, T> {
+    fn visit(&self, mut visit: impl FnMut(Vector3<f64>, f64)) {
+        self.0.visit(|mut n, weight| {
+            (self.1..3).for_each(|axis| n[axis] = 0.0);
+            visit(n, weight);
+        });
+    }
+}
+
+fn aligned_in_space(normals: &impl StiffNormals) -> Matrix3<f64> {
     let (mut stiffest, mut kept, mut count) = (Stiffest::default(), [(Vector3::zeros(), 0.0); MOST_KEPT], 0);
     normals.visit(|n, weight| {
         stiffest.meet(&n, n, weight);

@@ -73,29 +73,24 @@ impl Axes {
     fn on_boundary(self, bodies: [&Body; 2], points: &[LocalPoint; 2]) -> Option<Matrix3<f64>> {
         match self {
             Self::OfB | Self::Graded => None,
-            Self::OfBoundary(dimensions) => Some(first_axes(Matrix3::identity(), dimensions)),
-            Self::GradedOnBoundary(dimensions) => Some(graded_on_boundary(bodies, points, dimensions)),
+            Self::OfBoundary(dimensions) => Some(graded_basis::first(dimensions)),
+            Self::GradedOnBoundary(dimensions) => {
+                Some(graded_basis::aligned(&ActiveNormals { bodies, points, weights: (1.0, 0.0) }, dimensions))
+            }
         }
     }
-}
-
-#[inline(never)]
-fn graded_on_boundary(bodies: [&Body; 2], points: &[LocalPoint; 2], dimensions: usize) -> Matrix3<f64> {
-    let normals = ActiveNormals { bodies, points, weights: (1.0, 0.0), dimensions };
-    let axes = if dimensions > 1 { graded_basis::aligned(&normals) } else { Matrix3::identity() };
-    first_axes(axes, dimensions)
-}
-
-/// So many of the axes, and zeros for the others.
-fn first_axes(mut axes: Matrix3<f64>, dimensions: usize) -> Matrix3<f64> {
-    (dimensions..3).for_each(|i| axes.column_mut(i).fill(0.0));
-    axes
 }
 
 /// Bounding radius of the smaller body.
 #[inline(always)]
 pub(crate) fn smallest([a, b]: [&Body; 2]) -> f64 {
     smaller(a.particle.bounding_radius(), b.particle.bounding_radius())
+}
+
+/// The number of coordinates in which a point may move.
+#[inline(always)]
+pub(crate) fn dimensions([a, b]: [&Body; 2]) -> usize {
+    a.particle.dimensions.min(b.particle.dimensions)
 }
 
 /// Least curvatures of A and B in any direction.
@@ -121,7 +116,8 @@ impl LocalModel {
     #[inline(always)]
     pub fn of(bodies: [&Body; 2], x: Vector3<f64>, points: [LocalPoint; 2], weights: (f64, f64), axes: Axes) -> Self {
         let own = axes.on_boundary(bodies, &points);
-        let (q_a, q_b) = (bodies[0].at(&points[0], own.as_ref()), bodies[1].at(&points[1], own.as_ref()));
+        let q_a = bodies[0].at(&points[0], own.as_ref());
+        let q_b = if own.is_some() { Quadratic::ZERO } else { bodies[1].at(&points[1], None) };
         let mut model = Self { x, axes: own, points, q_a, q_b };
         if axes == Axes::Graded && model.has_soft_direction(weights) {
             model.grade(bodies, weights);
@@ -133,9 +129,9 @@ impl LocalModel {
     /// sums of their lengths where the step begins and ends.
     #[inline(never)]
     pub fn gradients_on_boundary(&self, bodies: [&Body; 2], v: &Vector3<f64>) -> ([Vector3<f64>; 2], [f64; 2]) {
-        let whole = [0, 1].map(|i| bodies[i].at(&self.points[i], None));
-        let gradients = [0, 1].map(|i| whole[i].gradient + whole[i].hessian.times(v));
-        (gradients, [0, 1].map(|i| whole[i].gradient.norm() + gradients[i].norm()))
+        let whole = bodies[0].at(&self.points[0], None);
+        let gradient = whole.gradient + whole.hessian.times(v);
+        ([gradient, Vector3::zeros()], [whole.gradient.norm() + gradient.norm(), 0.0])
     }
 
     /// Whether the planes of the sum with these weights leave a direction without resistance, or nearly.
@@ -146,7 +142,7 @@ impl LocalModel {
     /// Takes the quadratics in axes aligned with the stiffest planes of that sum instead.
     #[inline(never)]
     fn grade(&mut self, bodies: [&Body; 2], weights: (f64, f64)) {
-        let axes = graded_basis::aligned(&ActiveNormals { bodies, points: &self.points, weights, dimensions: 3 });
+        let axes = graded_basis::aligned(&ActiveNormals { bodies, points: &self.points, weights }, 3);
         self.q_a = bodies[0].at(&self.points[0], Some(&axes));
         self.q_b = bodies[1].at(&self.points[1], Some(&axes));
         self.axes = Some(axes);
@@ -242,8 +238,6 @@ struct ActiveNormals<'a> {
     bodies: [&'a Body<'a>; 2],
     points: &'a [LocalPoint; 2],
     weights: (f64, f64),
-    /// The coordinates of the normals that count: the others are taken as 0.
-    dimensions: usize,
 }
 
 impl StiffNormals for ActiveNormals<'_> {
@@ -251,10 +245,7 @@ impl StiffNormals for ActiveNormals<'_> {
     fn visit(&self, mut visit: impl FnMut(Vector3<f64>, f64)) {
         for (i, weight) in [self.weights.0, self.weights.1].into_iter().enumerate() {
             let curvature = weight * self.bodies[i].plane_curvature();
-            self.bodies[i].active_normals(&self.points[i], |mut n| {
-                (self.dimensions..3).for_each(|axis| n[axis] = 0.0);
-                visit(n, curvature);
-            });
+            self.bodies[i].active_normals(&self.points[i], |n| visit(n, curvature));
         }
     }
 }

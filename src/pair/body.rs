@@ -273,16 +273,8 @@ mod tests {
     use super::*;
     use crate::linalg::wide::{rounded, wide};
     use crate::pair::extended_body::ExtendedBody;
+    use crate::pair::scattered;
     use crate::pose::Pose;
-
-    /// Numbers in (−1, 1) that look like chance.
-    fn scattered(seed: usize) -> impl FnMut() -> f64 {
-        let mut state = seed as f64;
-        move || {
-            state += 1.0;
-            2.0 * (1e4 * (12.9898 * state).sin()).rem_euclid(1.0) - 1.0
-        }
-    }
 
     #[test]
     fn a_point_is_rounded_by_no_more_than_its_shift() {

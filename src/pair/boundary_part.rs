@@ -6,7 +6,7 @@
 
 use crate::linalg::double_double::DoubleDouble;
 use crate::linalg::graded_basis::any_across;
-use crate::linalg::number::larger;
+use crate::linalg::number::{Number, larger};
 use crate::linalg::wide::{Wide, difference, rounded, wide};
 use crate::pose::Pose;
 use nalgebra::{Matrix3, Vector2, Vector3};
@@ -107,25 +107,12 @@ impl BoundaryPart {
             }
         }
     }
-}
 
-impl BoundaryPart {
     /// How steeply a function with this gradient, frame of the part, falls at most from the part into the triangle that it is part
     /// of; negative where it rises by at least so much. `None` for a part that is all of its boundary.
     pub fn descent(&self, gradient: &Vector3<f64>, frame: &PartFrame) -> Option<f64> {
         let towards = |v: &Vector3<f64>, from: &Vector3<f64>| frame.rotation.tr_mul(&(v - from));
-        match self {
-            Self::Plane { .. } | Self::Inside { .. } => None,
-            Self::Edge { ends, third } => {
-                let inwards = towards(third, &ends[0]);
-                let inwards = Vector3::new(0.0, inwards.y, inwards.z).normalize();
-                Some(-gradient.dot(&inwards))
-            }
-            Self::Corner { at, others } => {
-                let sides = others.map(|other| towards(&other, at).normalize());
-                Some(into_corner(sides.map(|side| -gradient.dot(&side)), (sides[0] + sides[1]).norm()))
-            }
-        }
+        self.steepest(towards, |v| v.normalize(), |side| -gradient.dot(side), |side| *side)
     }
 
     /// The same in numbers of 32 digits, with the axes of [`Self::wide_frame`]: a slope that is small beside the gradient keeps its digits.
@@ -134,23 +121,30 @@ impl BoundaryPart {
             let way = difference(v, from);
             Vector3::from([0, 1, 2].map(|i| axes[i].dot(&way)))
         };
+        self.steepest(towards, wide_unit, |side| -gradient.dot(side).rounded(), rounded)
+    }
+
+    /// Of the falls along the directions that bound the triangle at the part, which are made in either numbers.
+    fn steepest<N: Number>(
+        &self,
+        towards: impl Fn(&Vector3<f64>, &Vector3<f64>) -> Vector3<N>,
+        unit: impl Fn(&Vector3<N>) -> Vector3<N>,
+        fall: impl Fn(&Vector3<N>) -> f64,
+        rounded: impl Fn(&Vector3<N>) -> Vector3<f64>,
+    ) -> Option<f64> {
         match self {
             Self::Plane { .. } | Self::Inside { .. } => None,
             Self::Edge { ends, third } => {
                 let inwards = towards(third, &ends[0]);
-                let inwards = wide_unit(&Vector3::new(DoubleDouble::default(), inwards.y, inwards.z));
-                Some(-gradient.dot(&inwards).rounded())
+                Some(fall(&unit(&Vector3::new(N::of(0.0), inwards.y, inwards.z))))
             }
             Self::Corner { at, others } => {
-                let sides = others.map(|other| wide_unit(&towards(&other, at)));
-                let falls = sides.map(|side| -gradient.dot(&side).rounded());
-                Some(into_corner(falls, (rounded(&sides[0]) + rounded(&sides[1])).norm()))
+                let sides = others.map(|other| unit(&towards(&other, at)));
+                Some(into_corner([fall(&sides[0]), fall(&sides[1])], (rounded(&sides[0]) + rounded(&sides[1])).norm()))
             }
         }
     }
-}
 
-impl BoundaryPart {
     /// The coordinates of the ends of an edge along it, of 32 digits before they are rounded.
     pub fn wide_ends(&self, pose: &Pose) -> [f64; 2] {
         let Self::Edge { ends, .. } = self else { return [f64::NEG_INFINITY, f64::INFINITY] };

@@ -61,12 +61,6 @@ impl<'a> Pair<'a> {
         }
     }
 
-    /// The number of coordinates in which a point may move.
-    #[inline(always)]
-    pub(crate) fn dimensions(&self) -> usize {
-        self.a.dimensions.min(self.b.dimensions)
-    }
-
     /// From the centre of A to a point, world axes, given the way there from the centre of B: the difference of the positions is not
     /// rounded, so that the two differ by that of the positions to the rounding of this one.
     #[inline(always)]

@@ -121,19 +121,11 @@ fn beyond_a_face(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::pair::scattered;
     use crate::{Kind, PairState, Settings, detect};
 
     fn cube() -> Particle {
         Particle::cube(0.4, 0.1, 0.02, 0.9)
-    }
-
-    /// Numbers in (−1, 1) that look like chance.
-    fn scattered(seed: usize) -> impl FnMut() -> f64 {
-        let mut state = seed as f64;
-        move || {
-            state += 1.0;
-            2.0 * (1e4 * (12.9898 * state).sin()).rem_euclid(1.0) - 1.0
-        }
     }
 
     #[test]

@@ -70,7 +70,7 @@ impl Particle {
     /// Whether it is one of those.
     #[inline]
     pub(crate) fn is_boundary(&self) -> bool {
-        self.shape.rows_are_none() && self.shape.sphere_weight == 0.0
+        self.shape.len() == 0 && self.shape.sphere_weight == 0.0
     }
 
     fn of(shape: Shape) -> Self {

@@ -31,6 +31,17 @@ pub struct Quadratic {
 }
 
 impl Quadratic {
+    /// S of a boundary, on all of it.
+    pub(crate) const ZERO: Self = Self {
+        value: 0.0,
+        expansion: 0.0,
+        gradient: Vector3::new(0.0, 0.0, 0.0),
+        hessian: Symmetric { xx: 0.0, yx: 0.0, yy: 0.0, zx: 0.0, zy: 0.0, zz: 0.0 },
+        pull: 0.0,
+        count: 0,
+        clear: f64::INFINITY,
+    };
+
     /// Half of a bound on the terms of S after a step v, in the axes of the quadratic. With b = Σ|v_i|·√(h_ii/2) they are at
     /// most (√S + b)² ≤ 2(S + b²), and b² ≤ 3/2·Σ v_i²·h_ii by Cauchy's inequality.
     #[inline]

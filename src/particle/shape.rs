@@ -104,10 +104,6 @@ impl Shape {
         self.rows.len()
     }
 
-    pub(super) fn rows_are_none(&self) -> bool {
-        self.rows.is_empty()
-    }
-
     /// Whether the planes alone enclose a volume.
     pub(super) fn planes_enclose(&self) -> bool {
         bounding_volumes::planes_enclose(&self.rows, self.dimensions)

@@ -163,7 +163,7 @@ impl<'a> Call<'a> {
     fn leaves_open(&self, solution: &Solution, problem: Problem) -> bool {
         let scale = self.scale(solution, problem);
         let slack = problem.held().is_some() && scale.may_be_zero() && scale.high > NEAR_ZERO;
-        slack || Solution::is_wide(solution.gap(), solution.upper)
+        slack || Solution::is_inconclusive(solution.gap(), solution.upper)
     }
 
     #[cold]

@@ -111,20 +111,16 @@ pub(crate) fn solve(pair: &Pair, bodies: [&Body; 2], goal: &Goal, start: &Start)
         bodies: ExtendedBody::both(pair, bodies, &start.x),
         problem: goal.problem,
         x: start.x,
-        dimensions: pair.dimensions(),
+        dimensions: local_model::dimensions(bodies),
         placed_from: if pair.b.is_boundary() { pair.centre.norm() } else { 0.0 },
         steps: 0,
     };
     let first = FIRST_REACH * local_model::smallest(bodies);
     extended.bodies.iter_mut().for_each(|body| body.cover(first));
     let found = extended.search(DoubleDouble::from(start.lambda));
-    let solution = extended.bounded(&found);
+    let solution = extended.bounded(&found, &pair.given);
     let point_bound = extended.point_bound(&found, &solution, bodies);
-    let into = match pair.given {
-        Given::Boundary(pose, part) => part.wide_descent(&extended.gradient_of_a(&found), &part.wide_frame(pose).0),
-        Given::Poses(_) => None,
-    };
-    Solution { ending: ending(&solution, bodies, goal), point_bound: Some(point_bound), into, ..solution }
+    Solution { ending: ending(&solution, bodies, goal), point_bound: Some(point_bound), ..solution }
 }
 
 /// Why the search ended, by the bounds of its solution.
@@ -243,11 +239,8 @@ impl Extended<'_> {
         let reach = rounded(delta).norm();
         self.bodies.iter_mut().for_each(|body| body.cover(reach));
         let (a, b) = self.problem.weights(lambda.rounded());
-        let dimensions = self.dimensions;
-        let normals = ActiveNormals { bodies: &self.bodies, delta, undecided, weights: [a, b], dimensions };
-        let mut axes = graded_basis::aligned(&normals);
-        // Zeros in place of the others: no step leads off a boundary.
-        (dimensions..3).for_each(|i| axes.column_mut(i).fill(0.0));
+        let normals = ActiveNormals { bodies: &self.bodies, delta, undecided, weights: [a, b] };
+        let axes = graded_basis::aligned(&normals, self.dimensions);
         // Doubles are orthonormal to rounding only; the metric says by how much they are off.
         let mut metric = Symmetric::default();
         for i in 0..3 {
@@ -265,12 +258,8 @@ impl Extended<'_> {
         left + DEPTH_AFTER * DoubleDouble::UNIT * stiffest * rounded(&optimum.step).norm()
     }
 
-    fn gradient_of_a(&self, found: &Found) -> Wide {
-        self.bodies[0].value(&found.delta).gradient
-    }
-
     /// The solution where a search ended, with the bounds of its value.
-    fn bounded(&mut self, Found { delta, lambda, optimum }: &Found) -> Solution {
+    fn bounded(&mut self, Found { delta, lambda, optimum }: &Found, given: &Given) -> Solution {
         let (problem, weights) = (self.problem, self.problem.weights(*lambda));
         let values = [self.bodies[0].value(delta), self.bodies[1].value(delta)];
         let [of_a, of_b] = &values;
@@ -280,6 +269,10 @@ impl Extended<'_> {
         let dual = problem.dual(of_a.value, of_b.value, *lambda);
         let upper = self.upper(delta, &values);
         let error = values.map(|of| of.rounding());
+        let inward_descent = match given {
+            Given::Boundary(pose, part) => part.wide_descent(&of_a.gradient, &part.wide_frame(pose).0),
+            Given::Poses(_) => None,
+        };
         let slope = rounded(&(of_a.gradient * weights.0 + of_b.gradient * weights.1)).rows(0, self.dimensions).norm();
         // Where the places of 32 digits are too coarse for the forces to balance, those of the quadratics still do.
         let slope = optimum.as_ref().map_or(slope, |optimum| smaller(slope, self.slope_of_model(optimum, (a, b))));
@@ -294,9 +287,10 @@ impl Extended<'_> {
             values: values.map(|of| of.value.rounded()),
             estimate,
             slope,
+            inward_descent,
             lower: estimate - height,
             upper: estimate + above,
-            open: above + height,
+            duality_gap: above + height,
             rounding: larger(problem.weighted(error[0], error[1], lambda.rounded()), larger(error[0], error[1])),
             linear: true,
             rate: optimum.as_ref().map_or(0.0, |optimum| approximate(optimum).rate(problem)),
@@ -388,18 +382,13 @@ struct ActiveNormals<'a> {
     delta: &'a Wide,
     undecided: Undecided,
     weights: [f64; 2],
-    /// The coordinates of the normals that count: the others are taken as 0.
-    dimensions: usize,
 }
 
 impl StiffNormals for ActiveNormals<'_> {
     fn visit(&self, mut visit: impl FnMut(Vector3<f64>, f64)) {
         for (body, weight) in self.bodies.iter().zip(self.weights) {
             let curvature = 2.0 * weight * body.plane_weight();
-            body.active_normals(self.delta, self.undecided, |mut n| {
-                (self.dimensions..3).for_each(|axis| n[axis] = 0.0);
-                visit(n, curvature);
-            });
+            body.active_normals(self.delta, self.undecided, |n| visit(n, curvature));
         }
     }
 }
