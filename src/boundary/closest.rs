@@ -20,6 +20,9 @@ use crate::settings::Settings;
 use crate::solver::call::Call;
 use nalgebra::{Matrix3, Vector2, Vector3};
 
+/// Bound on the rounding of a distance, relative to it.
+const OF_LENGTHS: f64 = 8.0 * f64::EPSILON;
+
 /// The particle, and what its searches on the parts of a boundary have cost so far.
 pub(super) struct Search<'a> {
     pub particle: &'a Particle,
@@ -42,10 +45,21 @@ pub(super) struct Least {
     /// Whether both are right to the last digits, as the solution is.
     precise: bool,
     pub solution: Solution,
-    /// How steeply S falls from there into the triangle; negative where it rises.
+    /// How steeply S falls from there into the triangle, negative where it rises; and may fall with all that is in doubt.
     inward_descent: f64,
+    descent: f64,
     /// Bound on the distance of the point to that of the whole boundary, if it is certain that this lies on the part.
     point_bound: f64,
+}
+
+/// The least S on an edge between its ends.
+#[derive(Clone, Copy)]
+struct OnEdge {
+    least: Least,
+    feature: Feature,
+    /// That of the line of the edge, and how far from it `least` is where it lies between the ends; else infinite.
+    of_line: Least,
+    from_line: f64,
 }
 
 /// The least S on a whole boundary.
@@ -69,12 +83,15 @@ impl Search<'_> {
         let mut model = call.model(&start, Problem::OnBoundary);
         let solved = call.solve(Problem::OnBoundary, start.lambda, &mut model)?;
         let solution = solved.solution;
-        let inward_descent =
-            solution.inward_descent.or_else(|| part.descent(&solution.gradients[0], frame)).unwrap_or(0.0);
+        let (inward_descent, rounding) = match (solution.inward_descent, part.descent(&solution.gradients[0], frame)) {
+            (Some(descent), _) => (descent, 0.0),
+            (None, Some(descent)) => (descent, part.descent_rounding(solution.gradient_norms[0])),
+            (None, None) => (0.0, 0.0),
+        };
         let point_bound = call.point_bound(&solved, Problem::OnBoundary);
         // Where S rises into the triangle for sure, wherever the point may be, it is that of the triangle.
         let planes = f64::from(solved.model.q_a.count) * call.bodies()[0].stiffest_curvature();
-        let doubt = solution.slope + (planes + call.bodies()[0].sphere_curvature()) * point_bound;
+        let doubt = solution.slope + rounding + (planes + call.bodies()[0].sphere_curvature()) * point_bound;
         let is_all = part.dimensions() == 2 || -inward_descent > doubt;
         let point_bound = if is_all { point_bound } else { f64::INFINITY };
         self.flags = self.flags.with(call.flags);
@@ -82,7 +99,8 @@ impl Search<'_> {
         // Of a point that is known to the last digits the frame has to be, too.
         let precise = call.flags.contains(Flags::EXTENDED);
         let PartFrame { rotation, centre, lengths } = if precise { part.precise_frame(self.pose) } else { *frame };
-        Ok(Least { part, rotation, centre, lengths, precise, solution, inward_descent, point_bound })
+        let descent = larger(inward_descent, 0.0) + rounding + solution.slope;
+        Ok(Least { part, rotation, centre, lengths, precise, solution, inward_descent, descent, point_bound })
     }
 
     pub fn on_plane(&mut self, plane: BoundaryPart, frame: &PartFrame) -> Result<Closest, DetectError> {
@@ -110,57 +128,74 @@ impl Search<'_> {
         for i in (0..3).filter(|i| from_edges[*i] <= inside.shift()) {
             on_edges[i] = Some(self.on_edge(triangle, i)?);
         }
-        let Some((mut least, mut feature)) = least_of(&on_edges) else {
+        let Some(mut found) = least_of(&on_edges) else {
             let point_bound =
                 if from_edges.iter().all(|d| *d > inside.point_bound) { inside.point_bound } else { f64::INFINITY };
             let (least, extent) = (Least { point_bound, ..inside }, placed.extent(&x));
             return Ok(Closest { duality_gap: inside.solution.duality_gap, least, feature: Feature::Interior, extent });
         };
-        if least.inward_descent > 0.0 {
+        if found.least.inward_descent > 0.0 {
             // S falls into the triangle: rounding may have decided which edges the point of the plane lies beyond.
             for (i, on_edge) in on_edges.iter_mut().enumerate() {
                 *on_edge = Some(on_edge.map_or_else(|| self.on_edge(triangle, i), Ok)?);
             }
-            (least, feature) = least_of(&on_edges).unwrap_or((least, feature));
+            found = least_of(&on_edges).unwrap_or(found);
         }
         // On an edge that ends at the vertex the least S is no more than there, and whether it is less is an answer of the edge
         // alone: so all triangles that share it have the same.
-        if let Feature::Vertex(vertex) = feature {
+        if let Feature::Vertex(vertex) = found.feature {
             for i in [usize::from(vertex), (usize::from(vertex) + 2) % 3] {
-                let found = on_edges[i].map_or_else(|| self.on_edge(triangle, i), Ok)?;
-                if found.1 != feature {
-                    (least, feature) = found;
+                let on_edge = on_edges[i].map_or_else(|| self.on_edge(triangle, i), Ok)?;
+                on_edges[i] = Some(on_edge);
+                if on_edge.feature != found.feature {
+                    found = on_edge;
                     break;
                 }
             }
         }
-        let extent = placed.extent(&inside.rotation.tr_mul(&(least.rotation * least.from_centre())).xy());
+        let OnEdge { mut least, feature, .. } = found;
+        let body = self.body();
+        let extent_from =
+            |least: &Least| placed.extent(&inside.rotation.tr_mul(&(least.rotation * least.from_centre())).xy());
+        let extent = extent_from(&least);
         // No point of the triangle is below the least of its plane.
-        let of_plane = inside.solution.lower - inside.solution.rounding - least.solution.rounding;
-        let to_plane = larger(least.solution.upper - of_plane, f64::EPSILON * least.solution.upper);
-        let duality_gap = smaller(least.duality_gap(&self.body(), extent), to_plane);
+        let above = |of: &Least| {
+            let lower = of.solution.upper - of.solution.rounding - least.solution.rounding;
+            larger(least.solution.upper - lower, f64::EPSILON * least.solution.upper)
+        };
+        let mut duality_gap = smaller(least.duality_gap(&body, extent), above(&inside) + inside.solution.duality_gap);
+        let mut point_bound = least.point_bound;
+        // Nor below that of an edge but for the descent from there, which says more than a vertex that rounding has put in its place.
+        for on_edge in on_edges.iter().flatten().filter(|on_edge| on_edge.feature == feature) {
+            let line = &on_edge.of_line;
+            duality_gap = smaller(duality_gap, above(line) + line.duality_gap(&body, extent_from(line)));
+            point_bound = smaller(point_bound, line.point_bound + on_edge.from_line);
+        }
+        least.point_bound = point_bound;
         Ok(Closest { duality_gap, least, feature, extent })
     }
 
     /// The least S on edge i, from the edge alone.
-    fn on_edge(&mut self, triangle: &Triangle, i: usize) -> Result<(Least, Feature), DetectError> {
+    fn on_edge(&mut self, triangle: &Triangle, i: usize) -> Result<OnEdge, DetectError> {
         let (ends, reversed) = triangle.edge(i);
         let edge = BoundaryPart::Edge { ends, third: triangle.vertices[(i + 2) % 3] };
         let frame = edge.frame(self.pose);
         let along = frame.rotation.column(0).into_owned();
         let [from, to] = ends.map(|end| along.dot(&(end - self.pose.position())));
-        let least = self.on_part(edge, &frame, Vector2::new(smaller(larger(from, 0.0), to), 0.0))?;
-        let [from, to] = if least.precise { edge.wide_ends(self.pose) } else { [from, to] };
-        let x = least.solution.x.x;
-        let end = match () {
-            () if x <= from + least.shift() => usize::from(reversed),
-            () if x >= to - least.shift() => usize::from(!reversed),
-            () => return Ok((least, Feature::Edge(i as u8))),
+        let of_line = self.on_part(edge, &frame, Vector2::new(smaller(larger(from, 0.0), to), 0.0))?;
+        let [from, to] = if of_line.precise { edge.wide_ends(self.pose) } else { [from, to] };
+        let x = of_line.solution.x.x;
+        let (end, inside) = match () {
+            () if x <= from + of_line.shift() => (usize::from(reversed), x - from),
+            () if x >= to - of_line.shift() => (usize::from(!reversed), to - x),
+            () => return Ok(OnEdge { least: of_line, feature: Feature::Edge(i as u8), of_line, from_line: 0.0 }),
         };
         let vertex = (i + end) % 3;
         let others = [1, 2].map(|i| triangle.vertices[(vertex + i) % 3]);
         let corner = BoundaryPart::Corner { at: triangle.vertices[vertex], others };
-        Ok((self.on_part(corner, &corner.frame(self.pose), Vector2::zeros())?, Feature::Vertex(vertex as u8)))
+        let least = self.on_part(corner, &corner.frame(self.pose), Vector2::zeros())?;
+        let from_line = if inside >= 0.0 { inside } else { f64::INFINITY };
+        Ok(OnEdge { least, feature: Feature::Vertex(vertex as u8), of_line, from_line })
     }
 
     /// The particle as it is solved for.
@@ -187,28 +222,21 @@ impl Least {
         if self.precise { self.part.wide_from_edges(&triangle.vertices, pose, &x) } else { placed.from_edges(&x) }
     }
 
-    /// How steeply S may fall into the boundary from there: 0 but for rounding.
-    fn descent(&self) -> f64 {
-        larger(self.inward_descent, 0.0) + self.solution.slope
-    }
-
     /// How far S on a boundary of this extent may be below its upper bound.
     fn duality_gap(&self, body: &Body, extent: f64) -> f64 {
-        let (descent, within) = (self.descent(), self.within(body, extent));
+        let (descent, within) = (self.descent, self.within(body, extent));
         self.solution.duality_gap + smaller(descent * within, 0.5 * descent * descent / body.sphere_curvature())
     }
 
     /// Bound on the way to any point of a boundary of this extent where S is no larger.
     fn within(&self, body: &Body, extent: f64) -> f64 {
         let level = larger(self.solution.upper, 1.0);
-        smaller(self.from_centre().norm() + body.particle.reach(level), extent)
+        smaller(self.from_centre().norm() + body.particle.reach(level), extent) * (1.0 + OF_LENGTHS)
     }
 }
 
-fn least_of(on_edges: &[Option<(Least, Feature)>; 3]) -> Option<(Least, Feature)> {
-    let smaller_of = |a: (Least, Feature), b: (Least, Feature)| {
-        if b.0.solution.estimate < a.0.solution.estimate { b } else { a }
-    };
+fn least_of(on_edges: &[Option<OnEdge>; 3]) -> Option<OnEdge> {
+    let smaller_of = |a: OnEdge, b: OnEdge| if b.least.solution.estimate < a.least.solution.estimate { b } else { a };
     on_edges.iter().flatten().copied().reduce(smaller_of)
 }
 
@@ -244,7 +272,7 @@ impl Closest {
         let Solution { estimate, rounding, gradient_norms, .. } = self.least.solution;
         let within = smaller(2.0 * (body.particle.bounding_radius() + self.least.from_centre().norm()), self.extent);
         let most = (estimate * (1.0 + body.most_surplus(1.0))).sqrt();
-        let descent = self.least.descent();
+        let descent = self.least.descent;
         let above = 2.0 * (estimate - most) - descent * within - rounding;
         larger(above / (gradient_norms[0] + descent) * (1.0 - MARGIN), 0.0)
     }

@@ -33,8 +33,8 @@ impl Scale {
     pub fn of(solution: &Solution, [a, b]: [&Body; 2], problem: Problem) -> Self {
         let weighted = |of_a, of_b| problem.weighted(of_a, of_b, solution.lambda);
         // Regularised S exceeds S by at most this where the optimum can be.
-        let level = larger(solution.upper, 1.0);
-        let most = weighted(a.most_surplus(level), b.most_surplus(level));
+        let [level_a, level_b] = problem.levels(solution.upper);
+        let most = weighted(a.most_surplus(level_a), b.most_surplus(level_b));
         let surplus = [a.surplus(&solution.x), b.surplus(&solution.x)];
         let square = larger(solution.estimate - weighted(surplus[0], surplus[1]), 0.0);
         // What the regularisation adds to the larger of S_A and S_B at the point is no part of the upper bound.

@@ -134,6 +134,17 @@ impl Problem {
         }
     }
 
+    /// Bounds of S_A and S_B where the optimum can be, from an upper bound of what is minimised: a body that is held has S ≤ 1 there.
+    #[inline]
+    pub fn levels(self, upper: f64) -> [f64; 2] {
+        let level = larger(upper, 1.0);
+        match self {
+            Self::OnB => [level, 1.0],
+            Self::OnA => [1.0, level],
+            Self::Midway | Self::OnBoundary => [level; 2],
+        }
+    }
+
     /// c in the mismatch m = c − (α·S_A + β·S_B).
     #[inline]
     pub fn level<N: Number>(self) -> N {

@@ -115,6 +115,14 @@ impl BoundaryPart {
         self.steepest(towards, |v| v.normalize(), |side| -gradient.dot(side), |side| *side)
     }
 
+    /// Bound on the rounding of [`Self::descent`] in doubles, for a gradient of this length: the direction from an edge into a narrow
+    /// triangle is a small difference of long sides.
+    pub fn descent_rounding(&self, gradient: f64) -> f64 {
+        let Self::Edge { ends: [from, to], third } = self else { return OF_DIRECTION * gradient };
+        let (along, side) = (unit(&(to - from)), third - from);
+        OF_DIRECTION * gradient * side.norm() / along.cross(&side).norm()
+    }
+
     /// The same in numbers of 32 digits, with the axes of [`Self::wide_frame`]: a slope that is small beside the gradient keeps its digits.
     pub fn wide_descent(&self, gradient: &Wide, axes: &[Wide; 3]) -> Option<f64> {
         let towards = |v: &Vector3<f64>, from: &Vector3<f64>| {
@@ -168,6 +176,10 @@ impl BoundaryPart {
         })
     }
 }
+
+/// Bound on the rounding of a side in the frame of a part, relative to its length: that of a difference, and of a product with the
+/// rounded axes.
+const OF_DIRECTION: f64 = 8.0 * f64::EPSILON;
 
 /// The steepest fall between two sides with these falls along them, where the sum of their unit vectors is so long: a direction
 /// between them is a sum of both with shares that add up to at least 1, and to 2 over that length at most.

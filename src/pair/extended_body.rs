@@ -351,6 +351,11 @@ impl<'a> ExtendedBody<'a> {
         }
     }
 
+    /// Whether S, k = 0, may be 0 where its regularised value is this.
+    pub fn may_be_all_regularisation(&self, value: f64) -> bool {
+        self.body.particle.sphericity() == 0.0 && value <= self.body.most_surplus(1.0)
+    }
+
     /// From x₀ + δ to the centre.
     pub fn to_centre(&self, delta: &Wide) -> Wide {
         -(self.from_centre + delta)

@@ -148,7 +148,8 @@ impl<'a> Call<'a> {
     fn wants_more(&self, solution: &Solution, model: &LocalModel, goal: &Goal) -> bool {
         let [a, b] = self.bodies();
         let level = solution.upper.max(1.0);
-        let flat = goal.problem.weighted(a.most_surplus(level), b.most_surplus(level), solution.lambda);
+        let [level_a, level_b] = goal.problem.levels(level);
+        let flat = goal.problem.weighted(a.most_surplus(level_a), b.most_surplus(level_b), solution.lambda);
         let explained = solution.least_rounding([a, b], model, goal.problem) + flat + goal.tolerance * level;
         match solution.ending {
             _ if self.precise => true,

@@ -140,6 +140,7 @@ impl Extended<'_> {
     fn search(&mut self, first: DoubleDouble) -> Found {
         let mut found = Found { delta: wide(&Vector3::zeros()), lambda: first, optimum: None };
         let mut bracket = Bracket { low: 0.0, high: f64::INFINITY, slow: 0 };
+        let mut lambda = first;
         // The active set at the start may be that of the optimum.
         let model = self.model(&found.delta, Undecided::BySign, first);
         if let Some(optimum) = model.quadratics(self.problem).solve(first) {
@@ -149,16 +150,44 @@ impl Extended<'_> {
             if found.optimum.is_some() {
                 break;
             }
-            let Some(model) = self.minimise(&mut found.delta, found.lambda) else { break };
-            let Some(optimum) = model.quadratics(self.problem).solve(found.lambda) else { break };
-            if self.accept(&mut found, &model, optimum) || self.problem == Problem::OnBoundary {
+            let mut delta = found.delta;
+            // Where the minimum is not found, the last one bounds the optimum.
+            let Some((last, v)) = self.minimise(&mut delta, lambda) else { break };
+            let before = Found { delta, lambda, optimum: None };
+            found = Found { delta: delta + v, ..before };
+            // The quadratics are those of the last step, but about another point.
+            let model = self.model(&found.delta, last.undecided, lambda);
+            if self.is_slack(&model) {
+                break;
+            }
+            let Some(optimum) = model.quadratics(self.problem).solve(lambda) else { break };
+            let wanted = optimum.lambda;
+            if self.accept(&mut found, &model, optimum) {
+                break;
+            }
+            // By rounding a plane may have switched in the step: then they are those before it.
+            if let Some(optimum) = last.quadratics(self.problem).solve(lambda) {
+                let mut before = before;
+                if self.accept(&mut before, &last, optimum) {
+                    found = before;
+                }
+            }
+            if self.problem == Problem::OnBoundary {
                 break;
             }
             let (growing, falling) = self.problem.sides(model.sides[0].value.rounded(), model.sides[1].value.rounded());
-            let Some(next) = bracket.next(found.lambda.rounded(), growing > falling, optimum.lambda) else { break };
-            found.lambda = next;
+            let Some(next) = bracket.next(lambda.rounded(), growing > falling, wanted) else { break };
+            lambda = next;
         }
         found
+    }
+
+    /// Whether the point is in the held body and in the core of the free one, k = 0, where S is no more than what the regularisation may
+    /// add: the least S is then 0, and the point where the regularised S is least says no more.
+    fn is_slack(&self, model: &WideModel) -> bool {
+        let Some((held, free)) = self.problem.held() else { return false };
+        let [value_of_held, value] = [held, free].map(|i| model.sides[i].value.rounded());
+        self.bodies[free].may_be_all_regularisation(value) && value_of_held < 1.0
     }
 
     /// Goes to the optimum of a model, if the active set is the same there; whether it is.
@@ -178,9 +207,9 @@ impl Extended<'_> {
         self.bodies.iter().all(|body| body.keeps_active_set(delta, undecided, v))
     }
 
-    /// Moves δ to the minimum of a·S_A + b·S_B, by Newton's method with an exact line search; the quadratics there, or `None` where
-    /// all steps do not suffice or a number leaves its range.
-    fn minimise(&mut self, delta: &mut Wide, lambda: DoubleDouble) -> Option<WideModel> {
+    /// Moves δ to where one step leads to the minimum of a·S_A + b·S_B, by Newton's method with an exact line search: the quadratics there
+    /// and the step, or `None` where all steps do not suffice or a number leaves its range.
+    fn minimise(&mut self, delta: &mut Wide, lambda: DoubleDouble) -> Option<(WideModel, Wide)> {
         let (a, b) = self.problem.weights(lambda);
         let mut undecided = Undecided::BySign;
         for _ in 0..MOST_STEPS {
@@ -196,9 +225,7 @@ impl Extended<'_> {
                 return None;
             }
             if self.keeps_active_sets(delta, undecided, &v) {
-                *delta += v;
-                // The quadratics are those of the minimum, but about another point.
-                return Some(self.model(delta, undecided, lambda));
+                return Some((model, v));
             }
             let alpha = self.best_step(delta, &v, [a.rounded(), b.rounded()], gradient.dot(&step).rounded());
             if alpha * rounded(&v).norm() > DoubleDouble::UNIT * rounded(delta).norm() {
@@ -209,7 +236,7 @@ impl Extended<'_> {
                 undecided = Undecided::On;
                 self.bodies.iter_mut().for_each(|body| body.restore());
             } else if !self.drop_most_negative(delta, &v) {
-                return Some(model);
+                return Some((model, wide(&Vector3::zeros())));
             }
         }
         None

@@ -220,11 +220,12 @@ impl Reduced {
     }
 }
 
-/// A candidate: where, on which part.
-#[derive(Clone, Copy)]
+/// A candidate: where, on which part, in a plane with F as seen from there.
 struct Candidate {
     y: Wide2,
     part: Part,
+    plane: Plane,
+    reduced: Reduced,
 }
 
 /// How steeply F/2 falls at most from a candidate into the boundary.
@@ -271,51 +272,44 @@ pub fn least(
         y = rounder.on_plane(y);
     }
     y = reduced.on_plane(y);
-    let in_plane = Candidate { y, part: Part::Inside };
-    let of_triangle = plane.corners.as_ref().map(|corners| (corners, edges(corners)));
     let mut candidates = Vec::new();
-    match &of_triangle {
-        None => candidates.push(in_plane),
-        Some((corners, edges)) => {
-            let beyond = |i: usize| {
-                let from = corners[i];
-                dot(&edges[i].inwards, &[y[0] - from[0], y[1] - from[1]]).f64() < 0.0
-            };
-            if !(0..3).any(beyond) {
-                candidates.push(in_plane);
-            }
-            for (i, edge) in edges.iter().enumerate() {
-                let (t, end) = reduced.on_segment(&corners[i], &edge.along, edge.length);
-                candidates.push(match end {
-                    None => Candidate { y: along(&corners[i], t, &edge.along), part: Part::Edge(i) },
-                    Some(false) => Candidate { y: corners[i], part: Part::Vertex(i) },
-                    Some(true) => Candidate { y: corners[(i + 1) % 3], part: Part::Vertex((i + 1) % 3) },
-                });
-            }
-        }
+    let beyond = plane.corners.as_ref().is_some_and(|corners| {
+        let from = |i: usize| [y[0] - corners[i][0], y[1] - corners[i][1]];
+        edges(corners).iter().enumerate().any(|(i, edge)| dot(&edge.inwards, &from(i)).f64() < 0.0)
+    });
+    let sides = if plane.corners.is_some() { 3 } else { 0 };
+    if !beyond {
+        candidates.push(Candidate { y, part: Part::Inside, plane, reduced });
     }
-    let value = |candidate: &Candidate| reduced.at(&candidate.y).value;
-    let first = candidates[0];
+    for i in 0..sides {
+        let plane = Plane::along_edge(boundary, position, orientation, i);
+        let reduced = Reduced::new(particle, &plane, m);
+        let corners = plane.corners.as_ref().expect("a triangle has corners");
+        let Edge { along: unit, length, .. } = &edges(corners)[i];
+        let (t, end) = reduced.on_segment(&corners[i], unit, *length);
+        let (y, part) = match end {
+            None => (along(&corners[i], t, unit), Part::Edge(i)),
+            Some(false) => (corners[i], Part::Vertex(i)),
+            Some(true) => (corners[(i + 1) % 3], Part::Vertex((i + 1) % 3)),
+        };
+        candidates.push(Candidate { y, part, plane, reduced });
+    }
+    let value = |candidate: &Candidate| candidate.reduced.at(&candidate.y).value;
     let best = candidates
-        .iter()
-        .skip(1)
-        .fold(first, |best, other| if (value(other) - value(&best)).f64() < 0.0 { *other } else { best });
-    finish(particle, &plane, &reduced, &best, of_triangle.as_ref().map(|(corners, edges)| (*corners, edges)))
+        .into_iter()
+        .reduce(|best, other| if (value(&other) - value(&best)).f64() < 0.0 { other } else { best });
+    finish(particle, &best.expect("a boundary has a part"))
 }
 
-fn finish(
-    particle: &Particle,
-    plane: &Plane,
-    reduced: &Reduced,
-    best: &Candidate,
-    of_triangle: Option<(&[Wide2; 3], &[Edge; 3])>,
-) -> Least {
+fn finish(particle: &Particle, best: &Candidate) -> Least {
+    let Candidate { plane, reduced, .. } = best;
+    let edges = plane.corners.as_ref().map(edges);
     let at = reduced.at(&best.y);
-    let slope = 2.0 * descent(&at.slope, best.part, of_triangle.map(|(_, edges)| edges));
+    let slope = 2.0 * descent(&at.slope, best.part, edges.as_ref());
     let m = reduced.m.f64();
     let local = plane.local(&best.y);
     let s = at.value.f64().max(1.0).sqrt();
-    let extent = of_triangle.map_or(f64::INFINITY, |(corners, _)| {
+    let extent = plane.corners.as_ref().map_or(f64::INFINITY, |corners| {
         corners.iter().map(|c| length(&[c[0] - best.y[0], c[1] - best.y[1]])).fold(0.0, f64::max)
     });
     let within = extent.min(local.norm().f64() + particle.bounding_radius() * s * 4.0);
@@ -337,16 +331,17 @@ fn finish(
         Part::Vertex(_) => slope / m,
         Part::Inside => reduced.doubt(&best.y, None, slope),
         Part::Edge(i) => {
-            let edges = of_triangle.expect("an edge is one of a triangle").1;
-            let held = dot(&at.slope, &edges[i].inwards).f64() > 0.0;
-            if held { reduced.doubt(&best.y, Some(&edges[i].along), slope) } else { slope / m }
+            let edge = &edges.as_ref().expect("an edge is one of a triangle")[i];
+            let held = dot(&at.slope, &edge.inwards).f64() > 0.0;
+            if held { reduced.doubt(&best.y, Some(&edge.along), slope) } else { slope / m }
         }
     };
     let root = |v: Wide| v.max(Wide::ZERO).sqrt().f64();
     Least {
         x: plane.world(&local),
         part: best.part,
-        least: root(at.value - Wide::from(below + rounding)),
+        // As a double `below` is rounded, and so is its difference to a value that it nearly is.
+        least: root(at.value - Wide::from(below * (1.0 + 1e-12) + rounding)),
         most: root(at.value + Wide::from(rounding)),
         doubt: if doubt.is_finite() { doubt } else { f64::INFINITY },
         gradient: plane.world(&gradient),

@@ -63,13 +63,23 @@ pub struct Plane {
 
 impl Plane {
     pub fn new(boundary: &Boundary, position: [f64; 3], orientation: [f64; 4]) -> Self {
+        Self::with_axis(boundary, position, orientation, None)
+    }
+
+    /// With its first axis along edge i of a triangle, and its height that of the edge: however the sides of a narrow triangle turn the plane,
+    /// the edge stays where it is.
+    pub fn along_edge(boundary: &Boundary, position: [f64; 3], orientation: [f64; 4], i: usize) -> Self {
+        Self::with_axis(boundary, position, orientation, Some(i))
+    }
+
+    fn with_axis(boundary: &Boundary, position: [f64; 3], orientation: [f64; 4], edge: Option<usize>) -> Self {
         let rotation = crate::reference::rows(orientation);
         let columns = [0, 1, 2].map(|j| Wide3([0, 1, 2].map(|i| rotation[i].0[j])));
         let local = |v: &Wide3| Wide3([0, 1, 2].map(|j| columns[j].dot(v)));
         let from_centre = |p: &[f64; 3]| local(&Wide3([0, 1, 2].map(|i| Wide::difference(p[i], position[i]))));
-        let (normal, point, vertices, condition) = match boundary {
+        let (normal, point, vertices, condition, along) = match boundary {
             Boundary::Plane { point, normal } => {
-                (unit(&local(&Wide3(normal.map(Wide::from)))), from_centre(point), None, 1.0)
+                (unit(&local(&Wide3(normal.map(Wide::from)))), from_centre(point), None, 1.0, None)
             }
             Boundary::Triangle(vertices) => {
                 let at = vertices.map(|v| from_centre(&v));
@@ -77,14 +87,21 @@ impl Plane {
                 let base = (0..3).fold(0, |longest, i| if side(i) > side(longest) { i } else { longest });
                 let (next, last) = ((base + 1) % 3, (base + 2) % 3);
                 // Their differences have no rounding in world axes.
-                let sides = [next, last]
-                    .map(|i| local(&Wide3([0, 1, 2].map(|c| Wide::difference(vertices[i][c], vertices[base][c])))));
-                let across = cross3(&unit(&sides[0]), &unit(&sides[1]));
-                (unit(&across), at[base], Some(at), 1.0 / across.norm().f64())
+                let between = |from: usize, to: usize| {
+                    local(&Wide3([0, 1, 2].map(|c| Wide::difference(vertices[to][c], vertices[from][c]))))
+                };
+                let across = cross3(&unit(&between(base, next)), &unit(&between(base, last)));
+                let condition = 1.0 / across.norm().f64();
+                let along = edge.map(|i| unit(&between(i, (i + 1) % 3)));
+                let normal = along.as_ref().map_or(unit(&across), |e| {
+                    let n = unit(&across);
+                    unit(&n.minus(&e.times(n.dot(e))))
+                });
+                (normal, at[edge.unwrap_or(base)], Some(at), condition, along)
             }
         };
         let plain = normal.f64();
-        let first = unit(&cross3(&normal, &Wide3::from(Vector3::ith(plain.iamin(), 1.0))));
+        let first = along.unwrap_or_else(|| unit(&cross3(&normal, &Wide3::from(Vector3::ith(plain.iamin(), 1.0)))));
         let axes = [first, cross3(&normal, &first)];
         let given = vertices.map_or(vec![point], |at| at.to_vec());
         Self {
