@@ -306,17 +306,14 @@ impl<'a> ExtendedBody<'a> {
     }
 
     /// Adds S at x₀ + δ + α·v, times a weight.
-    pub fn add_to_line(&self, line: &mut Line, delta: &Wide, v: &Wide, weight: f64) {
-        let (v64, quick) = (rounded(v), rounded(delta));
-        let (length, w2) = (quick.norm(), 2.0 * weight * self.plane_weight.rounded());
-        line.add_curvature(2.0 * weight * self.sphere_weight.rounded() * v64.norm_squared());
+    pub fn add_to_line(&self, line: &mut Line, delta: &Wide, v: &Wide, weight: DoubleDouble) {
+        let (quick, length) = (rounded(delta), rounded(delta).norm());
+        let (w2, m2) = (weight * self.plane_weight * 2.0, weight * self.sphere_weight * 2.0);
+        line.add_curvature(m2 * v.dot(v));
         for plane in &self.planes {
             let (depth, rounding) = plane.quick_depth(&quick, length);
-            let depth = if depth < -rounding { depth } else { plane.depth(delta).rounded() };
-            // n·v cancels for a long step along a face.
-            let rate = rounded(&plane.normal).dot(&v64);
-            let clear = rate.abs() > CANCELLED * plane.length * v64.norm();
-            line.add_plane(depth, if clear { rate } else { plane.normal.dot(v).rounded() }, w2);
+            let depth = if depth < -rounding { of(depth) } else { plane.depth(delta) };
+            line.add_plane(depth, plane.normal.dot(v), w2);
         }
     }
 
@@ -398,9 +395,6 @@ impl<'a> ExtendedBody<'a> {
         ROUNDING * DoubleDouble::UNIT * (self.lengths + rounded(delta).norm())
     }
 }
-
-/// Share of |n||v| below which n·v has lost half of its digits in doubles.
-const CANCELLED: f64 = 1e-8;
 
 /// How much farther planes are gathered than they are needed.
 const MARGIN: f64 = 2.0;

@@ -227,9 +227,9 @@ impl Extended<'_> {
             if self.keeps_active_sets(delta, undecided, &v) {
                 return Some((model, v));
             }
-            let alpha = self.best_step(delta, &v, [a.rounded(), b.rounded()], gradient.dot(&step).rounded());
-            if alpha * rounded(&v).norm() > DoubleDouble::UNIT * rounded(delta).norm() {
-                *delta += v * DoubleDouble::from(alpha);
+            let alpha = self.best_step(delta, &v, [a, b], gradient.dot(&step));
+            if alpha.rounded() * rounded(&v).norm() > DoubleDouble::UNIT * rounded(delta).norm() {
+                *delta += v * alpha;
                 undecided = Undecided::BySign;
             } else if undecided == Undecided::BySign {
                 // A plane that counts as off comes on at once.
@@ -253,7 +253,7 @@ impl Extended<'_> {
     }
 
     /// α at which a·S_A + b·S_B, with this slope at α = 0, is least along v.
-    fn best_step(&self, delta: &Wide, v: &Wide, weights: [f64; 2], slope: f64) -> f64 {
+    fn best_step(&self, delta: &Wide, v: &Wide, weights: [DoubleDouble; 2], slope: DoubleDouble) -> DoubleDouble {
         let mut line = Line::new(slope);
         for (body, weight) in self.bodies.iter().zip(weights) {
             body.add_to_line(&mut line, delta, v, weight);
