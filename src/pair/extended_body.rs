@@ -183,9 +183,14 @@ impl<'a> ExtendedBody<'a> {
         }
     }
 
-    /// Makes sure that every plane that is on within a distance of x₀ is at hand.
+    /// Whether every plane that is on within a distance of x₀ is at hand.
+    pub fn covers(&self, distance: f64) -> bool {
+        distance <= self.reach
+    }
+
+    /// Makes sure of that.
     pub fn cover(&mut self, distance: f64) {
-        if distance <= self.reach {
+        if self.covers(distance) {
             return;
         }
         let (particle, axes) = (self.body.particle, &self.axes);

@@ -253,12 +253,20 @@ impl Extended<'_> {
     }
 
     /// α at which a·S_A + b·S_B, with this slope at α = 0, is least along v.
-    fn best_step(&self, delta: &Wide, v: &Wide, weights: [DoubleDouble; 2], slope: DoubleDouble) -> DoubleDouble {
-        let mut line = Line::new(slope);
-        for (body, weight) in self.bodies.iter().zip(weights) {
-            body.add_to_line(&mut line, delta, v, weight);
+    fn best_step(&mut self, delta: &Wide, v: &Wide, weights: [DoubleDouble; 2], slope: DoubleDouble) -> DoubleDouble {
+        let least = |bodies: &[ExtendedBody; 2]| {
+            let mut line = Line::new(slope);
+            bodies.iter().zip(weights).for_each(|(body, weight)| body.add_to_line(&mut line, delta, v, weight));
+            line.least()
+        };
+        let alpha = least(&self.bodies);
+        // Planes that come on farther away shorten the step.
+        let reach = rounded(delta).norm() + alpha.rounded() * rounded(v).norm();
+        if self.bodies.iter().all(|body| body.covers(reach)) {
+            return alpha;
         }
-        line.least()
+        self.bodies.iter_mut().for_each(|body| body.cover(reach));
+        least(&self.bodies)
     }
 
     fn model(&mut self, delta: &Wide, undecided: Undecided, lambda: DoubleDouble) -> WideModel {
