@@ -30,6 +30,8 @@ pub(super) struct Search<'a> {
     pub settings: &'a Settings,
     /// Whether all parts are solved in extended precision, as their bounds in doubles did not tell enough.
     pub precise: bool,
+    /// Where a search on the plane of the boundary begins, and where the last one ended: local frame of the particle.
+    pub remembered: Option<Vector3<f64>>,
     pub flags: Flags,
     pub iterations: u32,
 }
@@ -103,8 +105,17 @@ impl Search<'_> {
         Ok(Least { part, rotation, centre, lengths, precise, solution, inward_descent, descent, point_bound })
     }
 
+    /// The least S on the plane of a boundary, sought from the remembered point or another one. The other parts are not sought from
+    /// memory: all triangles that share one find the same bits.
+    fn inside(&mut self, plane: BoundaryPart, frame: &PartFrame, from: Vector2<f64>) -> Result<Least, DetectError> {
+        let in_plane = |x: Vector3<f64>| (frame.rotation.tr_mul(&self.pose.rotate(&x)) + frame.centre).xy();
+        let least = self.on_part(plane, frame, self.remembered.map_or(from, in_plane))?;
+        self.remembered = Some(self.pose.rotation().tr_mul(&(least.rotation * least.from_centre())));
+        Ok(least)
+    }
+
     pub fn on_plane(&mut self, plane: BoundaryPart, frame: &PartFrame) -> Result<Closest, DetectError> {
-        let least = self.on_part(plane, frame, Vector2::zeros())?;
+        let least = self.inside(plane, frame, Vector2::zeros())?;
         Ok(Closest {
             duality_gap: least.solution.duality_gap,
             least,
@@ -120,7 +131,7 @@ impl Search<'_> {
         frame: &PartFrame,
         placed: &PlacedTriangle,
     ) -> Result<Closest, DetectError> {
-        let inside = self.on_part(triangle.inside(), frame, placed.nearest())?;
+        let inside = self.inside(triangle.inside(), frame, placed.nearest())?;
         let x = inside.solution.x.xy();
         let mut on_edges = [None; 3];
         // An edge that the point cannot be told from by rounding counts as passed: S is no less there than on the triangle.
@@ -143,14 +154,12 @@ impl Search<'_> {
         }
         // On an edge that ends at the vertex the least S is no more than there, and whether it is less is an answer of the edge
         // alone: so all triangles that share it have the same.
-        if let Feature::Vertex(vertex) = found.feature {
-            for i in [usize::from(vertex), (usize::from(vertex) + 2) % 3] {
-                let on_edge = on_edges[i].map_or_else(|| self.on_edge(triangle, i), Ok)?;
-                on_edges[i] = Some(on_edge);
-                if on_edge.feature != found.feature {
-                    found = on_edge;
-                    break;
-                }
+        for i in ending_at(found.feature) {
+            let on_edge = on_edges[i].map_or_else(|| self.on_edge(triangle, i), Ok)?;
+            on_edges[i] = Some(on_edge);
+            if on_edge.feature != found.feature {
+                found = on_edge;
+                break;
             }
         }
         let OnEdge { mut least, feature, .. } = found;
@@ -172,7 +181,37 @@ impl Search<'_> {
             point_bound = smaller(point_bound, line.point_bound + on_edge.from_line);
         }
         least.point_bound = point_bound;
-        Ok(Closest { duality_gap, least, feature, extent })
+        let closest = Closest { duality_gap, least, feature, extent };
+        if self.precise { self.as_without_triangle(triangle, closest) } else { Ok(closest) }
+    }
+
+    /// The same, with the point of an edge or a vertex as that alone asks for it: whether it is solved in extended precision may not depend on
+    /// the triangle, or triangles that share it had different bits.
+    fn as_without_triangle(&mut self, triangle: &Triangle, precise: Closest) -> Result<Closest, DetectError> {
+        let edges = match precise.feature {
+            Feature::Edge(i) => vec![usize::from(i)],
+            feature => ending_at(feature).collect(),
+        };
+        let mut search = Search { precise: false, ..*self };
+        let mut found: Option<OnEdge> = None;
+        for i in edges {
+            if found.is_none_or(|found| found.feature == precise.feature) {
+                let on_edge = search.on_edge(triangle, i)?;
+                found = found.filter(|_| on_edge.feature == precise.feature).or(Some(on_edge));
+            }
+        }
+        (self.flags, self.iterations) = (search.flags, search.iterations);
+        let Some(OnEdge { mut least, feature, .. }) = found else { return Ok(precise) };
+        let place = |least: &Least| least.rotation * least.from_centre();
+        let off = (place(&least) - place(&precise.least)).norm();
+        least.point_bound = smaller(least.point_bound, precise.least.point_bound + off);
+        let above = least.solution.upper - precise.least.solution.upper + precise.least.solution.rounding;
+        Ok(Closest {
+            duality_gap: larger(above, 0.0) + precise.duality_gap,
+            least,
+            feature,
+            extent: precise.extent + off,
+        })
     }
 
     /// The least S on edge i, from the edge alone.
@@ -235,6 +274,13 @@ impl Least {
     }
 }
 
+/// The edges that end at a vertex.
+fn ending_at(feature: Feature) -> impl Iterator<Item = usize> {
+    let edges: &[usize] =
+        if let Feature::Vertex(vertex) = feature { &[[0, 2], [1, 0], [2, 1]][usize::from(vertex)] } else { &[] };
+    edges.iter().copied()
+}
+
 fn least_of(on_edges: &[Option<OnEdge>; 3]) -> Option<OnEdge> {
     let smaller_of = |a: OnEdge, b: OnEdge| if b.least.solution.estimate < a.least.solution.estimate { b } else { a };
     on_edges.iter().flatten().copied().reduce(smaller_of)
@@ -246,7 +292,9 @@ impl Closest {
     /// Where a flat face lies on several triangles, or a core of k = 0 reaches through them, the regularisation alone tells which of
     /// them is nearest to the centre: it stays part of s, and of the gap.
     pub fn scale(&self, body: &Body) -> Scale {
-        let Solution { estimate, upper, rounding, .. } = self.least.solution;
+        let Solution { upper, rounding, .. } = self.least.solution;
+        // A sum of squares that is 0 but for rounding.
+        let estimate = larger(self.least.solution.estimate, 0.0);
         let most = body.most_surplus(larger(upper, 1.0));
         Scale::between(estimate, upper - self.duality_gap - most - rounding, larger(estimate, upper) + rounding)
     }

@@ -11,7 +11,7 @@ use crate::flags::Flags;
 use crate::linalg::number::larger;
 use crate::pair::body::{Body, shift_in_a};
 use crate::pair::pair::Pair;
-use crate::pair::pair_state::PairState;
+use crate::pair::pair_state::{PairState, Remembered};
 use crate::pair::separation::Apart;
 use crate::particle::particle::Particle;
 use crate::particle::{potential, ray_cast};
@@ -67,7 +67,7 @@ pub struct FlatContact {
 /// ([`Flags::EXTENDED`]). Where the centre of A lies on the plane to rounding, A counts as in front of it: the normal is minus
 /// the plane's ([`Flags::NORMAL_BY_BOUNDARY`]).
 ///
-/// A state of A and this boundary may be given, as for a pair of particles; nothing is kept in it so far.
+/// `state` is what A and this boundary keep from call to call, as for a pair of particles: read, and updated on success.
 ///
 /// ```
 /// use potential_particles::{Kind, Particle, Pose, Settings, Wall, contact_with_plane};
@@ -86,14 +86,14 @@ pub fn contact_with_plane(
     pose: &Pose,
     wall: &Wall,
     settings: &Settings,
-    _state: Option<&mut PairState>,
+    state: Option<&mut PairState>,
 ) -> Result<FlatContact, DetectError> {
     settings.validate()?;
     let plane = wall.part();
     let frame = plane.frame(pose);
     let call = Call { particle: a, pose, normal: wall.normal, settings };
     let pair = Pair::on_boundary(a, pose, &plane, &frame);
-    call.contact(separation::proof_of_separation(&pair, None), |search| search.on_plane(plane, &frame))
+    call.contact(separation::proof_of_separation(&pair, None), state, |search| search.on_plane(plane, &frame))
 }
 
 /// Contact of A at a pose with a closed triangle, which it may touch from either side; otherwise as [`contact_with_plane`].
@@ -105,7 +105,7 @@ pub fn contact_with_triangle(
     pose: &Pose,
     triangle: &Triangle,
     settings: &Settings,
-    _state: Option<&mut PairState>,
+    state: Option<&mut PairState>,
 ) -> Result<FlatContact, DetectError> {
     settings.validate()?;
     let plane = triangle.inside();
@@ -114,7 +114,7 @@ pub fn contact_with_triangle(
     let pair = Pair::on_boundary(a, pose, &plane, &frame);
     let placed = PlacedTriangle::of(triangle, pose, &pair);
     let apart = separation::proof_of_separation(&pair, Some(&placed));
-    call.contact(apart, |search| search.on_triangle(triangle, &frame, &placed))
+    call.contact(apart, state, |search| search.on_triangle(triangle, &frame, &placed))
 }
 
 /// What a call is about.
@@ -132,13 +132,16 @@ impl Call<'_> {
     fn contact(
         &self,
         apart: Option<Apart>,
+        mut state: Option<&mut PairState>,
         closest: impl Fn(&mut Search) -> Result<Closest, DetectError>,
     ) -> Result<FlatContact, DetectError> {
         if let Some(apart) = apart.filter(|_| !self.settings.solve_separated) {
             return Ok(FlatContact::apart(&apart));
         }
         let (particle, pose, settings) = (self.particle, self.pose, self.settings);
-        let mut search = Search { particle, pose, settings, precise: false, flags: Flags::NONE, iterations: 0 };
+        let remembered = state.as_ref().and_then(|state| state.remembered_on_boundary(particle));
+        let flags = if remembered.is_some() { Flags::WARM } else { Flags::NONE };
+        let mut search = Search { particle, pose, settings, precise: false, remembered, flags, iterations: 0 };
         let mut found = closest(&mut search)?;
         if found.is_inconclusive() {
             search.precise = true;
@@ -150,7 +153,7 @@ impl Call<'_> {
             // Where the bulge of a raised regularisation may hide an overlap, the particle as it is decides.
             let flat_regularisation = Settings::default().flat_regularisation;
             let settings = Settings { flat_regularisation, ..*settings };
-            let contact = Call { settings: &settings, ..*self }.contact(None, closest)?;
+            let contact = Call { settings: &settings, ..*self }.contact(None, state, closest)?;
             return Ok(FlatContact { flags: contact.flags.with(Flags::DEFAULT_REGULARISATION), ..contact });
         }
         if scale.is_undecided() {
@@ -158,6 +161,10 @@ impl Call<'_> {
         }
         let contact = self.described(&body, &found, scale)?;
         let flags = contact.flags.with(search.flags);
+        if let (Some(state), Some(x)) = (state.as_deref_mut(), search.remembered) {
+            let overlapping = contact.kind == Kind::Overlapping;
+            state.remember(Remembered { x, lambda: 1.0, overlapping, closest: [1.0; 2] });
+        }
         Ok(FlatContact { flags, iterations: search.iterations, ..contact })
     }
 

@@ -66,7 +66,8 @@ pub struct pp_flat_contact {
 ///
 /// settings: may be NULL (defaults); gap_tolerance, flat_regularisation and solve_separated count. A
 /// gap_tolerance below 1e-13, or a gap in doubles that is too wide, is answered in extended precision
-/// (PP_FLAG_EXTENDED). state: may be NULL; else that of A and this boundary, in which nothing is kept so far.
+/// (PP_FLAG_EXTENDED). state: may be NULL; else that of A and this boundary, read and updated as
+/// by pp_contact_detect (the last point, from which the next search starts).
 /// Pointers: point and normal hold 3 numbers each.
 /// Errors: PP_NULL_POINTER, PP_BAD_POSITION, PP_BAD_ORIENTATION, PP_BAD_POINT, PP_UNKNOWN_FORMULATION,
 /// PP_UNKNOWN_BACK_END, PP_NO_CONE_PROGRAM, PP_BAD_SETTING, PP_SOLVER_FAILED.
@@ -99,7 +100,8 @@ pub unsafe extern "C" fn pp_contact_plane(
 /// (PP_FLAG_NORMAL_BY_BOUNDARY).
 /// settings: may be NULL (defaults); gap_tolerance, flat_regularisation and solve_separated count. A
 /// gap_tolerance below 1e-13, or a gap in doubles that is too wide, is answered in extended precision
-/// (PP_FLAG_EXTENDED). state: may be NULL; else that of A and this boundary, in which nothing is kept so far.
+/// (PP_FLAG_EXTENDED). state: may be NULL; else that of A and this boundary, read and updated as
+/// by pp_contact_detect.
 /// Pointers: vertices holds 9 numbers.
 /// Errors: those of pp_contact_plane, and PP_DEGENERATE_TRIANGLE.
 #[unsafe(no_mangle)]

@@ -6,7 +6,7 @@ use crate::particle::particle::Particle;
 use crate::pose::Pose;
 use nalgebra::Vector3;
 
-/// The state of one ordered pair (A, B): the last solution, from which the next call starts, and, with [`crate::Settings::carry_tolerance`]
+/// The state of one ordered pair (A, B), of two particles or of one and a boundary: the last solution, from which the next call starts, and, with [`crate::Settings::carry_tolerance`]
 /// above 0, both potentials as quadratics about the last contact, from which the next contact may follow without a look at any plane.
 /// Empty by default.
 ///
@@ -93,7 +93,8 @@ impl PairState {
     }
 
     /// The remembered solution as eight numbers: 1 if there is one, else 0; x, y, z of the midway point in the local frame of B, length;
-    /// λ = u/(1−u); 1 if the pair overlapped, else 0; factors on λ for P1 and P2.
+    /// λ = u/(1−u); 1 if the pair overlapped, else 0; factors on λ for P1 and P2. Of a boundary: x, y, z is the point of its plane, in the
+    /// local frame of the particle, and λ and the factors are 1.
     pub fn into_raw(self) -> [f64; 8] {
         self.solution
     }
@@ -110,6 +111,16 @@ impl PairState {
             && lambda >= LAMBDA_RANGE.0
             && lambda <= LAMBDA_RANGE.1;
         usable.then(|| self.unpacked())
+    }
+
+    /// Where the last search on the plane of a boundary ended, in the local frame of the particle: any place that is not too far away
+    /// to tell something.
+    pub(crate) fn remembered_on_boundary(&self, a: &Particle) -> Option<Vector3<f64>> {
+        let [filled, x, y, z, ..] = self.solution;
+        let reach = smaller(REACH * a.bounding_radius(), f64::MAX);
+        // Written so that what is not a number fails.
+        let usable = filled == Self::FILLED && [x, y, z].iter().all(|c| c.abs() <= reach);
+        usable.then(|| Vector3::new(x, y, z))
     }
 
     /// The remembered solution of a state that was found to have one.

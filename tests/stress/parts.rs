@@ -147,7 +147,7 @@ fn planted(solver: walls::Solver, counts: impl Fn(&FlatContact) -> bool, fault: 
     for index in 0..3_000 {
         let case = Case::of(3, index);
         let right = walls::judge(&case, walls::solve);
-        let Ok(contact) = walls::solve(&case.particle, &case.at.pose(), &case.boundary, &case.settings) else {
+        let Ok(contact) = walls::solve(&case.particle, &case.at.pose(), &case.boundary, &case.settings, None) else {
             continue;
         };
         // What is wrong already shows nothing.
@@ -163,8 +163,8 @@ fn planted(solver: walls::Solver, counts: impl Fn(&FlatContact) -> bool, fault: 
 
 macro_rules! spoilt {
     ($spoil:expr) => {
-        |a, pose, boundary, settings| {
-            let mut contact = walls::solve(a, pose, boundary, settings)?;
+        |a, pose, boundary, settings, state| {
+            let mut contact = walls::solve(a, pose, boundary, settings, state)?;
             #[allow(clippy::redundant_closure_call)]
             ($spoil)(&mut contact);
             Ok(contact)

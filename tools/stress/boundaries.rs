@@ -11,12 +11,20 @@ use potential_particles::{Particle, Plane, Settings};
 /// Boundaries of the same particle.
 const CASES_A_PARTICLE: u64 = 8;
 
+/// Seed and index of a case.
+pub struct Drawn {
+    pub seed: u64,
+    pub index: u64,
+}
+
 /// A particle, where it is, and what it may touch.
 pub struct Case {
     pub particle: Particle,
     pub at: Place,
     pub boundary: Boundary,
     pub settings: Settings,
+    /// What the state of the pair is drawn from.
+    pub memory: Drawn,
     /// Of the particle, and how the boundary lies.
     pub family: String,
 }
@@ -196,7 +204,8 @@ impl Case {
         let at = place_of(&particle, &mut random);
         let settings = settings(&mut random);
         let (boundary, how) = beside(&particle, &at, &mut random);
-        Self { particle, at, boundary, settings, family: format!("{name} | {how}") }
+        let memory = Drawn { seed, index };
+        Self { particle, at, boundary, settings, memory, family: format!("{name} | {how}") }
     }
 }
 

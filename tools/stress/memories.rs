@@ -8,7 +8,7 @@ use potential_particles::{Contact, DetectError, Flags, Formulation, Kind, PairSt
 use serde::Serialize;
 
 /// What is remembered, as numbers.
-type Raw = [f64; 8];
+pub type Raw = [f64; 8];
 
 /// Memories that each pair is solved from.
 const MEMORIES: usize = 6;
@@ -36,7 +36,7 @@ fn solve(case: &Case, settings: &Settings, raw: Option<&mut Raw>) -> Result<Cont
 }
 
 /// Any bits, numbers that tend to break things, and memories of this pair or another with some of them in it.
-fn any(case: &Case, seed: u64, random: &mut Random) -> (Raw, &'static str) {
+pub fn any(own: impl Fn() -> Raw, another: impl Fn(&mut Random) -> Raw, random: &mut Random) -> (Raw, &'static str) {
     let bits = |random: &mut Random| {
         let word = |random: &mut Random| (random.uniform() * 4_294_967_296.0) as u64;
         f64::from_bits(word(random) << 32 | word(random))
@@ -72,15 +72,11 @@ fn any(case: &Case, seed: u64, random: &mut Random) -> (Raw, &'static str) {
             (raw, "1e60 to 1e100")
         }
         3 => {
-            let mut raw = own(case);
+            let mut raw = own();
             raw[random.whole(1, 8)] = special(random);
             (raw, "its own but for one number")
         }
-        4 => {
-            let index = 1_000_000 + 8 * random.whole(0, 20_000) as u64;
-            let shapes = Shapes::of(seed, index);
-            (own(&Case::of(&shapes, seed, index)), "another pair's")
-        }
+        4 => (another(random), "another pair's"),
         _ => {
             let mut raw = [0; 8].map(|_| special(random));
             raw[0] = 1.0;
@@ -112,7 +108,12 @@ pub fn one(seed: u64, index: u64, ledger: &mut Ledger) {
     };
     let cold = solve(&case, &settings, None);
     for _ in 0..MEMORIES {
-        let (raw, kind) = any(&case, seed, &mut random);
+        let another = |random: &mut Random| {
+            let index = 1_000_000 + 8 * random.whole(0, 20_000) as u64;
+            let shapes = Shapes::of(seed, index);
+            own(&Case::of(&shapes, seed, index))
+        };
+        let (raw, kind) = any(|| own(&case), another, &mut random);
         let family = format!("{kind} | {}", case.family());
         *ledger.families.entry(family.clone()).or_default() += 1;
         let mut after = raw;

@@ -1,31 +1,41 @@
 //! Contacts with planes and triangles, each judged against the least S in 32 digits.
 
 use crate::boundaries::Case;
+use crate::cases::stream;
 use crate::least::{Least, least};
 use crate::ledger::{Fault, Finding, Ledger};
 use crate::line::{At, Shape, shape};
+use crate::memories::{Raw, any};
 use crate::placed_boundary::{Beside, Boundary, Part, beside};
+use crate::random::Random;
 use crate::reference::Body;
 use crate::wide::{Wide, Wide3};
 use nalgebra::Vector3;
 use potential_particles::{
-    DetectError, Feature, Flags, FlatContact, Kind, Particle, Pose, Settings, Triangle, Wall, contact_with_plane,
-    contact_with_triangle,
+    DetectError, Feature, Flags, FlatContact, Kind, PairState, Particle, Pose, Settings, Triangle, Wall,
+    contact_with_plane, contact_with_triangle,
 };
 use serde::Serialize;
 
 /// What is judged; anything else must be found out.
-pub type Solver = fn(&Particle, &Pose, &Boundary, &Settings) -> Result<FlatContact, DetectError>;
+pub type Solver =
+    fn(&Particle, &Pose, &Boundary, &Settings, Option<&mut PairState>) -> Result<FlatContact, DetectError>;
 
 /// The library.
-pub fn solve(a: &Particle, pose: &Pose, boundary: &Boundary, settings: &Settings) -> Result<FlatContact, DetectError> {
+pub fn solve(
+    a: &Particle,
+    pose: &Pose,
+    boundary: &Boundary,
+    settings: &Settings,
+    state: Option<&mut PairState>,
+) -> Result<FlatContact, DetectError> {
     let refused = "the boundaries that are drawn are boundaries";
     match boundary {
         Boundary::Plane { point, normal } => {
-            contact_with_plane(a, pose, &Wall::new(*point, *normal).expect(refused), settings, None)
+            contact_with_plane(a, pose, &Wall::new(*point, *normal).expect(refused), settings, state)
         }
         Boundary::Triangle(vertices) => {
-            contact_with_triangle(a, pose, &Triangle::new(*vertices).expect(refused), settings, None)
+            contact_with_triangle(a, pose, &Triangle::new(*vertices).expect(refused), settings, state)
         }
     }
 }
@@ -115,9 +125,10 @@ pub fn judge(case: &Case, solver: Solver) -> Verdict {
     let mut verdict = Verdict::default();
     let pose = case.at.pose();
     let scene = Scene { case, pose: &pose };
-    let first = scene.answer(&case.settings, solver, &mut verdict);
+    let mut state = scene.memory().map(PairState::from_raw);
+    let first = scene.answer(&case.settings, solver, state.as_mut(), &mut verdict);
     if first.is_some_and(|contact| contact.flags.contains(Flags::REJECTED)) {
-        scene.answer(&Settings { solve_separated: true, ..case.settings }, solver, &mut verdict);
+        scene.answer(&Settings { solve_separated: true, ..case.settings }, solver, None, &mut verdict);
     }
     verdict
 }
@@ -145,6 +156,34 @@ impl Truth {
 }
 
 impl Scene<'_> {
+    /// What is remembered: of half of the cases nothing, of the others what the particle leaves a little aside of there, or any numbers.
+    fn memory(&self) -> Option<Raw> {
+        let Case { particle, at, boundary, memory, .. } = self.case;
+        let mut random = stream(memory.seed, 16, memory.index);
+        let size = particle.bounding_radius();
+        let beside = |random: &mut Random, share: f64| {
+            let way: [f64; 3] = (share * size * random.direction()).into();
+            let position = [0, 1, 2].map(|i| at.position[i] + way[i]);
+            let mut state = PairState::default();
+            let settings = Settings { solve_separated: true, ..Settings::default() };
+            // Without an answer there is nothing to remember.
+            let pose = Pose::new(position, at.orientation).expect("a pose beside another one");
+            let _ = solve(particle, &pose, boundary, &settings, Some(&mut state));
+            state.into_raw()
+        };
+        match random.whole(0, 4) {
+            0 | 1 => None,
+            2 => {
+                let share = 10f64.powf(-8.0 * random.uniform());
+                Some(beside(&mut random, share))
+            }
+            _ => {
+                let own = beside(&mut random, 1e-3);
+                Some(any(|| own, |random| beside(random, 1.0), &mut random).0)
+            }
+        }
+    }
+
     fn least(&self, least_sphericity: f64) -> Least {
         let Case { particle, at, boundary, .. } = self.case;
         least(particle, at.position, at.orientation, boundary, least_sphericity)
@@ -184,9 +223,15 @@ impl Scene<'_> {
         Least { least: (found.least * found.least - added).max(0.0).sqrt(), ..found }
     }
 
-    fn answer(&self, settings: &Settings, solver: Solver, verdict: &mut Verdict) -> Option<FlatContact> {
+    fn answer(
+        &self,
+        settings: &Settings,
+        solver: Solver,
+        state: Option<&mut PairState>,
+        verdict: &mut Verdict,
+    ) -> Option<FlatContact> {
         verdict.judged += 1;
-        let contact = match solver(&self.case.particle, self.pose, &self.case.boundary, settings) {
+        let contact = match solver(&self.case.particle, self.pose, &self.case.boundary, settings, state) {
             Ok(contact) => contact,
             Err(error) => {
                 let truth = self.truth(settings, None);
