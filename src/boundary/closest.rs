@@ -175,10 +175,12 @@ impl Search<'_> {
         let mut duality_gap = smaller(least.duality_gap(&body, extent), above(&inside) + inside.solution.duality_gap);
         let mut point_bound = least.point_bound;
         // Nor below that of an edge but for the descent from there, which says more than a vertex that rounding has put in its place.
-        for on_edge in on_edges.iter().flatten().filter(|on_edge| on_edge.feature == feature) {
+        for on_edge in on_edges.iter().flatten() {
             let line = &on_edge.of_line;
             duality_gap = smaller(duality_gap, above(line) + line.duality_gap(&body, extent_from(line)));
-            point_bound = smaller(point_bound, line.point_bound + on_edge.from_line);
+            if on_edge.feature == feature {
+                point_bound = smaller(point_bound, line.point_bound + on_edge.from_line);
+            }
         }
         least.point_bound = point_bound;
         let closest = Closest { duality_gap, least, feature, extent };
@@ -224,17 +226,28 @@ impl Search<'_> {
         let of_line = self.on_part(edge, &frame, Vector2::new(smaller(larger(from, 0.0), to), 0.0))?;
         let [from, to] = if of_line.precise { edge.wide_ends(self.pose) } else { [from, to] };
         let x = of_line.solution.x.x;
-        let (end, inside) = match () {
-            () if x <= from + of_line.shift() => (usize::from(reversed), x - from),
-            () if x >= to - of_line.shift() => (usize::from(!reversed), to - x),
-            () => return Ok(OnEdge { least: of_line, feature: Feature::Edge(i as u8), of_line, from_line: 0.0 }),
+        // Distances from both ends.
+        let inside = [x - from, to - x];
+        let Some(nearest) = [0, 1].into_iter().find(|end| inside[*end] <= of_line.shift()) else {
+            return Ok(OnEdge { least: of_line, feature: Feature::Edge(i as u8), of_line, from_line: 0.0 });
         };
+        // By rounding the point of the line may lie beyond the wrong end.
+        let [first, last] =
+            [self.at_end(triangle, i, usize::from(reversed))?, self.at_end(triangle, i, usize::from(!reversed))?];
+        let is_first = first.0.solution.estimate <= last.0.solution.estimate;
+        let (least, feature) = if is_first { first } else { last };
+        let is_nearest = is_first == (nearest == 0);
+        let from_line = if is_nearest && inside[nearest] >= 0.0 { inside[nearest] } else { f64::INFINITY };
+        Ok(OnEdge { least, feature, of_line, from_line })
+    }
+
+    /// The least S on a vertex, the beginning or the end of edge i.
+    fn at_end(&mut self, triangle: &Triangle, i: usize, end: usize) -> Result<(Least, Feature), DetectError> {
         let vertex = (i + end) % 3;
         let others = [1, 2].map(|i| triangle.vertices[(vertex + i) % 3]);
         let corner = BoundaryPart::Corner { at: triangle.vertices[vertex], others };
         let least = self.on_part(corner, &corner.frame(self.pose), Vector2::zeros())?;
-        let from_line = if inside >= 0.0 { inside } else { f64::INFINITY };
-        Ok(OnEdge { least, feature: Feature::Vertex(vertex as u8), of_line, from_line })
+        Ok((least, Feature::Vertex(vertex as u8)))
     }
 
     /// The particle as it is solved for.

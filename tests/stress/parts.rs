@@ -17,33 +17,33 @@ fn ledger(count: u64, one: impl Fn(u64, &mut Ledger) + Sync) -> Ledger {
     run((1, count), THREADS, &AtomicBool::new(false), &ProgressBar::hidden(), one)
 }
 
-/// No failure but for those that are open (docs/reliability.md, "What is open"), and a reference that settles nearly all.
-fn check(part: &str, ledger: &Ledger, most_unsettled: f64, open: u64) {
+/// No failure, and a reference that settles nearly all.
+fn check(part: &str, ledger: &Ledger, most_unsettled: f64) {
     if ledger.failures() > 0 {
         ledger.print(part);
     }
     assert!(ledger.judged > 0 && ledger.share_unsettled() <= most_unsettled, "{} unsettled", ledger.unsettled);
-    assert!(ledger.failures() <= open, "{:?}", ledger.by_fault());
+    assert_eq!(ledger.failures(), 0, "{:?}", ledger.by_fault());
 }
 
 #[test]
 fn random_contacts_with_planes_and_triangles() {
-    check("walls", &ledger(20_000, |index, ledger| walls::one(1, index, walls::solve, ledger)), 1e-2, 3);
+    check("walls", &ledger(20_000, |index, ledger| walls::one(1, index, walls::solve, ledger)), 1e-2);
 }
 
 #[test]
 fn triangles_that_share_an_edge_or_a_vertex_agree_on_it() {
-    check("seams", &ledger(5_000, |index, ledger| seams::one(1, index, ledger)), 0.0, 3);
+    check("seams", &ledger(5_000, |index, ledger| seams::one(1, index, ledger)), 0.0);
 }
 
 #[test]
 fn random_pairs_of_the_plane() {
-    check("planar", &ledger(4_000, |index, ledger| planar::one(1, index, ledger)), 0.05, 2);
+    check("planar", &ledger(4_000, |index, ledger| planar::one(1, index, ledger)), 0.05);
 }
 
 #[test]
 fn any_memory_leaves_the_answer_as_it_is() {
-    check("memories", &ledger(1_000, |index, ledger| memories::one(1, index, ledger)), 0.0, 0);
+    check("memories", &ledger(1_000, |index, ledger| memories::one(1, index, ledger)), 0.0);
 }
 
 /// S is nowhere on a boundary below the least that is told, and where it is told it is that.
@@ -179,8 +179,7 @@ fn deep(contact: &FlatContact) -> bool {
 #[test]
 fn an_s_ten_gaps_off_is_found() {
     let (judged, found) = planted(spoilt!(|c: &mut FlatContact| c.s += 10.0 * c.gap), deep, Fault::Gap);
-    // Of narrow triangles 32 digits are less sure than the gap is wide.
-    assert!(found * 100 >= judged * 85, "{found} of {judged}");
+    assert!(found * 100 >= judged * 90, "{found} of {judged}");
 }
 
 #[test]
@@ -215,7 +214,7 @@ fn a_point_ten_bounds_off_is_found() {
     });
     let known = |c: &FlatContact| deep(c) && c.point_bound > 1e-14 * c.branch.norm() && c.point_bound.is_finite();
     let (judged, found) = planted(solver, known, Fault::PointBound);
-    assert!(found * 100 >= judged * 95, "{found} of {judged}");
+    assert!(found * 100 >= judged * 97, "{found} of {judged}");
 }
 
 #[test]
