@@ -153,13 +153,16 @@ impl Search<'_> {
             found = least_of(&on_edges).unwrap_or(found);
         }
         // On an edge that ends at the vertex the least S is no more than there, and whether it is less is an answer of the edge
-        // alone: so all triangles that share it have the same.
-        for i in ending_at(found.feature) {
-            let on_edge = on_edges[i].map_or_else(|| self.on_edge(triangle, i), Ok)?;
-            on_edges[i] = Some(on_edge);
-            if on_edge.feature != found.feature {
-                found = on_edge;
-                break;
+        // alone: so all triangles that share it have the same. From one vertex it may lead to another one, but not round in a circle.
+        for _ in 0..3 {
+            let at = found.feature;
+            for i in ending_at(at) {
+                let on_edge = on_edges[i].map_or_else(|| self.on_edge(triangle, i), Ok)?;
+                on_edges[i] = Some(on_edge);
+                if on_edge.feature != at {
+                    found = on_edge;
+                    break;
+                }
             }
         }
         let OnEdge { mut least, feature, .. } = found;
