@@ -228,11 +228,12 @@ impl Call<'_> {
         let line = potential::on_line(particle, particle.sphere_weight, &from, &outwards);
         let guess = ray_cast::root_of_piece(line.value - 1.0, line.slope, line.curvature);
         let shift = shift_in_a(from.norm(), found.least.lengths);
-        let way = ray_cast::distance_near(particle, &from, &outwards, guess)
-            .or_else(|| ray_cast::distance_beside(particle, &from, &outwards, shift))
-            .ok_or_else(DetectError::no_surface)?;
+        let near = ray_cast::distance_near(particle, &from, &outwards, guess);
+        // The point is inside but for its rounding, which puts it beyond a flank of a sharp particle.
+        let ahead = near.filter(|way| *way > 0.0);
+        let way = ahead.or_else(|| ray_cast::distance_beside(particle, &from, &outwards, shift)).or(near);
         // Where s < 1 by rounding alone, it may be behind.
-        Ok(larger(way, 0.0))
+        Ok(larger(way.ok_or_else(DetectError::no_surface)?, 0.0))
     }
 }
 

@@ -382,11 +382,23 @@ impl Scene<'_> {
         let at = |way: f64| body.at(&start.plus(&Wide3::from(c.normal).times(Wide::from(way)))).value.f64();
         // Where the surface is met aslant, what it is off is found farther along.
         let end = body.at(&start.plus(&Wide3::from(c.normal).times(Wide::from(c.overlap)))).gradient.f64();
-        let tolerance = tolerance * (end.norm() / end.dot(&c.normal)).max(1.0);
+        let tolerance = tolerance
+            * (end.norm() / end.dot(&c.normal)).max(self.aslant(&(x + c.overlap * c.normal), &c.normal, tolerance));
         let (before, beyond) = (at(c.overlap - tolerance), at(c.overlap + tolerance));
         verdict.check(beyond >= 1.0, Fault::Overlap, || format!("overlap {:e}: S={beyond:e} beyond it", c.overlap));
         let inside = c.overlap <= tolerance || before <= 1.0;
         verdict.check(inside, Fault::Overlap, || format!("overlap {:e}: S={before:e} before it", c.overlap));
+    }
+
+    /// How much farther along the normal a plane is met that cannot be told from 0 at a point, where it is met aslant.
+    fn aslant(&self, x: &Vector3<f64>, normal: &Vector3<f64>, tolerance: f64) -> f64 {
+        let rotation = self.pose.rotation();
+        let (local, along) = (rotation.tr_mul(x), rotation.tr_mul(normal));
+        let met = self.case.particle.planes().filter(|plane| {
+            let excess = plane.normal.dot(&local) - plane.offset;
+            excess.abs() <= tolerance * plane.normal.norm()
+        });
+        met.map(|plane| plane.normal.norm() / plane.normal.dot(&along).max(0.0)).fold(1.0, f64::max)
     }
 
     /// No farther than a point of the particle that is known: the one on the way to the nearest point of the boundary.
