@@ -17,7 +17,7 @@ pub struct Flags(u32);
 impl Flags {
     pub(crate) const NONE: Self = Self(0);
 
-    /// A centre lies inside the other particle: the constraint of closest is slack, the geometry midway's.
+    /// A centre lies inside the other particle, or may: the constraint of closest is slack, the geometry midway's.
     pub const SLACK: Self = Self(1);
     /// Separation was proved without solving to the end; s is a lower bound.
     pub const REJECTED: Self = Self(2);

@@ -17,7 +17,8 @@ pub const PP_SEPARATED: i32 = 1;
 pub const PP_OVERLAPPING: i32 = 2;
 
 /// "closest" was asked for, but its constraint is slack: a centre (for k = 0, the core) of one particle
-/// lies inside the other, so that |P1 - P2| is no overlap distance. All fields are those of midway.
+/// lies inside the other, or cannot be told from that, so that |P1 - P2| is no overlap distance. All fields
+/// are those of midway.
 pub const PP_FLAG_SLACK: u32 = 1;
 /// Separation was proved without solving to the end: s is a proved lower bound >= 1; of the geometry only
 /// distance is set.

@@ -34,7 +34,7 @@ pub(crate) struct CertifiedPoint {
 }
 
 impl Call<'_> {
-    /// P1 and P2 from midway, near which they lie. `None` where a constraint is slack, which is flagged.
+    /// P1 and P2 from midway, near which they lie. `None` where a constraint is slack, or may be; which is flagged.
     #[inline(never)]
     pub fn closest(&mut self, midway: &Solved) -> Result<Option<[CertifiedPoint; 2]>, SolveError> {
         let Solved { solution, model } = midway;
@@ -42,8 +42,13 @@ impl Call<'_> {
         if let Some(both) = self.both(lambdas, model, |_| true) {
             return Ok(Some(both));
         }
-        if let Some(p2) = self.closest_point(Problem::OnB, Some(midway))? {
-            if let Some(p1) = self.closest_point(Problem::OnA, Some(midway))? {
+        // A constraint that cannot be told from a slack one says as little as one that is.
+        let point = |call: &mut Self, problem| match call.closest_point(problem, Some(midway)) {
+            Err(SolveError::Undecided { .. }) => Ok(None),
+            found => found,
+        };
+        if let Some(p2) = point(self, Problem::OnB)? {
+            if let Some(p1) = point(self, Problem::OnA)? {
                 return Ok(Some([p1, p2]));
             }
         }

@@ -31,7 +31,8 @@ use nalgebra::{Matrix3, Vector3};
 const MOST_WEIGHTS: u32 = 60;
 const MOST_STEPS: u32 = 100;
 
-/// Relative to the smaller particle, how far from the start planes are looked at to begin with.
+/// Relative to the smaller particle, how far from the start planes are looked at to begin with; and how far a solution may lie from there
+/// that is not sought again about itself.
 const FIRST_REACH: f64 = 0.05;
 
 /// Factor by which λ moves while only one end of its bracket is known, at most.
@@ -107,6 +108,19 @@ impl Bracket {
 
 /// Solves for the goal from a start.
 pub(crate) fn solve(pair: &Pair, bodies: [&Body; 2], goal: &Goal, start: &Start) -> Solution {
+    let solution = solve_about(pair, bodies, goal, start);
+    let is_far = (solution.x - start.x).norm() > FIRST_REACH * local_model::smallest(bodies);
+    if solution.ending != Ending::RoundingLimited || !is_far {
+        return solution;
+    }
+    // Depths about a far point have lost digits that those about the solution have.
+    let nearer = solve_about(pair, bodies, goal, &solution.start());
+    let best = if nearer.gap() < solution.gap() { nearer } else { solution };
+    Solution { iterations: solution.iterations + nearer.iterations, ..best }
+}
+
+/// The same with all depths taken about the start.
+fn solve_about(pair: &Pair, bodies: [&Body; 2], goal: &Goal, start: &Start) -> Solution {
     let mut extended = Extended {
         bodies: ExtendedBody::both(pair, bodies, &start.x),
         problem: goal.problem,
