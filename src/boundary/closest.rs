@@ -105,17 +105,24 @@ impl Search<'_> {
         Ok(Least { part, rotation, centre, lengths, precise, solution, inward_descent, descent, point_bound })
     }
 
-    /// The least S on the plane of a boundary, sought from the remembered point or another one. The other parts are not sought from
+    /// The least S on the plane of a boundary, sought from the remembered point if there is one. The other parts are not sought from
     /// memory: all triangles that share one find the same bits.
-    fn inside(&mut self, plane: BoundaryPart, frame: &PartFrame, from: Vector2<f64>) -> Result<Least, DetectError> {
-        let in_plane = |x: Vector3<f64>| (frame.rotation.tr_mul(&self.pose.rotate(&x)) + frame.centre).xy();
-        let least = self.on_part(plane, frame, self.remembered.map_or(from, in_plane))?;
+    fn inside(&mut self, plane: BoundaryPart, frame: &PartFrame) -> Result<Least, DetectError> {
+        let last = self.remembered.map(|x| frame.in_part(self.pose, &x).xy());
+        let least = self.on_part(plane, frame, last.unwrap_or_else(|| self.below(frame)))?;
         self.remembered = Some(self.pose.rotation().tr_mul(&(least.rotation * least.from_centre())));
         Ok(least)
     }
 
+    /// A point of a plane near that of the least S: below the corners of the particle that lie beyond it, seen from the centre.
+    fn below(&self, frame: &PartFrame) -> Vector2<f64> {
+        let towards = -frame.centre.z.signum() * self.pose.rotation().tr_mul(&frame.rotation.column(2));
+        let corner = self.particle.bounds.beyond(&towards, frame.centre.z.abs());
+        corner.map_or_else(Vector2::zeros, |corner| frame.in_part(self.pose, &corner).xy())
+    }
+
     pub fn on_plane(&mut self, plane: BoundaryPart, frame: &PartFrame) -> Result<Closest, DetectError> {
-        let least = self.inside(plane, frame, Vector2::zeros())?;
+        let least = self.inside(plane, frame)?;
         Ok(Closest {
             duality_gap: least.solution.duality_gap,
             least,
@@ -131,7 +138,7 @@ impl Search<'_> {
         frame: &PartFrame,
         placed: &PlacedTriangle,
     ) -> Result<Closest, DetectError> {
-        let inside = self.inside(triangle.inside(), frame, placed.nearest())?;
+        let inside = self.inside(triangle.inside(), frame)?;
         let x = inside.solution.x.xy();
         let mut on_edges = [None; 3];
         // An edge that the point cannot be told from by rounding counts as passed: S is no less there than on the triangle.
@@ -235,22 +242,14 @@ impl Search<'_> {
             return Ok(OnEdge { least: of_line, feature: Feature::Edge(i as u8), of_line, from_line: 0.0 });
         };
         // By rounding the point of the line may lie beyond the wrong end.
-        let [first, last] =
-            [self.at_end(triangle, i, usize::from(reversed))?, self.at_end(triangle, i, usize::from(!reversed))?];
-        let is_first = first.0.solution.estimate <= last.0.solution.estimate;
-        let (least, feature) = if is_first { first } else { last };
-        let is_nearest = is_first == (nearest == 0);
-        let from_line = if is_nearest && inside[nearest] >= 0.0 { inside[nearest] } else { f64::INFINITY };
-        Ok(OnEdge { least, feature, of_line, from_line })
-    }
-
-    /// The least S on a vertex, the beginning or the end of edge i.
-    fn at_end(&mut self, triangle: &Triangle, i: usize, end: usize) -> Result<(Least, Feature), DetectError> {
-        let vertex = (i + end) % 3;
+        let value = |end: &Vector3<f64>| self.body().value(&self.pose.rotation().tr_mul(&(end - self.pose.position())));
+        let end = usize::from(value(&ends[0]) > value(&ends[1]));
+        let vertex = (i + if reversed { 1 - end } else { end }) % 3;
         let others = [1, 2].map(|i| triangle.vertices[(vertex + i) % 3]);
         let corner = BoundaryPart::Corner { at: triangle.vertices[vertex], others };
         let least = self.on_part(corner, &corner.frame(self.pose), Vector2::zeros())?;
-        Ok((least, Feature::Vertex(vertex as u8)))
+        let from_line = if end == nearest && inside[end] >= 0.0 { inside[end] } else { f64::INFINITY };
+        Ok(OnEdge { least, feature: Feature::Vertex(vertex as u8), of_line, from_line })
     }
 
     /// The particle as it is solved for.

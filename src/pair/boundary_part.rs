@@ -36,6 +36,13 @@ pub(crate) struct PartFrame {
     pub lengths: f64,
 }
 
+impl PartFrame {
+    /// A point of the local frame of the particle at this pose.
+    pub fn in_part(&self, pose: &Pose, x: &Vector3<f64>) -> Vector3<f64> {
+        self.rotation.tr_mul(&pose.rotate(x)) + self.centre
+    }
+}
+
 impl BoundaryPart {
     /// The number of coordinates that a point of it has.
     pub fn dimensions(&self) -> usize {

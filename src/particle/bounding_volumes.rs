@@ -152,6 +152,21 @@ impl Bounds {
         (farthest + self.merged).min(self.radius)
     }
 
+    /// Mean of the corners c with e·c ≥ h, or the one that is farthest along e where there is none; `None` of a ball.
+    pub fn beyond(&self, e: &Vector3<f64>, h: f64) -> Option<Vector3<f64>> {
+        let (mut sum, mut count, mut farthest, mut most) = (Vector3::zeros(), 0.0, None, f64::NEG_INFINITY);
+        for corner in &self.corners {
+            let along = corner.dot(e);
+            if along >= h {
+                sum += corner;
+                count += 1.0;
+            } else if along > most {
+                (farthest, most) = (Some(*corner), along);
+            }
+        }
+        if count > 0.0 { Some(sum / count) } else { farthest }
+    }
+
     /// Axis-aligned box that holds the particle turned and moved: (lower, upper).
     pub fn aligned_box(&self, rotation: &Matrix3<f64>, position: &Vector3<f64>) -> (Vector3<f64>, Vector3<f64>) {
         let (mut lower, mut upper) = (*position, *position);

@@ -384,6 +384,9 @@ impl Scene<'_> {
         let end = body.at(&start.plus(&Wide3::from(c.normal).times(Wide::from(c.overlap)))).gradient.f64();
         let tolerance = tolerance
             * (end.norm() / end.dot(&c.normal)).max(self.aslant(&(x + c.overlap * c.normal), &c.normal, tolerance));
+        if !(tolerance < particle.bounding_radius()) {
+            return;
+        }
         let (before, beyond) = (at(c.overlap - tolerance), at(c.overlap + tolerance));
         verdict.check(beyond >= 1.0, Fault::Overlap, || format!("overlap {:e}: S={beyond:e} beyond it", c.overlap));
         let inside = c.overlap <= tolerance || before <= 1.0;
@@ -398,7 +401,8 @@ impl Scene<'_> {
             let excess = plane.normal.dot(&local) - plane.offset;
             excess.abs() <= tolerance * plane.normal.norm()
         });
-        met.map(|plane| plane.normal.norm() / plane.normal.dot(&along).max(0.0)).fold(1.0, f64::max)
+        let ahead = met.map(|plane| plane.normal.norm() / plane.normal.dot(&along)).filter(|slant| *slant > 0.0);
+        ahead.fold(1.0, f64::max)
     }
 
     /// No farther than a point of the particle that is known: the one on the way to the nearest point of the boundary.
