@@ -66,12 +66,26 @@ pub(crate) struct OnRay {
     pub rounding: f64,
 }
 
+/// What the planes do over a piece.
+#[derive(Clone, Debug)]
+pub(crate) struct Activity {
+    /// The planes that are neither active nor inactive all over it.
+    pub undecided: Vec<Undecided>,
+    /// A lower bound of ∇S(x)·x.
+    ///
+    /// With e_i the excess of each plane and w their weight it is 2 (1 + w Σ e_i d_i). Σ e_i is at least the root of Σ e_i², and
+    /// e_i g is concave for d_i ≥ 0, so that it is least at a corner. Where a plane has the origin behind it, S(x) − S(0) is a bound,
+    /// since S is convex.
+    pub least_slope: f64,
+}
+
 /// A plane that is active in some part of the piece only.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Undecided {
     pub n: Vector3<f64>,
-    /// The square of its excess where it is active, or of what lacks where it is not, is at most this.
-    pub square: f64,
+    pub d: f64,
+    /// Its excess where it is active, or what lacks where it is not, is at most this.
+    pub excess: f64,
 }
 
 impl<'a> Gauge<'a> {
@@ -201,24 +215,33 @@ impl Piece {
         }
     }
 
-    /// The planes that are neither active nor inactive all over the piece, by g at its corners.
-    pub fn undecided(&self, corners: &[Vector3<f64>], gauges: &[f64]) -> Vec<Undecided> {
-        let least = self.lower.iter().copied().fold(f64::INFINITY, f64::min);
-        let mut undecided = Vec::new();
+    /// What the planes do over the piece, by g at its corners.
+    pub fn activity(&self, corners: &[Vector3<f64>], gauges: &[f64]) -> Activity {
+        let longest = corners.iter().map(|p| p.norm()).fold(0.0, f64::max);
+        let highest = gauges.iter().copied().fold(0.0, f64::max);
+        let of_lower = self.lower.iter().copied().fold(f64::INFINITY, f64::min);
+        let (mut undecided, mut active, mut nearest, mut behind) = (Vec::new(), 0.0, f64::INFINITY, 0.0);
         for Counted { n, d, length, most } in &self.planes {
             let over = |bounds: &[f64]| {
                 let h = corners.iter().zip(bounds).map(|(p, bound)| n.dot(p) - d * bound);
                 h.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), h| (h.min(low), h.max(high)))
             };
             let (low, high) = if *d >= 0.0 { (over(gauges).0, *most) } else { (over(&self.lower).0, over(gauges).1) };
-            let longest = corners.iter().map(|p| p.norm()).fold(0.0, f64::max);
             let rounding = UNDECIDED * length * longest;
             if high > rounding && low < -rounding {
-                let excess = high.min(-low) / least;
-                undecided.push(Undecided { n: *n, square: excess * excess });
+                undecided.push(Undecided { n: *n, d: *d, excess: high.min(-low) / of_lower });
             }
+            active += d.max(0.0) * low.max(0.0) / highest;
+            nearest = d.min(nearest);
+            behind += d.min(0.0).powi(2);
         }
-        undecided
+        let of_planes = (1.0 - self.sphere_weight / self.least.powi(2)).max(0.0);
+        let least_slope = if nearest >= 0.0 {
+            2.0 + 2.0 * f64::max(nearest * (self.plane_weight * of_planes).sqrt(), self.plane_weight * active)
+        } else {
+            1.0 - self.plane_weight * behind
+        };
+        Activity { undecided, least_slope }
     }
 }
 
@@ -269,7 +292,7 @@ mod tests {
         for corners in pieces() {
             let piece = gauge.on(&corners, 1.0);
             let gauges = corners.map(|corner| piece.at(&corner, &Vector3::zeros()).gauge);
-            let undecided = piece.undecided(&corners, &gauges);
+            let undecided = piece.activity(&corners, &gauges).undecided;
             for plane in particle.planes() {
                 let excess = |i, j| {
                     let p = inside(&corners, i, j);
