@@ -184,8 +184,14 @@ impl Piece {
             if half_slope > 0.0 && value > -0.5 {
                 outside = tau;
             }
-            // The rounding of a tangent may have put the start inside: one step leads outside again. Also where a step is not a number.
-            if !(step > ROUNDING * tau || i == 0 && step < -ROUNDING * tau) {
+            // The rounding of a tangent may have put the start inside, where no plane may be active.
+            if i == 0 && !(step >= -ROUNDING * tau) {
+                tau = self.beyond_a_plane(p);
+                outside = tau;
+                continue;
+            }
+            // Also where a step is not a number.
+            if !(step > ROUNDING * tau) {
                 break;
             }
             tau -= step;
@@ -213,6 +219,13 @@ impl Piece {
             rounding: gauge
                 * (ROUNDING + if usable { ROUNDING * self.plane_weight * rounding / half_slope } else { 0.0 }),
         }
+    }
+
+    /// 1/g is at most this: where one plane alone gives S = 1, or the ray leaves the bounding ball.
+    fn beyond_a_plane(&self, p: &Vector3<f64>) -> f64 {
+        let depth = 1.0 / self.plane_weight.sqrt();
+        let crossings = self.planes.iter().map(|plane| (plane.d + depth) / plane.n.dot(p)).filter(|tau| *tau > 0.0);
+        crossings.fold(1.0 / (self.least * p.norm()), f64::min)
     }
 
     /// What the planes do over the piece, by g at its corners.

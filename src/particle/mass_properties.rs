@@ -33,7 +33,8 @@ pub struct MassProperties {
     /// ∫ (|x|² I − x xᵀ) dV about the local origin, length⁵.
     pub inertia: Matrix3<f64>,
     /// Estimated bound on the relative error: of the volume, of each moment of inertia about an axis through the origin, and of the
-    /// centroid as a share of the radii of gyration across the axes' planes. It exceeds the tolerance where that cannot be reached.
+    /// centroid as a share of the radii of gyration across the axes' planes. It exceeds the tolerance where that cannot be reached,
+    /// and is infinite where lengths are so different that nothing is known.
     pub error: f64,
 }
 
@@ -161,7 +162,7 @@ fn properties(moments: &Moments, error: f64) -> MassProperties {
         volume: moments[0],
         centroid: first(moments) / moments[0],
         inertia: Matrix3::from_diagonal_element(second.trace()) - second,
-        error,
+        error: if error.is_nan() { f64::INFINITY } else { error },
     }
 }
 
