@@ -1,6 +1,7 @@
 //! A triangle in the frame of its plane, seen from the point that is nearest to the centre of a particle.
 
 use super::boundary::Triangle;
+use crate::contact::geometry::direction;
 use crate::pair::pair::Pair;
 use crate::pose::Pose;
 use nalgebra::{Vector2, Vector3};
@@ -9,8 +10,8 @@ use nalgebra::{Vector2, Vector3};
 #[derive(Clone, Copy, Debug)]
 pub(super) struct PlacedTriangle {
     vertices: [Vector2<f64>; 3],
-    /// From each vertex to the next, as given: far from the particle their places no longer tell.
-    edges: [Vector2<f64>; 3],
+    /// From each vertex to the next, at unit length, and how far: from the vertices as given, whose places tell less far from the particle.
+    edges: [(Vector2<f64>, f64); 3],
 }
 
 impl PlacedTriangle {
@@ -20,13 +21,17 @@ impl PlacedTriangle {
         let given = triangle.vertices;
         Self {
             vertices: given.map(|vertex| (rotation * (vertex - pose.position()) + pair.centre).xy()),
-            edges: [0, 1, 2].map(|i| (rotation * (given[(i + 1) % 3] - given[i])).xy()),
+            edges: [0, 1, 2].map(|i| {
+                let edge = rotation * (given[(i + 1) % 3] - given[i]);
+                // One that is lost to rounding counts as passed.
+                (direction(&edge).unwrap_or_else(Vector3::zeros).xy(), edge.norm())
+            }),
         }
     }
 
     /// Distance of a point from edge i; negative beyond it, outside the triangle.
     fn from_edge(&self, i: usize, x: &Vector2<f64>) -> f64 {
-        (self.edges[i] / self.edges[i].norm()).perp(&(x - self.vertices[i]))
+        self.edges[i].0.perp(&(x - self.vertices[i]))
     }
 
     pub fn from_edges(&self, x: &Vector2<f64>) -> [f64; 3] {
@@ -38,8 +43,8 @@ impl PlacedTriangle {
         let origin = Vector2::zeros();
         let (mut nearest, mut least) = (origin, f64::INFINITY);
         for i in (0..3).filter(|i| self.from_edge(*i, &origin) < 0.0) {
-            let (from, along) = (self.vertices[i], self.edges[i]);
-            let on_edge = from + (-from.dot(&along) / along.norm_squared()).clamp(0.0, 1.0) * along;
+            let (from, (along, length)) = (self.vertices[i], self.edges[i]);
+            let on_edge = from + (-from.dot(&along)).max(0.0).min(length) * along;
             if on_edge.norm_squared() < least {
                 (nearest, least) = (on_edge, on_edge.norm_squared());
             }

@@ -53,6 +53,13 @@ struct Counted {
     most: f64,
 }
 
+/// What planes add on rays: Σ e², and half of its slope and of its curvature.
+struct Sums<const N: usize> {
+    squares: [f64; N],
+    mixed: [f64; N],
+    steep: [f64; N],
+}
+
 /// The surface on the ray through p.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct OnRay {
@@ -98,13 +105,8 @@ impl<'a> Gauge<'a> {
     pub fn on(&self, corners: &[Vector3<f64>], height: f64) -> Piece {
         let shape = self.shape;
         let least = 1.0 / shape.bounds.radius;
-        let middle = corners.iter().sum::<Vector3<f64>>() / corners.len() as f64;
-        let tangent = self.tangent(&middle).unwrap_or_else(Vector3::zeros);
-        let mut lower: Vec<f64> = corners.iter().map(|corner| tangent.dot(corner)).collect();
-        // The bounding ball, where the tangent plane at the middle says less.
-        if !lower.iter().all(|&bound| bound >= height * least) {
-            lower.iter_mut().for_each(|bound| *bound = height * least);
-        }
+        let tangent = self.tangent(&middle(corners)).unwrap_or_else(Vector3::zeros);
+        let lower = lower_bounds(corners, &tangent, height * least);
         let mut found = Vec::new();
         if !shape.is_sphere() {
             found.extend_from_slice(&self.behind);
@@ -119,12 +121,7 @@ impl<'a> Gauge<'a> {
             found.sort_unstable();
             found.dedup();
         }
-        let counted = |i: usize| {
-            let (n, d) = (shape.normal(i), shape.offset(i));
-            let most =
-                corners.iter().zip(&lower).map(|(p, bound)| n.dot(p) - d * bound).fold(f64::NEG_INFINITY, f64::max);
-            Counted { n, d, length: n.norm(), most }
-        };
+        let counted = |i: usize| Counted::of(shape.normal(i), shape.offset(i), corners, &lower);
         Piece {
             planes: found.into_iter().map(counted).collect(),
             plane_weight: shape.plane_weight,
@@ -144,7 +141,34 @@ impl<'a> Gauge<'a> {
     }
 }
 
+impl Counted {
+    fn of(n: Vector3<f64>, d: f64, corners: &[Vector3<f64>], lower: &[f64]) -> Self {
+        let most = corners.iter().zip(lower).map(|(p, bound)| n.dot(p) - d * bound).fold(f64::NEG_INFINITY, f64::max);
+        Self { n, d, length: n.norm(), most }
+    }
+}
+
+fn middle(corners: &[Vector3<f64>]) -> Vector3<f64> {
+    corners.iter().sum::<Vector3<f64>>() / corners.len() as f64
+}
+
+/// Lower bounds of g at the corners of a piece: the tangent plane at its middle, or where that says less the bounding ball, `floor`.
+fn lower_bounds(corners: &[Vector3<f64>], tangent: &Vector3<f64>, floor: f64) -> Vec<f64> {
+    let bounds: Vec<f64> = corners.iter().map(|corner| tangent.dot(corner)).collect();
+    if bounds.iter().all(|&bound| bound >= floor) { bounds } else { vec![floor; corners.len()] }
+}
+
 impl Piece {
+    /// Over a part of the piece, of the same height.
+    pub fn within(&self, corners: &[Vector3<f64>], height: f64) -> Self {
+        let tangent = self.at(&middle(corners), &Vector3::zeros()).tangent;
+        let lower = lower_bounds(corners, &tangent, height * self.least);
+        let longest = corners.iter().map(|p| p.norm()).fold(0.0, f64::max);
+        let counted = self.planes.iter().map(|plane| Counted::of(plane.n, plane.d, corners, &lower));
+        let may_count = |plane: &Counted| plane.d < 0.0 || plane.most > -UNDECIDED * plane.length * longest;
+        Self { planes: counted.filter(may_count).collect(), tangent, lower, ..*self }
+    }
+
     /// Number of planes that are evaluated for each ray.
     pub fn len(&self) -> usize {
         self.planes.len()
@@ -159,62 +183,104 @@ impl Piece {
         self.plane_weight
     }
 
-    /// The surface on the ray through a point of the piece: Newton's method from outside, which does not overshoot, since S is convex.
-    /// `near` is ∇g at a point of the piece nearby, or 0.
+    /// The surface on the ray through a point of the piece. `near` is ∇g at a point of the piece nearby, or 0.
     pub fn at(&self, p: &Vector3<f64>, near: &Vector3<f64>) -> OnRay {
-        let (square, length) = (p.norm_squared(), p.norm());
-        let sphere = self.sphere_weight * square;
-        let mut tau = 1.0 / self.tangent.dot(p).max(near.dot(p)).max(self.least * length);
-        // The last point that was not found to be inside.
+        let [on_ray] = self.along_row(&[*p], &[*near]);
+        on_ray
+    }
+
+    /// The same for a row of points, for which each plane is evaluated at once: Newton's method from outside, which does not overshoot,
+    /// since S is convex.
+    pub fn along_row<const N: usize>(&self, points: &[Vector3<f64>; N], near: &[Vector3<f64>; N]) -> [OnRay; N] {
+        let mut tau: [f64; N] = std::array::from_fn(|i| {
+            let p = &points[i];
+            1.0 / self.tangent.dot(p).max(near[i].dot(p)).max(self.least * p.norm())
+        });
+        // The last points that were not found to be inside.
         let mut outside = tau;
-        for i in 0..MOST_STEPS {
-            let (mut value, mut half_slope, mut half_curvature) = (sphere * tau * tau - 1.0, sphere * tau, sphere);
-            let (mut squares, mut mixed, mut steep) = (0.0, 0.0, 0.0);
-            for Counted { n, d, .. } in &self.planes {
-                let rate = n.dot(p);
-                let excess = (tau * rate - d).max(0.0);
-                squares += excess * excess;
-                mixed += excess * rate;
-                steep += if excess > 0.0 { rate * rate } else { 0.0 };
+        let mut is_open = [true; N];
+        let coordinates = [0, 1, 2].map(|axis| points.map(|p| p[axis]));
+        for is_first in (0..MOST_STEPS).map(|step| step == 0) {
+            let sums = self.sums(&coordinates, &tau);
+            for i in 0..N {
+                if !is_open[i] {
+                    continue;
+                }
+                let sphere = self.sphere_weight * points[i].norm_squared();
+                let value = sphere * tau[i] * tau[i] - 1.0 + self.plane_weight * sums.squares[i];
+                let half_slope = sphere * tau[i] + self.plane_weight * sums.mixed[i];
+                let half_curvature = sphere + self.plane_weight * sums.steep[i];
+                let step = 0.5 * value / half_slope;
+                if half_slope > 0.0 && value > -0.5 {
+                    outside[i] = tau[i];
+                }
+                // The rounding of a tangent may have put the start inside, where no plane may be active.
+                if is_first && !(step >= -ROUNDING * tau[i]) {
+                    tau[i] = self.beyond_a_plane(&points[i]);
+                    outside[i] = tau[i];
+                    continue;
+                }
+                // Also where a step is not a number.
+                let moves = step > ROUNDING * tau[i];
+                if moves {
+                    tau[i] -= step;
+                }
+                let left = 0.5 * half_curvature * step * step;
+                is_open[i] = moves && left > 0.25 * ROUNDING * tau[i] * half_slope;
             }
-            value += self.plane_weight * squares;
-            half_slope += self.plane_weight * mixed;
-            half_curvature += self.plane_weight * steep;
-            let step = 0.5 * value / half_slope;
-            if half_slope > 0.0 && value > -0.5 {
-                outside = tau;
-            }
-            // The rounding of a tangent may have put the start inside, where no plane may be active.
-            if i == 0 && !(step >= -ROUNDING * tau) {
-                tau = self.beyond_a_plane(p);
-                outside = tau;
-                continue;
-            }
-            // Also where a step is not a number.
-            if !(step > ROUNDING * tau) {
-                break;
-            }
-            tau -= step;
-            if step > 0.0 && 0.5 * half_curvature * step * step <= 0.25 * ROUNDING * tau * half_slope {
+            if !is_open.contains(&true) {
                 break;
             }
         }
+        let pulls = self.pulls(&coordinates, &outside);
+        std::array::from_fn(|i| self.on_ray(&points[i], tau[i], outside[i], &pulls[i]))
+    }
+
+    /// What the planes add to S, its slope and its curvature along rays.
+    #[inline(always)]
+    fn sums<const N: usize>(&self, [x, y, z]: &[[f64; N]; 3], tau: &[f64; N]) -> Sums<N> {
+        let mut sums = Sums { squares: [0.0; N], mixed: [0.0; N], steep: [0.0; N] };
+        for Counted { n, d, .. } in &self.planes {
+            for i in 0..N {
+                let rate = n.x * x[i] + n.y * y[i] + n.z * z[i];
+                let excess = tau[i] * rate - d;
+                let excess = if excess > 0.0 { excess } else { 0.0 };
+                sums.squares[i] += excess * excess;
+                sums.mixed[i] += excess * rate;
+                sums.steep[i] += if excess > 0.0 { rate * rate } else { 0.0 };
+            }
+        }
+        sums
+    }
+
+    /// Σ e_i n_i, and what rounding makes of the excess of each plane, at points of rays.
+    #[inline(always)]
+    fn pulls<const N: usize>(&self, [x, y, z]: &[[f64; N]; 3], tau: &[f64; N]) -> [(Vector3<f64>, f64); N] {
+        let mut sums = [[0.0; N]; 4];
+        let far: [f64; N] = std::array::from_fn(|i| tau[i] * (x[i] * x[i] + y[i] * y[i] + z[i] * z[i]).sqrt());
+        for Counted { n, d, length, .. } in &self.planes {
+            for i in 0..N {
+                let excess = tau[i] * (n.x * x[i] + n.y * y[i] + n.z * z[i]) - d;
+                let excess = if excess > 0.0 { excess } else { 0.0 };
+                sums[0][i] += excess * n.x;
+                sums[1][i] += excess * n.y;
+                sums[2][i] += excess * n.z;
+                sums[3][i] += excess * (length * far[i] + d.abs());
+            }
+        }
+        std::array::from_fn(|i| (Vector3::new(sums[0][i], sums[1][i], sums[2][i]), sums[3][i]))
+    }
+
+    /// The surface at τ p, with the tangent from a point on the ray that is not inside.
+    fn on_ray(&self, p: &Vector3<f64>, tau: f64, outside: f64, (sum, rounding): &(Vector3<f64>, f64)) -> OnRay {
         let x = outside * p;
-        let (mut sum, mut rounding) = (Vector3::zeros(), 0.0);
-        for Counted { n, d, length: of_normal, .. } in &self.planes {
-            let excess = n.dot(&x) - d;
-            if excess > 0.0 {
-                sum += excess * n;
-                rounding += excess * (of_normal * outside * length + d.abs());
-            }
-        }
         let half = self.plane_weight * sum + self.sphere_weight * x;
         let half_slope = half.dot(&x);
         let gauge = 1.0 / tau;
         let usable = half_slope > 0.0;
         OnRay {
             gauge,
-            tangent: if usable { half / (half_slope * tau / outside) } else { p * (gauge / square) },
+            tangent: if usable { half / (half_slope * tau / outside) } else { p * (gauge / p.norm_squared()) },
             slope: 2.0 * half_slope,
             rounding: gauge
                 * (ROUNDING + if usable { ROUNDING * self.plane_weight * rounding / half_slope } else { 0.0 }),

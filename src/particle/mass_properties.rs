@@ -112,7 +112,12 @@ pub(crate) fn of(shape: &Shape, tolerance: f64) -> MassProperties {
         }
         // Cells so coarse that they missed most of the particle gave units of another one.
         norm = found;
-        cells = refined.iter().map(|cell| Cell::of(&gauge, &patches, cell.patch, cell.u, cell.v, &norm)).collect();
+        cells = refined
+            .iter()
+            .map(|cell| {
+                Cell::of(|corners, height| gauge.on(corners, height), &patches, cell.patch, [cell.u, cell.v], &norm)
+            })
+            .collect();
     }
     properties(&sum(&cells), f64::INFINITY)
 }
@@ -146,7 +151,9 @@ fn refined(cells: Vec<Cell>, gauge: &Gauge, patches: &[Patch], norm: &Norm, tole
 fn first_pass(gauge: &Gauge, patches: &[Patch]) -> (Vec<Cell>, Norm) {
     let all = |norm: &Norm| -> Vec<Cell> {
         let parts = (0..patches.len()).flat_map(|i| patches[i].intervals().map(move |v| (i, v)));
-        parts.map(|(i, v)| Cell::of(gauge, patches, i, (0.0, 1.0), v, norm)).collect()
+        parts
+            .map(|(i, v)| Cell::of(|corners, height| gauge.on(corners, height), patches, i, [(0.0, 1.0), v], norm))
+            .collect()
     };
     let norm = Norm::of(&sum(&all(&Norm::unit())));
     (all(&norm), norm)
@@ -225,22 +232,29 @@ impl Norm {
 }
 
 impl Cell {
-    fn of(gauge: &Gauge, patches: &[Patch], patch: usize, u: (f64, f64), v: (f64, f64), norm: &Norm) -> Self {
+    /// `piece` gives the particle over its corners, in a plane at this distance.
+    fn of(
+        piece: impl FnOnce(&[Vector3<f64>], f64) -> Piece,
+        patches: &[Patch],
+        patch: usize,
+        [u, v]: [(f64, f64); 2],
+        norm: &Norm,
+    ) -> Self {
         let here = &patches[patch];
         let (du, dv) = (u.1 - u.0, v.1 - v.0);
         let at = |s: f64, t: f64| here.at(u.0 + s * du, v.0 + t * dv);
-        let corners = [(0.0, 0.0), (0.0, 1.0), (1.0, 0.0), (1.0, 1.0)].map(|(s, t)| at(s, t).0);
-        let piece = gauge.on(&corners, here.height);
+        let corners = corners(here, u, v);
+        let piece = piece(&corners, here.height);
         let mut moments = Moments::zeros();
         let mut differences = [Moments::zeros(); 2];
         let mut rounding = 0.0;
         let mut nodes = Vec::with_capacity(POINTS * POINTS);
+        let mut near = [Vector3::zeros(); POINTS];
         for (s, kronrod_u, lobatto_u) in RULE {
-            let mut near = Vector3::zeros();
-            for (t, kronrod_v, lobatto_v) in RULE {
-                let (p, volume) = at(s, t);
-                let on_ray = piece.at(&p, &near);
-                near = on_ray.tangent;
+            let row = RULE.map(|(t, ..)| at(s, t));
+            let on_rays = piece.along_row(&row.map(|(p, _)| p), &near);
+            near = on_rays.map(|on_ray| on_ray.tangent);
+            for (((t, kronrod_v, lobatto_v), (p, volume)), on_ray) in RULE.into_iter().zip(row).zip(on_rays) {
                 let tau = 1.0 / on_ray.gauge;
                 let volume = volume * du * dv;
                 let moment = moments_of_ray(&p, tau, volume);
@@ -277,8 +291,15 @@ impl Cell {
         let of_u = divided(self.u, self.errors[0], self.errors[1]);
         let of_v = divided(self.v, self.errors[1], self.errors[0]);
         let parts = of_u.iter().flat_map(|&u| of_v.iter().map(move |&v| (u, v)));
-        parts.map(|(u, v)| Self::of(gauge, patches, self.patch, u, v, norm)).collect()
+        let whole = gauge.on(&corners(&patches[self.patch], self.u, self.v), patches[self.patch].height);
+        let within = |corners: &[Vector3<f64>], height: f64| whole.within(corners, height);
+        parts.map(|(u, v)| Self::of(within, patches, self.patch, [u, v], norm)).collect()
     }
+}
+
+/// The corners of a cell.
+fn corners(patch: &Patch, u: (f64, f64), v: (f64, f64)) -> [Vector3<f64>; 4] {
+    [(u.0, v.0), (u.0, v.1), (u.1, v.0), (u.1, v.1)].map(|(u, v)| patch.at(u, v).0)
 }
 
 /// Error over difference of the rules for the analytic part of g, the largest of all rows in a direction.
