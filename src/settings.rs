@@ -139,7 +139,8 @@ impl Settings {
     pub(crate) fn least_sphericity(&self) -> f64 {
         let precise = self.gap_tolerance < LEAST_OF_DOUBLES;
         if precise && !self.raises_regularisation() {
-            SHARE_OF_REGULARISATION * self.gap_tolerance
+            // s itself is rounded by as much.
+            SHARE_OF_REGULARISATION * self.gap_tolerance.max(f64::EPSILON)
         } else {
             self.regularisation()
         }

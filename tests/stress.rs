@@ -1,5 +1,5 @@
-//! "make stress" in small: random pairs, walks, sweeps, walls, seams, pairs of the plane and memories in seconds; and every pair that
-//! once failed.
+//! "make stress" in small: random pairs, walks, sweeps, walls, seams, pairs of the plane, memories and mass properties in
+//! seconds; and every pair that once failed.
 
 #[path = "../tools/stress/boundaries.rs"]
 mod boundaries;
@@ -23,6 +23,9 @@ mod least;
 mod ledger;
 #[path = "../tools/stress/line.rs"]
 mod line;
+#[path = "../tools/stress/mass.rs"]
+#[allow(dead_code)]
+mod mass;
 #[path = "../tools/stress/memories.rs"]
 #[allow(dead_code)]
 mod memories;

@@ -3,7 +3,8 @@
 
 use super::bytes::Bytes;
 use super::particle;
-use potential_particles::{BackEnd, Contact, Flags, Formulation, Kind, PairState, Particle, Pose, Settings, detect};
+use super::whole::Whole;
+use potential_particles::{BackEnd, Formulation, PairState, Particle, Pose, Settings, detect};
 
 pub fn run(data: &[u8]) {
     let mut bytes = Bytes(data);
@@ -40,17 +41,17 @@ pub fn run(data: &[u8]) {
         return;
     }
     let Ok(first) = first else { return };
-    whole(&first);
+    first.assert_whole();
     // The cone program costs a hundred times the rest: mostly once is enough.
     if first.back_end == BackEnd::ConeProgram && choices & 96 != 0 {
         return unharmed(&a, &b);
     }
     // From what it has just remembered, and the other way round.
     if let Ok(again) = detect(&a, &at_a, &b, &at_b, &settings, Some(&mut state)) {
-        whole(&again);
+        again.assert_whole();
     }
     if let Ok(swapped) = detect(&b, &at_b, &a, &at_a, &settings, None) {
-        whole(&swapped);
+        swapped.assert_whole();
     }
     unharmed(&a, &b);
 }
@@ -63,21 +64,6 @@ pub fn pose(bytes: &mut Bytes) -> Option<Pose> {
         _ => [0; 4].map(|_| bytes.number()),
     };
     Pose::new(position, orientation).ok()
-}
-
-/// An answer that holds together.
-pub fn whole(contact: &Contact) {
-    assert!(contact.s >= 0.0, "{contact:?}");
-    let overlapping = contact.kind == Kind::Overlapping;
-    if contact.flags.contains(Flags::REJECTED) {
-        assert!(!overlapping && contact.s >= 1.0, "{contact:?}");
-        return;
-    }
-    assert!(contact.gap >= 0.0, "{contact:?}");
-    assert!((contact.normal.norm() - 1.0).abs() < 1e-12, "{contact:?}");
-    assert!(contact.point.iter().chain(contact.branch_a.iter()).all(|c| c.is_finite()), "{contact:?}");
-    assert_eq!(overlapping, !contact.overlap.is_nan(), "{contact:?}");
-    assert_eq!(overlapping, contact.point_on_a.iter().all(|c| c.is_finite()), "{contact:?}");
 }
 
 fn unharmed(a: &Particle, b: &Particle) {

@@ -1,8 +1,9 @@
 //! A pair from a memory of any bytes: where it has an answer without, it has the same one with it, and with what is remembered after.
 
 use super::bytes::Bytes;
-use super::detect::{pose, whole};
+use super::detect::pose;
 use super::particle;
+use super::whole::Whole;
 use potential_particles::{Contact, Flags, Formulation, PairState, Settings, detect};
 
 pub fn run(data: &[u8]) {
@@ -31,7 +32,7 @@ pub fn run(data: &[u8]) {
     let mut memory = PairState::from_raw(state);
     for _ in 0..2 {
         let warm = detect(&a, &at_a, &b, &at_b, &settings, Some(&mut memory)).expect("an answer, as without a memory");
-        whole(&warm);
+        warm.assert_whole();
         same(&cold, &warm);
     }
 }

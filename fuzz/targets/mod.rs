@@ -10,3 +10,4 @@ pub mod pairs_file;
 pub mod particle;
 pub mod planar;
 pub mod walls;
+mod whole;

@@ -1,8 +1,9 @@
 //! Particles of the plane of any numbers: refused, or pairs whose answers hold together, and batches that are single calls.
 
 use super::bytes::Bytes;
-use potential_particles::planar::{Contact, Line, Particle, Pose, detect, detect_batch};
-use potential_particles::{Flags, Formulation, Kind, PairState, ParticleError, Settings};
+use super::whole::Whole;
+use potential_particles::planar::{Line, Particle, Pose, detect, detect_batch};
+use potential_particles::{Formulation, PairState, ParticleError, Settings};
 
 /// Most lines.
 const MOST_LINES: u8 = 16;
@@ -29,9 +30,9 @@ pub fn run(data: &[u8]) {
     let batch = detect_batch(&[&a, &b], &[at_a, at_b], &[[0, 1]], &settings, 1, &mut []).expect("lengths that fit");
     assert_eq!(first.is_ok(), batch[0].is_ok());
     let Ok(first) = first else { return };
-    whole(&first);
+    first.assert_whole();
     if let Ok(warm) = detect(&a, &at_a, &b, &at_b, &settings, Some(&mut memory)) {
-        whole(&warm);
+        warm.assert_whole();
     }
 }
 
@@ -67,18 +68,4 @@ fn pose(bytes: &mut Bytes) -> Option<Pose> {
         _ => bytes.number(),
     };
     Pose::new(position, angle).ok()
-}
-
-fn whole(contact: &Contact) {
-    assert!(contact.s >= 0.0, "{contact:?}");
-    let overlapping = contact.kind == Kind::Overlapping;
-    if contact.flags.contains(Flags::REJECTED) {
-        assert!(!overlapping && contact.s >= 1.0, "{contact:?}");
-        return;
-    }
-    assert!(contact.gap >= 0.0, "{contact:?}");
-    assert!((contact.normal.norm() - 1.0).abs() < 1e-12, "{contact:?}");
-    assert!(contact.point.iter().chain(contact.branch_a.iter()).all(|c| c.is_finite()), "{contact:?}");
-    assert_eq!(overlapping, !contact.overlap.is_nan(), "{contact:?}");
-    assert_eq!(overlapping, contact.point_on_a.iter().all(|c| c.is_finite()), "{contact:?}");
 }

@@ -7,6 +7,7 @@ use super::triangle::PlacedTriangle;
 use crate::bounds::scale::Scale;
 use crate::contact::contact::Kind;
 use crate::contact::detect::DetectError;
+use crate::contact::geometry::direction;
 use crate::flags::Flags;
 use crate::linalg::number::larger;
 use crate::pair::body::{Body, shift_in_a};
@@ -215,7 +216,7 @@ impl Call<'_> {
         let normal = match found.feature {
             _ if !steep => -self.normal,
             Feature::Interior => across.z.signum() * self.normal,
-            Feature::Edge(_) | Feature::Vertex(_) => (least.rotation * across).normalize(),
+            Feature::Edge(_) | Feature::Vertex(_) => direction(&(least.rotation * across)).unwrap_or(-self.normal),
         };
         (normal, !steep)
     }

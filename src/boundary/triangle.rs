@@ -1,27 +1,37 @@
 //! A triangle in the frame of its plane, seen from the point that is nearest to the centre of a particle.
 
 use super::boundary::Triangle;
+use crate::contact::geometry::direction;
 use crate::pair::pair::Pair;
 use crate::pose::Pose;
 use nalgebra::{Vector2, Vector3};
 
-/// Its vertices by two coordinates, anticlockwise.
+/// By two coordinates, anticlockwise.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct PlacedTriangle([Vector2<f64>; 3]);
+pub(super) struct PlacedTriangle {
+    vertices: [Vector2<f64>; 3],
+    /// From each vertex to the next, at unit length, and how far: from the vertices as given, whose places tell less far from the particle.
+    edges: [(Vector2<f64>, f64); 3],
+}
 
 impl PlacedTriangle {
     /// `pair` is that of the particle at this pose and the plane of the triangle.
     pub fn of(triangle: &Triangle, pose: &Pose, pair: &Pair) -> Self {
         let rotation = pair.rotation * pose.rotation().transpose();
-        Self(triangle.vertices.map(|vertex| (rotation * (vertex - pose.position()) + pair.centre).xy()))
+        let given = triangle.vertices;
+        Self {
+            vertices: given.map(|vertex| (rotation * (vertex - pose.position()) + pair.centre).xy()),
+            edges: [0, 1, 2].map(|i| {
+                let edge = rotation * (given[(i + 1) % 3] - given[i]);
+                // One that is lost to rounding counts as passed.
+                (direction(&edge).unwrap_or_else(Vector3::zeros).xy(), edge.norm())
+            }),
+        }
     }
 
     /// Distance of a point from edge i; negative beyond it, outside the triangle.
     fn from_edge(&self, i: usize, x: &Vector2<f64>) -> f64 {
-        let along = self.0[(i + 1) % 3] - self.0[i];
-        let length = along.norm();
-        // An edge that is lost beside its distance has nothing beyond it.
-        if length > 0.0 { along.perp(&(x - self.0[i])) / length } else { f64::INFINITY }
+        self.edges[i].0.perp(&(x - self.vertices[i]))
     }
 
     pub fn from_edges(&self, x: &Vector2<f64>) -> [f64; 3] {
@@ -33,10 +43,8 @@ impl PlacedTriangle {
         let origin = Vector2::zeros();
         let (mut nearest, mut least) = (origin, f64::INFINITY);
         for i in (0..3).filter(|i| self.from_edge(*i, &origin) < 0.0) {
-            let (from, along) = (self.0[i], self.0[(i + 1) % 3] - self.0[i]);
-            // Of an edge that is lost beside its distance, its beginning.
-            let share = (-from.dot(&along) / along.norm_squared()).clamp(0.0, 1.0);
-            let on_edge = if share > 0.0 { from + share * along } else { from };
+            let (from, (along, length)) = (self.vertices[i], self.edges[i]);
+            let on_edge = from + (-from.dot(&along)).max(0.0).min(length) * along;
             if on_edge.norm_squared() < least {
                 (nearest, least) = (on_edge, on_edge.norm_squared());
             }
@@ -46,11 +54,11 @@ impl PlacedTriangle {
 
     /// Bound on the distance from a point to any other of the triangle.
     pub fn extent(&self, from: &Vector2<f64>) -> f64 {
-        self.0.iter().map(|vertex| (vertex - from).norm()).fold(0.0, f64::max)
+        self.vertices.iter().map(|vertex| (vertex - from).norm()).fold(0.0, f64::max)
     }
 
     /// The vertices in the local frame of the particle.
     pub fn in_particle(&self, pair: &Pair) -> [Vector3<f64>; 3] {
-        self.0.map(|vertex| pair.in_a(&vertex.push(0.0)))
+        self.vertices.map(|vertex| pair.in_a(&vertex.push(0.0)))
     }
 }

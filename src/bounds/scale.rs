@@ -53,10 +53,10 @@ impl Scale {
         Self { s, gap: larger(s - low, high - s) + ROUNDING * s + UNDERFLOW, low, high: high * (1.0 + ROUNDING) }
     }
 
-    /// Whether it is no answer: it leaves open on which side of 1 s lies, by more than [`INCONCLUSIVE`].
+    /// Whether it is no answer: s and its gap leave open on which side of 1 s lies, by more than [`INCONCLUSIVE`].
     pub fn is_undecided(&self) -> bool {
         // What is no number is no answer either.
-        !(self.low >= 1.0 || self.high <= 1.0 || self.gap <= INCONCLUSIVE)
+        !(self.s - self.gap >= 1.0 || self.s + self.gap <= 1.0 || self.gap <= INCONCLUSIVE)
     }
 
     /// Whether s cannot be told from 0, as where a constraint is slack.

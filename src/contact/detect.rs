@@ -156,7 +156,15 @@ fn anew<T>(
         let flags = by.with(Flags::REJECTED);
         Ok(answer(Contact { flags, distance, ..Contact::separated(settings.formulation, 1.0) }))
     };
-    begin(a, b, settings, last, rejected, |pair| solved(pair, b.1, settings, state, last.is_some()).map(&answer))
+    begin(a, b, settings, last, rejected, |pair| {
+        let mut state = state;
+        let mut found = solved(pair, b.1, settings, state.as_deref_mut(), last.is_some());
+        // What is remembered may be of any other pair, and no start leads to the answer from everywhere.
+        if found.is_err() && last.is_some() {
+            found = solved(pair, b.1, settings, state, false);
+        }
+        found.map(&answer)
+    })
 }
 
 /// The contact of a pair that is not rejected by a separation test. In a frame of its own: it is large, and most pairs of a scene

@@ -5,45 +5,46 @@
 //! where the surface is that of plane i and the shadow sphere alone; between them and the edges there are strips, as
 //! wide as the rounding, which are cut at their ends where a third plane becomes active. For k = 0 these are exactly the places
 //! where the second derivatives of the surface jump, but for those in the corners; for k > 0 they are near them.
+//!
+//! The quadrilaterals share corners and edges, so that each direction is covered once whatever rounding does to the corners, if one that is
+//! folded over counts as negative.
 
-use crate::linalg::graded_basis;
+use crate::particle::polyhedron::{Face, OF_CUBE, Polyhedron};
 use crate::particle::shape::Shape;
 use nalgebra::{Matrix3, Vector3};
 
-/// A quadrilateral in a plane at a distance `height` from the origin: p(u, v) is bilinear in 0 ≤ u, v ≤ 1.
+/// A quadrilateral: p(u, v) is bilinear in 0 ≤ u, v ≤ 1.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Patch {
     /// p(0, 0), p(0, 1), p(1, 0), p(1, 1).
     corners: [Vector3<f64>; 4],
+    /// No point of it is nearer to the origin; above 0.
     pub height: f64,
     /// Where v is divided to begin with: 0 < `cuts[0]` < `cuts[1]` < 1, or both 0.
     cuts: [f64; 2],
 }
 
-/// One face of the polyhedron.
-struct Face {
-    /// Outward, of unit length.
-    normal: Vector3<f64>,
-    height: f64,
-    /// In order around the face.
-    corners: Vec<Vector3<f64>>,
-    /// The plane beyond the edge from each corner to the next; `None` for the cube.
-    beyond: Vec<Option<usize>>,
-}
-
-/// Two planes whose unit normals and heights (in bounding radii) differ by less than this are one.
-const SAME: f64 = 1e-9;
-
-/// Rounding of an excess, in units of |n| times the bounding radius.
-const ROUNDING: f64 = 32.0 * f64::EPSILON;
+/// Least height of a face and least depth of a cut, over the bounding radius: far more than the rounding of corners.
+const LEAST: f64 = 1e-9;
 
 impl Patch {
-    /// p(u, v), and the area of the image of du dv.
+    fn of(corners: [Vector3<f64>; 4], normal: &Vector3<f64>, cuts: [f64; 2]) -> Self {
+        let height = corners.iter().map(|corner| normal.dot(corner)).fold(f64::INFINITY, f64::min);
+        Self { corners, height, cuts }
+    }
+
+    /// The least area of the image of du dv.
+    fn least_area(&self) -> f64 {
+        let at_corners = [(0.0, 0.0), (0.0, 1.0), (1.0, 0.0), (1.0, 1.0)].map(|(u, v)| self.at(u, v).1);
+        at_corners.into_iter().fold(f64::INFINITY, f64::min) / self.height
+    }
+
+    /// p(u, v), and p·(∂p/∂u × ∂p/∂v): three times the volume between the origin and the image of du dv, negative where it is folded over.
     pub fn at(&self, u: f64, v: f64) -> (Vector3<f64>, f64) {
         let [a, b, c, d] = &self.corners;
         let (inner, outer) = (a + v * (b - a), c + v * (d - c));
-        let along = (1.0 - u) * (b - a) + u * (d - c);
-        (inner + u * (outer - inner), (outer - inner).cross(&along).norm())
+        let p = inner + u * (outer - inner);
+        (p, p.dot(&(outer - inner).cross(&((1.0 - u) * (b - a) + u * (d - c)))))
     }
 
     /// ∂p/∂u and ∂p/∂v at (u, v).
@@ -60,206 +61,91 @@ impl Patch {
     }
 }
 
-/// Patches along the faces of a particle.
-pub(crate) fn along_faces(shape: &Shape) -> Vec<Patch> {
-    patches(shape, shape.len())
-}
-
-/// Patches of a cube alone, which rounding leaves whole: for planes so close to each other that it spoils their edges.
-pub(crate) fn plain(shape: &Shape) -> Vec<Patch> {
-    patches(shape, 0)
-}
-
-/// Effect of overlaps and gaps between patches on the moments, in the measure of the relative error (`mass_properties`) times
-/// the volume. The solid angles of all directions add up to 4π, and their ∫e dω to 0: what is missing, and whether it is missing in one
-/// place and doubled in another. It counts at the farthest corner. All after the linear map `map`, of whose volume it is.
-pub(crate) fn missing_volume(patches: &[Patch], map: &Matrix3<f64>) -> f64 {
-    let (mut covered, mut mean, mut farthest) = (0.0, Vector3::zeros(), 0.0_f64);
-    for patch in patches {
-        let corners = patch.corners.map(|corner| map * corner);
-        farthest = corners.iter().map(|corner| corner.norm()).fold(farthest, f64::max);
-        let [a, b, c, d] = corners.map(|corner| corner / corner.norm());
-        for triangle in [[a, b, d], [a, d, c]] {
-            covered += triangle_angle(&triangle[0], &triangle[1], &triangle[2]);
-            mean += triangle_mean(&triangle);
-        }
+/// Patches along the faces of a particle, or along those of a cube where most faces are all rounding: cells then need not follow them.
+pub(crate) fn of(shape: &Shape) -> Vec<Patch> {
+    let mut polyhedron = Polyhedron::cube(shape.bounds.radius, LEAST * shape.bounds.radius);
+    let cube = polyhedron.faces();
+    let count = if shape.is_sphere() { 0 } else { shape.len() };
+    for number in OF_CUBE..OF_CUBE + count {
+        let (normal, height) = plane(shape, number);
+        polyhedron.cut(number, &normal, height);
     }
-    let missing = (covered - 4.0 * std::f64::consts::PI).abs() + mean.norm();
-    missing * farthest.powi(3) / 3.0 * (1.0 + farthest).max(farthest * farthest)
-}
-
-/// Patches on the first `count` planes, which is all of them or none, and on the cube.
-fn patches(shape: &Shape, count: usize) -> Vec<Patch> {
-    let half = shape.bounds.radius;
-    let count = if shape.is_sphere() { 0 } else { count };
-    let cube = (0..3).flat_map(|axis| [1.0, -1.0].map(|sign| (Vector3::ith(axis, sign), half, None)));
-    let planes = (0..count).map(|i| {
-        let (n, length) = (shape.normal(i), shape.normal(i).norm());
-        (n / length, (shape.offset(i) + shape.bounds.face_reach) / length, Some(i))
-    });
-    let mut patches = Vec::new();
-    for (normal, height, plane) in cube.chain(planes) {
-        let mut face = Face::square(normal, height, half);
-        face.clip_by_cube(half, plane.is_none());
-        if count > 0 {
-            face.clip_by_planes(shape);
-        }
-        if face.corners.len() >= 3 && !face.is_known(shape, plane) {
-            face.divide(shape, plane, &mut patches);
-        }
+    let mut faces = polyhedron.faces();
+    let mut divided: Vec<Option<Vec<Patch>>> = faces.iter().map(|face| with_strips(face, shape)).collect();
+    if 2 * divided.iter().flatten().count() < faces.len() {
+        divided = vec![None; cube.len()];
+        faces = cube;
     }
-    patches
-}
-
-impl Face {
-    /// A square that holds the cut of the cube with the plane n·x = height.
-    fn square(normal: Vector3<f64>, height: f64, half: f64) -> Self {
-        let side = 4.0 * half;
-        let first = graded_basis::any_across(&normal);
-        let second = normal.cross(&first);
-        let corners = if height <= 2.0 * half {
-            [(1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0), (1.0, -1.0)]
-                .map(|(u, v)| height * normal + side * (u * first + v * second))
-                .into()
-        } else {
-            Vec::new()
-        };
-        Self { normal, height, beyond: vec![None; corners.len()], corners }
-    }
-
-    /// Clips by the faces of the cube, but not one of them by itself.
-    fn clip_by_cube(&mut self, half: f64, is_of_cube: bool) {
-        for axis in 0..3 {
-            for sign in [1.0, -1.0] {
-                if !(is_of_cube && sign * self.normal[axis] == 1.0) {
-                    self.clip(|x| sign * x[axis] - half, None);
-                }
-            }
-        }
-    }
-
-    /// Clips by the plane that cuts off most, again and again.
-    fn clip_by_planes(&mut self, shape: &Shape) {
-        let bounds = &shape.bounds;
-        let limit = bounds.face_reach + ROUNDING * bounds.longest_normal * bounds.radius;
-        let mut used = Vec::new();
-        loop {
-            let worst =
-                self.corners.iter().map(|corner| shape.farthest_excess(corner)).max_by(|a, b| a.0.total_cmp(&b.0));
-            let Some((excess, plane)) = worst else { return };
-            if excess <= limit || used.contains(&plane) {
-                return;
-            }
-            used.push(plane);
-            let (n, h) = (shape.normal(plane), shape.offset(plane) + bounds.face_reach);
-            self.clip(|x| n.dot(x) - h, Some(plane));
-        }
-    }
-
-    /// Keeps the part where `excess` is not positive.
-    fn clip(&mut self, excess: impl Fn(&Vector3<f64>) -> f64, plane: Option<usize>) {
-        let values: Vec<f64> = self.corners.iter().map(&excess).collect();
-        let (mut corners, mut beyond) = (Vec::new(), Vec::new());
-        for i in 0..values.len() {
-            let j = (i + 1) % values.len();
-            let crossing =
-                || self.corners[i] + values[i] / (values[i] - values[j]) * (self.corners[j] - self.corners[i]);
-            if values[i] <= 0.0 {
-                corners.push(self.corners[i]);
-                beyond.push(self.beyond[i]);
-            }
-            if values[i] <= 0.0 && values[j] > 0.0 {
-                corners.push(crossing());
-                beyond.push(plane);
-            } else if values[i] > 0.0 && values[j] <= 0.0 {
-                corners.push(crossing());
-                beyond.push(self.beyond[i]);
-            }
-        }
-        (self.corners, self.beyond) = (corners, beyond);
-    }
-
-    fn middle(&self) -> Vector3<f64> {
-        self.corners.iter().sum::<Vector3<f64>>() / self.corners.len() as f64
-    }
-
-    /// Whether an earlier plane, or for the cube any plane, is the same one.
-    fn is_known(&self, shape: &Shape, plane: Option<usize>) -> bool {
-        let mut known = false;
-        let middle = self.middle();
-        shape.visit_near(&middle, 0.0, |j, n, excess| {
-            let length = n.norm();
-            let apart = (shape.bounds.face_reach - excess).abs() / (length * shape.bounds.radius);
-            known |= plane.is_none_or(|i| j < i) && apart <= SAME && (n / length - self.normal).norm() <= SAME;
-        });
-        known
-    }
-
-    /// Its inner part as triangles about their middle, and a strip along each edge; triangles alone where there are no strips.
-    fn divide(&self, shape: &Shape, plane: Option<usize>, patches: &mut Vec<Patch>) {
-        let inner = plane.and_then(|plane| self.inner(shape, plane));
-        let count = self.corners.len();
-        let rim = inner.as_ref().unwrap_or(&self.corners);
-        let middle = rim.iter().sum::<Vector3<f64>>() / count as f64;
-        for i in 0..count {
-            let j = (i + 1) % count;
-            patches.push(Patch { corners: [middle, middle, rim[i], rim[j]], height: self.height, cuts: [0.0; 2] });
-            if let Some(inner) = &inner {
-                let corners = [inner[i], inner[j], self.corners[i], self.corners[j]];
-                patches.push(Patch { corners, height: self.height, cuts: self.cuts(shape, i) });
-            }
-        }
-    }
-
-    /// Corners of the part of the face where no neighbour is active, if it has as many as the face.
-    fn inner(&self, shape: &Shape, plane: usize) -> Option<Vec<Vector3<f64>>> {
-        let count = self.corners.len();
-        let own = (shape.normal(plane), shape.offset(plane) + shape.bounds.face_reach);
-        let edge = |i: usize| self.beyond[i].map(|j| (shape.normal(j), shape.offset(j)));
-        let mut inner = Vec::with_capacity(count);
-        for i in 0..count {
-            let (before, after) = (edge((i + count - 1) % count)?, edge(i)?);
-            let rows = Matrix3::from_rows(&[own.0.transpose(), before.0.transpose(), after.0.transpose()]);
-            inner.push(rows.try_inverse()? * Vector3::new(own.1, before.1, after.1));
-        }
-        let forward = |i: usize| {
-            let j = (i + 1) % count;
-            (inner[j] - inner[i]).dot(&(self.corners[j] - self.corners[i])) > 0.0
-        };
-        (0..count).all(forward).then_some(inner)
-    }
-
-    /// Where on the edge from corner i the planes beyond the edges before and after it cease to be active.
-    fn cuts(&self, shape: &Shape, i: usize) -> [f64; 2] {
-        let count = self.corners.len();
-        let (from, to) = (&self.corners[i], &self.corners[(i + 1) % count]);
-        let share = |plane: Option<usize>, here: &Vector3<f64>, there: &Vector3<f64>| {
-            let excess = |x: &Vector3<f64>| plane.map_or(0.0, |j| shape.normal(j).dot(x) - shape.offset(j));
-            excess(here) / (excess(here) - excess(there))
-        };
-        let low = share(self.beyond[(i + count - 1) % count], from, to);
-        let high = 1.0 - share(self.beyond[(i + 1) % count], to, from);
-        if 0.0 < low && low < high && high < 1.0 { [low, high] } else { [0.0; 2] }
-    }
-}
-
-/// Solid angle of a spherical triangle (Van Oosterom & Strackee 1983), unit corners.
-fn triangle_angle(p: &Vector3<f64>, q: &Vector3<f64>, r: &Vector3<f64>) -> f64 {
-    // By differences, since the corners may lie close together.
-    2.0 * p.dot(&(q - p).cross(&(r - p))).abs().atan2(1.0 + p.dot(q) + q.dot(r) + r.dot(p))
-}
-
-/// ∫e dω over a spherical triangle, unit corners: half of the sum over its edges of their angle times the direction across them, pointing inwards.
-fn triangle_mean(corners: &[Vector3<f64>; 3]) -> Vector3<f64> {
-    let [p, q, r] = corners;
-    let sum: Vector3<f64> = [(p, q), (q, r), (r, p)]
-        .into_iter()
-        .filter_map(|(from, to)| {
-            let across = from.cross(&(to - from));
-            let sine = across.norm();
-            (sine > 0.0).then(|| 0.5 * sine.atan2(from.dot(to)) / sine * across)
+    let patches = divided.into_iter().zip(&faces).map(|(divided, face)| {
+        divided.unwrap_or_else(|| {
+            let corners: Vec<Vector3<f64>> = face.corners.iter().map(|(at, _)| *at).collect();
+            triangles(&corners, &plane(shape, face.number).0)
         })
-        .sum();
-    // Of either order of the corners.
-    if sum.dot(&(p + q + r)) < 0.0 { -sum } else { sum }
+    });
+    patches.flatten().collect()
+}
+
+/// Unit normal and height of a face.
+fn plane(shape: &Shape, number: usize) -> (Vector3<f64>, f64) {
+    let radius = shape.bounds.radius;
+    if number < OF_CUBE {
+        return (Vector3::ith(number / 2, [1.0, -1.0][number % 2]), radius);
+    }
+    let (n, d) = (shape.normal(number - OF_CUBE), shape.offset(number - OF_CUBE));
+    (n.normalize(), ((d + shape.bounds.face_reach) / n.norm()).max(LEAST * radius))
+}
+
+/// A polygon as triangles about its middle.
+fn triangles(rim: &[Vector3<f64>], normal: &Vector3<f64>) -> Vec<Patch> {
+    let middle = rim.iter().sum::<Vector3<f64>>() / rim.len() as f64;
+    let next = |i: usize| (i + 1) % rim.len();
+    (0..rim.len()).map(|i| Patch::of([middle, middle, rim[i], rim[next(i)]], normal, [0.0; 2])).collect()
+}
+
+/// The inner part of a face as triangles, and a strip along each edge, if there are such.
+fn with_strips(face: &Face, shape: &Shape) -> Option<Vec<Patch>> {
+    let normal = plane(shape, face.number).0;
+    let inner = inner(face, &normal, shape)?;
+    let mut patches = triangles(&inner, &normal);
+    for i in 0..inner.len() {
+        let next = (i + 1) % inner.len();
+        let corners = [inner[i], inner[next], face.corners[i].0, face.corners[next].0];
+        patches.push(Patch::of(corners, &normal, cuts(face, i, shape)));
+    }
+    let least = -LEAST * shape.bounds.radius.powi(2);
+    patches.iter().all(|patch| patch.least_area() >= least).then_some(patches)
+}
+
+/// Normal and offset of the plane beyond the edge from corner i of a face; `None` for the cube.
+fn beyond(face: &Face, i: usize, shape: &Shape) -> Option<(Vector3<f64>, f64)> {
+    let plane = face.corners[i].1.checked_sub(OF_CUBE)?;
+    Some((shape.normal(plane), shape.offset(plane)))
+}
+
+/// For each corner of a face the point where the planes beyond both of its edges begin to be active.
+fn inner(face: &Face, normal: &Vector3<f64>, shape: &Shape) -> Option<Vec<Vector3<f64>>> {
+    let count = face.corners.len();
+    let of_corner = |i: usize| {
+        let at = face.corners[i].0;
+        let (before, after) = (beyond(face, (i + count - 1) % count, shape)?, beyond(face, i, shape)?);
+        let rows = Matrix3::from_rows(&[normal.transpose(), before.0.transpose(), after.0.transpose()]);
+        let excess = Vector3::new(0.0, before.0.dot(&at) - before.1, after.0.dot(&at) - after.1);
+        let way = rows.try_inverse()? * excess;
+        Some(at - (way - way.dot(normal) * normal))
+    };
+    face.number.checked_sub(OF_CUBE)?;
+    (0..count).map(of_corner).collect()
+}
+
+/// Where on the edge from corner i the planes beyond the edges before and after it cease to be active.
+fn cuts(face: &Face, i: usize, shape: &Shape) -> [f64; 2] {
+    let count = face.corners.len();
+    let (from, to) = (&face.corners[i].0, &face.corners[(i + 1) % count].0);
+    let share = |edge: usize, here: &Vector3<f64>, there: &Vector3<f64>| {
+        let excess = |x: &Vector3<f64>| beyond(face, edge, shape).map_or(0.0, |(n, d)| n.dot(x) - d);
+        excess(here) / (excess(here) - excess(there))
+    };
+    let low = share((i + count - 1) % count, from, to);
+    let high = 1.0 - share((i + 1) % count, to, from);
+    if 0.0 < low && low < high && high < 1.0 { [low, high] } else { [0.0; 2] }
 }

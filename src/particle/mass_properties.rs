@@ -1,8 +1,8 @@
 //! Volume, centroid and inertia of a particle, by adaptive quadrature over rays.
 //!
-//! With ρ the distance from the origin to the surface, V = ∫ρ³/3 dω, ∫x dV = ∫ρ⁴/4 e dω, ∫x xᵀ dV = ∫ρ⁵/5 e eᵀ dω. A patch in a
-//! plane at height h (`direction_mesh`) covers dω = h dA/|p|³, so that with τ = ρ/|p| they are integrals of h τ³/3,
-//! h τ⁴/4 p and h τ⁵/5 p pᵀ over its area: polynomials on a flat face, where τ = 1.
+//! With ρ the distance from the origin to the surface, V = ∫ρ³/3 dω, ∫x dV = ∫ρ⁴/4 e dω, ∫x xᵀ dV = ∫ρ⁵/5 e eᵀ dω. A patch
+//! p(u, v) of `direction_mesh` covers dω = w du dv/|p|³ with w = p·(∂p/∂u × ∂p/∂v), so that with τ = ρ/|p| they are integrals of w τ³/3,
+//! w τ⁴/4 p and w τ⁵/5 p pᵀ over u and v: polynomials on a flat face, where τ = 1.
 //!
 //! Each cell is integrated by the product of the Lobatto and Kronrod rule of 7 points with itself (`quadrature`). Its error is
 //! bounded by two parts, each of which is found for both directions of the cell:
@@ -17,7 +17,7 @@
 //! halved in the direction that has the larger part of it, until the bounds of all cells add up to less than the tolerance.
 
 use crate::particle::direction_mesh::{self, Patch};
-use crate::particle::gauge::{Gauge, OnRay, Piece};
+use crate::particle::gauge::{Activity, Gauge, OnRay, Piece, Undecided};
 use crate::particle::quadrature::{self, POINTS, RULE};
 use crate::particle::shape::Shape;
 use nalgebra::{Matrix3, SVector, Vector3};
@@ -33,7 +33,8 @@ pub struct MassProperties {
     /// ∫ (|x|² I − x xᵀ) dV about the local origin, length⁵.
     pub inertia: Matrix3<f64>,
     /// Estimated bound on the relative error: of the volume, of each moment of inertia about an axis through the origin, and of the
-    /// centroid as a share of the radii of gyration across the axes' planes. It exceeds the tolerance where that cannot be reached.
+    /// centroid as a share of the radii of gyration across the axes' planes. It exceeds the tolerance where that cannot be reached,
+    /// and is infinite where lengths are so different that nothing is known.
     pub error: f64,
 }
 
@@ -49,12 +50,6 @@ const MOST_WORK: usize = 1_000_000_000;
 
 /// Where the two parts of its error differ by less than this factor, a cell is halved in both directions.
 const ALIKE: f64 = 4.0;
-
-/// Most planes whose faces the cells follow. Of more the faces are so small that cells which do not need as many.
-const MOST_FACES: usize = 1_000;
-
-/// Share of the tolerance that overlaps and gaps of the mesh may take.
-const OF_MESH: f64 = 0.1;
 
 /// Least share of the tolerance that is left to the cells, where rounding takes more than all of it.
 pub(crate) const LEAST_PART: f64 = 0.1;
@@ -97,33 +92,32 @@ struct Node {
     /// ∂p/∂u and ∂p/∂v, for u and v from 0 to 1 over the cell.
     along: [Vector3<f64>; 2],
     on_ray: OnRay,
-    /// The relative change of the moments, at the point, that a change of g makes.
-    sensitivity: f64,
+    /// w du dv.
+    volume: f64,
 }
 
 /// Volume, centroid and inertia to a relative tolerance of at least [`LEAST_TOLERANCE`].
 pub(crate) fn of(shape: &Shape, tolerance: f64) -> MassProperties {
     let tolerance = tolerance.max(LEAST_TOLERANCE);
     let gauge = Gauge::of(shape);
-    let follows_faces = shape.len() <= MOST_FACES;
-    let mut patches = if follows_faces { direction_mesh::along_faces(shape) } else { direction_mesh::plain(shape) };
+    let patches = direction_mesh::of(shape);
     let (mut cells, mut norm) = first_pass(&gauge, &patches);
-    if follows_faces && !(norm.of_mesh(&patches) <= OF_MESH * tolerance) {
-        patches = direction_mesh::plain(shape);
-        (cells, norm) = first_pass(&gauge, &patches);
-    }
     for _ in 0..MOST_UNITS {
-        let of_mesh = norm.of_mesh(&patches);
-        let left = tolerance / SAME_UNITS - of_mesh - norm.of_sums();
+        let left = tolerance / SAME_UNITS - norm.of_sums();
         let (refined, error) = refined(cells, &gauge, &patches, &norm, left.max(LEAST_PART * tolerance));
         let found = Norm::of(&sum(&refined));
         let change = norm.change_to(&found);
         if change <= SAME_UNITS || refined.len() >= MOST_CELLS {
-            return properties(&sum(&refined), change * (error + of_mesh) + found.of_sums());
+            return properties(&sum(&refined), change * error + found.of_sums());
         }
         // Cells so coarse that they missed most of the particle gave units of another one.
         norm = found;
-        cells = refined.iter().map(|cell| Cell::of(&gauge, &patches, cell.patch, cell.u, cell.v, &norm)).collect();
+        cells = refined
+            .iter()
+            .map(|cell| {
+                Cell::of(|corners, height| gauge.on(corners, height), &patches, cell.patch, [cell.u, cell.v], &norm)
+            })
+            .collect();
     }
     properties(&sum(&cells), f64::INFINITY)
 }
@@ -157,7 +151,9 @@ fn refined(cells: Vec<Cell>, gauge: &Gauge, patches: &[Patch], norm: &Norm, tole
 fn first_pass(gauge: &Gauge, patches: &[Patch]) -> (Vec<Cell>, Norm) {
     let all = |norm: &Norm| -> Vec<Cell> {
         let parts = (0..patches.len()).flat_map(|i| patches[i].intervals().map(move |v| (i, v)));
-        parts.map(|(i, v)| Cell::of(gauge, patches, i, (0.0, 1.0), v, norm)).collect()
+        parts
+            .map(|(i, v)| Cell::of(|corners, height| gauge.on(corners, height), patches, i, [(0.0, 1.0), v], norm))
+            .collect()
     };
     let norm = Norm::of(&sum(&all(&Norm::unit())));
     (all(&norm), norm)
@@ -173,7 +169,7 @@ fn properties(moments: &Moments, error: f64) -> MassProperties {
         volume: moments[0],
         centroid: first(moments) / moments[0],
         inertia: Matrix3::from_diagonal_element(second.trace()) - second,
-        error,
+        error: if error.is_nan() { f64::INFINITY } else { error },
     }
 }
 
@@ -203,17 +199,18 @@ impl Norm {
         }
     }
 
-    /// Share of the volume by which overlaps and gaps of the mesh may be wrong.
-    fn of_mesh(&self, patches: &[Patch]) -> f64 {
-        direction_mesh::missing_volume(patches, &self.unscaled) / (self.volume * self.unscaled.determinant())
-    }
-
     /// A bound on the relative error of volume, centroid and every moment of inertia that this change of the moments makes.
     fn of_change(&self, change: &Moments) -> f64 {
         let first = self.unscaled * first(change);
         let second = self.unscaled * second(change) * self.unscaled.transpose();
         // The centroid has the error of ∫x and that of the volume.
         (change[0].abs() + first.norm()).max(second.norm()) / self.volume
+    }
+
+    /// The relative change of the moments that a change of g makes, where w du dv is `volume` and p, in these units, has that length.
+    fn sensitivity(&self, volume: f64, length: f64, gauge: f64) -> f64 {
+        let x = length / gauge;
+        volume / gauge.powi(4) * (1.0 + x).max(x * x) / self.volume
     }
 
     /// The rounding of sums of moments: where a particle is thin, that of its length counts.
@@ -235,38 +232,44 @@ impl Norm {
 }
 
 impl Cell {
-    fn of(gauge: &Gauge, patches: &[Patch], patch: usize, u: (f64, f64), v: (f64, f64), norm: &Norm) -> Self {
+    /// `piece` gives the particle over its corners, in a plane at this distance.
+    fn of(
+        piece: impl FnOnce(&[Vector3<f64>], f64) -> Piece,
+        patches: &[Patch],
+        patch: usize,
+        [u, v]: [(f64, f64); 2],
+        norm: &Norm,
+    ) -> Self {
         let here = &patches[patch];
         let (du, dv) = (u.1 - u.0, v.1 - v.0);
         let at = |s: f64, t: f64| here.at(u.0 + s * du, v.0 + t * dv);
-        let corners = [(0.0, 0.0), (0.0, 1.0), (1.0, 0.0), (1.0, 1.0)].map(|(s, t)| at(s, t).0);
-        let piece = gauge.on(&corners, here.height);
+        let corners = corners(here, u, v);
+        let piece = piece(&corners, here.height);
         let mut moments = Moments::zeros();
         let mut differences = [Moments::zeros(); 2];
         let mut rounding = 0.0;
         let mut nodes = Vec::with_capacity(POINTS * POINTS);
+        let mut near = [Vector3::zeros(); POINTS];
         for (s, kronrod_u, lobatto_u) in RULE {
-            let mut near = Vector3::zeros();
-            for (t, kronrod_v, lobatto_v) in RULE {
-                let (p, area) = at(s, t);
-                let on_ray = piece.at(&p, &near);
-                near = on_ray.tangent;
+            let row = RULE.map(|(t, ..)| at(s, t));
+            let on_rays = piece.along_row(&row.map(|(p, _)| p), &near);
+            near = on_rays.map(|on_ray| on_ray.tangent);
+            for (((t, kronrod_v, lobatto_v), (p, volume)), on_ray) in RULE.into_iter().zip(row).zip(on_rays) {
                 let tau = 1.0 / on_ray.gauge;
-                let volume = here.height * area * du * dv;
+                let volume = volume * du * dv;
                 let moment = moments_of_ray(&p, tau, volume);
                 moments += kronrod_u * kronrod_v * moment;
                 differences[0] += (kronrod_u - lobatto_u) * kronrod_v * moment;
                 differences[1] += kronrod_u * (kronrod_v - lobatto_v) * moment;
-                let x = (norm.unscaled * (tau * p)).norm();
-                let sensitivity = volume * tau.powi(4) * (1.0 + x).max(x * x) / norm.volume;
+                let sensitivity = norm.sensitivity(volume.abs(), (norm.unscaled * p).norm(), on_ray.gauge);
                 rounding += kronrod_u * kronrod_v * sensitivity * on_ray.rounding;
                 let along = here.along(u.0 + s * du, v.0 + t * dv);
-                nodes.push(Node { p, along: [du * along[0], dv * along[1]], on_ray, sensitivity });
+                nodes.push(Node { p, along: [du * along[0], dv * along[1]], on_ray, volume });
             }
         }
         let shares = [0, 1].map(|direction| share(&nodes, direction));
         let mut errors = [0, 1].map(|i| shares[i] * norm.of_change(&differences[i]));
-        let jumps = jumps(&piece, &corners, &nodes);
+        let jumps = jumps(&piece, &corners, &nodes, norm);
         errors
             .iter_mut()
             .zip(jumps)
@@ -288,8 +291,15 @@ impl Cell {
         let of_u = divided(self.u, self.errors[0], self.errors[1]);
         let of_v = divided(self.v, self.errors[1], self.errors[0]);
         let parts = of_u.iter().flat_map(|&u| of_v.iter().map(move |&v| (u, v)));
-        parts.map(|(u, v)| Self::of(gauge, patches, self.patch, u, v, norm)).collect()
+        let whole = gauge.on(&corners(&patches[self.patch], self.u, self.v), patches[self.patch].height);
+        let within = |corners: &[Vector3<f64>], height: f64| whole.within(corners, height);
+        parts.map(|(u, v)| Self::of(within, patches, self.patch, [u, v], norm)).collect()
     }
+}
+
+/// The corners of a cell.
+fn corners(patch: &Patch, u: (f64, f64), v: (f64, f64)) -> [Vector3<f64>; 4] {
+    [(u.0, v.0), (u.0, v.1), (u.1, v.0), (u.1, v.1)].map(|(u, v)| patch.at(u, v).0)
 }
 
 /// Error over difference of the rules for the analytic part of g, the largest of all rows in a direction.
@@ -304,31 +314,23 @@ fn share(nodes: &[Node], direction: usize) -> f64 {
 }
 
 /// Bounds on the errors in u and in v that planes make which are active in a part of the cell only.
-fn jumps(piece: &Piece, corners: &[Vector3<f64>; 4], nodes: &[Node]) -> [f64; 2] {
+fn jumps(piece: &Piece, corners: &[Vector3<f64>; 4], nodes: &[Node], norm: &Norm) -> [f64; 2] {
     let last = POINTS - 1;
     let at_corners = [0, last, last * POINTS, POINTS * POINTS - 1].map(|i| nodes[i].on_ray.gauge);
-    let undecided = piece.undecided(corners, &at_corners);
+    let Activity { undecided, least_slope } = piece.activity(corners, &at_corners);
     let mut sum = [0.0; 2];
     if undecided.is_empty() {
         return sum;
     }
-    // The largest anywhere, since the jump and a corner without area may be at different points.
-    let sensitivity = sensitivity(piece, nodes);
+    let Extremes { gauge, sensitivity } = Extremes::of(piece, nodes, norm);
+    let scale = 2.0 * piece.plane_weight() * sensitivity / least_slope;
+    let highest = at_corners.into_iter().fold(0.0, f64::max);
     for plane in &undecided {
-        let (mut jumps, mut most) = ([0.0_f64; 2], 0.0_f64);
-        for node in nodes {
-            let OnRay { gauge, tangent, slope, .. } = node.on_ray;
-            let scale = 2.0 * piece.plane_weight() * sensitivity / slope;
-            let across = plane.n.dot(&node.p) / gauge;
-            for (jump, along) in jumps.iter_mut().zip(&node.along) {
-                let rate = plane.n.dot(along) - across * tangent.dot(along);
-                *jump = jump.max(scale / gauge * rate * rate);
-            }
-            // Of the integral and of the rule.
-            most = most.max(scale * gauge * plane.square);
-        }
-        let bounds = jumps.map(|jump| quadrature::OF_JUMP * jump);
+        let rates = [0, 1].map(|direction| rate(plane, nodes, direction));
+        let bounds = rates.map(|rate| quadrature::OF_JUMP * scale / gauge * rate * rate);
         let both = bounds[0] + bounds[1];
+        // Of the integral and of the rule.
+        let most = scale * highest * plane.excess * plane.excess;
         let part = if both > most { most / both } else { 1.0 };
         sum = [sum[0] + part * bounds[0], sum[1] + part * bounds[1]];
     }
@@ -342,45 +344,68 @@ fn jumps(piece: &Piece, corners: &[Vector3<f64>; 4], nodes: &[Node]) -> [f64; 2]
     sum
 }
 
-/// The largest sensitivity, also between the nodes: it is at most of degree −6 in g, of which the tangents at the nodes give a
-/// lower bound.
-fn sensitivity(piece: &Piece, nodes: &[Node]) -> f64 {
-    let mut most = 1.0_f64;
-    for i in 0..POINTS - 1 {
-        for j in 0..POINTS - 1 {
-            let around = [(0, 0), (0, 1), (1, 0), (1, 1)].map(|(k, l)| &nodes[(i + k) * POINTS + j + l]);
-            let lowest = |values: [f64; 4]| values.into_iter().fold(f64::INFINITY, f64::min);
-            let at_nodes = lowest(around.map(|node| node.on_ray.gauge));
-            let of_ball = lowest(around.map(|node| piece.least(&node.p)));
-            let below = around.iter().map(|node| lowest(around.map(|other| node.on_ray.tangent.dot(&other.p))));
-            most = most.max(at_nodes / below.fold(of_ball, f64::max));
+/// The largest rate at which the excess of a plane changes on the surface, in a direction, where the plane is active: n·x there lies between d
+/// and d + `excess`, and ∇g along a row of points, since g is convex, between its values at the ends.
+fn rate(plane: &Undecided, nodes: &[Node], direction: usize) -> f64 {
+    let (row, step) = if direction == 0 { (1, POINTS) } else { (POINTS, 1) };
+    let ends = (0..POINTS).flat_map(|i| [i * row, i * row + (POINTS - 1) * step]);
+    let of_end = |node: &Node| {
+        let along = &node.along[direction];
+        let (own, of_gauge) = (plane.n.dot(along), node.on_ray.tangent.dot(along));
+        [0.0, plane.excess].map(|excess| (own - (plane.d + excess) * of_gauge).abs())
+    };
+    ends.flat_map(|i| of_end(&nodes[i])).fold(0.0, f64::max)
+}
+
+/// Bounds of what changes over a cell, also between the nodes: in each rectangle of four of them the tangents there give a lower bound of g,
+/// and w and the length of p are largest at its corners.
+struct Extremes {
+    /// A lower bound of g.
+    gauge: f64,
+    /// An upper bound of the sensitivity. A node that is a corner without area says nothing of what lies beside it.
+    sensitivity: f64,
+}
+
+impl Extremes {
+    fn of(piece: &Piece, nodes: &[Node], norm: &Norm) -> Self {
+        let mut extremes = Self { gauge: f64::INFINITY, sensitivity: 0.0 };
+        for (_, around) in rectangles(nodes) {
+            let least = |of: &dyn Fn(&Node) -> f64| around.iter().map(|node| of(node)).fold(f64::INFINITY, f64::min);
+            let most = |of: &dyn Fn(&Node) -> f64| around.iter().map(|node| of(node)).fold(0.0, f64::max);
+            let below = around.iter().map(|node| least(&|other| node.on_ray.tangent.dot(&other.p)));
+            let gauge = below.fold(least(&|node| piece.least(&node.p)), f64::max);
+            let (volume, length) = (most(&|node| node.volume.abs()), most(&|node| (norm.unscaled * node.p).norm()));
+            extremes.gauge = extremes.gauge.min(gauge);
+            extremes.sensitivity = extremes.sensitivity.max(norm.sensitivity(volume, length, gauge));
         }
+        extremes
     }
-    nodes.iter().map(|node| node.sensitivity).fold(0.0, f64::max) * most.powi(6)
+}
+
+/// The rectangles between the nodes, with the index of their first one.
+fn rectangles(nodes: &[Node]) -> impl Iterator<Item = (usize, [&Node; 4])> {
+    let first = (0..POINTS - 1).flat_map(|i| (0..POINTS - 1).map(move |j| i * POINTS + j));
+    first.map(|i| (i, [i, i + 1, i + POINTS, i + POINTS + 1].map(|i| &nodes[i])))
 }
 
 /// A bound on the error of the integral of g that follows from convexity.
 fn gap(nodes: &[Node]) -> f64 {
     let (mut low, mut high, mut rule) = (0.0, 0.0, 0.0);
-    for i in 0..POINTS {
-        for j in 0..POINTS {
-            rule += RULE[i].1 * RULE[j].1 * nodes[i * POINTS + j].on_ray.gauge;
-            if i + 1 < POINTS && j + 1 < POINTS {
-                let around = [(0, 0), (0, 1), (1, 0), (1, 1)].map(|(k, l)| &nodes[(i + k) * POINTS + j + l]);
-                let area = (RULE[i + 1].0 - RULE[i].0) * (RULE[j + 1].0 - RULE[j].0);
-                let middle = 0.25 * around.iter().map(|node| node.p).sum::<Vector3<f64>>();
-                let below = around.iter().map(|node| node.on_ray.tangent.dot(&middle)).fold(0.0, f64::max);
-                low += area * below;
-                high += area * 0.25 * around.iter().map(|node| node.on_ray.gauge).sum::<f64>();
-            }
-        }
+    for (i, node) in nodes.iter().enumerate() {
+        rule += RULE[i / POINTS].1 * RULE[i % POINTS].1 * node.on_ray.gauge;
+    }
+    for (i, around) in rectangles(nodes) {
+        let area = (RULE[i / POINTS + 1].0 - RULE[i / POINTS].0) * (RULE[i % POINTS + 1].0 - RULE[i % POINTS].0);
+        let middle = 0.25 * around.iter().map(|node| node.p).sum::<Vector3<f64>>();
+        low += area * around.iter().map(|node| node.on_ray.tangent.dot(&middle)).fold(0.0, f64::max);
+        high += area * 0.25 * around.iter().map(|node| node.on_ray.gauge).sum::<f64>();
     }
     f64::max(high - rule, rule - low)
 }
 
-/// The integrands where the ray through p leaves the particle, at τ p, times `area`.
-fn moments_of_ray(p: &Vector3<f64>, tau: f64, area: f64) -> Moments {
-    let cube = area * tau * tau * tau;
+/// The integrands where the ray through p leaves the particle, at τ p, with w du dv.
+fn moments_of_ray(p: &Vector3<f64>, tau: f64, volume: f64) -> Moments {
+    let cube = volume * tau * tau * tau;
     let (f, s) = (cube * tau / 4.0 * p, cube * tau * tau / 5.0 * p);
     let moments = [cube / 3.0, f.x, f.y, f.z, s.x * p.x, s.y * p.y, s.z * p.z, s.x * p.y, s.y * p.z, s.z * p.x];
     moments.into()

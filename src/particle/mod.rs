@@ -11,6 +11,7 @@
 //! | `potential` | S, its gradient and its Hessian |
 //! | `ray_cast` | the distance from a point inside to the surface |
 //! | `gauge` | where rays through a piece of a plane leave the particle, and which planes are active there |
+//! | `polyhedron` | a polyhedron that stays closed while planes cut it |
 //! | `direction_mesh` | a partition of all directions along faces and edges |
 //! | `quadrature` | a rule on an interval, and what its error is at most |
 //! | `mass_properties` | volume, centroid and inertia |
@@ -25,6 +26,7 @@ pub mod mass_properties;
 pub mod particle;
 pub mod plane;
 pub mod plane_clusters;
+pub mod polyhedron;
 pub mod potential;
 pub mod quadrature;
 pub mod ray_cast;

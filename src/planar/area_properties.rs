@@ -221,14 +221,14 @@ type Node = (Vector3<f64>, OnRay, f64);
 
 /// A bound on the error that lines make which are active in a part of the interval only.
 fn jump(piece: &Piece, corners: &[Vector3<f64>; 2], along: &Vector3<f64>, nodes: &[Node]) -> f64 {
-    let undecided = piece.undecided(corners, &[nodes[0].1.gauge, nodes[POINTS - 1].1.gauge]);
+    let undecided = piece.activity(corners, &[nodes[0].1.gauge, nodes[POINTS - 1].1.gauge]).undecided;
     let of_line = |line: &Undecided| {
         let (mut jump, mut most) = (0.0_f64, 0.0_f64);
         for (p, on_ray, _) in nodes {
             let scale = 2.0 * piece.plane_weight() / on_ray.slope;
             let rate = line.n.dot(along) - line.n.dot(p) / on_ray.gauge * on_ray.tangent.dot(along);
             jump = jump.max(scale / on_ray.gauge * rate * rate);
-            most = most.max(scale * on_ray.gauge * line.square);
+            most = most.max(scale * on_ray.gauge * line.excess * line.excess);
         }
         most.min(quadrature::OF_JUMP * jump)
     };

@@ -12,6 +12,7 @@ pub enum Part {
     Seams,
     Planar,
     Memories,
+    Mass,
 }
 
 /// Random pairs over everything that can be written down, judged without a known answer; then walks and sweeps.

@@ -62,6 +62,7 @@ fn main() -> ExitCode {
             Part::Seams => seams::replay(seed, index),
             Part::Planar => planar::replay(seed, index),
             Part::Memories => memories::replay(seed, index),
+            Part::Mass => mass::replay(seed, index),
         };
         return if passed { ExitCode::SUCCESS } else { ExitCode::FAILURE };
     }

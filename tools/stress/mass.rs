@@ -138,6 +138,13 @@ pub fn run(seed: u64, count: u64, threads: usize, stop: &AtomicBool, progress: &
     total.into_inner().expect("no thread panics while it holds the sum")
 }
 
+/// Judges one particle again and prints what is found; whether it passed.
+pub fn replay(seed: u64, index: u64) -> bool {
+    let tally = one(seed, index);
+    tally.print();
+    tally.failures() == 0
+}
+
 /// One particle at every tolerance.
 pub fn one(seed: u64, index: u64) -> Tally {
     let mut random = stream(seed, 11, index);
