@@ -143,7 +143,14 @@ impl Call<'_> {
         let remembered = state.as_ref().and_then(|state| state.remembered_on_boundary(particle));
         let flags = if remembered.is_some() { Flags::WARM } else { Flags::NONE };
         let mut search = Search { particle, pose, settings, precise: false, remembered, flags, iterations: 0 };
-        let mut found = closest(&mut search)?;
+        let mut found = match closest(&mut search) {
+            // What is remembered may be of any other pair, and no start leads to the answer from everywhere.
+            Err(_) if remembered.is_some() => {
+                search.remembered = None;
+                closest(&mut search)?
+            }
+            found => found?,
+        };
         if found.is_inconclusive() {
             search.precise = true;
             found = closest(&mut search)?;
@@ -157,7 +164,8 @@ impl Call<'_> {
             let contact = Call { settings: &settings, ..*self }.contact(None, state, closest)?;
             return Ok(FlatContact { flags: contact.flags.with(Flags::DEFAULT_REGULARISATION), ..contact });
         }
-        if scale.is_undecided() {
+        // A raised regularisation was asked for with the gap that it leaves.
+        if scale.is_undecided() && !settings.raises_regularisation() {
             return Err(SolveError::Undecided { low: scale.low, high: scale.high }.into());
         }
         let contact = self.described(&body, &found, scale)?;

@@ -282,7 +282,12 @@ impl Scene<'_> {
         let invented = c.kind == Kind::Overlapping && given.least > 1.0 + known;
         verdict.check(!invented, Fault::InventedContact, || format!("s={s:e} ± {gap:e}, truth {:e}", given.least));
         let open = s - gap < 1.0 && 1.0 < s + gap;
-        verdict.check(!(open && gap > MOST_GAP), Fault::SaysNothing, || format!("s={s:e} ± {gap:e}, truth {most:e}"));
+        // A raised regularisation is asked for with the gap that it leaves.
+        let raised = self.case.settings.flat_regularisation > Settings::default().flat_regularisation
+            && !c.flags.contains(Flags::DEFAULT_REGULARISATION);
+        verdict.check(!(open && gap > MOST_GAP) || raised, Fault::SaysNothing, || {
+            format!("s={s:e} ± {gap:e}, truth {most:e}")
+        });
         for (fault, least, most) in [(Fault::Gap, least, most), (Fault::GapOfGiven, given.least, given.most)] {
             let off = (s - most).max(least - s);
             // A gap of 0 leaves the last digit of s.
