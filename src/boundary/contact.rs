@@ -65,8 +65,8 @@ pub struct FlatContact {
 ///
 /// Of the settings, `gap_tolerance`, `flat_regularisation` (values below the default count as the default) and `solve_separated`
 /// count. As for a pair, a `gap_tolerance` below 1e-13, or a gap in doubles that is too wide, is answered in extended precision
-/// ([`Flags::EXTENDED`]). Where the centre of A lies on the plane to rounding, A counts as in front of it: the normal is minus
-/// the plane's ([`Flags::NORMAL_BY_BOUNDARY`]).
+/// ([`Flags::EXTENDED`]). Where the slope of S does not tell the normal, it is the plane's, away from the centre of A; where that lies
+/// on the plane to rounding, A counts as in front of it ([`Flags::NORMAL_BY_BOUNDARY`]).
 ///
 /// `state` is what A and this boundary keep from call to call, as for a pair of particles: read, and updated on success.
 ///
@@ -212,7 +212,7 @@ impl Call<'_> {
     }
 
     /// Along the gradient; inside the boundary along its normal, at an edge at right angles to that. And whether the gradient vanishes
-    /// to its rounding, so that it is minus the normal of the boundary.
+    /// to its rounding, so that it is that of the boundary or minus that.
     fn normal(&self, body: &Body, found: &Closest) -> (Vector3<f64>, bool) {
         let (least, solution) = (&found.least, &found.least.solution);
         let shift = shift_in_a(least.from_centre().norm(), least.lengths);
@@ -221,7 +221,10 @@ impl Call<'_> {
         // What it has along the part is rounding.
         (0..least.part.dimensions()).for_each(|i| across[i] = 0.0);
         let steep = across.norm() > doubt;
+        // Without a slope that tells, from the centre to the boundary; A is in front of one through its centre.
+        let side = self.normal.dot(&(least.rotation * least.from_centre()));
         let normal = match found.feature {
+            _ if !steep && side > shift => self.normal,
             _ if !steep => -self.normal,
             Feature::Interior => across.z.signum() * self.normal,
             Feature::Edge(_) | Feature::Vertex(_) => direction(&(least.rotation * across)).unwrap_or(-self.normal),
