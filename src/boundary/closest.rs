@@ -159,19 +159,7 @@ impl Search<'_> {
             }
             found = least_of(&on_edges).unwrap_or(found);
         }
-        // On an edge that ends at the vertex the least S is no more than there, and whether it is less is an answer of the edge
-        // alone: so all triangles that share it have the same. From one vertex it may lead to another one, but not round in a circle.
-        for _ in 0..3 {
-            let at = found.feature;
-            for i in ending_at(at) {
-                let on_edge = on_edges[i].map_or_else(|| self.on_edge(triangle, i), Ok)?;
-                on_edges[i] = Some(on_edge);
-                if on_edge.feature != at {
-                    found = on_edge;
-                    break;
-                }
-            }
-        }
+        found = self.from_vertices(triangle, &mut on_edges, found)?;
         let OnEdge { mut least, feature, .. } = found;
         let body = self.body();
         let extent_from =
@@ -197,23 +185,41 @@ impl Search<'_> {
         if self.precise { self.as_without_triangle(triangle, closest) } else { Ok(closest) }
     }
 
-    /// The same, with the point of an edge or a vertex as that alone asks for it: whether it is solved in extended precision may not depend on
-    /// the triangle, or triangles that share it had different bits.
-    fn as_without_triangle(&mut self, triangle: &Triangle, precise: Closest) -> Result<Closest, DetectError> {
-        let edges = match precise.feature {
-            Feature::Edge(i) => vec![usize::from(i)],
-            feature => ending_at(feature).collect(),
-        };
-        let mut search = Search { precise: false, ..*self };
-        let mut found: Option<OnEdge> = None;
-        for i in edges {
-            if found.is_none_or(|found| found.feature == precise.feature) {
-                let on_edge = search.on_edge(triangle, i)?;
-                found = found.filter(|_| on_edge.feature == precise.feature).or(Some(on_edge));
+    /// From a vertex on along an edge that ends there: its least S is no more, and whether it is less is an answer of the edge alone, so that
+    /// all triangles that share it have the same. It may lead to another vertex, but not round in a circle.
+    fn from_vertices(
+        &mut self,
+        triangle: &Triangle,
+        on_edges: &mut [Option<OnEdge>; 3],
+        mut found: OnEdge,
+    ) -> Result<OnEdge, DetectError> {
+        for _ in 0..3 {
+            let at = found.feature;
+            for i in ending_at(at) {
+                let on_edge = on_edges[i].map_or_else(|| self.on_edge(triangle, i), Ok)?;
+                on_edges[i] = Some(on_edge);
+                if on_edge.feature != at {
+                    found = on_edge;
+                    break;
+                }
             }
         }
+        Ok(found)
+    }
+
+    /// A point in extended precision, with that of an edge or a vertex as that alone asks for it: whether it is solved in extended precision may not depend on
+    /// the triangle, or triangles that share it had different bits.
+    fn as_without_triangle(&mut self, triangle: &Triangle, precise: Closest) -> Result<Closest, DetectError> {
+        let edge = match precise.feature {
+            Feature::Edge(i) => Some(usize::from(i)),
+            feature => ending_at(feature).next(),
+        };
+        let Some(edge) = edge else { return Ok(precise) };
+        let (mut search, mut on_edges) = (Search { precise: false, ..*self }, [None; 3]);
+        let found = search.on_edge(triangle, edge)?;
+        on_edges[edge] = Some(found);
+        let OnEdge { mut least, feature, .. } = search.from_vertices(triangle, &mut on_edges, found)?;
         (self.flags, self.iterations) = (search.flags, search.iterations);
-        let Some(OnEdge { mut least, feature, .. }) = found else { return Ok(precise) };
         let place = |least: &Least| least.rotation * least.from_centre();
         let off = (place(&least) - place(&precise.least)).norm();
         least.point_bound = smaller(least.point_bound, precise.least.point_bound + off);
