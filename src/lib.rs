@@ -67,6 +67,7 @@ mod model;
 pub mod packing;
 mod pair;
 mod particle;
+mod patch;
 pub mod planar;
 mod pose;
 #[cfg(feature = "cone-program")]
@@ -91,6 +92,9 @@ pub use pair::pair_state::PairState;
 pub use pair::role::Role;
 pub use particle::mass_properties::{MASS_TOLERANCE, MassProperties};
 pub use particle::particle::{MAX_PLANES, Particle, ParticleError, Plane};
+pub use patch::{
+    Patch, PatchError, PatchFlags, PatchPoint, PatchScratch, PatchSettings, patch_of_contact, patch_on_plane, patch_on_triangle,
+};
 pub use pose::{Pose, PoseError};
 pub use section::Section;
 pub use settings::{BackEnd, Formulation, Settings, SettingsError};
