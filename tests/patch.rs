@@ -43,3 +43,28 @@ fn explore() {
         }
     }
 }
+
+#[test]
+fn ladder() {
+    for (families, k, r, depth, seed) in [
+        (["ball", "needle"], 1e-6, 1e-3, 0.01, 3),
+        (["plate", "cube"], 0.02, 0.3, 0.4, 4),
+        (["ball", "rock"], 0.0, 1e-3, 0.01, 5),
+        (["rock", "plate"], 0.3, 0.05, 0.01, 6),
+        (["needle", "plate"], 0.02, 0.05, 0.01, 7),
+        (["cube", "pyramid"], 1e-6, 1e-3, 0.1, 8),
+        (["needle", "rock"], 0.02, 0.05, 0.1, 9),
+    ] {
+        let mut chance = Chance::new(seed);
+        let pair = Pair::random(families, [k, k], r, depth, &mut chance);
+        println!("{families:?} {k} {r} {depth} t {}", pair.contact.s);
+        let finest = patch(&pair, 1e-11, false);
+        for e in 2..11 {
+            let tolerance = 10f64.powi(-e);
+            let found = patch(&pair, tolerance, false);
+            let f = finest.force.norm();
+            println!("   1e-{e} rays {:4} points {:6} estimate {:8.1e} error {:8.1e} torque {:8.1e} area {:8.1e} {}", found.rays, found.points, found.error, (found.force - finest.force).norm() / f,
+              (found.torque - finest.torque).norm() / f, found.area / finest.area - 1.0, found.flags);
+        }
+    }
+}

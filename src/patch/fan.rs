@@ -17,6 +17,9 @@ const COINCIDENT: f64 = 0.1;
 /// Part of the tolerance that the pieces next to a border may take which are not cut off there.
 const NEGLIGIBLE: f64 = 0.02;
 
+/// Part of the tolerance that one rule on a ray may take, over the load of the ray.
+const RADIAL: f64 = 0.1;
+
 /// Largest angle of a sector that is made of several.
 const WIDEST: f64 = 1.7;
 
@@ -31,8 +34,8 @@ pub(super) struct Sector {
     pub value: [f64; SUMS],
     /// Estimated errors of force, torque about the centre of the fan, and area.
     error: [f64; 3],
-    /// Whether a change of the sequence next to a border was neglected.
-    is_rough: bool,
+    /// The ray whose sequence of cells the sector has, but for a negligible piece at one end; `None` where the whole is negligible.
+    like: Option<usize>,
 }
 
 /// Integrals over the patch, with estimated errors of force, torque about the centre of the fan, and area.
@@ -57,6 +60,8 @@ pub(super) struct Fan<'w, 'f, 'a, 's> {
     negligible: f64,
     /// The longest ray.
     pub extent: f64,
+    /// The ray at which a sector was halved: no sector is to grow over it.
+    cut: usize,
     /// Whether the most rays were used.
     pub is_capped: bool,
 }
@@ -79,6 +84,7 @@ impl<'w, 'f, 'a, 's> Fan<'w, 'f, 'a, 's> {
             tolerance,
             negligible: 0.0,
             extent: 0.0,
+            cut: usize::MAX,
             is_capped: false,
         }
     }
@@ -90,8 +96,10 @@ impl<'w, 'f, 'a, 's> Fan<'w, 'f, 'a, 's> {
         self.walker.nodes.clear();
         (self.extent, self.is_capped) = (0.0, false);
         let [e, f] = axis;
+        self.walker.budget = f64::INFINITY;
         let first = [[e, f], [-f, e], [-e, -f], [f, -e]].map(|direction| self.cast(direction));
         let rough: f64 = first.iter().map(|ray| self.rays[*ray].sums[2]).sum();
+        self.walker.budget = RADIAL * self.tolerance * 0.25 * rough;
         self.negligible = NEGLIGIBLE * self.tolerance * rough * std::f64::consts::FRAC_PI_2;
         for i in 0..4 {
             self.resolve(first[i], first[(i + 1) % 4]);
@@ -114,17 +122,13 @@ impl<'w, 'f, 'a, 's> Fan<'w, 'f, 'a, 's> {
             if self.sectors[worst].count == 3 {
                 self.evaluate(worst, 7);
             } else {
-                let Sector { left, right, rays, is_rough, .. } = self.sectors[worst];
+                let Sector { left, right, rays, .. } = self.sectors[worst];
                 self.sectors.swap_remove(worst);
                 let middle = rays[0].0;
-                if is_rough || !self.rays[middle].is_like(&self.rays[left]) {
-                    self.negligible *= 0.1;
-                    self.resolve(left, middle);
-                    self.resolve(middle, right);
-                } else {
-                    self.push(left, middle, false);
-                    self.push(middle, right, false);
-                }
+                self.cut = middle;
+                self.negligible = self.negligible.min(0.1 * error * norm(&integral.sums[..3]));
+                self.resolve(left, middle);
+                self.resolve(middle, right);
             }
         }
     }
@@ -172,7 +176,7 @@ impl<'w, 'f, 'a, 's> Fan<'w, 'f, 'a, 's> {
         self.rays.len() - 1
     }
 
-    fn push(&mut self, left: usize, right: usize, is_rough: bool) {
+    fn push(&mut self, left: usize, right: usize, like: Option<usize>) {
         self.sectors.push(Sector {
             left,
             right,
@@ -180,22 +184,26 @@ impl<'w, 'f, 'a, 's> Fan<'w, 'f, 'a, 's> {
             count: 0,
             value: [0.0; SUMS],
             error: [0.0; 3],
-            is_rough,
+            like,
         });
     }
 
     /// Adds a sector, to the last one if it goes on with the same cells.
-    fn emit(&mut self, left: usize, right: usize, is_rough: bool) {
-        if let Some(before) = self.sectors.last().copied().filter(|before| before.count == 0 && before.right == left) {
+    fn emit(&mut self, left: usize, right: usize, like: Option<usize>) {
+        if let Some(before) = self.sectors.last().copied().filter(|before| before.count == 0 && before.right == left && left != self.cut)
+        {
             let whole = angle(&self.rays[before.left].direction, &self.rays[right].direction);
-            let alike = self.rays[before.left].is_like(&self.rays[right]);
-            if !before.is_rough && !is_rough && alike && whole > 0.0 && whole < WIDEST {
+            let alike = match (before.like, like) {
+                (Some(one), Some(other)) => self.rays[one].is_like(&self.rays[other]),
+                _ => false,
+            };
+            if alike && whole > 0.0 && whole < WIDEST {
                 let end = self.sectors.len() - 1;
                 self.sectors[end].right = right;
                 return;
             }
         }
-        self.push(left, right, is_rough);
+        self.push(left, right, like);
     }
 
     /// Cuts what lies between two rays where the sequence of cells changes.
@@ -205,22 +213,22 @@ impl<'w, 'f, 'a, 's> Fan<'w, 'f, 'a, 's> {
         while let Some((left, right, depth)) = self.stack.pop() {
             let (a, b) = (&self.rays[left], &self.rays[right]);
             if a.is_like(b) {
-                self.emit(left, right, false);
+                self.emit(left, right, Some(left));
                 continue;
             }
             let m = a.first_difference(b);
             let (Some(&at_a), Some(&at_b)) = (a.event(m), b.event(m)) else {
-                self.emit(left, right, true);
+                self.emit(left, right, None);
                 continue;
             };
             let effect = angle(&a.direction, &b.direction) * a.tail(m).max(b.tail(m));
             if 0.25 * effect <= self.negligible || depth >= DEEPEST || self.is_capped {
-                self.emit(left, right, true);
+                self.emit(left, right, None);
                 continue;
             }
             let share = self.change(left, right, m, &at_a, &at_b);
-            if share.is_some_and(|t| 0.5 * effect * t.min(1.0 - t) <= self.negligible) {
-                self.emit(left, right, true);
+            if let Some(t) = share.filter(|t| 0.5 * effect * t.min(1.0 - t) <= self.negligible) {
+                self.emit(left, right, Some(if t > 0.5 { left } else { right }));
                 continue;
             }
             let t = share.unwrap_or(0.5);
@@ -289,7 +297,7 @@ impl<'w, 'f, 'a, 's> Fan<'w, 'f, 'a, 's> {
     ///
     /// Whether it is still there.
     fn evaluate(&mut self, index: usize, count: usize) -> bool {
-        let Sector { left, right, is_rough, .. } = self.sectors[index];
+        let Sector { left, right, like, .. } = self.sectors[index];
         let place = self.reference(left, right);
         let (mut from, mut to) = (self.reach(left, place), self.reach(right, place));
         (from, to) = (from.max(1e-3 * to), to.max(1e-3 * from));
@@ -327,7 +335,7 @@ impl<'w, 'f, 'a, 's> Fan<'w, 'f, 'a, 's> {
                 sums[1][j] += low * density * value;
             }
         }
-        let alike = |ray: &usize| self.rays[*ray].is_like(&self.rays[left]);
+        let alike = |ray: &usize| like.is_none_or(|like| self.rays[*ray].is_like(&self.rays[like]));
         let odd = rays[..count].iter().map(|(ray, _)| *ray).find(|ray| !alike(ray));
         let sector = &mut self.sectors[index];
         let [value, low] = sums;
@@ -336,7 +344,7 @@ impl<'w, 'f, 'a, 's> Fan<'w, 'f, 'a, 's> {
         let estimate = |off: f64, size: f64| {
             let relative = off / size;
             let share = if count == 3 { (2.0 * relative).powi(2) } else { 10.0 * relative };
-            off * if share < 1.0 && !is_rough && odd.is_none() { share } else { 1.0 }
+            off * if share < 1.0 && like.is_some() && odd.is_none() { share } else { 1.0 }
         };
         *sector = Sector {
             rays,
@@ -349,7 +357,7 @@ impl<'w, 'f, 'a, 's> Fan<'w, 'f, 'a, 's> {
             ],
             ..*sector
         };
-        if let (Some(odd), false) = (odd, is_rough || self.is_capped) {
+        if let (Some(odd), false) = (odd, self.is_capped) {
             self.sectors.swap_remove(index);
             self.resolve(left, odd);
             self.resolve(odd, right);

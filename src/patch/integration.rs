@@ -6,7 +6,6 @@ use super::fan::{Fan, norm};
 use super::field::{Field, FramePlane, Placed};
 use super::patch::{Patch, PatchFlags, PatchPoint};
 use super::ray::{Line, Node, Walker};
-use super::rules::MOST_POINTS;
 use super::scratch::PatchScratch;
 use nalgebra::{Matrix3, Vector3};
 
@@ -15,9 +14,6 @@ const OFF_CENTRE: f64 = 0.1;
 
 /// Most such starts.
 const MOST_STARTS: usize = 3;
-
-/// Part of the tolerance that the rules along the rays may take.
-const RADIAL: f64 = 0.3;
 
 /// What a patch is computed from.
 pub(super) struct Task<'a> {
@@ -47,8 +43,8 @@ pub(super) fn patch(task: &Task, scratch: &mut PatchScratch, mut visit: impl FnM
     let mut field = Field::new(task.a, task.b, task.edges, task.near, planes);
     let mut flags = task.flags;
     let axis = flattest_axis(&field);
-    let mut order = if task.tolerance >= 1e-5 { 3 } else { 5 };
-    let walker = Walker { field: &mut field, planes: ray_planes, nodes, order: 2 };
+    let order = if task.tolerance >= 1e-5 { 3 } else if task.tolerance >= 1e-8 { 5 } else { 8 };
+    let walker = Walker { field: &mut field, planes: ray_planes, nodes, order: 2, budget: f64::INFINITY };
     let mut fan = Fan::new(walker, rays, sectors, stack, [0.0; 3], task.tolerance);
     let start = on_patch(fan.walker.field, 0.0, 0.0, 0.0).unwrap_or_default();
     let start = inwards(&mut fan.walker, start, task.inside);
@@ -60,10 +56,6 @@ pub(super) fn patch(task: &Task, scratch: &mut PatchScratch, mut visit: impl FnM
         let force = norm(&integral.sums[..3]);
         if !(force > 0.0) {
             break;
-        }
-        if starts < MOST_STARTS && integral.radial > RADIAL * task.tolerance * force && order + 2 <= MOST_POINTS {
-            order += 2;
-            continue;
         }
         // The axis of the wrench in the plane of the frame.
         let [_, _, load, turn_u, turn_v, ..] = integral.sums;

@@ -13,6 +13,9 @@ pub(super) const RIM: u32 = u32::MAX;
 /// Most cells on a ray.
 const MOST_CELLS: usize = 400;
 
+/// Shortest part of a cell that gets a rule of its own.
+const SHORTEST: f64 = 1.0 / 256.0;
+
 /// A step back of this part of the size of the bodies is rounding.
 const TINY: f64 = 1e-13;
 
@@ -104,6 +107,8 @@ pub(super) struct Walker<'f, 'a, 's> {
     pub nodes: &'f mut Vec<Node>,
     /// Gauss points in a cell that is not flat.
     pub order: usize,
+    /// Error of ∫ p n that one of its rules may make.
+    pub budget: f64,
 }
 
 impl Walker<'_, '_, '_> {
@@ -158,7 +163,7 @@ impl Walker<'_, '_, '_> {
                 return Err(away);
             }
             if h > 0.0 {
-                self.integrate(line, &cell, (rho, zeta), (h, k), &mut ray);
+                self.integrate(line, &cell, (rho, zeta), h, &mut ray);
             }
             (rho, zeta) = (rho + h, zeta + k);
             let id = next.map_or(RIM, |place| place as u32);
@@ -229,23 +234,52 @@ impl Walker<'_, '_, '_> {
         next
     }
 
-    /// Adds the cell to the integrals.
-    fn integrate(&mut self, line: &Line, cell: &Cell, (rho, zeta): (f64, f64), (h, k): (f64, f64), ray: &mut Ray) {
+    /// Adds the cell to the integrals, in pieces where one rule does not do.
+    fn integrate(&mut self, line: &Line, cell: &Cell, start: (f64, f64), h: f64, ray: &mut Ray) {
+        let (mut from, mut step) = (0.0, h);
+        while from < h {
+            let to = if from + step < h * (1.0 - 1e-6) { from + step } else { h };
+            let known = self.nodes.len();
+            let Some((sums, error)) = self.piece(line, cell, start, (from, to)) else {
+                ray.is_folded = true;
+                return;
+            };
+            if error > self.budget && to - from > SHORTEST * h {
+                self.nodes.truncate(known);
+                step = 0.5 * (to - from);
+                continue;
+            }
+            for (sum, term) in ray.sums.iter_mut().zip(sums) {
+                *sum += term;
+            }
+            ray.error += error;
+            (from, step) = (to, 2.0 * step);
+        }
+    }
+
+    /// One rule on a part of a cell: its integrals and the estimated error of ∫ p n; `None` where the patch has turned back.
+    #[inline(always)]
+    fn piece(
+        &mut self,
+        line: &Line,
+        cell: &Cell,
+        (rho, zeta): (f64, f64),
+        (from, to): (f64, f64),
+    ) -> Option<([f64; SUMS], f64)> {
         let points = if cell.is_flat { 2 } else { self.order };
         let rule = gauss(points);
         let [e, f] = line.direction;
         let by_distance = |distance: f64| if line.is_polar { distance } else { 1.0 };
-        let (mut at_start, mut at_end, mut largest) = (0.0, 0.0, 0.0_f64);
+        let mut sums = [0.0; SUMS];
+        // Pressure and its product with the slope of the patch: at the ends by the polynomial through the points, and the largest.
+        let (mut ends, mut largest) = ([[0.0; 3]; 2], 0.0_f64);
         for (i, (place, weight)) in rule.nodes[..points].iter().enumerate() {
-            let along = place * h;
-            let Some((up, rise)) = cell.height(along) else {
-                ray.is_folded = true;
-                return;
-            };
+            let along = from + place * (to - from);
+            let (up, rise) = cell.height(along)?;
             let distance = rho + along;
             let pressure = 1.0 - cell.s.value(along, up).max(0.0).sqrt();
             let density = by_distance(distance);
-            let weight = weight * h * density;
+            let weight = weight * (to - from) * density;
             let (n_along, n_across) = (cell.d.by_h(along, up) / rise, cell.d.across(along, up) / rise);
             let normal = [n_along * e - n_across * f, n_along * f + n_across * e];
             let arm = [distance * e, distance * f, zeta + up];
@@ -257,20 +291,30 @@ impl Walker<'_, '_, '_> {
             let torque = [arm[1] - arm[2] * n_v, arm[2] * n_u - arm[0], arm[0] * n_v - arm[1] * n_u];
             let terms =
                 [load * n_u, load * n_v, load, load * torque[0], load * torque[1], load * torque[2], weight * area];
-            for (sum, term) in ray.sums.iter_mut().zip(terms) {
+            for (sum, term) in sums.iter_mut().zip(terms) {
                 *sum += term;
             }
-            let value = pressure * density;
-            at_start += rule.at_end[i] * value;
-            at_end += rule.at_end[points - 1 - i] * value;
-            largest = largest.max(value);
+            if !cell.is_flat {
+                let values = [1.0, n_along, n_across].map(|c| c * pressure * density);
+                for (j, value) in values.into_iter().enumerate() {
+                    ends[0][j] += rule.at_end[i] * value;
+                    ends[1][j] += rule.at_end[points - 1 - i] * value;
+                    largest = largest.max(value.abs());
+                }
+            }
         }
-        if !cell.is_flat {
-            // The polynomial through n points misses the ends by a term whose square, relative, is that of degree 2n.
-            let of = |s: f64, distance: f64| (1.0 - s.max(0.0).sqrt()) * by_distance(distance);
-            let off = (of(cell.s.v, rho) - at_start).abs().max((of(cell.s.value(h, k), rho + h) - at_end).abs());
-            ray.error += h * off * off / (largest + off);
+        if cell.is_flat {
+            return Some((sums, 0.0));
         }
+        // That polynomial misses the ends by a term whose square, relative, is that of degree 2n.
+        let mut off = 0.0_f64;
+        for (end, at) in ends.iter().zip([from, to]) {
+            let (up, rise) = cell.height(at)?;
+            let value = (1.0 - cell.s.value(at, up).max(0.0).sqrt()) * by_distance(rho + at);
+            let values = [1.0, cell.d.by_h(at, up) / rise, cell.d.across(at, up) / rise].map(|c| c * value);
+            off = (0..3).fold(off, |off, j| off.max((values[j] - end[j]).abs()));
+        }
+        Some((sums, (to - from) * off * off / (largest + off)))
     }
 
     /// The integral of a plane or of the rim (as an inverse distance from the origin) in the cell that follows the first `m` events of a
