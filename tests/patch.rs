@@ -44,27 +44,34 @@ fn explore() {
     }
 }
 
+
 #[test]
-fn ladder() {
-    for (families, k, r, depth, seed) in [
-        (["ball", "needle"], 1e-6, 1e-3, 0.01, 3),
-        (["plate", "cube"], 0.02, 0.3, 0.4, 4),
-        (["ball", "rock"], 0.0, 1e-3, 0.01, 5),
-        (["rock", "plate"], 0.3, 0.05, 0.01, 6),
-        (["needle", "plate"], 0.02, 0.05, 0.01, 7),
-        (["cube", "pyramid"], 1e-6, 1e-3, 0.1, 8),
-        (["needle", "rock"], 0.02, 0.05, 0.1, 9),
-    ] {
-        let mut chance = Chance::new(seed);
-        let pair = Pair::random(families, [k, k], r, depth, &mut chance);
-        println!("{families:?} {k} {r} {depth} t {}", pair.contact.s);
-        let finest = patch(&pair, 1e-11, false);
-        for e in 2..11 {
-            let tolerance = 10f64.powi(-e);
-            let found = patch(&pair, tolerance, false);
-            let f = finest.force.norm();
-            println!("   1e-{e} rays {:4} points {:6} estimate {:8.1e} error {:8.1e} torque {:8.1e} area {:8.1e} {}", found.rays, found.points, found.error, (found.force - finest.force).norm() / f,
-              (found.torque - finest.torque).norm() / f, found.area / finest.area - 1.0, found.flags);
+fn statistics() {
+    let mut chance = Chance::new(11);
+    for tolerance in [1e-4, 1e-6] {
+        let (mut worst, mut over, mut count, mut rays, mut points, mut missed, mut above) = (0.0_f64, 0, 0, 0, 0, 0, 0);
+        for family in FAMILIES {
+            for k in [0.0, 1e-6, 0.02, 0.3] {
+                for r in [1e-6, 1e-3, 0.05, 0.3, 0.9] {
+                    for depth in [0.001, 0.01, 0.1, 0.4] {
+                        let other = chance.pick(&FAMILIES);
+                        let pair = Pair::random([family, other], [k, k], r, depth, &mut chance);
+                        let found = patch(&pair, tolerance, false);
+                        let finest = patch(&pair, 0.01 * tolerance, false);
+                        if finest.flags.contains(potential_particles::PatchFlags::FOLDED) { continue; }
+                        let error = (found.force - finest.force).norm() / finest.force.norm();
+                        count += 1; rays += found.rays; points += found.points;
+                        if found.error > tolerance { missed += 1; }
+                        if error > found.error { over += 1; }
+                        if error > tolerance { above += 1; }
+                        if !(error < 5.0 * tolerance) {
+                            println!("   {family} {other} k {k} r {r} d {depth} t {:.2} rays {} {} estimate {:.1e} error {error:.1e} {} {}", pair.contact.s, found.rays, finest.rays, found.error, found.flags, finest.flags);
+                        }
+                        worst = worst.max(error);
+                    }
+                }
+            }
         }
+        println!("{tolerance} count {count} rays {} points {} over estimate {over} over tolerance {above} missed {missed} worst {worst:.1e}", rays / count, points / count);
     }
 }

@@ -20,6 +20,9 @@ const NEGLIGIBLE: f64 = 0.02;
 /// Part of the tolerance that one rule on a ray may take, over the load of the ray.
 const RADIAL: f64 = 0.1;
 
+/// Error of 3 rays over the load of a sector and the third power of the relative variation of the load among them.
+const OF_VARIATION: f64 = 0.1;
+
 /// Largest angle of a sector that is made of several.
 const WIDEST: f64 = 1.7;
 
@@ -317,6 +320,7 @@ impl<'w, 'f, 'a, 's> Fan<'w, 'f, 'a, 's> {
         let part = |t: f64| if theta > 1e-6 { (t * theta).sin() / theta.sin() } else { t };
         let constant = if theta > 1e-6 { cross * theta / theta.sin() } else { cross };
         let mut sums = [[0.0; SUMS]; 2];
+        let mut loads = [[0.0; 3]; 3];
         let mut rays = known.rays;
         for (i, (t, few, many)) in GAUSS_KRONROD[..count].iter().enumerate() {
             let (p, q) = (part(1.0 - t), part(*t));
@@ -330,6 +334,9 @@ impl<'w, 'f, 'a, 's> Fan<'w, 'f, 'a, 's> {
             let weight = if count == 3 { *few } else { *many };
             rays[i] = (ray, weight * density);
             let low = if count == 7 { *few } else if i == 0 { 1.0 } else { 0.0 };
+            if let Some(load) = loads.get_mut(i) {
+                *load = [0, 1, 2].map(|j| density * self.rays[ray].sums[j]);
+            }
             for (j, value) in self.rays[ray].sums.iter().enumerate() {
                 sums[0][j] += weight * density * value;
                 sums[1][j] += low * density * value;
@@ -341,10 +348,13 @@ impl<'w, 'f, 'a, 's> Fan<'w, 'f, 'a, 's> {
         let [value, low] = sums;
         let off: [f64; SUMS] = std::array::from_fn(|i| value[i] - low[i]);
         let size = norm(&value[..3]);
-        let estimate = |off: f64, size: f64| {
-            let relative = off / size;
-            let share = if count == 3 { (2.0 * relative).powi(2) } else { 10.0 * relative };
-            off * if share < 1.0 && like.is_some() && odd.is_none() { share } else { 1.0 }
+        let variation = loads.iter().fold(0.0_f64, |most, load| {
+            most.max(norm(&[load[0] - value[0], load[1] - value[1], load[2] - value[2]]) / size)
+        });
+        let estimate = |off: f64, size: f64| match count {
+            _ if like.is_none() || odd.is_some() => off,
+            3 => (off * (2.0 * off / size).powi(2).min(1.0)).max(size * OF_VARIATION * variation.powi(3)),
+            _ => off * (10.0 * off / size).min(1.0),
         };
         *sector = Sector {
             rays,
