@@ -23,6 +23,9 @@ const RADIAL: f64 = 0.1;
 /// Error of 3 rays over the load of a sector and the third power of the relative variation of the load among them.
 const OF_VARIATION: f64 = 0.1;
 
+/// Relative distance from a straight line up to which a border counts as straight: the loads of flat cells are then polynomials.
+const STRAIGHT: f64 = 1e-7;
+
 /// Largest angle of a sector that is made of several.
 const WIDEST: f64 = 1.7;
 
@@ -320,7 +323,8 @@ impl<'w, 'f, 'a, 's> Fan<'w, 'f, 'a, 's> {
         let part = |t: f64| if theta > 1e-6 { (t * theta).sin() / theta.sin() } else { t };
         let constant = if theta > 1e-6 { cross * theta / theta.sin() } else { cross };
         let mut sums = [[0.0; SUMS]; 2];
-        let mut loads = [[0.0; 3]; 3];
+        let is_straight = (bulge - 1.0).abs() < STRAIGHT;
+        let mut loads = [[0.0; 3]; 7];
         let mut rays = known.rays;
         for (i, (t, few, many)) in GAUSS_KRONROD[..count].iter().enumerate() {
             let (p, q) = (part(1.0 - t), part(*t));
@@ -334,9 +338,8 @@ impl<'w, 'f, 'a, 's> Fan<'w, 'f, 'a, 's> {
             let weight = if count == 3 { *few } else { *many };
             rays[i] = (ray, weight * density);
             let low = if count == 7 { *few } else if i == 0 { 1.0 } else { 0.0 };
-            if let Some(load) = loads.get_mut(i) {
-                *load = [0, 1, 2].map(|j| density * self.rays[ray].sums[j]);
-            }
+            let load = if is_straight { self.rays[ray].curved } else { [0, 1, 2].map(|j| self.rays[ray].sums[j]) };
+            loads[i] = load.map(|c| density * c);
             for (j, value) in self.rays[ray].sums.iter().enumerate() {
                 sums[0][j] += weight * density * value;
                 sums[1][j] += low * density * value;
@@ -348,23 +351,19 @@ impl<'w, 'f, 'a, 's> Fan<'w, 'f, 'a, 's> {
         let [value, low] = sums;
         let off: [f64; SUMS] = std::array::from_fn(|i| value[i] - low[i]);
         let size = norm(&value[..3]);
-        let variation = loads.iter().fold(0.0_f64, |most, load| {
-            most.max(norm(&[load[0] - value[0], load[1] - value[1], load[2] - value[2]]) / size)
-        });
+        let smoothness = if count == 3 { error_of_three(&loads[..3]) } else { error_of_seven(&loads) };
         let estimate = |off: f64, size: f64| match count {
             _ if like.is_none() || odd.is_some() => off,
-            3 => (off * (2.0 * off / size).powi(2).min(1.0)).max(size * OF_VARIATION * variation.powi(3)),
+            3 => off * (2.0 * off / size).powi(2).min(1.0),
             _ => off * (10.0 * off / size).min(1.0),
         };
+        let by_force = estimate(norm(&off[..3]), size).max(smoothness);
+        let by_torque = estimate(norm(&off[3..6]), size * self.extent).max(smoothness * from.max(to));
         *sector = Sector {
             rays,
             count,
             value,
-            error: [
-                estimate(norm(&off[..3]), size),
-                estimate(norm(&off[3..6]), size * self.extent),
-                estimate(off[6].abs(), value[6]),
-            ],
+            error: [by_force, by_torque, estimate(off[6].abs(), value[6]).max(smoothness / size * value[6])],
             ..*sector
         };
         if let (Some(odd), false) = (odd, self.is_capped) {
@@ -391,6 +390,34 @@ impl<'w, 'f, 'a, 's> Fan<'w, 'f, 'a, 's> {
         let ray = &self.rays[ray];
         ray.event(place).unwrap_or(last(ray)).rho
     }
+}
+
+/// Error of the rule of 3 rays from how their loads vary.
+fn error_of_three(loads: &[[f64; 3]]) -> f64 {
+    let mean = [0, 1, 2].map(|j| GAUSS_KRONROD.iter().zip(loads).map(|((_, w, _), load)| w * load[j]).sum::<f64>());
+    let off = |load: &[f64; 3]| norm(&[load[0] - mean[0], load[1] - mean[1], load[2] - mean[2]]);
+    let most = loads.iter().map(off).fold(0.0, f64::max);
+    if most > 0.0 { OF_VARIATION * most * (most / norm(&mean)).powi(2).min(1.0) } else { 0.0 }
+}
+
+/// Error of the rule of 7 rays from how fast the coefficients of Legendre's series of the loads fall.
+fn error_of_seven(loads: &[[f64; 3]; 7]) -> f64 {
+    let mut coefficients = [[0.0; 3]; 6];
+    for ((t, _, weight), load) in GAUSS_KRONROD.iter().zip(loads) {
+        let x = 2.0 * t - 1.0;
+        let (mut before, mut value) = (0.0, 1.0);
+        for (n, coefficient) in coefficients.iter_mut().enumerate() {
+            let n = n as f64;
+            for j in 0..3 {
+                coefficient[j] += (2.0 * n + 1.0) * weight * value * load[j];
+            }
+            (before, value) = (value, ((2.0 * n + 1.0) * x * value - n * before) / (n + 1.0));
+        }
+    }
+    let size = coefficients.map(|c| norm(&c));
+    let (high, low) = (size[4].max(size[5]), size[1].max(size[2]).max(size[3]));
+    // By six degrees more they fall twice as much again as by three.
+    if high > 0.0 { high * (high / low).powi(2).min(1.0) } else { 0.0 }
 }
 
 fn last(ray: &Ray) -> &Event {

@@ -64,6 +64,8 @@ pub(super) struct Ray {
     pub nodes: (u32, u32),
     /// ∫ p n, ∫ x × p n about the origin of the ray, ∫ |n|: force, torque and area per angle.
     pub sums: [f64; SUMS],
+    /// ∫ p n over the cells that are not flat.
+    pub curved: [f64; 3],
     /// Estimated error of ∫ p along the ray.
     pub error: f64,
     pub events: [Event; EVENTS],
@@ -134,6 +136,7 @@ impl Walker<'_, '_, '_> {
             direction: line.direction,
             nodes: (start, start),
             sums: [0.0; SUMS],
+            curved: [0.0; 3],
             error: 0.0,
             events: [nowhere; EVENTS],
             count: 0,
@@ -251,6 +254,9 @@ impl Walker<'_, '_, '_> {
             }
             for (sum, term) in ray.sums.iter_mut().zip(sums) {
                 *sum += term;
+            }
+            if !cell.is_flat {
+                (0..3).for_each(|i| ray.curved[i] += sums[i]);
             }
             ray.error += error;
             (from, step) = (to, 2.0 * step);
