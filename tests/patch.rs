@@ -64,7 +64,7 @@ fn statistics() {
                         if found.error > tolerance { missed += 1; }
                         if error > found.error { over += 1; }
                         if error > tolerance { above += 1; }
-                        if !(error < 5.0 * tolerance) {
+                        if !(error < 10.0 * tolerance) {
                             println!("   {family} {other} k {k} r {r} d {depth} t {:.2} rays {} {} estimate {:.1e} error {error:.1e} {} {}", pair.contact.s, found.rays, finest.rays, found.error, found.flags, finest.flags);
                         }
                         worst = worst.max(error);

@@ -17,11 +17,14 @@ const COINCIDENT: f64 = 0.1;
 /// Part of the tolerance that the pieces next to a border may take which are not cut off there.
 const NEGLIGIBLE: f64 = 0.02;
 
+/// Part of the tolerance that is left for the sectors.
+const ANGULAR: f64 = 0.9;
+
 /// Part of the tolerance that one rule on a ray may take, over the load of the ray.
-const RADIAL: f64 = 0.1;
+const RADIAL: f64 = 0.02;
 
 /// Error of 3 rays over the load of a sector and the third power of the relative variation of the load among them.
-const OF_VARIATION: f64 = 0.1;
+const OF_VARIATION: f64 = 1.0;
 
 /// Relative distance from a straight line up to which a border counts as straight: the loads of flat cells are then polynomials.
 const STRAIGHT: f64 = 1e-7;
@@ -122,7 +125,7 @@ impl<'w, 'f, 'a, 's> Fan<'w, 'f, 'a, 's> {
             next = 0;
             let integral = self.total();
             let (worst, error) = self.worst(&integral);
-            if error <= self.tolerance || self.is_capped {
+            if error <= ANGULAR * self.tolerance || self.is_capped {
                 return integral;
             }
             if self.sectors[worst].count == 3 {
@@ -416,8 +419,8 @@ fn error_of_seven(loads: &[[f64; 3]; 7]) -> f64 {
     }
     let size = coefficients.map(|c| norm(&c));
     let (high, low) = (size[4].max(size[5]), size[1].max(size[2]).max(size[3]));
-    // By six degrees more they fall twice as much again as by three.
-    if high > 0.0 { high * (high / low).powi(2).min(1.0) } else { 0.0 }
+    // By three degrees more they fall as much again, at least.
+    if high > 0.0 { high * (high / low).min(1.0) } else { 0.0 }
 }
 
 fn last(ray: &Ray) -> &Event {
