@@ -3,6 +3,7 @@
 
 use super::ray::{EVENTS, Event, Line, RIM, Ray, SUMS, Walker};
 use super::rules::GAUSS_KRONROD;
+use std::sync::LazyLock;
 
 /// Most rays.
 pub(super) const MOST_RAYS: usize = 1500;
@@ -24,7 +25,10 @@ const ANGULAR: f64 = 0.9;
 const RADIAL: f64 = 0.02;
 
 /// Error of 3 rays over the load of a sector and the third power of the relative variation of the load among them.
-const OF_VARIATION: f64 = 1.0;
+const OF_VARIATION: f64 = 0.3;
+
+/// Error of 3 and 7 rays over the distance by which their polynomial misses the loads at the ends.
+const OF_ENDS: [f64; 2] = [0.05, 0.01];
 
 /// Relative distance from a straight line up to which a border counts as straight: the loads of flat cells are then polynomials.
 const STRAIGHT: f64 = 1e-7;
@@ -106,9 +110,11 @@ impl<'w, 'f, 'a, 's> Fan<'w, 'f, 'a, 's> {
         (self.extent, self.is_capped) = (0.0, false);
         let [e, f] = axis;
         self.walker.budget = f64::INFINITY;
-        let first = [[e, f], [-f, e], [-e, -f], [f, -e]].map(|direction| self.cast(direction));
-        let rough: f64 = first.iter().map(|ray| self.rays[*ray].sums[2]).sum();
+        let rough = [[e, f], [-f, e], [-e, -f], [f, -e]].map(|direction| self.walker.walk(&self.line(direction)).sums[2]);
+        let rough: f64 = rough.iter().sum();
+        self.walker.nodes.clear();
         self.walker.budget = RADIAL * self.tolerance * 0.25 * rough;
+        let first = [[e, f], [-f, e], [-e, -f], [f, -e]].map(|direction| self.cast(direction));
         self.negligible = NEGLIGIBLE * self.tolerance * rough * std::f64::consts::FRAC_PI_2;
         for i in 0..4 {
             self.resolve(first[i], first[(i + 1) % 4]);
@@ -354,7 +360,12 @@ impl<'w, 'f, 'a, 's> Fan<'w, 'f, 'a, 's> {
         let [value, low] = sums;
         let off: [f64; SUMS] = std::array::from_fn(|i| value[i] - low[i]);
         let size = norm(&value[..3]);
-        let smoothness = if count == 3 { error_of_three(&loads[..3]) } else { error_of_seven(&loads) };
+        let at_end = |ray: &Ray, end: &[f64; 2]| {
+            let load = if is_straight { ray.curved } else { [0, 1, 2].map(|j| ray.sums[j]) };
+            load.map(|c| c * constant / (end[0] * end[0] + end[1] * end[1]))
+        };
+        let ends = [at_end(&self.rays[left], &start), at_end(&self.rays[right], &end)];
+        let smoothness = error_of_rule(&loads[..count], &ends);
         let estimate = |off: f64, size: f64| match count {
             _ if like.is_none() || odd.is_some() => off,
             3 => off * (2.0 * off / size).powi(2).min(1.0),
@@ -395,6 +406,35 @@ impl<'w, 'f, 'a, 's> Fan<'w, 'f, 'a, 's> {
     }
 }
 
+/// Error of a rule from how far the polynomial through its loads misses those at the ends, and from how smooth they are.
+fn error_of_rule(loads: &[[f64; 3]], ends: &[[f64; 3]; 2]) -> f64 {
+    let few = loads.len() == 3;
+    let weights = if few { &at_ends().0[..] } else { &at_ends().1[..] };
+    let missed = ends.iter().enumerate().map(|(side, end)| {
+        let mut off = *end;
+        for (weight, load) in weights.iter().zip(loads) {
+            (0..3).for_each(|j| off[j] -= weight[side] * load[j]);
+        }
+        norm(&off)
+    });
+    let missed = missed.fold(0.0, f64::max);
+    if few { (OF_ENDS[0] * missed).max(error_of_three(loads)) } else { (OF_ENDS[1] * missed).max(error_of_seven(loads)) }
+}
+
+/// Weights of the polynomials through 3 and 7 points at both ends.
+fn at_ends() -> &'static ([[f64; 2]; 3], [[f64; 2]; 7]) {
+    static WEIGHTS: LazyLock<([[f64; 2]; 3], [[f64; 2]; 7])> = LazyLock::new(|| {
+        let weight = |count: usize, i: usize| {
+            [0.0, 1.0].map(|end| {
+                let factor = |j: usize| (end - GAUSS_KRONROD[j].0) / (GAUSS_KRONROD[i].0 - GAUSS_KRONROD[j].0);
+                (0..count).filter(|j| *j != i).map(factor).product::<f64>()
+            })
+        };
+        (std::array::from_fn(|i| weight(3, i)), std::array::from_fn(|i| weight(7, i)))
+    });
+    &WEIGHTS
+}
+
 /// Error of the rule of 3 rays from how their loads vary.
 fn error_of_three(loads: &[[f64; 3]]) -> f64 {
     let mean = [0, 1, 2].map(|j| GAUSS_KRONROD.iter().zip(loads).map(|((_, w, _), load)| w * load[j]).sum::<f64>());
@@ -404,7 +444,7 @@ fn error_of_three(loads: &[[f64; 3]]) -> f64 {
 }
 
 /// Error of the rule of 7 rays from how fast the coefficients of Legendre's series of the loads fall.
-fn error_of_seven(loads: &[[f64; 3]; 7]) -> f64 {
+fn error_of_seven(loads: &[[f64; 3]]) -> f64 {
     let mut coefficients = [[0.0; 3]; 6];
     for ((t, _, weight), load) in GAUSS_KRONROD.iter().zip(loads) {
         let x = 2.0 * t - 1.0;
@@ -419,8 +459,8 @@ fn error_of_seven(loads: &[[f64; 3]; 7]) -> f64 {
     }
     let size = coefficients.map(|c| norm(&c));
     let (high, low) = (size[4].max(size[5]), size[1].max(size[2]).max(size[3]));
-    // By three degrees more they fall as much again, at least.
-    if high > 0.0 { high * (high / low).min(1.0) } else { 0.0 }
+    // By six degrees more they fall twice as much again as by three.
+    if high > 0.0 { high * (high / low).powi(2).min(1.0) } else { 0.0 }
 }
 
 fn last(ray: &Ray) -> &Event {
