@@ -75,3 +75,78 @@ fn statistics() {
         println!("{tolerance} count {count} rays {} points {} over estimate {over} over tolerance {above} missed {missed} worst {worst:.1e}", rays / count, points / count);
     }
 }
+
+/// Central differences of the energy with Richardson's extrapolation.
+fn difference(energy: impl Fn(f64) -> f64, h: f64) -> f64 {
+    let of = |h: f64| (energy(h) - energy(-h)) / (2.0 * h);
+    (4.0 * of(0.5 * h) - of(h)) / 3.0
+}
+
+#[test]
+fn gradients() {
+    use nalgebra::Vector3;
+    let mut chance = Chance::new(21);
+    let mut worst = 0.0_f64;
+    for family in FAMILIES {
+        for k in [0.0, 1e-6, 0.02, 0.3] {
+            for r in [1e-3, 0.05, 0.3, 0.9] {
+                for depth in [0.01, 0.1, 0.3] {
+                    let other = chance.pick(&FAMILIES);
+                    let pair = Pair::random([family, other], [k, k], r, depth, &mut chance);
+                    let found = patch(&pair, 1e-8, true);
+                    if found.flags.contains(potential_particles::PatchFlags::FOLDED) { continue; }
+                    let direction = (found.force.normalize() + 0.3 * chance.direction()).normalize();
+                    let turn = chance.direction();
+                    let h = 1e-2 * pair.contact.overlap;
+                    let size = pair.contact.branch_b.norm().max(0.1);
+                    let along = -difference(|h| patch(&pair.moved(&(h * direction), &Vector3::zeros()), 1e-8, true).energy, h);
+                    let about = -difference(|h| patch(&pair.moved(&Vector3::zeros(), &(h * turn)), 1e-8, true).energy, h / size);
+                    let f = found.force.norm();
+                    let torque = found.torque + pair.contact.branch_b.cross(&found.force);
+                    let errors = [(along - found.force.dot(&direction)).abs() / f, (about - torque.dot(&turn)).abs() / (f * size)];
+                    let error = errors[0].max(errors[1]);
+                    if error > 1e-5 {
+                        println!("  {family} {other} k {k} r {r} d {depth} t {:.2} rays {} estimate {:.1e} {:.1e} {:.1e} {}", pair.contact.s, found.rays, found.error, errors[0], errors[1], found.flags);
+                    }
+                    worst = worst.max(error);
+                }
+            }
+        }
+    }
+    println!("worst {worst:.1e}");
+}
+
+#[test]
+fn symmetry() {
+    use nalgebra::Vector3;
+    let mut chance = Chance::new(21);
+    let mut worst = 0.0_f64;
+    let mut all = Vec::new();
+    for family in FAMILIES {
+        for k in [0.0, 1e-6, 0.02, 0.3] {
+            for r in [1e-3, 0.05, 0.3, 0.9] {
+                for depth in [0.01, 0.1, 0.3] {
+                    let other = chance.pick(&FAMILIES);
+                    let pair = Pair::random([family, other], [k, k], r, depth, &mut chance);
+                    let found = patch(&pair, 1e-9, false);
+                    if found.flags.contains(potential_particles::PatchFlags::FOLDED) { continue; }
+                    let n = found.force.normalize();
+                    let (a, b) = ((n + chance.direction()).normalize(), chance.direction());
+                    let h = 3e-3 * pair.contact.overlap;
+                    let force = |x: Vector3<f64>| patch(&pair.moved(&x, &Vector3::zeros()), 1e-9, false).force;
+                    let by_a = (force(h * a) - force(-h * a)) / (2.0 * h);
+                    let by_b = (force(h * b) - force(-h * b)) / (2.0 * h);
+                    let error = (by_a.dot(&b) - by_b.dot(&a)).abs() / (by_a.norm() + by_b.norm());
+                    let energies = [1e-5, 1e-7, 1e-9].map(|t| patch(&pair, t, true).energy);
+                    all.push((energies[1] / energies[2] - 1.0).abs());
+                    if error > 1e-5 {
+                        println!("  {family} {other} k {k} r {r} d {depth} t {:.2} rays {} estimate {:.1e} {error:.1e} energy {:.1e} {:.1e}", pair.contact.s, found.rays, found.error, energies[0] / energies[2] - 1.0, energies[1] / energies[2] - 1.0);
+                    }
+                    worst = worst.max(error);
+                }
+            }
+        }
+    }
+    all.sort_by(f64::total_cmp);
+    println!("worst {worst:.1e} energy median {:.1e} 0.9 {:.1e} worst {:.1e}", all[all.len() / 2], all[all.len() * 9 / 10], all[all.len() - 1]);
+}

@@ -14,28 +14,18 @@ const POINTS: usize = 5;
 /// Most cells on a way to the surface.
 const MOST_CELLS: usize = 200;
 
-/// −F·n of A, and of B where there is one, at a node, for the normal whose z is 1.
-pub(super) fn density(field: &mut Field, node: &Node) -> f64 {
+/// −F·n of A, and of B where there is one, at a node, for the normal whose z is 1. As an error, the distance of a point beyond that
+/// within which all planes are loaded.
+pub(super) fn density(field: &Field, node: &Node) -> Result<f64, f64> {
     let normal = [node.normal[0], node.normal[1], 1.0];
-    let mut sum = outwards(field, Owner::A, &node.x, &normal);
-    if field.b.is_some() {
-        sum += outwards(field, Owner::B, &node.x, &normal.map(|c| -c));
-    }
-    sum
-}
-
-fn outwards(field: &mut Field, owner: Owner, x: &[f64; 3], normal: &[f64; 3]) -> f64 {
-    loop {
-        let Some(body) = (if owner == Owner::A { Some(field.a) } else { field.b }) else { return 0.0 };
-        match attempt(field, &body, owner, x, normal) {
-            Ok(value) => return value,
-            Err(distance) => field.load(distance.max(2.0 * field.loaded())),
-        }
+    let of_a = outwards(field, &field.a, Owner::A, &node.x, &normal)?;
+    match &field.b {
+        Some(b) => Ok(of_a + outwards(field, b, Owner::B, &node.x, &normal.map(|c| -c))?),
+        None => Ok(of_a),
     }
 }
 
-/// The same, unless it leaves the distance within which all planes are loaded: that distance.
-fn attempt(field: &Field, body: &Placed, owner: Owner, x: &[f64; 3], normal: &[f64; 3]) -> Result<f64, f64> {
+fn outwards(field: &Field, body: &Placed, owner: Owner, x: &[f64; 3], normal: &[f64; 3]) -> Result<f64, f64> {
     let y: [f64; 3] = std::array::from_fn(|i| body.from_centre[i] + x[i]);
     let length = dot(&y, &y).sqrt();
     if !(length > 0.0) {

@@ -45,17 +45,17 @@ pub(super) struct Sector {
     pub rays: [(usize, f64); 7],
     pub count: usize,
     pub value: [f64; SUMS],
-    /// Estimated errors of force, torque about the centre of the fan, and area.
-    error: [f64; 3],
+    /// Estimated errors of force, torque about the centre of the fan, area and energy.
+    error: [f64; 4],
     /// The ray whose sequence of cells the sector has, but for a negligible piece at one end; `None` where the whole is negligible.
     like: Option<usize>,
 }
 
-/// Integrals over the patch, with estimated errors of force, torque about the centre of the fan, and area.
+/// Integrals over the patch, with estimated errors of force, torque about the centre of the fan, area and energy.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Integral {
     pub sums: [f64; SUMS],
-    pub error: [f64; 3],
+    pub error: [f64; 4],
     /// Part of the error of the force from the rules along the rays.
     pub radial: f64,
 }
@@ -167,14 +167,16 @@ impl<'w, 'f, 'a, 's> Fan<'w, 'f, 'a, 's> {
     fn worst(&self, integral: &Integral) -> (usize, f64) {
         let force = norm(&integral.sums[..3]);
         let torque = force * self.extent;
+        let energy = if self.walker.with_energy { integral.sums[7] } else { f64::INFINITY };
+        let relative = |error: &[f64; 4]| (error[0] / force).max(error[1] / torque).max(error[3] / energy);
         let mut worst = (0, -1.0);
         for (i, sector) in self.sectors.iter().enumerate() {
-            let error = (sector.error[0] / force).max(sector.error[1] / torque);
+            let error = relative(&sector.error);
             if error > worst.1 {
                 worst = (i, error);
             }
         }
-        let error = (integral.error[0] / force).max(integral.error[1] / torque);
+        let error = relative(&integral.error);
         (worst.0, if error.is_finite() { error } else { 0.0 })
     }
 
@@ -198,7 +200,7 @@ impl<'w, 'f, 'a, 's> Fan<'w, 'f, 'a, 's> {
             rays: [(0, 0.0); 7],
             count: 0,
             value: [0.0; SUMS],
-            error: [0.0; 3],
+            error: [0.0; 4],
             like,
         });
     }
@@ -333,7 +335,7 @@ impl<'w, 'f, 'a, 's> Fan<'w, 'f, 'a, 's> {
         let constant = if theta > 1e-6 { cross * theta / theta.sin() } else { cross };
         let mut sums = [[0.0; SUMS]; 2];
         let is_straight = (bulge - 1.0).abs() < STRAIGHT;
-        let mut loads = [[0.0; 3]; 7];
+        let (mut loads, mut energies) = ([[0.0; 3]; 7], [[0.0; 3]; 7]);
         let mut rays = known.rays;
         for (i, (t, few, many)) in GAUSS_KRONROD[..count].iter().enumerate() {
             let (p, q) = (part(1.0 - t), part(*t));
@@ -349,6 +351,7 @@ impl<'w, 'f, 'a, 's> Fan<'w, 'f, 'a, 's> {
             let low = if count == 7 { *few } else if i == 0 { 1.0 } else { 0.0 };
             let load = if is_straight { self.rays[ray].curved } else { [0, 1, 2].map(|j| self.rays[ray].sums[j]) };
             loads[i] = load.map(|c| density * c);
+            energies[i][0] = density * self.rays[ray].sums[7];
             for (j, value) in self.rays[ray].sums.iter().enumerate() {
                 sums[0][j] += weight * density * value;
                 sums[1][j] += low * density * value;
@@ -366,6 +369,11 @@ impl<'w, 'f, 'a, 's> Fan<'w, 'f, 'a, 's> {
         };
         let ends = [at_end(&self.rays[left], &start), at_end(&self.rays[right], &end)];
         let smoothness = error_of_rule(&loads[..count], &ends);
+        let energy_at = |ray: &Ray, end: &[f64; 2]| {
+            [ray.sums[7] * constant / (end[0] * end[0] + end[1] * end[1]), 0.0, 0.0]
+        };
+        let ends = [energy_at(&self.rays[left], &start), energy_at(&self.rays[right], &end)];
+        let of_energy = if self.walker.with_energy { error_of_rule(&energies[..count], &ends) } else { 0.0 };
         let estimate = |off: f64, size: f64| match count {
             _ if like.is_none() || odd.is_some() => off,
             3 => off * (2.0 * off / size).powi(2).min(1.0),
@@ -377,7 +385,12 @@ impl<'w, 'f, 'a, 's> Fan<'w, 'f, 'a, 's> {
             rays,
             count,
             value,
-            error: [by_force, by_torque, estimate(off[6].abs(), value[6]).max(smoothness / size * value[6])],
+            error: [
+                by_force,
+                by_torque,
+                estimate(off[6].abs(), value[6]).max(smoothness / size * value[6]),
+                estimate(off[7].abs(), value[7].abs()).max(of_energy),
+            ],
             ..*sector
         };
         if let (Some(odd), false) = (odd, self.is_capped) {

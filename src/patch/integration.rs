@@ -1,8 +1,7 @@
 //! From the potentials to the answer.
 
 use super::centre::{flattest_axis, middle, on_patch};
-use super::energy;
-use super::fan::{Fan, norm};
+use super::fan::{Fan, Integral, norm};
 use super::field::{Field, FramePlane, Placed};
 use super::patch::{Patch, PatchFlags, PatchPoint};
 use super::ray::{Line, Node, Walker};
@@ -44,14 +43,14 @@ pub(super) fn patch(task: &Task, scratch: &mut PatchScratch, mut visit: impl FnM
     let mut flags = task.flags;
     let axis = flattest_axis(&field);
     let order = if task.tolerance >= 1e-5 { 3 } else if task.tolerance >= 1e-8 { 5 } else { 8 };
-    let walker = Walker { field: &mut field, planes: ray_planes, nodes, order: 2, budget: f64::INFINITY };
+    let walker = Walker { field: &mut field, planes: ray_planes, nodes, order: 2, with_energy: false, budget: f64::INFINITY };
     let mut fan = Fan::new(walker, rays, sectors, stack, [0.0; 3], task.tolerance);
     let start = on_patch(fan.walker.field, 0.0, 0.0, 0.0).unwrap_or_default();
     let start = inwards(&mut fan.walker, start, task.inside);
     fan.centre = middle(&mut fan.walker, start, axis);
-    let mut integral = Default::default();
+    let mut integral = Integral::default();
     for starts in 0.. {
-        fan.walker.order = order;
+        (fan.walker.order, fan.walker.with_energy) = (order, task.with_energy);
         integral = fan.integrate(axis);
         let force = norm(&integral.sums[..3]);
         if !(force > 0.0) {
@@ -72,11 +71,15 @@ pub(super) fn patch(task: &Task, scratch: &mut PatchScratch, mut visit: impl FnM
     let force = norm(&integral.sums[..3]);
     flags.set(PatchFlags::EMPTY, !(force > 0.0));
     flags.set(PatchFlags::FOLDED, fan.rays.iter().any(|ray| ray.is_folded));
-    let error = (integral.error[0] + integral.radial).max(integral.error[1] / fan.extent) / force;
+    let of_energy = if task.with_energy { integral.error[3] / integral.sums[7] } else { 0.0 };
+    let error = ((integral.error[0] + integral.radial).max(integral.error[1] / fan.extent) / force).max(of_energy);
     flags.set(PatchFlags::TOLERANCE_NOT_REACHED, error > task.tolerance);
     let mut summary = Summary::of(task, &mut fan);
     if force > 0.0 {
         summary.complete(task, &mut fan);
+    }
+    if task.with_energy {
+        summary.patch.energy = task.length * integral.sums[7];
     }
     for_each(&fan, |node, weight| visit(summary.point(task, node, weight)));
     let error = if force > 0.0 { error } else { 0.0 };
@@ -142,7 +145,7 @@ impl Summary {
             twist_lever: 0.0,
             mean_depth: 0.0,
             largest_depth: task.length * (1.0 - start.max(0.0).sqrt()),
-            energy: if task.with_energy { 0.0 } else { f64::NAN },
+            energy: f64::NAN,
             error: 0.0,
             area_error: 0.0,
             flags: PatchFlags::default(),
@@ -190,18 +193,6 @@ impl Summary {
         patch.polar_moment = polar;
         patch.twist_lever = lever / load;
         patch.mean_depth = task.length * load / area;
-        if task.with_energy {
-            let mut energy = 0.0;
-            for sector in fan.sectors.iter() {
-                for (ray, angle) in &sector.rays[..sector.count] {
-                    let (from, to) = fan.rays[*ray].nodes;
-                    for node in &fan.walker.nodes[from as usize..to as usize] {
-                        energy += angle * node.weight * energy::density(fan.walker.field, node);
-                    }
-                }
-            }
-            patch.energy = task.length * energy;
-        }
     }
 
     fn point(&self, task: &Task, node: &Node, weight: f64) -> PatchPoint {

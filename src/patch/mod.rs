@@ -8,10 +8,10 @@
 //! | `patch` | the answer |
 //! | `field` | the potentials in the frame of the patch |
 //! | `cell` | a stretch of a ray on which they are quadratics |
+//! | `energy` | the elastic energy as an integral over the patch |
 //! | `ray` | the walk over a ray |
 //! | `centre` | where the rays start |
 //! | `fan` | sectors of rays, refined |
-//! | `energy` | the elastic energy as an integral over the patch |
 //! | `scratch` | the buffers |
 //! | `integration` | from the potentials to the answer |
 //! | `contact` | the patch of two particles, of a particle and a plane, of a particle and a triangle |

@@ -40,7 +40,8 @@ pub struct Patch {
     pub largest_depth: f64,
     /// Elastic energy over K, length⁴; NaN unless it was asked for.
     pub energy: f64,
-    /// Estimated error of the force over its size, and of the torque over |force| times the reach of the patch.
+    /// Estimated error of the force over its size, of the torque over |force| times the reach of the patch, and of the energy, if asked for,
+    /// over itself: the largest.
     pub error: f64,
     /// Estimated relative error of the area.
     pub area_error: f64,

@@ -1,6 +1,7 @@
 //! A ray over the patch: an exact walk through the cells, with Gauss points in each.
 
 use super::cell::{Cell, Quadratic, RayPlane};
+use super::energy;
 use super::field::{Field, Owner, Placed};
 use super::rules::gauss;
 
@@ -54,7 +55,7 @@ pub(super) struct Event {
 }
 
 /// Number of integrals of a ray.
-pub(super) const SUMS: usize = 7;
+pub(super) const SUMS: usize = 8;
 
 /// What a ray found.
 #[derive(Clone, Copy, Debug)]
@@ -62,7 +63,7 @@ pub(super) struct Ray {
     pub direction: [f64; 2],
     /// Its nodes.
     pub nodes: (u32, u32),
-    /// ∫ p n, ∫ x × p n about the origin of the ray, ∫ |n|: force, torque and area per angle.
+    /// ∫ p n, ∫ x × p n about the origin of the ray, ∫ |n|: force, torque and area per angle; and the energy, if asked for.
     pub sums: [f64; SUMS],
     /// ∫ p n over the cells that are not flat.
     pub curved: [f64; 3],
@@ -109,6 +110,8 @@ pub(super) struct Walker<'f, 'a, 's> {
     pub nodes: &'f mut Vec<Node>,
     /// Gauss points in a cell that is not flat.
     pub order: usize,
+    /// Whether the energy is integrated, too.
+    pub with_energy: bool,
     /// Error of ∫ p n that one of its rules may make.
     pub budget: f64,
 }
@@ -166,7 +169,7 @@ impl Walker<'_, '_, '_> {
                 return Err(away);
             }
             if h > 0.0 {
-                self.integrate(line, &cell, (rho, zeta), h, &mut ray);
+                self.integrate(line, &cell, (rho, zeta), h, &mut ray)?;
             }
             (rho, zeta) = (rho + h, zeta + k);
             let id = next.map_or(RIM, |place| place as u32);
@@ -238,14 +241,14 @@ impl Walker<'_, '_, '_> {
     }
 
     /// Adds the cell to the integrals, in pieces where one rule does not do.
-    fn integrate(&mut self, line: &Line, cell: &Cell, start: (f64, f64), h: f64, ray: &mut Ray) {
+    fn integrate(&mut self, line: &Line, cell: &Cell, start: (f64, f64), h: f64, ray: &mut Ray) -> Result<(), f64> {
         let (mut from, mut step) = (0.0, h);
         while from < h {
             let to = if from + step < h * (1.0 - 1e-6) { from + step } else { h };
             let known = self.nodes.len();
-            let Some((sums, error)) = self.piece(line, cell, start, (from, to)) else {
+            let Some((sums, error)) = self.piece(line, cell, start, (from, to))? else {
                 ray.is_folded = true;
-                return;
+                return Ok(());
             };
             if error > self.budget && to - from > SHORTEST * h {
                 self.nodes.truncate(known);
@@ -261,9 +264,11 @@ impl Walker<'_, '_, '_> {
             ray.error += error;
             (from, step) = (to, 2.0 * step);
         }
+        Ok(())
     }
 
-    /// One rule on a part of a cell: its integrals and the estimated error of ∫ p n; `None` where the patch has turned back.
+    /// One rule on a part of a cell: its integrals and the estimated error of ∫ p n; `None` where the patch has turned back. As an error,
+    /// a distance beyond that within which all planes are loaded.
     #[inline(always)]
     fn piece(
         &mut self,
@@ -271,17 +276,18 @@ impl Walker<'_, '_, '_> {
         cell: &Cell,
         (rho, zeta): (f64, f64),
         (from, to): (f64, f64),
-    ) -> Option<([f64; SUMS], f64)> {
-        let points = if cell.is_flat { 2 } else { self.order };
+    ) -> Result<Option<([f64; SUMS], f64)>, f64> {
+        let is_flat = cell.is_flat && !self.with_energy;
+        let points = if is_flat { 2 } else { self.order };
         let rule = gauss(points);
         let [e, f] = line.direction;
         let by_distance = |distance: f64| if line.is_polar { distance } else { 1.0 };
         let mut sums = [0.0; SUMS];
         // Pressure and its product with the slope of the patch: at the ends by the polynomial through the points, and the largest.
-        let (mut ends, mut largest) = ([[0.0; 3]; 2], 0.0_f64);
+        let (mut ends, mut largest) = ([[0.0; 4]; 2], [0.0_f64; 2]);
         for (i, (place, weight)) in rule.nodes[..points].iter().enumerate() {
             let along = from + place * (to - from);
-            let (up, rise) = cell.height(along)?;
+            let Some((up, rise)) = cell.height(along) else { return Ok(None) };
             let distance = rho + along;
             let pressure = 1.0 - cell.s.value(along, up).max(0.0).sqrt();
             let density = by_distance(distance);
@@ -291,36 +297,49 @@ impl Walker<'_, '_, '_> {
             let arm = [distance * e, distance * f, zeta + up];
             let load = weight * pressure;
             let x = [line.origin[0] + arm[0], line.origin[1] + arm[1], line.origin[2] + arm[2]];
-            self.nodes.push(Node { x, weight, pressure, normal });
+            let node = Node { x, weight, pressure, normal };
+            let energy = if self.with_energy { energy::density(self.field, &node)? } else { 0.0 };
+            self.nodes.push(node);
             let [n_u, n_v] = normal;
             let area = (1.0 + n_u * n_u + n_v * n_v).sqrt();
             let torque = [arm[1] - arm[2] * n_v, arm[2] * n_u - arm[0], arm[0] * n_v - arm[1] * n_u];
-            let terms =
-                [load * n_u, load * n_v, load, load * torque[0], load * torque[1], load * torque[2], weight * area];
+            let [of_u, of_v, of_w] = torque.map(|c| load * c);
+            let terms = [load * n_u, load * n_v, load, of_u, of_v, of_w, weight * area, weight * energy];
             for (sum, term) in sums.iter_mut().zip(terms) {
                 *sum += term;
             }
-            if !cell.is_flat {
-                let values = [1.0, n_along, n_across].map(|c| c * pressure * density);
+            if !is_flat {
+                let values = [pressure, n_along * pressure, n_across * pressure, energy].map(|c| c * density);
                 for (j, value) in values.into_iter().enumerate() {
                     ends[0][j] += rule.at_end[i] * value;
                     ends[1][j] += rule.at_end[points - 1 - i] * value;
-                    largest = largest.max(value.abs());
+                    largest[j / 3] = largest[j / 3].max(value.abs());
                 }
             }
         }
-        if cell.is_flat {
-            return Some((sums, 0.0));
+        if is_flat {
+            return Ok(Some((sums, 0.0)));
         }
         // That polynomial misses the ends by a term whose square, relative, is that of degree 2n.
-        let mut off = 0.0_f64;
+        let mut off = [0.0_f64; 2];
         for (end, at) in ends.iter().zip([from, to]) {
-            let (up, rise) = cell.height(at)?;
-            let value = (1.0 - cell.s.value(at, up).max(0.0).sqrt()) * by_distance(rho + at);
-            let values = [1.0, cell.d.by_h(at, up) / rise, cell.d.across(at, up) / rise].map(|c| c * value);
-            off = (0..3).fold(off, |off, j| off.max((values[j] - end[j]).abs()));
+            let Some((up, rise)) = cell.height(at) else { return Ok(None) };
+            let pressure = 1.0 - cell.s.value(at, up).max(0.0).sqrt();
+            let (n_along, n_across) = (cell.d.by_h(at, up) / rise, cell.d.across(at, up) / rise);
+            let distance = rho + at;
+            let energy = if self.with_energy {
+                let x = [line.origin[0] + distance * e, line.origin[1] + distance * f, line.origin[2] + zeta + up];
+                let normal = [n_along * e - n_across * f, n_along * f + n_across * e];
+                energy::density(self.field, &Node { x, weight: 0.0, pressure, normal })?
+            } else {
+                0.0
+            };
+            let values = [pressure, n_along * pressure, n_across * pressure, energy].map(|c| c * by_distance(distance));
+            (0..4).for_each(|j| off[j / 3] = off[j / 3].max((values[j] - end[j]).abs()));
         }
-        Some((sums, (to - from) * off * off / (largest + off)))
+        let error = |i: usize| if off[i] > 0.0 { (to - from) * off[i] * off[i] / (largest[i] + off[i]) } else { 0.0 };
+        let of_energy = if self.with_energy { error(1) * sums[2] / sums[7] } else { 0.0 };
+        Ok(Some((sums, error(0).max(of_energy))))
     }
 
     /// The integral of a plane or of the rim (as an inverse distance from the origin) in the cell that follows the first `m` events of a
