@@ -2,6 +2,10 @@
 
 #[path = "patch/bodies.rs"]
 mod bodies;
+#[path = "patch/closed_forms.rs"]
+mod closed_forms;
+#[path = "patch/walls.rs"]
+mod walls;
 
 use bodies::*;
 use potential_particles::{Patch, PatchScratch, PatchSettings, patch_of_contact};
@@ -93,14 +97,14 @@ fn gradients() {
                 for depth in [0.01, 0.1, 0.3] {
                     let other = chance.pick(&FAMILIES);
                     let pair = Pair::random([family, other], [k, k], r, depth, &mut chance);
-                    let found = patch(&pair, 1e-8, true);
+                    let found = patch(&pair, 1e-9, true);
                     if found.flags.contains(potential_particles::PatchFlags::FOLDED) { continue; }
                     let direction = (found.force.normalize() + 0.3 * chance.direction()).normalize();
                     let turn = chance.direction();
-                    let h = 1e-2 * pair.contact.overlap;
+                    let h = 3e-2 * pair.contact.overlap;
                     let size = pair.contact.branch_b.norm().max(0.1);
-                    let along = -difference(|h| patch(&pair.moved(&(h * direction), &Vector3::zeros()), 1e-8, true).energy, h);
-                    let about = -difference(|h| patch(&pair.moved(&Vector3::zeros(), &(h * turn)), 1e-8, true).energy, h / size);
+                    let along = -difference(|h| patch(&pair.moved(&(h * direction), &Vector3::zeros()), 1e-9, true).energy, h);
+                    let about = -difference(|h| patch(&pair.moved(&Vector3::zeros(), &(h * turn)), 1e-9, true).energy, h / size);
                     let f = found.force.norm();
                     let torque = found.torque + pair.contact.branch_b.cross(&found.force);
                     let errors = [(along - found.force.dot(&direction)).abs() / f, (about - torque.dot(&turn)).abs() / (f * size)];

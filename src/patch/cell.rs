@@ -109,6 +109,9 @@ pub(super) struct Cell {
 /// Most steps of a search for the rim.
 const RIM_STEPS: usize = 50;
 
+/// A rim beyond so many times the size of the bodies is none.
+const FAR: f64 = 100.0;
+
 impl Cell {
     /// The height of the patch at h, and the slope of D along z there. `None` where the curve has turned back.
     #[inline(always)]
@@ -184,7 +187,7 @@ impl Cell {
         let root = (slope * slope - 4.0 * half_curvature * value).sqrt();
         let (mut inside, mut outside) = (0.0, limit);
         let mut h = -2.0 * value / (slope + root);
-        if !(h > 0.0 && h <= limit) {
+        if !(h > 0.0 && h <= limit && h.is_finite()) {
             h = if limit.is_finite() { limit } else { farthest };
         }
         let mut turned = None;
@@ -204,8 +207,12 @@ impl Cell {
             if off < 0.0 { inside = h } else { (outside, turned) = (h, None) }
             let rate = (s.by_h(h, k) - s.by_k(h, k) * d.by_h(h, k) / rise) / (2.0 * scale);
             let mut next = h - off / rate;
-            if !(next >= inside && next <= outside) {
+            if !(next >= inside && next <= outside && next.is_finite()) {
                 next = if outside.is_finite() { 0.5 * (inside + outside) } else { 2.0 * h.max(farthest) };
+            }
+            if inside > FAR * farthest {
+                // Not among the planes that are loaded.
+                return Ok(inside);
             }
             if (next - h).abs() <= 1e-13 * h || off.abs() <= 2.0 * f64::EPSILON {
                 return Ok(next);

@@ -210,10 +210,7 @@ impl<'w, 'f, 'a, 's> Fan<'w, 'f, 'a, 's> {
         if let Some(before) = self.sectors.last().copied().filter(|before| before.count == 0 && before.right == left && left != self.cut)
         {
             let whole = angle(&self.rays[before.left].direction, &self.rays[right].direction);
-            let alike = match (before.like, like) {
-                (Some(one), Some(other)) => self.rays[one].is_like(&self.rays[other]),
-                _ => false,
-            };
+            let alike = [left, right].iter().all(|ray| self.rays[before.left].is_like(&self.rays[*ray]));
             if alike && whole > 0.0 && whole < WIDEST {
                 let end = self.sectors.len() - 1;
                 self.sectors[end].right = right;
