@@ -41,13 +41,14 @@ fn explore() {
                     (fine.force - finest.force).norm() / f,
                     finest.rays,
                     finest.error,
-                    coarse.flags, fine.flags, finest.flags
+                    coarse.flags,
+                    fine.flags,
+                    finest.flags
                 );
             }
         }
     }
 }
-
 
 #[test]
 fn statistics() {
@@ -62,21 +63,38 @@ fn statistics() {
                         let pair = Pair::random([family, other], [k, k], r, depth, &mut chance);
                         let found = patch(&pair, tolerance, false);
                         let finest = patch(&pair, 0.01 * tolerance, false);
-                        if finest.flags.contains(potential_particles::PatchFlags::FOLDED) { continue; }
+                        if finest.flags.contains(potential_particles::PatchFlags::FOLDED) {
+                            continue;
+                        }
                         let error = (found.force - finest.force).norm() / finest.force.norm();
-                        count += 1; rays += found.rays; points += found.points;
-                        if found.error > tolerance { missed += 1; }
-                        if error > found.error { over += 1; }
-                        if error > tolerance { above += 1; }
+                        count += 1;
+                        rays += found.rays;
+                        points += found.points;
+                        if found.error > tolerance {
+                            missed += 1;
+                        }
+                        if error > found.error {
+                            over += 1;
+                        }
+                        if error > tolerance {
+                            above += 1;
+                        }
                         if !(error < 10.0 * tolerance) {
-                            println!("   {family} {other} k {k} r {r} d {depth} t {:.2} rays {} {} estimate {:.1e} error {error:.1e} {} {}", pair.contact.s, found.rays, finest.rays, found.error, found.flags, finest.flags);
+                            println!(
+                                "   {family} {other} k {k} r {r} d {depth} t {:.2} rays {} {} estimate {:.1e} error {error:.1e} {} {}",
+                                pair.contact.s, found.rays, finest.rays, found.error, found.flags, finest.flags
+                            );
                         }
                         worst = worst.max(error);
                     }
                 }
             }
         }
-        println!("{tolerance} count {count} rays {} points {} over estimate {over} over tolerance {above} missed {missed} worst {worst:.1e}", rays / count, points / count);
+        println!(
+            "{tolerance} count {count} rays {} points {} over estimate {over} over tolerance {above} missed {missed} worst {worst:.1e}",
+            rays / count,
+            points / count
+        );
     }
 }
 
@@ -98,19 +116,31 @@ fn gradients() {
                     let other = chance.pick(&FAMILIES);
                     let pair = Pair::random([family, other], [k, k], r, depth, &mut chance);
                     let found = patch(&pair, 1e-9, true);
-                    if found.flags.contains(potential_particles::PatchFlags::FOLDED) { continue; }
+                    if found.flags.contains(potential_particles::PatchFlags::FOLDED) {
+                        continue;
+                    }
                     let direction = (found.force.normalize() + 0.3 * chance.direction()).normalize();
                     let turn = chance.direction();
                     let h = 3e-2 * pair.contact.overlap;
                     let size = pair.contact.branch_b.norm().max(0.1);
-                    let along = -difference(|h| patch(&pair.moved(&(h * direction), &Vector3::zeros()), 1e-9, true).energy, h);
-                    let about = -difference(|h| patch(&pair.moved(&Vector3::zeros(), &(h * turn)), 1e-9, true).energy, h / size);
+                    let along =
+                        -difference(|h| patch(&pair.moved(&(h * direction), &Vector3::zeros()), 1e-9, true).energy, h);
+                    let about = -difference(
+                        |h| patch(&pair.moved(&Vector3::zeros(), &(h * turn)), 1e-9, true).energy,
+                        h / size,
+                    );
                     let f = found.force.norm();
                     let torque = found.torque + pair.contact.branch_b.cross(&found.force);
-                    let errors = [(along - found.force.dot(&direction)).abs() / f, (about - torque.dot(&turn)).abs() / (f * size)];
+                    let errors = [
+                        (along - found.force.dot(&direction)).abs() / f,
+                        (about - torque.dot(&turn)).abs() / (f * size),
+                    ];
                     let error = errors[0].max(errors[1]);
                     if error > 1e-5 {
-                        println!("  {family} {other} k {k} r {r} d {depth} t {:.2} rays {} estimate {:.1e} {:.1e} {:.1e} {}", pair.contact.s, found.rays, found.error, errors[0], errors[1], found.flags);
+                        println!(
+                            "  {family} {other} k {k} r {r} d {depth} t {:.2} rays {} estimate {:.1e} {:.1e} {:.1e} {}",
+                            pair.contact.s, found.rays, found.error, errors[0], errors[1], found.flags
+                        );
                     }
                     worst = worst.max(error);
                 }
@@ -133,7 +163,9 @@ fn symmetry() {
                     let other = chance.pick(&FAMILIES);
                     let pair = Pair::random([family, other], [k, k], r, depth, &mut chance);
                     let found = patch(&pair, 1e-9, false);
-                    if found.flags.contains(potential_particles::PatchFlags::FOLDED) { continue; }
+                    if found.flags.contains(potential_particles::PatchFlags::FOLDED) {
+                        continue;
+                    }
                     let n = found.force.normalize();
                     let (a, b) = ((n + chance.direction()).normalize(), chance.direction());
                     let h = 3e-3 * pair.contact.overlap;
@@ -144,7 +176,14 @@ fn symmetry() {
                     let energies = [1e-5, 1e-7, 1e-9].map(|t| patch(&pair, t, true).energy);
                     all.push((energies[1] / energies[2] - 1.0).abs());
                     if error > 1e-5 {
-                        println!("  {family} {other} k {k} r {r} d {depth} t {:.2} rays {} estimate {:.1e} {error:.1e} energy {:.1e} {:.1e}", pair.contact.s, found.rays, found.error, energies[0] / energies[2] - 1.0, energies[1] / energies[2] - 1.0);
+                        println!(
+                            "  {family} {other} k {k} r {r} d {depth} t {:.2} rays {} estimate {:.1e} {error:.1e} energy {:.1e} {:.1e}",
+                            pair.contact.s,
+                            found.rays,
+                            found.error,
+                            energies[0] / energies[2] - 1.0,
+                            energies[1] / energies[2] - 1.0
+                        );
                     }
                     worst = worst.max(error);
                 }
@@ -152,5 +191,10 @@ fn symmetry() {
         }
     }
     all.sort_by(f64::total_cmp);
-    println!("worst {worst:.1e} energy median {:.1e} 0.9 {:.1e} worst {:.1e}", all[all.len() / 2], all[all.len() * 9 / 10], all[all.len() - 1]);
+    println!(
+        "worst {worst:.1e} energy median {:.1e} 0.9 {:.1e} worst {:.1e}",
+        all[all.len() / 2],
+        all[all.len() * 9 / 10],
+        all[all.len() - 1]
+    );
 }

@@ -204,7 +204,11 @@ impl Cell {
             };
             let scale = s.value(h, k).max(0.0).sqrt();
             let off = scale - 1.0;
-            if off < 0.0 { inside = h } else { (outside, turned) = (h, None) }
+            if off < 0.0 {
+                inside = h
+            } else {
+                (outside, turned) = (h, None)
+            }
             let rate = (s.by_h(h, k) - s.by_k(h, k) * d.by_h(h, k) / rise) / (2.0 * scale);
             let mut next = h - off / rate;
             if !(next >= inside && next <= outside && next.is_finite()) {

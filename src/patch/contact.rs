@@ -4,7 +4,7 @@ use super::field::{FramePlane, Owner, Placed};
 use super::integration::{Task, patch};
 use super::patch::{Patch, PatchFlags, PatchPoint};
 use super::scratch::PatchScratch;
-use crate::boundary::{FlatContact, Triangle, Wall};
+use crate::boundary::{FlatContact, Triangle};
 use crate::contact::contact::{Contact, Kind};
 use crate::particle::particle::Particle;
 use crate::pose::Pose;
@@ -81,10 +81,7 @@ pub fn patch_of_contact(
     visit: impl FnMut(PatchPoint),
 ) -> Result<Patch, PatchError> {
     let frame = checked(contact.kind, &[contact.branch_a, contact.branch_b], &contact.normal, settings)?;
-    let mut flags = PatchFlags::default();
-    let is_deep = contact.s < DEEP;
-    flags.set(PatchFlags::DEEP, is_deep);
-    let least = if is_deep { DEEP_SPHERICITY } else { 0.0 };
+    let (least, flags) = least_sphericity(contact.s);
     let task = Task {
         a: Placed::new(a, pose_a, &contact.branch_a, &frame, least),
         b: Some(Placed::new(b, pose_b, &contact.branch_b, &frame, least)),
@@ -111,7 +108,6 @@ pub fn patch_of_contact(
 pub fn patch_on_plane(
     a: &Particle,
     pose: &Pose,
-    _wall: &Wall,
     contact: &FlatContact,
     settings: &PatchSettings,
     scratch: &mut PatchScratch,
@@ -185,8 +181,15 @@ fn on_boundary(
     Ok(patch(&task, scratch, visit))
 }
 
+/// Sphericity below which the bodies are taken for rounder, and whether that is more than none.
+pub(super) fn least_sphericity(s: f64) -> (f64, PatchFlags) {
+    let mut flags = PatchFlags::default();
+    flags.set(PatchFlags::DEEP, s < DEEP);
+    (if s < DEEP { DEEP_SPHERICITY } else { 0.0 }, flags)
+}
+
 /// The frame of the patch, columns u, v, normal.
-fn checked(
+pub(super) fn checked(
     kind: Kind,
     branches: &[Vector3<f64>],
     normal: &Vector3<f64>,

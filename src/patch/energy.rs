@@ -1,7 +1,7 @@
 //! The elastic energy of a patch as an integral over the patch.
 //!
 //! The vector field F(x) = −ŷ/|y|² ∫ (1 − s) τ² dτ, y from the centre of a body to x and τ along ŷ from |y| to the surface, has the
-//! divergence 1 − s and vanishes on the surface. What lies between the patch and the surface of A therefore holds ∫ −F·n dΣ, and
+//! divergence 1 − s and vanishes on the surface (in the plane, with τ and |y| in place of their squares). What lies between the patch and the surface of A therefore holds ∫ −F·n dΣ, and
 //! likewise for B. So the energies of the pieces of a boundary add up, in whatever pieces it is given.
 
 use super::field::{Field, Owner, Placed, dot};
@@ -36,6 +36,7 @@ fn outwards(field: &Field, body: &Placed, owner: Owner, x: &[f64; 3], normal: &[
         let [excess, rate] = [plane.excess + dot(&plane.normal, x), dot(&plane.normal, &direction)];
         (excess, rate)
     });
+    let power = if field.is_planar { 1 } else { 2 };
     let (w, m) = (body.plane_weight, body.sphere_weight);
     let (mut from, mut sum) = (0.0, 0.0);
     let rule = &gauss(POINTS).nodes[..POINTS];
@@ -72,7 +73,7 @@ fn outwards(field: &Field, body: &Placed, owner: Owner, x: &[f64; 3], normal: &[
         for (place, weight) in rule {
             let t = place * step;
             let scale = (value + t * (slope + square * t)).max(0.0).sqrt();
-            sum += weight * step * (1.0 - scale) * (1.0 + (from + t) / length).powi(2);
+            sum += weight * step * (1.0 - scale) * (1.0 + (from + t) / length).powi(power);
         }
         if is_last {
             break;

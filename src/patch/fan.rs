@@ -110,7 +110,8 @@ impl<'w, 'f, 'a, 's> Fan<'w, 'f, 'a, 's> {
         (self.extent, self.is_capped) = (0.0, false);
         let [e, f] = axis;
         self.walker.budget = f64::INFINITY;
-        let rough = [[e, f], [-f, e], [-e, -f], [f, -e]].map(|direction| self.walker.walk(&self.line(direction)).sums[2]);
+        let rough =
+            [[e, f], [-f, e], [-e, -f], [f, -e]].map(|direction| self.walker.walk(&self.line(direction)).sums[2]);
         let rough: f64 = rough.iter().sum();
         self.walker.nodes.clear();
         self.walker.budget = RADIAL * self.tolerance * 0.25 * rough;
@@ -158,7 +159,8 @@ impl<'w, 'f, 'a, 's> Fan<'w, 'f, 'a, 's> {
             for (sum, error) in integral.error.iter_mut().zip(&sector.error) {
                 *sum += error;
             }
-            integral.radial += sector.rays[..sector.count].iter().map(|(ray, w)| w * self.rays[*ray].error).sum::<f64>();
+            integral.radial +=
+                sector.rays[..sector.count].iter().map(|(ray, w)| w * self.rays[*ray].error).sum::<f64>();
         }
         integral
     }
@@ -207,7 +209,8 @@ impl<'w, 'f, 'a, 's> Fan<'w, 'f, 'a, 's> {
 
     /// Adds a sector, to the last one if it goes on with the same cells.
     fn emit(&mut self, left: usize, right: usize, like: Option<usize>) {
-        if let Some(before) = self.sectors.last().copied().filter(|before| before.count == 0 && before.right == left && left != self.cut)
+        if let Some(before) =
+            self.sectors.last().copied().filter(|before| before.count == 0 && before.right == left && left != self.cut)
         {
             let whole = angle(&self.rays[before.left].direction, &self.rays[right].direction);
             let alike = [left, right].iter().all(|ray| self.rays[before.left].is_like(&self.rays[*ray]));
@@ -248,8 +251,7 @@ impl<'w, 'f, 'a, 's> Fan<'w, 'f, 'a, 's> {
             let t = share.unwrap_or(0.5);
             let ([e, f], [g, h]) = (self.rays[left].direction, self.rays[right].direction);
             let middle = self.cast(unit([e + t * (g - e), f + t * (h - f)]));
-            let (from, to) =
-                if share.is_some() { self.sides(middle, m, at_a.id, at_b.id) } else { (middle, middle) };
+            let (from, to) = if share.is_some() { self.sides(middle, m, at_a.id, at_b.id) } else { (middle, middle) };
             self.stack.push((to, right, depth + 1));
             self.stack.push((left, from, depth + 1));
         }
@@ -345,7 +347,13 @@ impl<'w, 'f, 'a, 's> Fan<'w, 'f, 'a, 's> {
             let density = constant / (at[0] * at[0] + at[1] * at[1]);
             let weight = if count == 3 { *few } else { *many };
             rays[i] = (ray, weight * density);
-            let low = if count == 7 { *few } else if i == 0 { 1.0 } else { 0.0 };
+            let low = if count == 7 {
+                *few
+            } else if i == 0 {
+                1.0
+            } else {
+                0.0
+            };
             let load = if is_straight { self.rays[ray].curved } else { [0, 1, 2].map(|j| self.rays[ray].sums[j]) };
             loads[i] = load.map(|c| density * c);
             energies[i][0] = density * self.rays[ray].sums[7];
@@ -366,9 +374,8 @@ impl<'w, 'f, 'a, 's> Fan<'w, 'f, 'a, 's> {
         };
         let ends = [at_end(&self.rays[left], &start), at_end(&self.rays[right], &end)];
         let smoothness = error_of_rule(&loads[..count], &ends);
-        let energy_at = |ray: &Ray, end: &[f64; 2]| {
-            [ray.sums[7] * constant / (end[0] * end[0] + end[1] * end[1]), 0.0, 0.0]
-        };
+        let energy_at =
+            |ray: &Ray, end: &[f64; 2]| [ray.sums[7] * constant / (end[0] * end[0] + end[1] * end[1]), 0.0, 0.0];
         let ends = [energy_at(&self.rays[left], &start), energy_at(&self.rays[right], &end)];
         let of_energy = if self.walker.with_energy { error_of_rule(&energies[..count], &ends) } else { 0.0 };
         let estimate = |off: f64, size: f64| match count {
@@ -428,7 +435,11 @@ fn error_of_rule(loads: &[[f64; 3]], ends: &[[f64; 3]; 2]) -> f64 {
         norm(&off)
     });
     let missed = missed.fold(0.0, f64::max);
-    if few { (OF_ENDS[0] * missed).max(error_of_three(loads)) } else { (OF_ENDS[1] * missed).max(error_of_seven(loads)) }
+    if few {
+        (OF_ENDS[0] * missed).max(error_of_three(loads))
+    } else {
+        (OF_ENDS[1] * missed).max(error_of_seven(loads))
+    }
 }
 
 /// Weights of the polynomials through 3 and 7 points at both ends.

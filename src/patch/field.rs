@@ -61,6 +61,8 @@ pub(super) struct Field<'a, 's> {
     /// `None` for a rigid boundary: the patch then lies in the plane z = 0.
     pub b: Option<Placed<'a>>,
     pub planes: &'s mut Vec<FramePlane>,
+    /// Whether the bodies are particles of the plane v = 0.
+    pub is_planar: bool,
     loaded: f64,
     radius: f64,
 }
@@ -78,7 +80,7 @@ impl<'a, 's> Field<'a, 's> {
         planes.extend_from_slice(edges);
         let reach = |body: &Placed| body.particle.bounding_radius() + body.origin.norm();
         let radius = b.iter().map(reach).fold(reach(&a), f64::min);
-        let mut field = Self { a, b, planes, loaded: -1.0, radius };
+        let mut field = Self { a, b, planes, is_planar: false, loaded: -1.0, radius };
         field.load(distance);
         field
     }
@@ -145,7 +147,11 @@ impl<'a, 's> Field<'a, 's> {
             if value == 0.0 {
                 return Some(z);
             }
-            if value < 0.0 { below = z } else { above = z }
+            if value < 0.0 {
+                below = z
+            } else {
+                above = z
+            }
             let mut next = z - value / slope;
             if !(next > below && next < above) {
                 let bracketed = below.is_finite() && above.is_finite();

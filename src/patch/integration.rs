@@ -42,8 +42,15 @@ pub(super) fn patch(task: &Task, scratch: &mut PatchScratch, mut visit: impl FnM
     let mut field = Field::new(task.a, task.b, task.edges, task.near, planes);
     let mut flags = task.flags;
     let axis = flattest_axis(&field);
-    let order = if task.tolerance >= 1e-5 { 3 } else if task.tolerance >= 1e-8 { 5 } else { 8 };
-    let walker = Walker { field: &mut field, planes: ray_planes, nodes, order: 2, with_energy: false, budget: f64::INFINITY };
+    let order = if task.tolerance >= 1e-5 {
+        3
+    } else if task.tolerance >= 1e-8 {
+        5
+    } else {
+        8
+    };
+    let walker =
+        Walker { field: &mut field, planes: ray_planes, nodes, order: 2, with_energy: false, budget: f64::INFINITY };
     let mut fan = Fan::new(walker, rays, sectors, stack, [0.0; 3], task.tolerance);
     let start = on_patch(fan.walker.field, 0.0, 0.0, 0.0).unwrap_or_default();
     let start = inwards(&mut fan.walker, start, task.inside);

@@ -15,6 +15,7 @@
 //! | `scratch` | the buffers |
 //! | `integration` | from the potentials to the answer |
 //! | `contact` | the patch of two particles, of a particle and a plane, of a particle and a triangle |
+//! | `planar` | the patch of two particles of the plane |
 
 mod cell;
 mod centre;
@@ -25,6 +26,7 @@ mod field;
 mod integration;
 #[allow(clippy::module_inception)]
 mod patch;
+pub(crate) mod planar;
 mod ray;
 mod rules;
 mod scratch;

@@ -81,9 +81,8 @@ mod tests {
     fn the_extension_has_degree_11() {
         for power in 0..=11 {
             let exact = 1.0 / f64::from(power + 1);
-            let [three, seven] = GAUSS_KRONROD
-                .iter()
-                .fold([0.0; 2], |[g, k], (x, a, b)| [g + a * x.powi(power), k + b * x.powi(power)]);
+            let [three, seven] =
+                GAUSS_KRONROD.iter().fold([0.0; 2], |[g, k], (x, a, b)| [g + a * x.powi(power), k + b * x.powi(power)]);
             assert!((seven - exact).abs() < 1e-14, "x^{power}: {seven}");
             assert_eq!((three - exact).abs() < 1e-14, power <= 5, "x^{power}: {three}");
         }

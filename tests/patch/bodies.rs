@@ -39,9 +39,8 @@ impl Chance {
 
 pub fn cuboid(half: [f64; 3], r: f64, k: f64) -> Particle {
     let sides = (0..3).flat_map(|axis| [1.0, -1.0].map(|sign| (axis, sign)));
-    let planes: Vec<Plane> = sides
-        .map(|(axis, sign)| Plane { normal: Vector3::ith(axis, sign), offset: half[axis] - r })
-        .collect();
+    let planes: Vec<Plane> =
+        sides.map(|(axis, sign)| Plane { normal: Vector3::ith(axis, sign), offset: half[axis] - r }).collect();
     Particle::new(&planes, r, k, 1.2 * Vector3::from(half).norm()).expect("a cuboid")
 }
 
@@ -55,7 +54,8 @@ pub fn body(family: &str, r: f64, k: f64, chance: &mut Chance) -> Particle {
         "plate" => cuboid([0.8, 0.8, 0.1], 0.1 * r, k),
         "pyramid" => {
             let r = 0.25 * r;
-            let side = |x: f64, y: f64| Plane { normal: Vector3::new(2.0 * x, 2.0 * y, 1.0).normalize(), offset: 0.3 - r };
+            let side =
+                |x: f64, y: f64| Plane { normal: Vector3::new(2.0 * x, 2.0 * y, 1.0).normalize(), offset: 0.3 - r };
             let base = Plane { normal: -Vector3::z(), offset: 0.25 - r };
             let planes = [side(1.0, 0.0), side(-1.0, 0.0), side(0.0, 1.0), side(0.0, -1.0), base];
             Particle::new(&planes, r, k, 0.9).expect("a pyramid")
@@ -122,7 +122,8 @@ impl Pair {
 
     /// With B moved by a shift and turned by a rotation vector about its position.
     pub fn moved(&self, shift: &Vector3<f64>, turn: &Vector3<f64>) -> Self {
-        let rotation = UnitQuaternion::from_scaled_axis(*turn).to_rotation_matrix().into_inner() * self.pose_b.rotation();
+        let rotation =
+            UnitQuaternion::from_scaled_axis(*turn).to_rotation_matrix().into_inner() * self.pose_b.rotation();
         let position = self.pose_b.position() + shift;
         let pose_b = Pose::from_rotation(position.into(), &rotation).unwrap();
         let contact = contact(&self.a, &self.pose_a, &self.b, &pose_b);

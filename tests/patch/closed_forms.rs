@@ -26,7 +26,13 @@ fn tilted(r: f64, overlap: f64, angle: f64) -> Pair {
     let rotation = turn([0.0, 1.0, 0.0], angle);
     // The middle of its lower face comes to rest under the origin.
     let position = Vector3::new(0.0, 0.0, 0.5 - overlap) + rotation * Vector3::new(0.0, 0.0, 0.3);
-    pair(cuboid([1.0, 1.0, 0.5], r, 0.0), Matrix3::identity(), cuboid([0.3, 0.2, 0.3], r, 0.0), position.into(), rotation)
+    pair(
+        cuboid([1.0, 1.0, 0.5], r, 0.0),
+        Matrix3::identity(),
+        cuboid([0.3, 0.2, 0.3], r, 0.0),
+        position.into(),
+        rotation,
+    )
 }
 
 #[test]
@@ -121,7 +127,11 @@ fn crossed_edges_turn_each_other() {
             let found = patch(&pair(a, edge_up, b, [0.0, 0.0, height], edge_down), 1e-7, false);
             let expected = found.force.norm() * overlap / 3.0 / crossing.tan();
             let off = (found.couple.abs() - expected.abs()).abs();
-            assert!(off < 3.0 * share * found.force.norm() * overlap, "{crossing} {share}: {} {expected}", found.couple);
+            assert!(
+                off < 3.0 * share * found.force.norm() * overlap,
+                "{crossing} {share}: {} {expected}",
+                found.couple
+            );
             // Cylinders of radius r: an elliptic paraboloid.
             check("force", found.force.z, 2.0 * PI * r / crossing.sin() * overlap.powi(2) * 0.5, 3.0 * share);
         }

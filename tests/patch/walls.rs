@@ -34,7 +34,7 @@ fn on_plane(a: &Particle, pose: &Pose, height: f64, tolerance: f64) -> Option<(P
         return None;
     }
     let settings = PatchSettings { tolerance, with_energy: true };
-    let patch = patch_on_plane(a, pose, &wall, &contact, &settings, &mut PatchScratch::new(), |_| ()).unwrap();
+    let patch = patch_on_plane(a, pose, &contact, &settings, &mut PatchScratch::new(), |_| ()).unwrap();
     let mut sum = Sum::default();
     sum.add(&patch, &(contact.on_boundary - pose.position()));
     Some((patch, sum))
@@ -66,11 +66,7 @@ fn slab(middle: &Vector3<f64>, half: f64, pieces: usize, chance: &mut Chance) ->
                     let inner = |k: usize| k > 0 && k < pieces;
                     let jitter = |on: bool, c: &mut Chance| if on { 0.4 * (c.uniform() - 0.5) } else { 0.0 };
                     let at = |k: usize, off: f64| half * (2.0 * (k as f64 + off) / pieces as f64 - 1.0);
-                    [
-                        middle.x + at(i, jitter(inner(i), chance)),
-                        middle.y + at(j, jitter(inner(j), chance)),
-                        0.0,
-                    ]
+                    [middle.x + at(i, jitter(inner(i), chance)), middle.y + at(j, jitter(inner(j), chance)), 0.0]
                 })
                 .collect()
         })
