@@ -11,8 +11,8 @@ use crate::contact::contact as space;
 use crate::planar::{Contact, PatchPoint, patch_of_contact};
 use std::cell::RefCell;
 
-/// The contact patch of two particles of the plane, a curve: the fields of struct pp_patch, with lengths in place of
-/// areas, all per unit of thickness.
+/// The contact patch of two particles of the plane, a curve: the fields of struct pp_patch, with lengths in
+/// place of areas, all per unit of thickness.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct pp_patch_2d {
