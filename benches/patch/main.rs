@@ -88,7 +88,7 @@ fn main() {
     let unit = unit(&level[4].1);
     println!("unit: {:.1} ns", 1e9 * unit);
     let mut results = Vec::new();
-    for r in ROUNDINGS {
+    for r in ROUNDINGS.into_iter().filter(|r| std::env::args().all(|a| a != "short") || *r == 1e-2) {
         for k in SPHERICITIES {
             for depth in DEPTHS {
                 println!("r {r}, k {k}, overlap {depth} r");

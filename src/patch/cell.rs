@@ -104,6 +104,8 @@ pub(super) struct Cell {
     pub d: Quadratic,
     /// Whether the pressure is linear and the patch flat: one plane of each body and no sphere.
     pub is_flat: bool,
+    /// The incline of a flat patch along the ray.
+    pub flat_incline: f64,
 }
 
 /// Most steps of a search for the rim.
@@ -117,6 +119,10 @@ impl Cell {
     #[inline(always)]
     pub fn height(&self, h: f64) -> Option<(f64, f64)> {
         let d = &self.d;
+        if self.is_flat {
+            let k = self.flat_incline * h;
+            return Some((k, d.by_k(h, k)));
+        }
         let slope = d.k + d.hk * h;
         let value = d.v + h * (d.h + d.hh * h);
         let discriminant = slope * slope - 4.0 * d.kk * value;
@@ -138,6 +144,12 @@ impl Cell {
     #[inline(always)]
     pub fn crossing(&self, plane: &RayPlane, tiny: f64) -> Option<(f64, f64)> {
         let RayPlane { excess: e, along, up, active, .. } = *plane;
+        if self.is_flat {
+            let rate = along + up * self.flat_incline;
+            let h = -e / rate;
+            let turns = if active { rate < 0.0 } else { rate > 0.0 };
+            return (turns && h > -tiny && h.is_finite()).then_some((h, self.flat_incline * h));
+        }
         let d = &self.d;
         let square = along * along + up * up;
         if !(square > 0.0) {
@@ -178,6 +190,12 @@ impl Cell {
     /// The h up to `limit` where s = 1 on the patch; or, as an error, where the curve turns back before.
     pub fn rim(&self, limit: f64, farthest: f64) -> Result<f64, f64> {
         let (s, d) = (&self.s, &self.d);
+        if self.is_flat {
+            // s is linear.
+            let scale = s.v.sqrt();
+            let h = 2.0 * scale * (1.0 - scale) / (s.h + s.k * self.flat_incline);
+            return Ok(if h > 0.0 { h.min(2.0 * FAR * farthest) } else { 2.0 * FAR * farthest }.min(limit));
+        }
         // The slope and curvature of S along the curve at the start.
         let incline = self.incline(0.0, 0.0);
         let slope = s.h + s.k * incline;

@@ -102,18 +102,13 @@ impl<'w, 'f, 'a, 's> Fan<'w, 'f, 'a, 's> {
         }
     }
 
-    /// Integrates with first rays along an axis and across it.
-    pub fn integrate(&mut self, axis: [f64; 2]) -> Integral {
+    /// Integrates with first rays along an axis and across it; `rough`: ∫ p over the four of them, as far as that is known.
+    pub fn integrate(&mut self, axis: [f64; 2], rough: f64) -> Integral {
         self.rays.clear();
         self.sectors.clear();
         self.walker.nodes.clear();
         (self.extent, self.is_capped) = (0.0, false);
         let [e, f] = axis;
-        self.walker.budget = f64::INFINITY;
-        let rough =
-            [[e, f], [-f, e], [-e, -f], [f, -e]].map(|direction| self.walker.walk(&self.line(direction)).sums[2]);
-        let rough: f64 = rough.iter().sum();
-        self.walker.nodes.clear();
         self.walker.budget = RADIAL * self.tolerance * 0.25 * rough;
         let first = [[e, f], [-f, e], [-e, -f], [f, -e]].map(|direction| self.cast(direction));
         self.negligible = NEGLIGIBLE * self.tolerance * rough * std::f64::consts::FRAC_PI_2;

@@ -42,9 +42,9 @@ pub(super) fn patch(task: &Task, scratch: &mut PatchScratch, mut visit: impl FnM
     let mut field = Field::new(task.a, task.b, task.edges, task.near, planes);
     let mut flags = task.flags;
     let axis = flattest_axis(&field);
-    let order = if task.tolerance >= 1e-5 {
+    let order = if task.tolerance >= 1e-3 {
         3
-    } else if task.tolerance >= 1e-8 {
+    } else if task.tolerance >= 1e-7 {
         5
     } else {
         8
@@ -54,11 +54,12 @@ pub(super) fn patch(task: &Task, scratch: &mut PatchScratch, mut visit: impl FnM
     let mut fan = Fan::new(walker, rays, sectors, stack, [0.0; 3], task.tolerance);
     let start = on_patch(fan.walker.field, 0.0, 0.0, 0.0).unwrap_or_default();
     let start = inwards(&mut fan.walker, start, task.inside);
-    fan.centre = middle(&mut fan.walker, start, axis);
+    let (centre, rough) = middle(&mut fan.walker, start, axis);
+    fan.centre = centre;
     let mut integral = Integral::default();
     for starts in 0.. {
         (fan.walker.order, fan.walker.with_energy) = (order, task.with_energy);
-        integral = fan.integrate(axis);
+        integral = fan.integrate(axis, rough);
         let force = norm(&integral.sums[..3]);
         if !(force > 0.0) {
             break;

@@ -216,12 +216,18 @@ impl Walker<'_, '_, '_> {
         if field.a.sphere_weight > 0.0 {
             sums[0].add_sphere(field.a.sphere_weight, &on_ray(&field.a, line, rho, zeta));
         }
-        let Some(b) = &field.b else { return Cell { s: sums[0], d: Quadratic::HEIGHT, is_flat } };
-        is_flat &= active[1] == 1 && b.sphere_weight == 0.0;
-        if b.sphere_weight > 0.0 {
-            sums[1].add_sphere(b.sphere_weight, &on_ray(b, line, rho, zeta));
+        let mut cell = Cell { s: sums[0], d: Quadratic::HEIGHT, is_flat, flat_incline: 0.0 };
+        if let Some(b) = &field.b {
+            cell.is_flat &= active[1] == 1 && b.sphere_weight == 0.0;
+            if b.sphere_weight > 0.0 {
+                sums[1].add_sphere(b.sphere_weight, &on_ray(b, line, rho, zeta));
+            }
+            cell.d = sums[0].minus(&sums[1]);
+            if cell.is_flat {
+                cell.flat_incline = cell.incline(0.0, 0.0);
+            }
         }
-        Cell { s: sums[0], d: sums[0].minus(&sums[1]), is_flat }
+        cell
     }
 
     /// The nearest place where a plane goes on or off, or an edge is met, and its plane.
