@@ -16,19 +16,19 @@ const DEEPEST: u32 = 14;
 const COINCIDENT: f64 = 0.1;
 
 /// Part of the tolerance that the pieces next to a border may take which are not cut off there.
-const NEGLIGIBLE: f64 = 0.02;
+const NEGLIGIBLE: f64 = 0.05;
 
 /// Part of the tolerance that is left for the sectors.
 const ANGULAR: f64 = 0.9;
 
 /// Part of the tolerance that one rule on a ray may take, over the load of the ray.
-const RADIAL: f64 = 0.02;
+const RADIAL: f64 = 0.1;
 
 /// Error of 3 rays over the load of a sector and the third power of the relative variation of the load among them.
-const OF_VARIATION: f64 = 0.3;
+const OF_VARIATION: f64 = 0.05;
 
 /// Error of 3 and 7 rays over the distance by which their polynomial misses the loads at the ends.
-const OF_ENDS: [f64; 2] = [0.05, 0.01];
+const OF_ENDS: [f64; 2] = [0.02, 0.004];
 
 /// Relative distance from a straight line up to which a border counts as straight: the loads of flat cells are then polynomials.
 const STRAIGHT: f64 = 1e-7;

@@ -212,7 +212,7 @@ impl Walker<'_, '_, '_> {
                 active[body] += 1;
             }
         }
-        let mut is_flat = active[0] == 1 && field.a.sphere_weight == 0.0;
+        let is_flat = active[0] == 1 && field.a.sphere_weight == 0.0;
         if field.a.sphere_weight > 0.0 {
             sums[0].add_sphere(field.a.sphere_weight, &on_ray(&field.a, line, rho, zeta));
         }
