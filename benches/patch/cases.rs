@@ -22,7 +22,14 @@ pub fn cube(r: f64, k: f64) -> Particle {
 
 impl Case {
     /// B above A, turned, and lowered until their overlap is this.
-    pub fn above(a: Particle, turn_a: Matrix3<f64>, b: Particle, turn_b: Matrix3<f64>, aside: [f64; 2], overlap: f64) -> Self {
+    pub fn above(
+        a: Particle,
+        turn_a: Matrix3<f64>,
+        b: Particle,
+        turn_b: Matrix3<f64>,
+        aside: [f64; 2],
+        overlap: f64,
+    ) -> Self {
         let pose_a = Pose::from_rotation([0.0; 3], &turn_a).expect("a rotation");
         let at = |height: f64| Pose::from_rotation([aside[0], aside[1], height], &turn_b).expect("a rotation");
         let settings = Settings::default();

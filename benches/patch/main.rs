@@ -1,12 +1,12 @@
 //! Time and error of contact patches by kind, in units of one evaluation of both bodies; results in out/patch/kinds.json.
 
+mod cases;
 #[path = "../scene/evaluation.rs"]
 mod evaluation;
 #[path = "../scene/polyhedra.rs"]
 mod polyhedra;
 #[path = "../scene/random.rs"]
 mod random;
-mod cases;
 
 use cases::{Case, kinds};
 use evaluation::Plain;
@@ -16,9 +16,9 @@ use serde_json::{Value, json};
 use std::hint::black_box;
 use std::time::Instant;
 
-/// Shortest time that is measured, seconds, and how often the least of it is taken.
-const SHORTEST: f64 = 0.02;
-const TIMES: usize = 5;
+/// Shortest time that is measured, seconds, and of how many such the least is taken: short ones, so that other programs leave some alone.
+const SHORTEST: f64 = 3e-4;
+const TIMES: usize = 40;
 
 /// Roundings over the size, sphericities, and overlaps over the rounding.
 const ROUNDINGS: [f64; 3] = [1e-3, 1e-2, 5e-2];
@@ -41,7 +41,7 @@ fn time(mut call: impl FnMut()) -> f64 {
             (0..count).for_each(|_| call());
             best = best.min(start.elapsed().as_secs_f64());
         }
-        if best > SHORTEST / TIMES as f64 {
+        if best > SHORTEST {
             return best / f64::from(count);
         }
         count *= 2;
@@ -74,7 +74,10 @@ fn measured(kind: &str, case: &Case, unit: f64) -> Value {
                 .max((found.torque - finest.torque).norm() / (force * reach));
             println!(
                 "{kind:24} {tolerance:7.0e}: {:6.0} units, {:4} rays, {:5} points, estimate {:.1e}, error {error:.1e}",
-                seconds / unit, found.rays, found.points, found.error
+                seconds / unit,
+                found.rays,
+                found.points,
+                found.error
             );
             json!({"tolerance": tolerance, "seconds": seconds, "units": seconds / unit, "rays": found.rays,
                 "points": found.points, "estimate": found.error, "error": error})

@@ -162,19 +162,3 @@ fn a_corner_on_a_face_has_its_formula() {
         check("force", found.force.z, exact, 1e-6);
     }
 }
-
-#[test]
-fn count_walks() {
-    let p = tilted(0.01, 1e-4, 0.0);
-    for t in [1e-3, 1e-4, 1e-6] {
-        let f = patch(&p, t, false);
-        println!("tolerance {t} rays {} points {}", f.rays, f.points);
-        patch(&p, 1e-2, false);
-    }
-    let p = tilted(0.01, 1e-4, 1e-4);
-    for t in [1e-3, 1e-4, 1e-6] {
-        let f = patch(&p, t, false);
-        println!("tilted tolerance {t} rays {} points {}", f.rays, f.points);
-        patch(&p, 1e-2, false);
-    }
-}
