@@ -1,5 +1,9 @@
-//! Time and error of contact patches by kind, in units of one evaluation of both bodies; results in out/patch/kinds.json.
+//! Contact patches: accuracy against closed forms and the gradient of their energy, time by kind of contact. Results go to
+//! out/patch/summary.json; `-- quick` takes a little of everything.
 
+mod accuracy;
+#[path = "../../tests/patch/bodies.rs"]
+mod bodies;
 mod cases;
 #[path = "../scene/evaluation.rs"]
 mod evaluation;
@@ -7,118 +11,61 @@ mod evaluation;
 mod polyhedra;
 #[path = "../scene/random.rs"]
 mod random;
+mod speed;
 
-use cases::{Case, kinds};
-use evaluation::Plain;
-use nalgebra::Matrix3;
-use potential_particles::{Patch, PatchScratch, PatchSettings, patch_of_contact};
 use serde_json::{Value, json};
-use std::hint::black_box;
-use std::time::Instant;
 
-/// Shortest time that is measured, seconds, and of how many such the least is taken: short ones, so that other programs leave some alone.
-const SHORTEST: f64 = 3e-4;
-const TIMES: usize = 40;
-
-/// Roundings over the size, sphericities, and overlaps over the rounding.
-const ROUNDINGS: [f64; 3] = [1e-3, 1e-2, 5e-2];
-const SPHERICITIES: [f64; 2] = [0.0, 0.02];
-const DEPTHS: [f64; 2] = [0.02, 0.2];
-
-fn patch(case: &Case, tolerance: f64, scratch: &mut PatchScratch) -> Patch {
-    let settings = PatchSettings { tolerance, with_energy: false };
-    patch_of_contact(&case.a, &case.pose_a, &case.b, &case.pose_b, &case.contact, &settings, scratch, |_| ())
-        .expect("a patch of an overlapping contact")
+fn at_most(name: &str, target: f64, measured: f64) -> Value {
+    let met = measured <= target;
+    println!("{} {name}: {measured:.3e} (at most {target:e})", if met { "met   " } else { "MISSED" });
+    json!({"name": name, "sense": "at most", "target": target, "measured": measured, "met": met})
 }
 
-/// Seconds of one call.
-fn time(mut call: impl FnMut()) -> f64 {
-    let mut count = 1;
-    loop {
-        let mut best = f64::INFINITY;
-        for _ in 0..TIMES {
-            let start = Instant::now();
-            (0..count).for_each(|_| call());
-            best = best.min(start.elapsed().as_secs_f64());
-        }
-        if best > SHORTEST {
-            return best / f64::from(count);
-        }
-        count *= 2;
-    }
-}
-
-/// The unit: S, ∇S and ∇²S of both bodies at the contact point.
-fn unit(case: &Case) -> f64 {
-    let plain = [Plain::new(&case.a), Plain::new(&case.b)];
-    let points = [case.pose_a, case.pose_b].map(|pose| pose.to_local(&case.contact.point));
-    time(|| {
-        black_box(plain[0].at(black_box(&points[0])));
-        black_box(plain[1].at(black_box(&points[1])));
-    })
-}
-
-fn measured(kind: &str, case: &Case, unit: f64) -> Value {
-    let mut scratch = PatchScratch::new();
-    let finest = patch(case, 1e-11, &mut scratch);
-    let force = finest.force.norm();
-    let reach = finest.area.sqrt();
-    let rows: Vec<Value> = [1e-3, 1e-4, 1e-5, 1e-6, 1e-8]
-        .iter()
-        .map(|tolerance| {
-            let found = patch(case, *tolerance, &mut scratch);
-            let seconds = time(|| {
-                black_box(patch(black_box(case), *tolerance, &mut scratch));
-            });
-            let error = ((found.force - finest.force).norm() / force)
-                .max((found.torque - finest.torque).norm() / (force * reach));
-            println!(
-                "{kind:24} {tolerance:7.0e}: {:6.0} units, {:4} rays, {:5} points, estimate {:.1e}, error {error:.1e}",
-                seconds / unit,
-                found.rays,
-                found.points,
-                found.error
-            );
-            json!({"tolerance": tolerance, "seconds": seconds, "units": seconds / unit, "rays": found.rays,
-                "points": found.points, "estimate": found.error, "error": error})
-        })
-        .collect();
-    json!({"kind": kind, "s": case.contact.s, "rows": rows})
+/// The most units of a kind at a tolerance.
+fn units(kinds: &[Value], tolerance: f64, is_meant: impl Fn(&str) -> bool) -> f64 {
+    let meant = kinds.iter().filter(|kind| is_meant(kind["kind"].as_str().unwrap_or_default()));
+    let rows = meant.flat_map(|kind| kind["rows"].as_array().into_iter().flatten());
+    let at = rows.filter(|row| row["tolerance"] == json!(tolerance));
+    at.filter_map(|row| row["units"].as_f64()).fold(0.0, f64::max)
 }
 
 fn main() {
-    let level = kinds(1e-2, 0.02, 1e-3);
-    let unit = unit(&level[4].1);
-    println!("unit: {:.1} ns", 1e9 * unit);
-    let mut results = Vec::new();
-    for r in ROUNDINGS.into_iter().filter(|r| std::env::args().all(|a| a != "short") || *r == 1e-2) {
-        for k in SPHERICITIES {
-            for depth in DEPTHS {
-                println!("r {r}, k {k}, overlap {depth} r");
-                for (kind, case) in kinds(r, k, depth * r) {
-                    let mut row = measured(kind, &case, unit);
-                    row["r"] = json!(r);
-                    row["k"] = json!(k);
-                    row["depth"] = json!(depth);
-                    results.push(row);
-                }
-            }
-        }
+    let quick = std::env::args().any(|argument| argument == "quick");
+    let mut targets = Vec::new();
+    let [within, beyond] = accuracy::faces();
+    targets.push(at_most("flat faces: N and M, tilt within the base, relative error", 1e-4, within));
+    targets.push(at_most("flat faces: N and contact length, uplift, relative error", 1e-4, beyond));
+    targets.push(at_most("sphere on plane and sphere, crossed cylinders: N, relative error", 1e-3, accuracy::round()));
+    let [square, disc] = accuracy::levers();
+    targets.push(at_most("twist of a square: lever, relative error", 2e-3, square));
+    targets.push(at_most("twist of a disc: lever, relative error", 2e-3, disc));
+    targets.push(at_most("couple of crossed edges, relative error", 1e-3, accuracy::crossed()[1]));
+    let pairs = if quick { 60 } else { 2000 };
+    let ([worst, most], folded) = accuracy::gradients(pairs);
+    println!("{pairs} pairs, of which {folded} fold");
+    targets.push(at_most("force and torque against the gradient of the energy: worst pair", 1e-6, worst));
+    targets.push(at_most("force and torque against the gradient of the energy: 99 of 100 pairs", 1e-6, most));
+    let places = if quick { 10 } else { 100 };
+    targets.push(at_most("tiles and one slab, at a tolerance of 1e-4: N", 1e-9, accuracy::tiles(places, 1e-4)));
+    targets.push(at_most("tiles and one slab, at a tolerance of 1e-10: N", 1e-9, accuracy::tiles(places, 1e-10)));
+    let (unit, kinds) = speed::measure(quick);
+    let face = |kind: &str| kind.starts_with("face");
+    let corner = |kind: &str| kind.starts_with("corner") || kind.starts_with("crossed");
+    for (tolerance, factor) in [(1e-4, 1.0), (1e-6, 2.0)] {
+        let name = |kind: &str| format!("{kind} at {tolerance:e}: evaluations of both bodies");
+        targets.push(at_most(&name("face on face"), 250.0 * factor, units(&kinds, tolerance, face)));
+        targets.push(at_most(&name("corner on face, crossed edges"), 120.0 * factor, units(&kinds, tolerance, corner)));
+        targets.push(at_most(
+            &name("edge on face"),
+            300.0 * factor,
+            units(&kinds, tolerance, |k| k.starts_with("edge")),
+        ));
     }
-    let mut random = random::Random::seeded(300);
-    let ball = || polyhedra::ball(300, &mut random);
-    let [a, b] = [0; 2].map({
-        let mut ball = ball;
-        move |_| ball()
-    });
-    let case = Case::above(a, Matrix3::identity(), b, Matrix3::identity(), [0.03, 0.05], 1e-3);
-    let mut row = measured("300 + 300 planes", &case, unit);
-    row["r"] = json!(0.01);
-    row["k"] = json!(0.05);
-    row["depth"] = json!(0.1);
-    results.push(row);
+    let many = units(&kinds, 1e-4, |kind| kind.starts_with("300"));
+    targets.push(at_most("300 + 300 planes at 1e-4: evaluations of both bodies", 1500.0, many));
     let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/out/patch");
     std::fs::create_dir_all(folder).expect("out/patch");
-    let text = serde_json::to_string_pretty(&json!({"unit": unit, "kinds": results})).expect("plain values");
-    std::fs::write(format!("{folder}/kinds.json"), text).expect("out/patch/kinds.json");
+    let summary = json!({"targets": targets, "unit_seconds": unit, "pairs": pairs, "folded": folded, "kinds": kinds});
+    let text = serde_json::to_string_pretty(&summary).expect("plain values");
+    std::fs::write(format!("{folder}/summary.json"), text).expect("out/patch/summary.json");
 }
