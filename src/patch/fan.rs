@@ -18,6 +18,9 @@ const COINCIDENT: f64 = 0.1;
 /// Part of the tolerance that the pieces next to a border may take which are not cut off there.
 const NEGLIGIBLE: f64 = 0.05;
 
+/// Part of what lies beyond an event that another sequence of cells changes at most, about.
+const OF_EFFECT: f64 = 0.15;
+
 /// Part of the tolerance that is left for the sectors.
 const ANGULAR: f64 = 0.9;
 
@@ -120,7 +123,7 @@ impl<'w, 'f, 'a, 's> Fan<'w, 'f, 'a, 's> {
             // Sectors that are cut again are appended.
             while let Some(sector) = self.sectors.get(next) {
                 // One that is cut leaves its place to another.
-                if sector.count > 0 || self.evaluate(next, 3) {
+                if sector.count > 0 || self.evaluate(next, self.first_count(next)) {
                     next += 1;
                 }
             }
@@ -130,8 +133,9 @@ impl<'w, 'f, 'a, 's> Fan<'w, 'f, 'a, 's> {
             if error <= ANGULAR * self.tolerance || self.is_capped {
                 return integral;
             }
-            if self.sectors[worst].count == 3 {
-                self.evaluate(worst, 7);
+            if self.sectors[worst].count < 7 {
+                let count = if self.sectors[worst].count == 1 { 3 } else { 7 };
+                self.evaluate(worst, count);
             } else {
                 let Sector { left, right, rays, .. } = self.sectors[worst];
                 self.sectors.swap_remove(worst);
@@ -234,12 +238,12 @@ impl<'w, 'f, 'a, 's> Fan<'w, 'f, 'a, 's> {
                 continue;
             };
             let effect = angle(&a.direction, &b.direction) * a.tail(m).max(b.tail(m));
-            if 0.25 * effect <= self.negligible || depth >= DEEPEST || self.is_capped {
+            if OF_EFFECT * effect <= self.negligible || depth >= DEEPEST || self.is_capped {
                 self.emit(left, right, None);
                 continue;
             }
             let share = self.change(left, right, m, &at_a, &at_b);
-            if let Some(t) = share.filter(|t| 0.5 * effect * t.min(1.0 - t) <= self.negligible) {
+            if let Some(t) = share.filter(|t| OF_EFFECT * effect * t.min(1.0 - t) <= self.negligible) {
                 self.emit(left, right, Some(if t > 0.5 { left } else { right }));
                 continue;
             }
@@ -301,7 +305,15 @@ impl<'w, 'f, 'a, 's> Fan<'w, 'f, 'a, 's> {
         if first.id == i { (middle, swapped) } else { (swapped, middle) }
     }
 
-    /// Integrates over a sector with 3 or 7 rays; resolves it where one of them has another sequence of cells.
+    /// One ray for a sector that hardly counts, three for any other.
+    fn first_count(&self, index: usize) -> usize {
+        let Sector { left, right, .. } = self.sectors[index];
+        let (a, b) = (&self.rays[left], &self.rays[right]);
+        let load = angle(&a.direction, &b.direction).abs() * a.sums[2].max(b.sums[2]);
+        if OF_EFFECT * load <= self.negligible { 1 } else { 3 }
+    }
+
+    /// Integrates over a sector with 1, 3 or 7 rays; resolves it where one of them has another sequence of cells.
     ///
     /// The rays end on a conic about the centre, through the places where the rays at both ends and in the middle leave a cell: a straight
     /// edge and an ellipse about the centre then cost nothing, as on both equal areas belong to equal steps.
@@ -340,7 +352,11 @@ impl<'w, 'f, 'a, 's> Fan<'w, 'f, 'a, 's> {
                 _ => self.cast(unit(at)),
             };
             let density = constant / (at[0] * at[0] + at[1] * at[1]);
-            let weight = if count == 3 { *few } else { *many };
+            let weight = match count {
+                1 => &1.0,
+                3 => few,
+                _ => many,
+            };
             rays[i] = (ray, weight * density);
             let low = if count == 7 {
                 *few
@@ -375,6 +391,7 @@ impl<'w, 'f, 'a, 's> Fan<'w, 'f, 'a, 's> {
         let of_energy = if self.walker.with_energy { error_of_rule(&energies[..count], &ends) } else { 0.0 };
         let estimate = |off: f64, size: f64| match count {
             _ if like.is_none() || odd.is_some() => off,
+            1 => 0.0,
             3 => off * (2.0 * off / size).powi(2).min(1.0),
             _ => off * (10.0 * off / size).min(1.0),
         };
@@ -420,6 +437,10 @@ impl<'w, 'f, 'a, 's> Fan<'w, 'f, 'a, 's> {
 
 /// Error of a rule from how far the polynomial through its loads misses those at the ends, and from how smooth they are.
 fn error_of_rule(loads: &[[f64; 3]], ends: &[[f64; 3]; 2]) -> f64 {
+    if let [load] = loads {
+        let off = [0, 1, 2].map(|j| load[j] - 0.5 * (ends[0][j] + ends[1][j]));
+        return 0.5 * norm(&off);
+    }
     let few = loads.len() == 3;
     let weights = if few { &at_ends().0[..] } else { &at_ends().1[..] };
     let missed = ends.iter().enumerate().map(|(side, end)| {
