@@ -9,7 +9,7 @@ use super::scratch::PatchScratch;
 use nalgebra::{Matrix3, Vector3};
 
 /// Parts of the patch's reach by which the centre of pressure may lie off the centre of the rays before they start anew.
-const OFF_CENTRE: f64 = 0.1;
+const OFF_CENTRE: f64 = 0.25;
 
 /// Most such starts.
 const MOST_STARTS: usize = 3;
