@@ -3,7 +3,7 @@
 
 use super::ray::{EVENTS, Event, Line, RIM, Ray, SUMS, Walker};
 use super::rules::GAUSS_KRONROD;
-use std::sync::LazyLock;
+use super::smoothness::{error_of_rule, norm};
 
 /// Most rays.
 pub(super) const MOST_RAYS: usize = 1500;
@@ -26,12 +26,6 @@ const ANGULAR: f64 = 0.9;
 
 /// Part of the tolerance that one rule on a ray may take, over the load of the ray.
 const RADIAL: f64 = 0.1;
-
-/// Error of 3 rays over the load of a sector and the third power of the relative variation of the load among them.
-const OF_VARIATION: f64 = 0.05;
-
-/// Error of 3 and 7 rays over the distance by which their polynomial misses the loads at the ends.
-const OF_ENDS: [f64; 2] = [0.02, 0.004];
 
 /// Relative distance from a straight line up to which a border counts as straight: the loads of flat cells are then polynomials.
 const STRAIGHT: f64 = 1e-7;
@@ -435,71 +429,6 @@ impl<'w, 'f, 'a, 's> Fan<'w, 'f, 'a, 's> {
     }
 }
 
-/// Error of a rule from how far the polynomial through its loads misses those at the ends, and from how smooth they are.
-fn error_of_rule(loads: &[[f64; 3]], ends: &[[f64; 3]; 2]) -> f64 {
-    if let [load] = loads {
-        let off = [0, 1, 2].map(|j| load[j] - 0.5 * (ends[0][j] + ends[1][j]));
-        return 0.5 * norm(&off);
-    }
-    let few = loads.len() == 3;
-    let weights = if few { &at_ends().0[..] } else { &at_ends().1[..] };
-    let missed = ends.iter().enumerate().map(|(side, end)| {
-        let mut off = *end;
-        for (weight, load) in weights.iter().zip(loads) {
-            (0..3).for_each(|j| off[j] -= weight[side] * load[j]);
-        }
-        norm(&off)
-    });
-    let missed = missed.fold(0.0, f64::max);
-    if few {
-        (OF_ENDS[0] * missed).max(error_of_three(loads))
-    } else {
-        (OF_ENDS[1] * missed).max(error_of_seven(loads))
-    }
-}
-
-/// Weights of the polynomials through 3 and 7 points at both ends.
-fn at_ends() -> &'static ([[f64; 2]; 3], [[f64; 2]; 7]) {
-    static WEIGHTS: LazyLock<([[f64; 2]; 3], [[f64; 2]; 7])> = LazyLock::new(|| {
-        let weight = |count: usize, i: usize| {
-            [0.0, 1.0].map(|end| {
-                let factor = |j: usize| (end - GAUSS_KRONROD[j].0) / (GAUSS_KRONROD[i].0 - GAUSS_KRONROD[j].0);
-                (0..count).filter(|j| *j != i).map(factor).product::<f64>()
-            })
-        };
-        (std::array::from_fn(|i| weight(3, i)), std::array::from_fn(|i| weight(7, i)))
-    });
-    &WEIGHTS
-}
-
-/// Error of the rule of 3 rays from how their loads vary.
-fn error_of_three(loads: &[[f64; 3]]) -> f64 {
-    let mean = [0, 1, 2].map(|j| GAUSS_KRONROD.iter().zip(loads).map(|((_, w, _), load)| w * load[j]).sum::<f64>());
-    let off = |load: &[f64; 3]| norm(&[load[0] - mean[0], load[1] - mean[1], load[2] - mean[2]]);
-    let most = loads.iter().map(off).fold(0.0, f64::max);
-    if most > 0.0 { OF_VARIATION * most * (most / norm(&mean)).powi(2).min(1.0) } else { 0.0 }
-}
-
-/// Error of the rule of 7 rays from how fast the coefficients of Legendre's series of the loads fall.
-fn error_of_seven(loads: &[[f64; 3]]) -> f64 {
-    let mut coefficients = [[0.0; 3]; 6];
-    for ((t, _, weight), load) in GAUSS_KRONROD.iter().zip(loads) {
-        let x = 2.0 * t - 1.0;
-        let (mut before, mut value) = (0.0, 1.0);
-        for (n, coefficient) in coefficients.iter_mut().enumerate() {
-            let n = n as f64;
-            for j in 0..3 {
-                coefficient[j] += (2.0 * n + 1.0) * weight * value * load[j];
-            }
-            (before, value) = (value, ((2.0 * n + 1.0) * x * value - n * before) / (n + 1.0));
-        }
-    }
-    let size = coefficients.map(|c| norm(&c));
-    let (high, low) = (size[4].max(size[5]), size[1].max(size[2]).max(size[3]));
-    // By six degrees more they fall twice as much again as by three.
-    if high > 0.0 { high * (high / low).powi(2).min(1.0) } else { 0.0 }
-}
-
 fn last(ray: &Ray) -> &Event {
     &ray.events[ray.count.max(1) - 1]
 }
@@ -512,8 +441,4 @@ fn unit([e, f]: [f64; 2]) -> [f64; 2] {
 /// From a to b, counter-clockwise positive.
 fn angle(a: &[f64; 2], b: &[f64; 2]) -> f64 {
     (a[0] * b[1] - a[1] * b[0]).atan2(a[0] * b[0] + a[1] * b[1])
-}
-
-pub(super) fn norm(v: &[f64]) -> f64 {
-    v.iter().map(|c| c * c).sum::<f64>().sqrt()
 }

@@ -1,11 +1,12 @@
 //! From the potentials to the answer.
 
 use super::centre::{flattest_axis, middle, on_patch};
-use super::fan::{Fan, Integral, norm};
+use super::fan::{Fan, Integral};
 use super::field::{Field, FramePlane, Placed};
 use super::patch::{Patch, PatchFlags, PatchPoint};
 use super::ray::{Line, Node, Walker};
 use super::scratch::PatchScratch;
+use super::smoothness::norm;
 use nalgebra::{Matrix3, Vector3};
 
 /// Parts of the patch's reach by which the centre of pressure may lie off the centre of the rays before they start anew.
