@@ -111,6 +111,18 @@
 // struct pp_pair_state, for pp_struct_size.
 #define PP_STRUCT_PAIR_STATE 16
 
+// struct pp_patch, for pp_struct_size.
+#define PP_STRUCT_PATCH 17
+
+// struct pp_patch_point, for pp_struct_size.
+#define PP_STRUCT_PATCH_POINT 18
+
+// struct pp_patch_2d, for pp_struct_size.
+#define PP_STRUCT_PATCH_2D 19
+
+// struct pp_patch_point_2d, for pp_struct_size.
+#define PP_STRUCT_PATCH_POINT_2D 20
+
 // The point on the boundary lies on the plane, or inside the triangle.
 #define PP_ON_INTERIOR 0
 
@@ -147,6 +159,19 @@
 
 // Size of a message buffer that holds every message whole.
 #define PP_MESSAGE_SIZE 512
+
+// The patch turns back under itself (deep overlaps of round bodies): what lies beyond is left out.
+#define PP_PATCH_FOLDED 1
+
+// The tolerance was not reached; error tells how far off the answer may be.
+#define PP_PATCH_TOLERANCE_NOT_REACHED 2
+
+// The contact point lies in the core of both bodies (s is 0 or nearly): the patch is that of slightly
+// rounder bodies.
+#define PP_PATCH_DEEP 4
+
+// No patch was found around the contact point, and force and area are 0: an overlap within rounding.
+#define PP_PATCH_EMPTY 8
 
 // Formulation "midway" (paper eqs 4 and 44): minimise t with s_A <= t and s_B <= t.
 #define PP_MIDWAY 0
@@ -439,6 +464,65 @@ typedef struct pp_placement {
 // 0. It may call functions of this library; no exception and no longjmp may leave it.
 typedef int32_t (*pp_placed)(void *context, const struct pp_placement *placements, size_t count);
 
+// The contact patch of two bodies A and B, or of A and a flat boundary B: the surface on which the scales of
+// both are equal and at most 1, with the pressure p = K length (1 - s), K the caller's stiffness per area
+// (force/length^3). What is proportional to K is given over K. World axes; lengths in the caller's unit.
+// Its normal n points from A to B.
+typedef struct pp_patch {
+    // Sum of PP_PATCH_... bits.
+    uint32_t flags;
+    // Number of rays over which was walked.
+    uint32_t rays;
+    // Estimated error of the force over its size, of the torque over |force| times the reach of the patch,
+    // and of the energy, if asked for, over itself: the largest.
+    double error;
+    // Estimated relative error of the area.
+    double area_error;
+    // pp_particle_depth_length of A, plus that of B for two particles.
+    double length;
+    // Integral of p n over K: the force on B (minus that on A) over K, length^3.
+    double force[3];
+    // Torque of that on B about the point of the contact (of a boundary: on_boundary) over K, length^4.
+    double torque[3];
+    // The point of the axis of the wrench that lies in the plane of the patch, world frame: where a law
+    // applies the force.
+    double pressure_centre[3];
+    // The same minus position of A.
+    double branch_a[3];
+    // The same minus position of B (of a boundary: of A).
+    double branch_b[3];
+    // Couple along that axis, torque . force / |force|, over K, length^4.
+    double couple;
+    // Area, length^2.
+    double area;
+    // Centroid minus pressure_centre.
+    double centroid[3];
+    // xx, yy, zz, xy, yz, zx of the integral of y y^T over the area about the centroid, length^4.
+    double second_moment[6];
+    // Integral of |y|^2 over the area, y from the axis of the wrench, length^4.
+    double polar_moment;
+    // Integral of p |y| over that of p: the lever of friction against twist, length.
+    double twist_lever;
+    // Mean of p/K, an overlap, length.
+    double mean_depth;
+    // Largest p/K, that of the contact point, length.
+    double largest_depth;
+    // Elastic energy over K, length^4; NaN unless asked for.
+    double energy;
+} pp_patch;
+
+// A point of quadrature on a patch.
+typedef struct pp_patch_point {
+    // Its place minus the point of the contact (of a boundary: on_boundary), world axes.
+    double position[3];
+    // Its share of the area, length^2.
+    double area;
+    // p/K there, length.
+    double depth;
+    // Unit normal of the patch, from A to B, world axes.
+    double normal[3];
+} pp_patch_point;
+
 // Where a body of the plane is: world = rotation(angle) * local + position.
 typedef struct pp_pose_2d {
     // Centre of the particle (origin of its local frame), world frame, length units of the caller.
@@ -519,6 +603,53 @@ typedef struct pp_closest_2d {
     // The point minus position of B.
     double branch_b[2];
 } pp_closest_2d;
+
+// The contact patch of two particles of the plane, a curve: the fields of struct pp_patch, with lengths in
+// place of areas, all per unit of thickness.
+typedef struct pp_patch_2d {
+    // Sum of PP_PATCH_... bits.
+    uint32_t flags;
+    // Always 0.
+    uint32_t reserved;
+    // Estimated error of the force over its size.
+    double error;
+    // The length by which 1 - s is multiplied, of A and B together.
+    double depth_length;
+    // The force on B over K, length^2.
+    double force[2];
+    // The torque on B about the contact point over K, anticlockwise, length^3.
+    double torque;
+    // The point on the line of action at the height of the patch, world frame.
+    double pressure_centre[2];
+    // The same minus position of A.
+    double branch_a[2];
+    // The same minus position of B.
+    double branch_b[2];
+    // Length of the patch.
+    double length;
+    // Centroid minus pressure_centre.
+    double centroid[2];
+    // Integral of |y|^2 over the length about the centroid, length^3.
+    double second_moment;
+    // Mean of p/K, an overlap, length.
+    double mean_depth;
+    // Largest p/K, that of the contact point, length.
+    double largest_depth;
+    // Elastic energy over K, length^3; NaN unless asked for.
+    double energy;
+} pp_patch_2d;
+
+// A point of quadrature on a patch of the plane.
+typedef struct pp_patch_point_2d {
+    // Its place minus the contact point, world axes.
+    double position[2];
+    // Its share of the length.
+    double length;
+    // p/K there, length.
+    double depth;
+    // Unit normal of the patch, from A to B, world axes.
+    double normal[2];
+} pp_patch_point_2d;
 
 // Area and second moments of a particle of the plane of unit density, in its local frame.
 typedef struct pp_area_properties {
@@ -848,6 +979,69 @@ pp_status pp_particle_planes(const struct pp_particle *particle,
                              size_t capacity,
                              size_t *count);
 
+// The length by which 1 - s is multiplied to give a depth below the surface: r/|n| for k = 0, R for k = 1; in
+// between the inverse slope of s at the face nearest to the centre. A constant of the particle.
+//
+// Errors: PP_NULL_POINTER.
+pp_status pp_particle_depth_length(const struct pp_particle *particle,
+                                   double *length);
+
+// The patch of an overlapping contact of A with B.
+//
+// contact: an answer of pp_contact_detect for the same particles and poses. tolerance: relative, in
+// [1e-12, 0.1]; 1e-4 is a good choice. with_energy: 0 or 1. points: receives the points of quadrature, if
+// capacity is not 0; may be NULL then. count: receives their number; may be NULL with a capacity of 0.
+// Buffers: the library keeps some 100 kilobytes for each thread that calls this, until the thread ends.
+// Errors: PP_NULL_POINTER, PP_BAD_POSITION, PP_BAD_ORIENTATION, PP_BAD_POINT (the contact was not filled, or is
+// separated), PP_BAD_SETTING (tolerance, with_energy), PP_BUFFER_TOO_SMALL (count receives the needed size).
+pp_status pp_patch_of_contact(const struct pp_particle *a,
+                              const struct pp_pose *pose_a,
+                              const struct pp_particle *b,
+                              const struct pp_pose *pose_b,
+                              const struct pp_contact *contact,
+                              double tolerance,
+                              uint32_t with_energy,
+                              struct pp_patch *patch,
+                              struct pp_patch_point *points,
+                              size_t capacity,
+                              size_t *count);
+
+// The patch of an overlapping contact of A with a plane: the part of the plane inside A. Its normal is that
+// of the contact, from A to the plane.
+//
+// contact: an answer of pp_contact_plane for the same particle and pose. The rest as for pp_patch_of_contact.
+// Errors: those of pp_patch_of_contact.
+pp_status pp_patch_on_plane(const struct pp_particle *a,
+                            const struct pp_pose *pose_a,
+                            const struct pp_flat_contact *contact,
+                            double tolerance,
+                            uint32_t with_energy,
+                            struct pp_patch *patch,
+                            struct pp_patch_point *points,
+                            size_t capacity,
+                            size_t *count);
+
+// The patch of an overlapping contact of A with a triangle: the part of the triangle inside A. Patches of
+// coplanar triangles add up to that of the slab they cover, and those of a closed mesh to force, torque and
+// energy of the mesh.
+//
+// vertices: as for pp_contact_triangle. from_front: 1 where A presses on its front, from which the vertices run
+// counter-clockwise, as for a closed mesh seen from outside; 0 for its back. contact: an answer of
+// pp_contact_triangle for the same particle, pose and vertices. The rest as for pp_patch_of_contact.
+// Pointers: vertices holds 9 numbers.
+// Errors: those of pp_patch_of_contact, and PP_DEGENERATE_TRIANGLE.
+pp_status pp_patch_on_triangle(const struct pp_particle *a,
+                               const struct pp_pose *pose_a,
+                               const double *vertices,
+                               uint32_t from_front,
+                               const struct pp_flat_contact *contact,
+                               double tolerance,
+                               uint32_t with_energy,
+                               struct pp_patch *patch,
+                               struct pp_patch_point *points,
+                               size_t capacity,
+                               size_t *count);
+
 // Finds the contacts of many pairs of bodies of the plane: pp_contact_detect_batch with two coordinates,
 // where every argument, status and error is explained.
 //
@@ -987,6 +1181,21 @@ pp_status pp_particle_lines_2d(const struct pp_particle_2d *particle,
                                double *lines,
                                size_t capacity,
                                size_t *count);
+
+// The patch of an overlapping contact of two particles of the plane. As pp_patch_of_contact.
+//
+// Errors: those of pp_patch_of_contact.
+pp_status pp_patch_of_contact_2d(const struct pp_particle_2d *a,
+                                 const struct pp_pose_2d *pose_a,
+                                 const struct pp_particle_2d *b,
+                                 const struct pp_pose_2d *pose_b,
+                                 const struct pp_contact_2d *contact,
+                                 double tolerance,
+                                 uint32_t with_energy,
+                                 struct pp_patch_2d *patch,
+                                 struct pp_patch_point_2d *points,
+                                 size_t capacity,
+                                 size_t *count);
 
 // f = S - 1 at a world point (2 doubles), and its gradient (2 doubles, world axes, 1/length; may
 // be NULL).

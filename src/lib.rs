@@ -22,6 +22,7 @@
 //! | `contact` | point, normal and overlap from a solution; [`detect`](detect()), the whole on one screen; many pairs at once |
 //! | `section` | the contact area |
 //! | `boundary` | the contact with a flat boundary: a plane, or a triangle of a mesh |
+//! | `patch` | the contact patch: pressure, force, torque, area, energy |
 //! | `surface` | a closed mesh of triangles on the surface |
 //! | [`packing`] | bodies placed in a container without overlap, as a start for a simulation |
 //! | [`planar`] | the same for particles of the plane |
@@ -67,6 +68,7 @@ mod model;
 pub mod packing;
 mod pair;
 mod particle;
+mod patch;
 pub mod planar;
 mod pose;
 #[cfg(feature = "cone-program")]
@@ -91,6 +93,10 @@ pub use pair::pair_state::PairState;
 pub use pair::role::Role;
 pub use particle::mass_properties::{MASS_TOLERANCE, MassProperties};
 pub use particle::particle::{MAX_PLANES, Particle, ParticleError, Plane};
+pub use patch::{
+    Patch, PatchError, PatchFlags, PatchPoint, PatchScratch, PatchSettings, patch_of_contact, patch_on_plane,
+    patch_on_triangle,
+};
 pub use pose::{Pose, PoseError};
 pub use section::Section;
 pub use settings::{BackEnd, Formulation, Settings, SettingsError};

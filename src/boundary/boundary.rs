@@ -102,6 +102,16 @@ impl Triangle {
         Ok(Self { vertices, normal, base, condition: product / area })
     }
 
+    /// The vertices, world frame.
+    pub(crate) fn vertices(&self) -> &[Vector3<f64>; 3] {
+        &self.vertices
+    }
+
+    /// Unit normal, world frame: from its front the vertices run counter-clockwise.
+    pub(crate) fn normal(&self) -> &Vector3<f64> {
+        &self.normal
+    }
+
     /// Its plane.
     pub(super) fn inside(&self) -> BoundaryPart {
         let vertices = [0, 1, 2].map(|i| self.vertices[(self.base + i) % 3]);

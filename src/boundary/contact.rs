@@ -278,6 +278,12 @@ impl FlatContact {
         }
     };
 
+    /// What the patch of a contact is computed from.
+    #[cfg(feature = "capi")]
+    pub(crate) fn for_patch(kind: Kind, s: f64, overlap: f64, normal: Vector3<f64>, on_boundary: Vector3<f64>) -> Self {
+        Self { kind, s, overlap, normal, on_boundary, ..Self::UNKNOWN }
+    }
+
     fn apart(proof: &Apart) -> Self {
         let flags = proof.by.with(Flags::REJECTED);
         Self { flags, s: 1.0, distance: proof.distance, ..Self::UNKNOWN }

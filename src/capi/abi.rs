@@ -2,7 +2,8 @@
 
 use super::flat::pp_flat_contact;
 use super::packing::{pp_packing, pp_placement};
-use super::planar::{pp_area_properties, pp_closest_2d, pp_contact_2d, pp_pose_2d};
+use super::patch::{pp_patch, pp_patch_point};
+use super::planar::{pp_area_properties, pp_closest_2d, pp_contact_2d, pp_patch_2d, pp_patch_point_2d, pp_pose_2d};
 use super::types::{pp_closest, pp_contact, pp_mass_properties, pp_pair_state, pp_pose, pp_settings};
 use std::ffi::{CStr, c_char};
 
@@ -45,6 +46,14 @@ pub const PP_STRUCT_PLACEMENT: u32 = 15;
 pub const PP_STRUCT_FLAT_CONTACT: u32 = 13;
 /// struct pp_pair_state, for pp_struct_size.
 pub const PP_STRUCT_PAIR_STATE: u32 = 16;
+/// struct pp_patch, for pp_struct_size.
+pub const PP_STRUCT_PATCH: u32 = 17;
+/// struct pp_patch_point, for pp_struct_size.
+pub const PP_STRUCT_PATCH_POINT: u32 = 18;
+/// struct pp_patch_2d, for pp_struct_size.
+pub const PP_STRUCT_PATCH_2D: u32 = 19;
+/// struct pp_patch_point_2d, for pp_struct_size.
+pub const PP_STRUCT_PATCH_POINT_2D: u32 = 20;
 
 /// Version of the loaded library as "major.minor.patch". Static text: do not free it.
 #[unsafe(no_mangle)]
@@ -80,6 +89,10 @@ pub extern "C" fn pp_struct_size(which: u32) -> usize {
         PP_STRUCT_PLACEMENT => size_of::<pp_placement>(),
         PP_STRUCT_FLAT_CONTACT => size_of::<pp_flat_contact>(),
         PP_STRUCT_PAIR_STATE => size_of::<pp_pair_state>(),
+        PP_STRUCT_PATCH => size_of::<pp_patch>(),
+        PP_STRUCT_PATCH_POINT => size_of::<pp_patch_point>(),
+        PP_STRUCT_PATCH_2D => size_of::<pp_patch_2d>(),
+        PP_STRUCT_PATCH_POINT_2D => size_of::<pp_patch_point_2d>(),
         _ => 0,
     }
 }

@@ -158,7 +158,7 @@ pub unsafe extern "C" fn pp_flat_contact_area(
     })
 }
 
-fn boundary_status(error: BoundaryError) -> pp_status {
+pub(super) fn boundary_status(error: BoundaryError) -> pp_status {
     match error {
         BoundaryError::Point(..) | BoundaryError::Normal(..) => PP_BAD_POINT,
         BoundaryError::Area(_) => PP_DEGENERATE_TRIANGLE,

@@ -142,6 +142,15 @@ impl Particle {
         self.shape.shadow_radius
     }
 
+    /// ℓ, by which 1 − s is multiplied to give a depth below the surface: exact, to first order, at the middle of the face that is
+    /// nearest to the centre, and a constant of the particle elsewhere. Length.
+    ///
+    /// 1/ℓ is the slope of s at that face, at the distance h from the centre where S = 1 with this plane alone:
+    /// √((1−k)(1 − k h²/R²))·|n|/r + k h/R². That is r/|n| for k = 0 and R for k = 1.
+    pub fn depth_length(&self) -> f64 {
+        self.shape.depth_length
+    }
+
     /// Whether the planes alone enclose a volume. Where they do not (no planes, or one left out), only the shadow sphere bounds
     /// the particle, at R/√k: for k > 0 that is valid, and seldom meant.
     pub fn planes_enclose(&self) -> bool {

@@ -35,6 +35,8 @@ pub struct Shape {
     pub(crate) plane_weight: f64,
     /// k/R², the weight of the shadow sphere in S; 0 for k = 0.
     pub(crate) sphere_weight: f64,
+    /// See `Particle::depth_length`.
+    pub(crate) depth_length: f64,
     pub(crate) bounds: Bounds,
     pub(crate) clusters: PlaneClusters,
     /// For each row, the index of its plane among those given.
@@ -68,8 +70,10 @@ impl Shape {
         if !rows.is_empty() && plane_weight.sqrt() * bounds.radius > MOST_RADII {
             return Err(ParticleError::RoundingTooSmall { r, radius: bounds.radius });
         }
+        let depth_length = depth_length(&rows, plane_weight, sphere_weight, shadow_radius);
         Ok(Self {
             rows,
+            depth_length,
             dimensions,
             rounding_radius: r,
             sphericity: k,
@@ -87,6 +91,7 @@ impl Shape {
         let (clusters, order) = PlaneClusters::none(0);
         Self {
             rows: Box::default(),
+            depth_length: f64::INFINITY,
             dimensions,
             rounding_radius: 0.0,
             sphericity: 1.0,
@@ -219,6 +224,28 @@ fn potential_at_origin(rows: &[[f64; 4]], plane_weight: f64) -> f64 {
         return 0.0;
     }
     plane_weight * rows.iter().map(|row| (-row[3]).max(0.0)).fold(0.0, |sum, excess| sum + excess * excess)
+}
+
+/// The inverse of the slope of s where the ray along the normal of the nearest plane leaves S = 1 with this plane alone.
+fn depth_length(rows: &[[f64; 4]], plane_weight: f64, sphere_weight: f64, shadow_radius: f64) -> f64 {
+    let nearest = rows
+        .iter()
+        .map(|[a, b, c, d]| (a.hypot(*b).hypot(*c), *d))
+        .min_by(|(n, d), (m, e)| (d / n).total_cmp(&(e / m)))
+        .filter(|_| plane_weight > 0.0);
+    let Some((length, offset)) = nearest else {
+        return if sphere_weight > 0.0 { 1.0 / sphere_weight.sqrt() } else { shadow_radius };
+    };
+    // The larger root h of w (|n| h − d)² + m h² = 1, and the excess |n| h − d there.
+    let curvature = plane_weight * length * length + sphere_weight;
+    let root = (curvature - sphere_weight * plane_weight * offset * offset).sqrt();
+    if !(root > 0.0) {
+        // The shadow sphere ends before the plane.
+        return 1.0 / sphere_weight.sqrt();
+    }
+    let height = (plane_weight * length * offset + root) / curvature;
+    let excess = (length * root - offset * sphere_weight) / curvature;
+    1.0 / (plane_weight * length * excess + sphere_weight * height)
 }
 
 /// The error that names the plane furthest behind the origin.

@@ -25,6 +25,7 @@ mod polygon;
 mod pose;
 mod section;
 
+pub use crate::patch::planar::{Patch, PatchPoint, patch_of_contact};
 pub use area_properties::AreaProperties;
 pub use batch::detect_batch;
 pub use closest_point::{ClosestPoint, closest_point};

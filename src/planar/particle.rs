@@ -150,6 +150,16 @@ impl Particle {
         self.0.shadow_radius()
     }
 
+    /// ℓ, by which 1 − s is multiplied to give a depth below the boundary: as of [`crate::Particle::depth_length`].
+    pub fn depth_length(&self) -> f64 {
+        self.0.depth_length()
+    }
+
+    /// The particle of space.
+    pub(crate) fn in_space(&self) -> &particle::Particle {
+        &self.0
+    }
+
     /// Radius about the local origin of a circle that holds the whole particle.
     pub fn bounding_radius(&self) -> f64 {
         self.0.bounding_radius()

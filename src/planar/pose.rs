@@ -73,7 +73,7 @@ impl Pose {
         self.rotation * local
     }
 
-    pub(super) fn in_space(&self) -> pose::Pose {
+    pub(crate) fn in_space(&self) -> pose::Pose {
         self.in_space
     }
 }

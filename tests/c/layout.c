@@ -17,8 +17,12 @@ static void sizes_are_those_of_the_library(void) {
     CHECK(pp_struct_size(PP_STRUCT_FLAT_CONTACT) == sizeof(pp_flat_contact));
     CHECK(pp_struct_size(PP_STRUCT_PACKING) == sizeof(pp_packing));
     CHECK(pp_struct_size(PP_STRUCT_PLACEMENT) == sizeof(pp_placement));
+    CHECK(pp_struct_size(PP_STRUCT_PATCH) == sizeof(pp_patch));
+    CHECK(pp_struct_size(PP_STRUCT_PATCH_POINT) == sizeof(pp_patch_point));
+    CHECK(pp_struct_size(PP_STRUCT_PATCH_2D) == sizeof(pp_patch_2d));
+    CHECK(pp_struct_size(PP_STRUCT_PATCH_POINT_2D) == sizeof(pp_patch_point_2d));
     /* 3, 10 and 11 were structs of an older interface. */
-    const uint32_t unknown[] = {0, 3, 10, 11, 17, UINT32_MAX};
+    const uint32_t unknown[] = {0, 3, 10, 11, 21, UINT32_MAX};
     for (int i = 0; i < 6; i++) CHECK(pp_struct_size(unknown[i]) == 0);
 }
 
@@ -91,6 +95,25 @@ void test_layout(void) {
     CHECK(offsetof(pp_flat_contact, branch) == 104);
     CHECK(offsetof(pp_flat_contact, on_boundary) == 128);
     CHECK(offsetof(pp_flat_contact, on_particle) == 152);
+
+    CHECK(sizeof(pp_patch) == 280);
+    CHECK(offsetof(pp_patch, flags) == 0);
+    CHECK(offsetof(pp_patch, error) == 8);
+    CHECK(offsetof(pp_patch, length) == 24);
+    CHECK(offsetof(pp_patch, force) == 32);
+    CHECK(offsetof(pp_patch, torque) == 56);
+    CHECK(offsetof(pp_patch, pressure_centre) == 80);
+    CHECK(offsetof(pp_patch, branch_a) == 104);
+    CHECK(offsetof(pp_patch, branch_b) == 128);
+    CHECK(offsetof(pp_patch, couple) == 152);
+    CHECK(offsetof(pp_patch, area) == 160);
+    CHECK(offsetof(pp_patch, centroid) == 168);
+    CHECK(offsetof(pp_patch, second_moment) == 192);
+    CHECK(offsetof(pp_patch, polar_moment) == 240);
+    CHECK(offsetof(pp_patch, twist_lever) == 248);
+    CHECK(offsetof(pp_patch, mean_depth) == 256);
+    CHECK(offsetof(pp_patch, energy) == 272);
+    CHECK(sizeof(pp_patch_point) == 64);
 
     CHECK(sizeof(pp_mass_properties) == 88);
     CHECK(offsetof(pp_mass_properties, volume) == 0);

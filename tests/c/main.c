@@ -40,5 +40,6 @@ int main(int count, char **arguments) {
     test_planar_batch();
     test_planar_closest();
     test_packing();
+    test_patch();
     return check_report();
 }

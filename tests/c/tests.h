@@ -25,5 +25,6 @@ void test_planar(void);
 void test_planar_batch(void);
 void test_planar_closest(void);
 void test_packing(void);
+void test_patch(void);
 
 #endif

@@ -4,11 +4,13 @@ mod batch;
 mod contact;
 mod convert;
 mod particle;
+mod patch;
 mod shape;
 mod types;
 
 pub use batch::*;
 pub use contact::*;
 pub use particle::*;
+pub use patch::*;
 pub use shape::*;
 pub use types::*;

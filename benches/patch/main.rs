@@ -1,0 +1,67 @@
+//! Contact patches: accuracy against closed forms and the gradient of their energy, time by kind of contact. Results go to
+//! out/patch/summary.json; `-- quick` takes a little of everything.
+
+mod accuracy;
+#[path = "../../tests/patch/bodies.rs"]
+mod bodies;
+mod cases;
+#[path = "../scene/mod.rs"]
+mod scene;
+mod speed;
+
+use serde_json::{Value, json};
+
+fn at_most(name: &str, target: f64, measured: f64) -> Value {
+    let met = measured <= target;
+    println!("{} {name}: {measured:.3e} (at most {target:e})", if met { "met   " } else { "MISSED" });
+    json!({"name": name, "sense": "at most", "target": target, "measured": measured, "met": met})
+}
+
+/// The most units of a kind at a tolerance.
+fn units(kinds: &[Value], tolerance: f64, is_meant: impl Fn(&str) -> bool) -> f64 {
+    let meant = kinds.iter().filter(|kind| is_meant(kind["kind"].as_str().unwrap_or_default()));
+    let rows = meant.flat_map(|kind| kind["rows"].as_array().into_iter().flatten());
+    let at = rows.filter(|row| row["tolerance"] == json!(tolerance));
+    at.filter_map(|row| row["units"].as_f64()).fold(0.0, f64::max)
+}
+
+fn main() {
+    let quick = std::env::args().any(|argument| argument == "quick");
+    let mut targets = Vec::new();
+    let [within, beyond] = accuracy::faces();
+    targets.push(at_most("flat faces: N and M, tilt within the base, relative error", 1e-4, within));
+    targets.push(at_most("flat faces: N and contact length, uplift, relative error", 1e-4, beyond));
+    targets.push(at_most("sphere on plane and sphere, crossed cylinders: N, relative error", 1e-3, accuracy::round()));
+    let [square, disc] = accuracy::levers();
+    targets.push(at_most("twist of a square: lever, relative error", 2e-3, square));
+    targets.push(at_most("twist of a disc: lever, relative error", 2e-3, disc));
+    targets.push(at_most("couple of crossed edges, relative error", 1e-3, accuracy::crossed()[1]));
+    let pairs = if quick { 60 } else { 2000 };
+    let ([worst, most], folded) = accuracy::gradients(pairs);
+    println!("{pairs} pairs, of which {folded} fold");
+    targets.push(at_most("force and torque against the gradient of the energy: worst pair", 1e-6, worst));
+    targets.push(at_most("force and torque against the gradient of the energy: 99 of 100 pairs", 1e-6, most));
+    let places = if quick { 10 } else { 100 };
+    targets.push(at_most("tiles and one slab, at a tolerance of 1e-4: N", 1e-9, accuracy::tiles(places, 1e-4)));
+    targets.push(at_most("tiles and one slab, at a tolerance of 1e-10: N", 1e-9, accuracy::tiles(places, 1e-10)));
+    let (unit, kinds) = speed::measure(quick);
+    let face = |kind: &str| kind.starts_with("face");
+    let corner = |kind: &str| kind.starts_with("corner") || kind.starts_with("crossed");
+    for (tolerance, factor) in [(1e-4, 1.0), (1e-6, 2.0)] {
+        let name = |kind: &str| format!("{kind} at {tolerance:e}: evaluations of both bodies");
+        targets.push(at_most(&name("face on face"), 250.0 * factor, units(&kinds, tolerance, face)));
+        targets.push(at_most(&name("corner on face, crossed edges"), 120.0 * factor, units(&kinds, tolerance, corner)));
+        targets.push(at_most(
+            &name("edge on face"),
+            300.0 * factor,
+            units(&kinds, tolerance, |k| k.starts_with("edge")),
+        ));
+    }
+    let many = units(&kinds, 1e-4, |kind| kind.starts_with("300"));
+    targets.push(at_most("300 + 300 planes at 1e-4: evaluations of both bodies", 1500.0, many));
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/out/patch");
+    std::fs::create_dir_all(folder).expect("out/patch");
+    let summary = json!({"targets": targets, "unit_seconds": unit, "pairs": pairs, "folded": folded, "kinds": kinds});
+    let text = serde_json::to_string_pretty(&summary).expect("plain values");
+    std::fs::write(format!("{folder}/summary.json"), text).expect("out/patch/summary.json");
+}

@@ -1,0 +1,305 @@
+//! The contact patch.
+
+use super::convert::pose_from;
+use super::fence::{Output, borrow, check_room, fenced, output, outputs};
+use super::flat::{boundary_status, pp_flat_contact};
+use super::particle::pp_particle;
+use super::status::*;
+use super::types::*;
+use crate::contact::contact::{Contact, Kind};
+use crate::{FlatContact, Patch, PatchError, PatchPoint, PatchScratch, PatchSettings, Triangle};
+use crate::{patch_of_contact, patch_on_plane, patch_on_triangle};
+use std::cell::RefCell;
+
+/// The patch turns back under itself (deep overlaps of round bodies): what lies beyond is left out.
+pub const PP_PATCH_FOLDED: u32 = 1;
+/// The tolerance was not reached; error tells how far off the answer may be.
+pub const PP_PATCH_TOLERANCE_NOT_REACHED: u32 = 2;
+/// The contact point lies in the core of both bodies (s is 0 or nearly): the patch is that of slightly
+/// rounder bodies.
+pub const PP_PATCH_DEEP: u32 = 4;
+/// No patch was found around the contact point, and force and area are 0: an overlap within rounding.
+pub const PP_PATCH_EMPTY: u32 = 8;
+
+/// The contact patch of two bodies A and B, or of A and a flat boundary B: the surface on which the scales of
+/// both are equal and at most 1, with the pressure p = K length (1 - s), K the caller's stiffness per area
+/// (force/length^3). What is proportional to K is given over K. World axes; lengths in the caller's unit.
+/// Its normal n points from A to B.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct pp_patch {
+    /// Sum of PP_PATCH_... bits.
+    pub flags: u32,
+    /// Number of rays over which was walked.
+    pub rays: u32,
+    /// Estimated error of the force over its size, of the torque over |force| times the reach of the patch,
+    /// and of the energy, if asked for, over itself: the largest.
+    pub error: f64,
+    /// Estimated relative error of the area.
+    pub area_error: f64,
+    /// pp_particle_depth_length of A, plus that of B for two particles.
+    pub length: f64,
+    /// Integral of p n over K: the force on B (minus that on A) over K, length^3.
+    pub force: [f64; 3],
+    /// Torque of that on B about the point of the contact (of a boundary: on_boundary) over K, length^4.
+    pub torque: [f64; 3],
+    /// The point of the axis of the wrench that lies in the plane of the patch, world frame: where a law
+    /// applies the force.
+    pub pressure_centre: [f64; 3],
+    /// The same minus position of A.
+    pub branch_a: [f64; 3],
+    /// The same minus position of B (of a boundary: of A).
+    pub branch_b: [f64; 3],
+    /// Couple along that axis, torque . force / |force|, over K, length^4.
+    pub couple: f64,
+    /// Area, length^2.
+    pub area: f64,
+    /// Centroid minus pressure_centre.
+    pub centroid: [f64; 3],
+    /// xx, yy, zz, xy, yz, zx of the integral of y y^T over the area about the centroid, length^4.
+    pub second_moment: [f64; 6],
+    /// Integral of |y|^2 over the area, y from the axis of the wrench, length^4.
+    pub polar_moment: f64,
+    /// Integral of p |y| over that of p: the lever of friction against twist, length.
+    pub twist_lever: f64,
+    /// Mean of p/K, an overlap, length.
+    pub mean_depth: f64,
+    /// Largest p/K, that of the contact point, length.
+    pub largest_depth: f64,
+    /// Elastic energy over K, length^4; NaN unless asked for.
+    pub energy: f64,
+}
+
+/// A point of quadrature on a patch.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct pp_patch_point {
+    /// Its place minus the point of the contact (of a boundary: on_boundary), world axes.
+    pub position: [f64; 3],
+    /// Its share of the area, length^2.
+    pub area: f64,
+    /// p/K there, length.
+    pub depth: f64,
+    /// Unit normal of the patch, from A to B, world axes.
+    pub normal: [f64; 3],
+}
+
+thread_local! {
+    /// Buffers of the last patch of this thread.
+    static SCRATCH: RefCell<PatchScratch> = RefCell::new(PatchScratch::new());
+}
+
+/// The length by which 1 - s is multiplied to give a depth below the surface: r/|n| for k = 0, R for k = 1; in
+/// between the inverse slope of s at the face nearest to the centre. A constant of the particle.
+///
+/// Errors: PP_NULL_POINTER.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn pp_particle_depth_length(particle: *const pp_particle, length: *mut f64) -> pp_status {
+    fenced(|| {
+        let particle = unsafe { &borrow(particle)?.0 };
+        unsafe { output(length) }?.write(particle.depth_length());
+        Ok(())
+    })
+}
+
+/// The patch of an overlapping contact of A with B.
+///
+/// contact: an answer of pp_contact_detect for the same particles and poses. tolerance: relative, in
+/// [1e-12, 0.1]; 1e-4 is a good choice. with_energy: 0 or 1. points: receives the points of quadrature, if
+/// capacity is not 0; may be NULL then. count: receives their number; may be NULL with a capacity of 0.
+/// Buffers: the library keeps some 100 kilobytes for each thread that calls this, until the thread ends.
+/// Errors: PP_NULL_POINTER, PP_BAD_POSITION, PP_BAD_ORIENTATION, PP_BAD_POINT (the contact was not filled, or is
+/// separated), PP_BAD_SETTING (tolerance, with_energy), PP_BUFFER_TOO_SMALL (count receives the needed size).
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn pp_patch_of_contact(
+    a: *const pp_particle,
+    pose_a: *const pp_pose,
+    b: *const pp_particle,
+    pose_b: *const pp_pose,
+    contact: *const pp_contact,
+    tolerance: f64,
+    with_energy: u32,
+    patch: *mut pp_patch,
+    points: *mut pp_patch_point,
+    capacity: usize,
+    count: *mut usize,
+) -> pp_status {
+    fenced(|| {
+        let (a, b) = unsafe { (&borrow(a)?.0, &borrow(b)?.0) };
+        let (pose_a, pose_b) = unsafe { (pose_from(borrow(pose_a)?)?, pose_from(borrow(pose_b)?)?) };
+        let contact = unsafe { borrow(contact) }?;
+        let settings = settings(tolerance, with_energy)?;
+        let contact = Contact {
+            kind: kind(contact.kind)?,
+            s: contact.s,
+            overlap: contact.overlap,
+            normal: contact.normal.into(),
+            branch_a: contact.branch_a.into(),
+            branch_b: contact.branch_b.into(),
+            ..Contact::UNKNOWN
+        };
+        let out = unsafe { output(patch) }?;
+        let run = |scratch: &mut PatchScratch, visit: &mut dyn FnMut(PatchPoint)| {
+            patch_of_contact(a, &pose_a, b, &pose_b, &contact, &settings, scratch, visit)
+        };
+        unsafe { answer(run, &out, points, capacity, count) }
+    })
+}
+
+/// The patch of an overlapping contact of A with a plane: the part of the plane inside A. Its normal is that
+/// of the contact, from A to the plane.
+///
+/// contact: an answer of pp_contact_plane for the same particle and pose. The rest as for pp_patch_of_contact.
+/// Errors: those of pp_patch_of_contact.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn pp_patch_on_plane(
+    a: *const pp_particle,
+    pose_a: *const pp_pose,
+    contact: *const pp_flat_contact,
+    tolerance: f64,
+    with_energy: u32,
+    patch: *mut pp_patch,
+    points: *mut pp_patch_point,
+    capacity: usize,
+    count: *mut usize,
+) -> pp_status {
+    fenced(|| {
+        let (a, pose) = unsafe { (&borrow(a)?.0, pose_from(borrow(pose_a)?)?) };
+        let contact = flat(unsafe { borrow(contact) }?)?;
+        let settings = settings(tolerance, with_energy)?;
+        let out = unsafe { output(patch) }?;
+        let run = |scratch: &mut PatchScratch, visit: &mut dyn FnMut(PatchPoint)| {
+            patch_on_plane(a, &pose, &contact, &settings, scratch, visit)
+        };
+        unsafe { answer(run, &out, points, capacity, count) }
+    })
+}
+
+/// The patch of an overlapping contact of A with a triangle: the part of the triangle inside A. Patches of
+/// coplanar triangles add up to that of the slab they cover, and those of a closed mesh to force, torque and
+/// energy of the mesh.
+///
+/// vertices: as for pp_contact_triangle. from_front: 1 where A presses on its front, from which the vertices run
+/// counter-clockwise, as for a closed mesh seen from outside; 0 for its back. contact: an answer of
+/// pp_contact_triangle for the same particle, pose and vertices. The rest as for pp_patch_of_contact.
+/// Pointers: vertices holds 9 numbers.
+/// Errors: those of pp_patch_of_contact, and PP_DEGENERATE_TRIANGLE.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn pp_patch_on_triangle(
+    a: *const pp_particle,
+    pose_a: *const pp_pose,
+    vertices: *const f64,
+    from_front: u32,
+    contact: *const pp_flat_contact,
+    tolerance: f64,
+    with_energy: u32,
+    patch: *mut pp_patch,
+    points: *mut pp_patch_point,
+    capacity: usize,
+    count: *mut usize,
+) -> pp_status {
+    fenced(|| {
+        let (a, pose) = unsafe { (&borrow(a)?.0, pose_from(borrow(pose_a)?)?) };
+        let [x0, y0, z0, x1, y1, z1, x2, y2, z2] = *unsafe { borrow(vertices.cast::<[f64; 9]>()) }?;
+        let triangle = Triangle::new([[x0, y0, z0], [x1, y1, z1], [x2, y2, z2]]).map_err(boundary_status)?;
+        let contact = flat(unsafe { borrow(contact) }?)?;
+        let settings = settings(tolerance, with_energy)?;
+        let front = is_on(from_front)?;
+        let out = unsafe { output(patch) }?;
+        let run = |scratch: &mut PatchScratch, visit: &mut dyn FnMut(PatchPoint)| {
+            patch_on_triangle(a, &pose, &triangle, front, &contact, &settings, scratch, visit)
+        };
+        unsafe { answer(run, &out, points, capacity, count) }
+    })
+}
+
+/// Runs with the scratch of this thread, and writes the answer and its points.
+///
+/// # Safety
+/// points is NULL or valid for writing `capacity` points, `count` NULL or valid for writing.
+unsafe fn answer(
+    run: impl Fn(&mut PatchScratch, &mut dyn FnMut(PatchPoint)) -> Result<Patch, PatchError>,
+    out: &Output<pp_patch>,
+    points: *mut pp_patch_point,
+    capacity: usize,
+    count: *mut usize,
+) -> Result<(), pp_status> {
+    check_room(points, capacity)?;
+    let count = if capacity == 0 && count.is_null() { None } else { Some(unsafe { output(count) }?) };
+    let places = unsafe { outputs(points, capacity) }?;
+    let mut next = 0;
+    let mut visit = |point: PatchPoint| {
+        if let Some(place) = places.get_mut(next) {
+            place.write(pp_patch_point {
+                position: point.position.into(),
+                area: point.area,
+                depth: point.depth,
+                normal: point.normal.into(),
+            });
+        }
+        next += 1;
+    };
+    let patch = SCRATCH.with_borrow_mut(|scratch| run(scratch, &mut visit)).map_err(patch_status)?;
+    if let Some(count) = count {
+        count.write(patch.points);
+    }
+    if capacity > 0 && patch.points > capacity {
+        return Err(PP_BUFFER_TOO_SMALL);
+    }
+    out.write(patch_to(&patch));
+    Ok(())
+}
+
+fn patch_to(patch: &Patch) -> pp_patch {
+    let m = &patch.second_moment;
+    pp_patch {
+        flags: patch.flags.bits(),
+        rays: patch.rays as u32,
+        error: patch.error,
+        area_error: patch.area_error,
+        length: patch.length,
+        force: patch.force.into(),
+        torque: patch.torque.into(),
+        pressure_centre: patch.pressure_centre.into(),
+        branch_a: patch.branch_a.into(),
+        branch_b: patch.branch_b.into(),
+        couple: patch.couple,
+        area: patch.area,
+        centroid: patch.centroid.into(),
+        second_moment: [m.m11, m.m22, m.m33, m.m12, m.m23, m.m31],
+        polar_moment: patch.polar_moment,
+        twist_lever: patch.twist_lever,
+        mean_depth: patch.mean_depth,
+        largest_depth: patch.largest_depth,
+        energy: patch.energy,
+    }
+}
+
+fn flat(contact: &pp_flat_contact) -> Result<FlatContact, pp_status> {
+    Ok(FlatContact::for_patch(
+        kind(contact.kind)?,
+        contact.s,
+        contact.overlap,
+        contact.normal.into(),
+        contact.on_boundary.into(),
+    ))
+}
+
+pub(super) fn kind(kind: i32) -> Result<Kind, pp_status> {
+    if kind == PP_OVERLAPPING { Ok(Kind::Overlapping) } else { Err(PP_BAD_POINT) }
+}
+
+pub(super) fn is_on(flag: u32) -> Result<bool, pp_status> {
+    if flag <= 1 { Ok(flag == 1) } else { Err(PP_BAD_SETTING) }
+}
+
+pub(super) fn settings(tolerance: f64, with_energy: u32) -> Result<PatchSettings, pp_status> {
+    Ok(PatchSettings { tolerance, with_energy: is_on(with_energy)? })
+}
+
+pub(super) fn patch_status(error: PatchError) -> pp_status {
+    match error {
+        PatchError::Tolerance(_) => PP_BAD_SETTING,
+        PatchError::Separated | PatchError::NotFinite => PP_BAD_POINT,
+    }
+}

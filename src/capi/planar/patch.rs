@@ -1,0 +1,144 @@
+//! The contact patch in the plane.
+
+use super::convert::pose_from;
+use super::particle::pp_particle_2d;
+use super::types::{pp_contact_2d, pp_pose_2d};
+use crate::PatchScratch;
+use crate::capi::fence::{borrow, check_room, fenced, output, outputs};
+use crate::capi::patch::{kind, patch_status, settings};
+use crate::capi::status::*;
+use crate::contact::contact as space;
+use crate::planar::{Contact, PatchPoint, patch_of_contact};
+use std::cell::RefCell;
+
+/// The contact patch of two particles of the plane, a curve: the fields of struct pp_patch, with lengths in
+/// place of areas, all per unit of thickness.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct pp_patch_2d {
+    /// Sum of PP_PATCH_... bits.
+    pub flags: u32,
+    /// Always 0.
+    pub reserved: u32,
+    /// Estimated error of the force over its size.
+    pub error: f64,
+    /// The length by which 1 - s is multiplied, of A and B together.
+    pub depth_length: f64,
+    /// The force on B over K, length^2.
+    pub force: [f64; 2],
+    /// The torque on B about the contact point over K, anticlockwise, length^3.
+    pub torque: f64,
+    /// The point on the line of action at the height of the patch, world frame.
+    pub pressure_centre: [f64; 2],
+    /// The same minus position of A.
+    pub branch_a: [f64; 2],
+    /// The same minus position of B.
+    pub branch_b: [f64; 2],
+    /// Length of the patch.
+    pub length: f64,
+    /// Centroid minus pressure_centre.
+    pub centroid: [f64; 2],
+    /// Integral of |y|^2 over the length about the centroid, length^3.
+    pub second_moment: f64,
+    /// Mean of p/K, an overlap, length.
+    pub mean_depth: f64,
+    /// Largest p/K, that of the contact point, length.
+    pub largest_depth: f64,
+    /// Elastic energy over K, length^3; NaN unless asked for.
+    pub energy: f64,
+}
+
+/// A point of quadrature on a patch of the plane.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct pp_patch_point_2d {
+    /// Its place minus the contact point, world axes.
+    pub position: [f64; 2],
+    /// Its share of the length.
+    pub length: f64,
+    /// p/K there, length.
+    pub depth: f64,
+    /// Unit normal of the patch, from A to B, world axes.
+    pub normal: [f64; 2],
+}
+
+thread_local! {
+    static SCRATCH: RefCell<PatchScratch> = RefCell::new(PatchScratch::new());
+}
+
+/// The patch of an overlapping contact of two particles of the plane. As pp_patch_of_contact.
+///
+/// Errors: those of pp_patch_of_contact.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn pp_patch_of_contact_2d(
+    a: *const pp_particle_2d,
+    pose_a: *const pp_pose_2d,
+    b: *const pp_particle_2d,
+    pose_b: *const pp_pose_2d,
+    contact: *const pp_contact_2d,
+    tolerance: f64,
+    with_energy: u32,
+    patch: *mut pp_patch_2d,
+    points: *mut pp_patch_point_2d,
+    capacity: usize,
+    count: *mut usize,
+) -> pp_status {
+    fenced(|| {
+        let (a, b) = unsafe { (&borrow(a)?.0, &borrow(b)?.0) };
+        let (pose_a, pose_b) = unsafe { (pose_from(borrow(pose_a)?)?, pose_from(borrow(pose_b)?)?) };
+        let contact = unsafe { borrow(contact) }?;
+        let settings = settings(tolerance, with_energy)?;
+        let contact = Contact {
+            kind: kind(contact.kind)?,
+            s: contact.s,
+            overlap: contact.overlap,
+            normal: contact.normal.into(),
+            branch_a: contact.branch_a.into(),
+            branch_b: contact.branch_b.into(),
+            ..Contact::from(space::Contact::UNKNOWN)
+        };
+        let out = unsafe { output(patch) }?;
+        check_room(points, capacity)?;
+        let count = if capacity == 0 && count.is_null() { None } else { Some(unsafe { output(count) }?) };
+        let places = unsafe { outputs(points, capacity) }?;
+        let mut next = 0;
+        let visit = |point: PatchPoint| {
+            if let Some(place) = places.get_mut(next) {
+                place.write(pp_patch_point_2d {
+                    position: point.position.into(),
+                    length: point.length,
+                    depth: point.depth,
+                    normal: point.normal.into(),
+                });
+            }
+            next += 1;
+        };
+        let patch = SCRATCH
+            .with_borrow_mut(|scratch| patch_of_contact(a, &pose_a, b, &pose_b, &contact, &settings, scratch, visit))
+            .map_err(patch_status)?;
+        if let Some(count) = count {
+            count.write(patch.points);
+        }
+        if capacity > 0 && patch.points > capacity {
+            return Err(PP_BUFFER_TOO_SMALL);
+        }
+        out.write(pp_patch_2d {
+            flags: patch.flags.bits(),
+            reserved: 0,
+            error: patch.error,
+            depth_length: patch.depth_length,
+            force: patch.force.into(),
+            torque: patch.torque,
+            pressure_centre: patch.pressure_centre.into(),
+            branch_a: patch.branch_a.into(),
+            branch_b: patch.branch_b.into(),
+            length: patch.length,
+            centroid: patch.centroid.into(),
+            second_moment: patch.second_moment,
+            mean_depth: patch.mean_depth,
+            largest_depth: patch.largest_depth,
+            energy: patch.energy,
+        });
+        Ok(())
+    })
+}

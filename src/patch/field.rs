@@ -1,0 +1,174 @@
+//! The potentials in the frame of a patch: origin at the contact point, axes u, v across the normal, z along it, from A to B.
+
+use crate::particle::particle::Particle;
+use crate::pose::Pose;
+use nalgebra::{Matrix3, Vector3};
+
+/// Which body a plane belongs to; the edges of a triangle bound the patch and belong to none.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Owner {
+    A,
+    B,
+    Edge,
+}
+
+/// A plane of a body that may be active on the patch.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct FramePlane {
+    pub normal: [f64; 3],
+    /// n·y − d at the origin of the frame.
+    pub excess: f64,
+    pub owner: Owner,
+}
+
+/// A particle as seen from the frame.
+#[derive(Clone, Copy)]
+pub(super) struct Placed<'a> {
+    particle: &'a Particle,
+    /// The axes of the frame (columns) and its origin, in the local frame of the particle.
+    axes: Matrix3<f64>,
+    origin: Vector3<f64>,
+    /// From the centre of the particle to the origin, in the frame.
+    pub from_centre: [f64; 3],
+    pub plane_weight: f64,
+    pub sphere_weight: f64,
+}
+
+impl<'a> Placed<'a> {
+    /// `branch`: from the centre of the particle to the origin of the frame, world axes; `frame`: its axes as columns, world axes.
+    pub fn new(
+        particle: &'a Particle,
+        pose: &Pose,
+        branch: &Vector3<f64>,
+        frame: &Matrix3<f64>,
+        least_sphericity: f64,
+    ) -> Self {
+        let least = least_sphericity / particle.bounding_radius().powi(2);
+        Self {
+            particle,
+            axes: pose.rotation().tr_mul(frame),
+            origin: pose.rotation().tr_mul(branch),
+            from_centre: frame.tr_mul(branch).into(),
+            plane_weight: particle.plane_weight,
+            sphere_weight: particle.sphere_weight.max(least),
+        }
+    }
+}
+
+/// One or two bodies, and those of their planes that may be active within a distance of the origin.
+pub(super) struct Field<'a, 's> {
+    pub a: Placed<'a>,
+    /// `None` for a rigid boundary: the patch then lies in the plane z = 0.
+    pub b: Option<Placed<'a>>,
+    pub planes: &'s mut Vec<FramePlane>,
+    /// Whether the bodies are particles of the plane v = 0.
+    pub is_planar: bool,
+    loaded: f64,
+    radius: f64,
+}
+
+impl<'a, 's> Field<'a, 's> {
+    /// With the planes within a distance, and edges that bound the patch (empty but for triangles).
+    pub fn new(
+        a: Placed<'a>,
+        b: Option<Placed<'a>>,
+        edges: &[FramePlane],
+        distance: f64,
+        planes: &'s mut Vec<FramePlane>,
+    ) -> Self {
+        planes.clear();
+        planes.extend_from_slice(edges);
+        let reach = |body: &Placed| body.particle.bounding_radius() + body.origin.norm();
+        let radius = b.iter().map(reach).fold(reach(&a), f64::min);
+        let mut field = Self { a, b, planes, is_planar: false, loaded: -1.0, radius };
+        field.load(distance);
+        field
+    }
+
+    /// Distance from the origin within which no plane is missing.
+    pub fn loaded(&self) -> f64 {
+        if self.loaded >= self.radius { f64::INFINITY } else { self.loaded }
+    }
+
+    /// Distance from the origin beyond which no point of the patch lies.
+    pub fn radius(&self) -> f64 {
+        self.radius
+    }
+
+    /// Loads the planes that may be active within a distance.
+    pub fn load(&mut self, distance: f64) {
+        let first = self.loaded < 0.0;
+        let distance = distance.min(self.radius * (1.0 + 1e-9));
+        let bodies = [(Some(self.a), Owner::A), (self.b, Owner::B)];
+        for (body, owner) in bodies.into_iter().filter_map(|(body, owner)| Some((body?, owner))) {
+            if body.particle.is_sphere() {
+                continue;
+            }
+            let longest = body.particle.bounds.longest_normal;
+            let (early, known) = (distance * longest, self.loaded * longest);
+            let planes = &mut *self.planes;
+            body.particle.visit_near(&body.origin, early, |_, n, excess| {
+                if excess > -early && (first || excess <= -known) {
+                    planes.push(FramePlane { normal: body.axes.tr_mul(&n).into(), excess, owner });
+                }
+            });
+        }
+        self.loaded = distance;
+    }
+
+    /// S_A and S_B (0 where there is none) and their slopes along z at a point of the frame.
+    pub fn values(&self, x: &[f64; 3]) -> [(f64, f64); 2] {
+        let mut sums = [(0.0, 0.0); 2];
+        for plane in self.planes.iter().filter(|plane| plane.owner != Owner::Edge) {
+            let excess = plane.excess + dot(&plane.normal, x);
+            if excess > 0.0 {
+                let sum = &mut sums[usize::from(plane.owner == Owner::B)];
+                *sum = (sum.0 + excess * excess, sum.1 + excess * plane.normal[2]);
+            }
+        }
+        let of = |body: &Placed, (square, slope): (f64, f64)| {
+            let y: [f64; 3] = std::array::from_fn(|i| body.from_centre[i] + x[i]);
+            let (w, m) = (body.plane_weight, body.sphere_weight);
+            (w * square + m * dot(&y, &y), 2.0 * (w * slope + m * y[2]))
+        };
+        [of(&self.a, sums[0]), self.b.map_or((0.0, 0.0), |b| of(&b, sums[1]))]
+    }
+
+    /// The height at which S_A = S_B above a point of the plane z = 0, sought from a height nearby: on the boundary 0.
+    ///
+    /// Newton's method with a bracket: S_A − S_B rises with z where the patch is a graph.
+    pub fn height(&self, u: f64, v: f64, from: f64) -> Option<f64> {
+        self.b?;
+        let (mut below, mut above) = (f64::NEG_INFINITY, f64::INFINITY);
+        let mut z = from;
+        for _ in 0..60 {
+            let [(a, slope_a), (b, slope_b)] = self.values(&[u, v, z]);
+            let (value, slope) = (a - b, slope_a - slope_b);
+            if value == 0.0 {
+                return Some(z);
+            }
+            if value < 0.0 {
+                below = z
+            } else {
+                above = z
+            }
+            let mut next = z - value / slope;
+            if !(next > below && next < above) {
+                let bracketed = below.is_finite() && above.is_finite();
+                if !bracketed && !(slope > 0.0) {
+                    return None;
+                }
+                next = if bracketed { 0.5 * (below + above) } else { next };
+            }
+            if (next - z).abs() <= 4.0 * f64::EPSILON * (z.abs() + (a + b) / slope.abs()) || next == z {
+                return Some(next);
+            }
+            z = next;
+        }
+        Some(z)
+    }
+}
+
+pub(super) fn dot(a: &[f64; 3], b: &[f64; 3]) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}

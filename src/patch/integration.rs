@@ -1,0 +1,222 @@
+//! From the potentials to the answer.
+
+use super::centre::{flattest_axis, middle, on_patch};
+use super::fan::{Fan, Integral};
+use super::field::{Field, FramePlane, Placed};
+use super::patch::{Patch, PatchFlags, PatchPoint};
+use super::ray::{Line, Node, Walker};
+use super::scratch::PatchScratch;
+use super::smoothness::norm;
+use nalgebra::{Matrix3, Vector3};
+
+/// Parts of the patch's reach by which the centre of pressure may lie off the centre of the rays before they start anew.
+const OFF_CENTRE: f64 = 0.25;
+
+/// Most such starts.
+const MOST_STARTS: usize = 3;
+
+/// What a patch is computed from.
+pub(super) struct Task<'a> {
+    pub a: Placed<'a>,
+    pub b: Option<Placed<'a>>,
+    /// The edges of a triangle.
+    pub edges: &'a [FramePlane],
+    /// A point inside the triangle, in its plane; for the others the origin.
+    pub inside: Option<[f64; 2]>,
+    /// The frame: columns u, v, normal, world axes.
+    pub frame: Matrix3<f64>,
+    /// ℓ.
+    pub length: f64,
+    /// From the centres of A and B to the contact point, world axes, and that of A in the world.
+    pub branches: [Vector3<f64>; 2],
+    pub position: Vector3<f64>,
+    /// Distance within which planes are loaded first.
+    pub near: f64,
+    pub tolerance: f64,
+    pub with_energy: bool,
+    pub flags: PatchFlags,
+}
+
+/// Computes the patch; its points are handed to `visit`.
+pub(super) fn patch(task: &Task, scratch: &mut PatchScratch, mut visit: impl FnMut(PatchPoint)) -> Patch {
+    let PatchScratch { planes, ray_planes, nodes, rays, sectors, stack } = scratch;
+    let mut field = Field::new(task.a, task.b, task.edges, task.near, planes);
+    let mut flags = task.flags;
+    let axis = flattest_axis(&field);
+    let order = if task.tolerance >= 1e-3 {
+        3
+    } else if task.tolerance >= 1e-7 {
+        5
+    } else {
+        8
+    };
+    let walker =
+        Walker { field: &mut field, planes: ray_planes, nodes, order: 2, with_energy: false, budget: f64::INFINITY };
+    let mut fan = Fan::new(walker, rays, sectors, stack, [0.0; 3], task.tolerance);
+    let start = on_patch(fan.walker.field, 0.0, 0.0, 0.0).unwrap_or_default();
+    let start = inwards(&mut fan.walker, start, task.inside);
+    let (centre, rough) = middle(&mut fan.walker, start, axis);
+    fan.centre = centre;
+    let mut integral = Integral::default();
+    for starts in 0.. {
+        (fan.walker.order, fan.walker.with_energy) = (order, task.with_energy);
+        integral = fan.integrate(axis, rough);
+        let force = norm(&integral.sums[..3]);
+        if !(force > 0.0) {
+            break;
+        }
+        // The axis of the wrench in the plane of the frame.
+        let [_, _, load, turn_u, turn_v, ..] = integral.sums;
+        let off = [-turn_v / load, turn_u / load];
+        if starts < MOST_STARTS && off[0].hypot(off[1]) > OFF_CENTRE * fan.extent {
+            let [u, v, z] = fan.centre;
+            if let Some(better) = on_patch(fan.walker.field, u + off[0], v + off[1], z) {
+                fan.centre = better;
+                continue;
+            }
+        }
+        break;
+    }
+    let force = norm(&integral.sums[..3]);
+    flags.set(PatchFlags::EMPTY, !(force > 0.0));
+    flags.set(PatchFlags::FOLDED, fan.rays.iter().any(|ray| ray.is_folded));
+    let of_energy = if task.with_energy { integral.error[3] / integral.sums[7] } else { 0.0 };
+    let error = ((integral.error[0] + integral.radial).max(integral.error[1] / fan.extent) / force).max(of_energy);
+    flags.set(PatchFlags::TOLERANCE_NOT_REACHED, error > task.tolerance);
+    let mut summary = Summary::of(task, &mut fan);
+    if force > 0.0 {
+        summary.complete(task, &mut fan);
+    }
+    if task.with_energy {
+        summary.patch.energy = task.length * integral.sums[7];
+    }
+    for_each(&fan, |node, weight| visit(summary.point(task, node, weight)));
+    let error = if force > 0.0 { error } else { 0.0 };
+    let area_error = if force > 0.0 { integral.error[2] / integral.sums[6] } else { 0.0 };
+    Patch { flags, error, area_error, rays: fan.rays.len(), ..summary.patch }
+}
+
+/// From a point of the patch that may lie on the edge of a triangle to the middle of the line towards a point inside.
+fn inwards(walker: &mut Walker, start: [f64; 3], inside: Option<[f64; 2]>) -> [f64; 3] {
+    let Some([u, v]) = inside else { return start };
+    let way = [u - start[0], v - start[1]];
+    let length = way[0].hypot(way[1]);
+    if !(length > 0.0) {
+        return start;
+    }
+    let direction = way.map(|c| c / length);
+    let ray = walker.walk(&Line { origin: start, direction, is_polar: false });
+    let half = 0.5 * ray.events[ray.count.max(1) - 1].rho.min(length);
+    [start[0] + half * direction[0], start[1] + half * direction[1], start[2]]
+}
+
+/// Calls `visit` with every node and its weight as an area in the plane of the frame.
+fn for_each(fan: &Fan, mut visit: impl FnMut(&Node, f64)) {
+    for sector in fan.sectors.iter() {
+        for (ray, angle) in &sector.rays[..sector.count] {
+            let (from, to) = fan.rays[*ray].nodes;
+            for node in &fan.walker.nodes[from as usize..to as usize] {
+                visit(node, angle * node.weight);
+            }
+        }
+    }
+}
+
+/// The answer in the making.
+struct Summary {
+    patch: Patch,
+}
+
+impl Summary {
+    /// Force and torque, by the sums over the nodes.
+    fn of(task: &Task, fan: &mut Fan) -> Self {
+        let (mut force, mut torque, mut count) = (Vector3::zeros(), Vector3::zeros(), 0);
+        for_each(fan, |node, weight| {
+            let load = weight * node.pressure * vector(node);
+            force += load;
+            torque += Vector3::from(node.x).cross(&load);
+            count += 1;
+        });
+        let contact_point = on_patch(fan.walker.field, 0.0, 0.0, 0.0).unwrap_or_default();
+        let start = fan.walker.field.values(&contact_point)[0].0;
+        let patch = Patch {
+            length: task.length,
+            force: task.length * (task.frame * force),
+            torque: task.length * (task.frame * torque),
+            pressure_centre: task.position + task.branches[0],
+            branch_a: task.branches[0],
+            branch_b: task.branches[1],
+            couple: 0.0,
+            area: 0.0,
+            centroid: Vector3::zeros(),
+            second_moment: Matrix3::zeros(),
+            polar_moment: 0.0,
+            twist_lever: 0.0,
+            mean_depth: 0.0,
+            largest_depth: task.length * (1.0 - start.max(0.0).sqrt()),
+            energy: f64::NAN,
+            error: 0.0,
+            area_error: 0.0,
+            flags: PatchFlags::default(),
+            points: count,
+            rays: 0,
+        };
+        Self { patch }
+    }
+
+    /// What needs the axis of the wrench.
+    fn complete(&mut self, task: &Task, fan: &mut Fan) {
+        let frame = &task.frame;
+        let (force, torque) =
+            (frame.tr_mul(&self.patch.force) / task.length, frame.tr_mul(&self.patch.torque) / task.length);
+        let axis = force.normalize();
+        let (mut area, mut first, mut load, mut loaded) = (0.0, Vector3::zeros(), 0.0, Vector3::zeros());
+        for_each(fan, |node, weight| {
+            let (x, share) = (Vector3::from(node.x), weight * vector(node).norm());
+            area += share;
+            first += share * x;
+            load += share * node.pressure;
+            loaded += share * node.pressure * x;
+        });
+        let (centroid, mean) = (first / area, loaded / load);
+        // The point of the axis that is nearest to the origin, and from there to the height of the patch.
+        let foot = force.cross(&torque) / force.norm_squared();
+        let pole = foot + axis * axis.dot(&(mean - foot));
+        let (mut second, mut polar, mut lever) = (Matrix3::zeros(), 0.0, 0.0);
+        for_each(fan, |node, weight| {
+            let (x, share) = (Vector3::from(node.x), weight * vector(node).norm());
+            let (y, arm) = (x - centroid, (x - pole).cross(&axis));
+            second += share * y * y.transpose();
+            polar += share * arm.norm_squared();
+            lever += share * node.pressure * arm.norm();
+        });
+        let patch = &mut self.patch;
+        let branch = frame * pole;
+        patch.pressure_centre = task.position + (task.branches[0] + branch);
+        patch.branch_a = task.branches[0] + branch;
+        patch.branch_b = task.branches[1] + branch;
+        patch.couple = task.length * torque.dot(&axis);
+        patch.area = area;
+        patch.centroid = frame * (centroid - pole);
+        patch.second_moment = frame * second * frame.transpose();
+        patch.polar_moment = polar;
+        patch.twist_lever = lever / load;
+        patch.mean_depth = task.length * load / area;
+    }
+
+    fn point(&self, task: &Task, node: &Node, weight: f64) -> PatchPoint {
+        let normal = vector(node);
+        let stretch = normal.norm();
+        PatchPoint {
+            position: task.frame * Vector3::from(node.x),
+            area: weight * stretch,
+            depth: task.length * node.pressure,
+            normal: task.frame * (normal / stretch),
+        }
+    }
+}
+
+/// The normal whose z is 1.
+fn vector(node: &Node) -> Vector3<f64> {
+    Vector3::new(node.normal[0], node.normal[1], 1.0)
+}

@@ -1,0 +1,38 @@
+//! The contact patch: the surface on which both potentials are equal, with their depth as pressure.
+//!
+//! docs/patch.md has the definition, the method and what was measured. Each file uses only those above it:
+//!
+//! | file | holds |
+//! |---|---|
+//! | `rules` | Gauss rules |
+//! | `patch` | the answer |
+//! | `field` | the potentials in the frame of the patch |
+//! | `cell` | a stretch of a ray on which they are quadratics |
+//! | `energy` | the elastic energy as an integral over the patch |
+//! | `ray` | the walk over a ray |
+//! | `centre` | where the rays start |
+//! | `smoothness` | how far off a rule over a sector is |
+//! | `fan` | sectors of rays, refined |
+//! | `scratch` | the buffers |
+//! | `integration` | from the potentials to the answer |
+//! | `contact` | the patch of two particles, of a particle and a plane, of a particle and a triangle |
+//! | `planar` | the patch of two particles of the plane |
+
+mod cell;
+mod centre;
+mod contact;
+mod energy;
+mod fan;
+mod field;
+mod integration;
+#[allow(clippy::module_inception)]
+mod patch;
+pub(crate) mod planar;
+mod ray;
+mod rules;
+mod scratch;
+mod smoothness;
+
+pub use contact::{PatchError, PatchSettings, patch_of_contact, patch_on_plane, patch_on_triangle};
+pub use patch::{Patch, PatchFlags, PatchPoint};
+pub use scratch::PatchScratch;

@@ -1,0 +1,112 @@
+//! The answer: what a law of contact needs of a patch.
+
+use nalgebra::{Matrix3, Vector3};
+use std::fmt;
+
+/// The contact patch of two bodies, or of a body and a flat boundary, world axes, lengths in the caller's unit.
+///
+/// With the scale s of both bodies, Σ = {s_A = s_B ≤ 1} and the pressure p = K ℓ (1 − s) on it; K is the caller's stiffness per area
+/// (force/length³) and all that is proportional to it is given over K. The normal n of Σ points from A to B.
+#[derive(Clone, Copy, Debug)]
+#[non_exhaustive]
+pub struct Patch {
+    /// ℓ = ℓ_A + ℓ_B, against a boundary ℓ_A ([`crate::Particle::depth_length`]), length.
+    pub length: f64,
+    /// ∫ p n dΣ / K, the force on B (−force on A) over K, length³. Its direction is the mean normal.
+    pub force: Vector3<f64>,
+    /// ∫ (x − contact point) × p n dΣ / K: the torque on B about the contact point over K, length⁴.
+    pub torque: Vector3<f64>,
+    /// The point of the axis of the wrench that lies in the plane of the patch: where a law applies the force. World frame.
+    pub pressure_centre: Vector3<f64>,
+    /// The same minus position of A, and of B (of a boundary: of A again).
+    pub branch_a: Vector3<f64>,
+    /// The same minus position of B.
+    pub branch_b: Vector3<f64>,
+    /// The couple along the axis, torque·force/|force|, over K, length⁴.
+    pub couple: f64,
+    /// Area of Σ, length².
+    pub area: f64,
+    /// Centroid of Σ minus the centre of pressure.
+    pub centroid: Vector3<f64>,
+    /// ∫ y yᵀ dΣ about the centroid, length⁴.
+    pub second_moment: Matrix3<f64>,
+    /// ∫ |y|² dΣ, y from the axis of the wrench at right angles to it, length⁴.
+    pub polar_moment: f64,
+    /// ∫ p |y| dΣ / ∫ p dΣ: the lever of friction against twist, |M| ≤ μ N λ, length.
+    pub twist_lever: f64,
+    /// ∫ p dΣ / (K·area): the mean overlap, length.
+    pub mean_depth: f64,
+    /// Largest ℓ (1 − s), that of the contact point, length.
+    pub largest_depth: f64,
+    /// Elastic energy over K, length⁴; NaN unless it was asked for.
+    pub energy: f64,
+    /// Estimated error of the force over its size, of the torque over |force| times the reach of the patch, and of the energy, if asked for,
+    /// over itself: the largest.
+    pub error: f64,
+    /// Estimated relative error of the area.
+    pub area_error: f64,
+    /// What else is to be known.
+    pub flags: PatchFlags,
+    /// Number of points of quadrature.
+    pub points: usize,
+    /// Number of rays over which was walked.
+    pub rays: usize,
+}
+
+/// A point of quadrature on Σ.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct PatchPoint {
+    /// Its place minus the contact point, world axes.
+    pub position: Vector3<f64>,
+    /// Its share of the area, length².
+    pub area: f64,
+    /// p/K = ℓ (1 − s), length.
+    pub depth: f64,
+    /// Unit normal of Σ, from A to B, world axes.
+    pub normal: Vector3<f64>,
+}
+
+/// What else is to be known about a patch; a set of bits.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct PatchFlags(u32);
+
+impl PatchFlags {
+    /// Σ turns back under itself (deep overlaps of round bodies): what lies beyond is left out.
+    pub const FOLDED: Self = Self(1);
+    /// The tolerance was not reached with the most rays; the estimated error tells how far off the answer is.
+    pub const TOLERANCE_NOT_REACHED: Self = Self(2);
+    /// The contact point lies in the core of both bodies, where s is 0 or nearly: the answer is that for a slightly larger sphericity.
+    pub const DEEP: Self = Self(4);
+    /// No patch was found around the contact point, and force and area are 0: an overlap within rounding.
+    pub const EMPTY: Self = Self(8);
+
+    const NAMES: [(Self, &'static str); 4] = [
+        (Self::FOLDED, "folded"),
+        (Self::TOLERANCE_NOT_REACHED, "tolerance not reached"),
+        (Self::DEEP, "deep"),
+        (Self::EMPTY, "empty"),
+    ];
+
+    /// The bits, as in the C interface.
+    pub const fn bits(self) -> u32 {
+        self.0
+    }
+
+    /// Whether all bits of `other` are set.
+    pub const fn contains(self, other: Self) -> bool {
+        self.0 & other.0 == other.0
+    }
+
+    pub(super) fn set(&mut self, other: Self, on: bool) {
+        self.0 |= if on { other.0 } else { 0 };
+    }
+}
+
+/// The names of the flags that are set, with commas between them; "none" where none is.
+impl fmt::Display for PatchFlags {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        let mut names = Self::NAMES.iter().filter(|(flag, _)| self.contains(*flag)).map(|(_, name)| *name);
+        f.write_str(names.next().unwrap_or("none"))?;
+        names.try_for_each(|name| write!(f, ", {name}"))
+    }
+}

@@ -1,0 +1,33 @@
+//! The contact patch against closed forms, its own energy, and quadrature of the definition.
+
+#[path = "patch/bodies.rs"]
+mod bodies;
+#[path = "patch/closed_forms.rs"]
+mod closed_forms;
+#[path = "patch/definition.rs"]
+mod definition;
+#[path = "patch/estimates.rs"]
+mod estimates;
+#[path = "patch/gradients.rs"]
+mod gradients;
+#[path = "patch/planar.rs"]
+mod planar;
+#[path = "patch/walks.rs"]
+mod walks;
+#[path = "patch/walls.rs"]
+mod walls;
+
+use bodies::Pair;
+use potential_particles::{Patch, PatchScratch, PatchSettings, patch_of_contact};
+
+fn patch(pair: &Pair, tolerance: f64, with_energy: bool) -> Patch {
+    let settings = PatchSettings { tolerance, with_energy };
+    let Pair { a, pose_a, b, pose_b, contact, .. } = pair;
+    patch_of_contact(a, pose_a, b, pose_b, contact, &settings, &mut PatchScratch::new(), |_| ()).unwrap()
+}
+
+/// Central differences with Richardson's extrapolation.
+fn difference(of: impl Fn(f64) -> f64, h: f64) -> f64 {
+    let central = |h: f64| (of(h) - of(-h)) / (2.0 * h);
+    (4.0 * central(0.5 * h) - central(h)) / 3.0
+}

@@ -1,0 +1,132 @@
+//! Random bodies of every kind, and pairs of them at a stated overlap.
+
+use nalgebra::{Matrix3, Quaternion, UnitQuaternion, Vector3};
+use potential_particles::{Contact, Kind, Particle, Plane, Pose, Settings, detect};
+
+/// Numbers that look like chance: the same in every run.
+pub struct Chance(u64);
+
+impl Chance {
+    pub fn new(seed: u64) -> Self {
+        Self(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15).wrapping_add(0x1234_5678_9abc_def1))
+    }
+
+    /// In [0, 1).
+    pub fn uniform(&mut self) -> f64 {
+        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        let mixed = (self.0 ^ (self.0 >> 33)).wrapping_mul(0xff51_afd7_ed55_8ccd);
+        ((mixed ^ (mixed >> 29)) >> 11) as f64 / (1u64 << 53) as f64
+    }
+
+    pub fn pick<T: Copy>(&mut self, of: &[T]) -> T {
+        of[(self.uniform() * of.len() as f64) as usize]
+    }
+
+    pub fn direction(&mut self) -> Vector3<f64> {
+        loop {
+            let v = Vector3::from([0; 3].map(|_| 2.0 * self.uniform() - 1.0));
+            if v.norm() < 1.0 && v.norm() > 0.1 {
+                return v.normalize();
+            }
+        }
+    }
+
+    pub fn rotation(&mut self) -> Matrix3<f64> {
+        let q = Quaternion::from(nalgebra::Vector4::from([0; 4].map(|_| self.uniform() - 0.5)));
+        UnitQuaternion::from_quaternion(q).to_rotation_matrix().into_inner()
+    }
+}
+
+pub fn cuboid(half: [f64; 3], r: f64, k: f64) -> Particle {
+    let sides = (0..3).flat_map(|axis| [1.0, -1.0].map(|sign| (axis, sign)));
+    let planes: Vec<Plane> =
+        sides.map(|(axis, sign)| Plane { normal: Vector3::ith(axis, sign), offset: half[axis] - r }).collect();
+    Particle::new(&planes, r, k, 1.2 * Vector3::from(half).norm()).expect("a cuboid")
+}
+
+pub const FAMILIES: [&str; 6] = ["rock", "cube", "pyramid", "needle", "plate", "ball"];
+
+/// A body of about size 1; r as a part of its least half width.
+pub fn body(family: &str, r: f64, k: f64, chance: &mut Chance) -> Particle {
+    match family {
+        "cube" => cuboid([0.5; 3], 0.5 * r, k),
+        "needle" => cuboid([1.0, 0.1, 0.1], 0.1 * r, k),
+        "plate" => cuboid([0.8, 0.8, 0.1], 0.1 * r, k),
+        "pyramid" => {
+            let r = 0.25 * r;
+            let side =
+                |x: f64, y: f64| Plane { normal: Vector3::new(2.0 * x, 2.0 * y, 1.0).normalize(), offset: 0.3 - r };
+            let base = Plane { normal: -Vector3::z(), offset: 0.25 - r };
+            let planes = [side(1.0, 0.0), side(-1.0, 0.0), side(0.0, 1.0), side(0.0, -1.0), base];
+            Particle::new(&planes, r, k, 0.9).expect("a pyramid")
+        }
+        "rock" => loop {
+            let r = 0.3 * r;
+            let planes: Vec<Plane> = (0..14)
+                .map(|_| Plane { normal: chance.direction(), offset: 0.3 + 0.3 * chance.uniform() - r })
+                .collect();
+            if let Ok(rock) = Particle::new(&planes, r, k, 0.8) {
+                if rock.bounding_radius() < 1.5 {
+                    return rock;
+                }
+            }
+        },
+        _ => Particle::sphere(0.5).expect("a ball"),
+    }
+}
+
+/// Two bodies in contact.
+pub struct Pair {
+    pub a: Particle,
+    pub b: Particle,
+    pub pose_a: Pose,
+    pub pose_b: Pose,
+    pub contact: Contact,
+}
+
+pub fn contact(a: &Particle, pose_a: &Pose, b: &Particle, pose_b: &Pose) -> Contact {
+    detect(a, pose_a, b, pose_b, &Settings::default(), None).expect("a contact of ordinary bodies")
+}
+
+impl Pair {
+    /// A at the origin, B in a direction at the distance of this overlap.
+    pub fn at_overlap(
+        a: Particle,
+        turn_a: &Matrix3<f64>,
+        b: Particle,
+        turn_b: &Matrix3<f64>,
+        direction: &Vector3<f64>,
+        overlap: f64,
+    ) -> Self {
+        let pose_a = Pose::from_rotation([0.0; 3], turn_a).unwrap();
+        let at = |distance: f64| Pose::from_rotation((distance * direction).into(), turn_b).unwrap();
+        let (mut deep, mut apart) = (0.0, a.bounding_radius() + b.bounding_radius());
+        for _ in 0..60 {
+            let middle = 0.5 * (deep + apart);
+            let found = contact(&a, &pose_a, &b, &at(middle));
+            if found.kind == Kind::Overlapping && found.overlap > overlap { deep = middle } else { apart = middle }
+        }
+        let pose_b = at(deep);
+        let contact = contact(&a, &pose_a, &b, &pose_b);
+        Self { a, b, pose_a, pose_b, contact }
+    }
+
+    pub fn random(families: [&str; 2], k: [f64; 2], r: f64, depth: f64, chance: &mut Chance) -> Self {
+        let a = body(families[0], r, k[0], chance);
+        let b = body(families[1], r, k[1], chance);
+        let (turn_a, turn_b) = (chance.rotation(), chance.rotation());
+        let least = |p: &Particle| if p.sphericity() == 1.0 { p.shadow_radius() } else { p.rounding_radius() };
+        let overlap = depth * (least(&a) + least(&b));
+        Self::at_overlap(a, &turn_a, b, &turn_b, &chance.direction(), overlap)
+    }
+
+    /// With B moved by a shift and turned by a rotation vector about its position.
+    pub fn moved(&self, shift: &Vector3<f64>, turn: &Vector3<f64>) -> Self {
+        let rotation =
+            UnitQuaternion::from_scaled_axis(*turn).to_rotation_matrix().into_inner() * self.pose_b.rotation();
+        let position = self.pose_b.position() + shift;
+        let pose_b = Pose::from_rotation(position.into(), &rotation).unwrap();
+        let contact = contact(&self.a, &self.pose_a, &self.b, &pose_b);
+        Self { a: self.a.clone(), b: self.b.clone(), pose_a: self.pose_a, pose_b, contact }
+    }
+}

@@ -1,0 +1,72 @@
+//! Patches of the plane against faces, discs, and the gradient of their energy.
+
+use crate::difference;
+use nalgebra::Vector2;
+use potential_particles::planar::{Particle, Patch, Pose, detect, patch_of_contact};
+use potential_particles::{Kind, PatchFlags, PatchScratch, PatchSettings, Settings};
+
+fn patch(a: &Particle, pose_a: &Pose, b: &Particle, pose_b: &Pose) -> (Patch, Vector2<f64>) {
+    let contact = detect(a, pose_a, b, pose_b, &Settings::default(), None).unwrap();
+    assert_eq!(contact.kind, Kind::Overlapping);
+    let (settings, scratch) = (PatchSettings { tolerance: 1e-9, with_energy: true }, &mut PatchScratch::new());
+    let found = patch_of_contact(a, pose_a, b, pose_b, &contact, &settings, scratch, |_| ()).unwrap();
+    (found, contact.branch_b)
+}
+
+#[test]
+fn discs_press_as_parabolas() {
+    let (radius_a, radius_b) = (1.0, 0.5);
+    let overlap = 1e-6;
+    let (a, b) = (Particle::circle(radius_a).unwrap(), Particle::circle(radius_b).unwrap());
+    let pose_a = Pose::new([3.0, 2.0], 0.4).unwrap();
+    let pose_b = Pose::new([3.0 + radius_a + radius_b - overlap, 2.0], 1.0).unwrap();
+    let (found, _) = patch(&a, &pose_a, &b, &pose_b);
+    let half = (2.0 * overlap / (1.0 / radius_a + 1.0 / radius_b)).sqrt();
+    let force = 4.0 / 3.0 * overlap * half;
+    assert!((found.force.x / force - 1.0).abs() < 1e-5, "{found:?}");
+    assert!((found.length / (2.0 * half) - 1.0).abs() < 1e-5);
+    assert!((found.energy / (force * overlap * 0.4) - 1.0).abs() < 1e-5);
+    assert!((found.second_moment / (2.0 * half.powi(3) / 3.0) - 1.0).abs() < 1e-5);
+}
+
+/// Rounded squares and polygons at many angles.
+#[test]
+fn the_force_is_the_gradient_of_the_energy() {
+    let mut count = 0;
+    for (r, k) in [(0.1, 0.0), (0.05, 0.02), (0.2, 0.3), (1e-3, 0.0)] {
+        let a = Particle::rectangle(1.0, 1.0, r, k).unwrap();
+        let b = Particle::regular_polygon(5, 0.5, r, k).unwrap();
+        for i in 0..12 {
+            let (angle, around) = (0.7 + 0.41 * f64::from(i), 0.53 * f64::from(i));
+            let pose_a = Pose::new([0.0, 0.0], 0.1).unwrap();
+            let at = |distance: f64, shift: Vector2<f64>, turn: f64| {
+                let position = distance * Vector2::new(around.cos(), around.sin()) + shift;
+                Pose::new(position.into(), angle + turn).unwrap()
+            };
+            let (mut deep, mut apart) = (0.3, 2.0);
+            for _ in 0..60 {
+                let middle = 0.5 * (deep + apart);
+                let pose_b = at(middle, Vector2::zeros(), 0.0);
+                let found = detect(&a, &pose_a, &b, &pose_b, &Settings::default(), None).unwrap();
+                if found.kind == Kind::Overlapping && found.overlap > 0.3 * r { deep = middle } else { apart = middle }
+            }
+            let (here, branch) = patch(&a, &pose_a, &b, &at(deep, Vector2::zeros(), 0.0));
+            if here.flags.contains(PatchFlags::FOLDED) {
+                continue;
+            }
+            let force = here.force.norm();
+            let along = Vector2::new(0.6, 0.8);
+            let energy = |shift: Vector2<f64>, turn: f64| patch(&a, &pose_a, &b, &at(deep, shift, turn)).0.energy;
+            let by_shift = -difference(|h| energy(h * along, 0.0), 1e-2 * r);
+            let by_turn = -difference(|h| energy(Vector2::zeros(), h), 1e-2 * r);
+            let torque = here.torque + branch.perp(&here.force);
+            let errors = [(by_shift - here.force.dot(&along)).abs() / force, (by_turn - torque).abs() / force];
+            assert!(errors.iter().all(|error| *error < 1e-5), "r {r}, k {k}, {i}: {errors:?}");
+            // The force acts along a line through the centre of pressure.
+            let about = here.torque - (here.branch_b - branch).perp(&here.force);
+            assert!(about.abs() < 1e-9 * force, "{about:e}");
+            count += 1;
+        }
+    }
+    assert!(count > 40, "{count}");
+}
