@@ -2,16 +2,10 @@
 # What to run before each commit: formatting, the Rust tests, the C harness and one scene of YADE, from a build without link-time
 # optimisation (the profile "quick" of Cargo.toml). Called by "make check"; "make test" is everything.
 set -uo pipefail
-cd "$(dirname "$0")/.."
-
-unset MAKEFLAGS MFLAGS MAKELEVEL
-
-CARGO_TARGET_DIR=$(realpath -m "${CARGO_TARGET_DIR:-target}")
-export CARGO_TARGET_DIR
-readonly LOGS=$CARGO_TARGET_DIR/check-logs
-mkdir -p "$LOGS"
+cd "$(dirname "$0")/.." || exit 1
 
 . scripts/stages.sh
+begin check-logs
 
 glue() {
     cmake -S yade-glue -B yade-glue/build -DPP_LIBRARY="$CARGO_TARGET_DIR/quick/libpotential_particles.so" &&
@@ -30,6 +24,7 @@ for file in tests/*.rs; do
     *) tests+=(--test "$name") ;;
     esac
 done
+stage suite "Constants of the theory" tests/guide/constants.py
 stage check "Library, quick build" cargo build --profile quick --lib --example solve_pairs
 stage check "Rust tests, quick build" cargo test --profile quick --no-run "${tests[@]}"
 stage suite "Rust tests, with the C header" cargo test --profile quick --no-fail-fast "${tests[@]}"
@@ -41,5 +36,4 @@ else
     echo "YADE is not installed: its plugin was not tried (make setup installs it)"
 fi
 
-printf '\n%d passed, %d failed\n' "$passed" "$failed"
-[ "$failed" -eq 0 ]
+finish

@@ -15,7 +15,7 @@ own_namespaces scripts/debian.sh
 
 printf 'Debian (%s) in %s\n' "$SUITE" "$ROOT"
 stage check "Debian, packages and Rust" prepare_to_build
-[ "$failed" -eq 0 ] || { printf '\n%d passed, %d failed\n' "$passed" "$failed"; exit 1; }
+[ "$failed" -eq 0 ] || { finish; exit 1; }
 stage check "Sources" copy_sources
 stage check "Set-up" in_sources make setup
 stage check "Library and YADE plugin, compared with the YADE of this release" in_sources make build
@@ -31,5 +31,4 @@ else
     echo "== Files of two YADEs: skipped: the plugin is not built on this machine (make build)"
 fi
 
-printf '\n%d passed, %d failed\n' "$passed" "$failed"
-[ "$failed" -eq 0 ]
+finish

@@ -33,7 +33,7 @@ bare() {
 ROOT=$CACHE/$SUITE
 printf 'Packages for Debian (%s) in %s\n' "$SUITE" "$OUT"
 stage check "Debian, packages and Rust" prepare_to_build
-[ "$failed" -eq 0 ] || { printf '\n%d passed, %d failed\n' "$passed" "$failed"; exit 1; }
+[ "$failed" -eq 0 ] || { finish; exit 1; }
 stage check "Sources" copy_sources
 stage check "Set-up" in_sources make setup
 stage check "Packages" build
@@ -46,5 +46,4 @@ if [ "${TRY:-0}" = 1 ] && [ "$failed" -eq 0 ]; then
 fi
 ls -l "$OUT" 2>/dev/null
 
-printf '\n%d passed, %d failed\n' "$passed" "$failed"
-[ "$failed" -eq 0 ]
+finish

@@ -1,10 +1,20 @@
-# For scripts that run tests in stages: source it after LOGS is set to a folder that exists.
+# For scripts that run tests in stages, from the top of the repository.
 #
+# begin NAME sets LOGS to a folder of that name beside what is built; a script may set LOGS to a folder that exists instead.
 # stage KIND NAME COMMAND... prints a heading, runs the command, and adds to passed and failed. Its output is shown
-# when it fails (of all with VERBOSE=1).
+# when it fails (of all with VERBOSE=1). finish prints the sum as the last line, and fails if a stage did.
 
 passed=0
 failed=0
+
+begin() {
+    # The stages run their own make: they must not look for the job server of the make above.
+    unset MAKEFLAGS MFLAGS MAKELEVEL
+    CARGO_TARGET_DIR=$(realpath -m "${CARGO_TARGET_DIR:-target}")
+    export CARGO_TARGET_DIR
+    LOGS=$CARGO_TARGET_DIR/$1
+    mkdir -p "$LOGS"
+}
 
 # Prints "passed failed", summed over the lines of our own runners and of cargo.
 counts() {
@@ -47,4 +57,9 @@ stage() {
     printf '   %d passed, %d failed (%d s)\n' "$p" "$f" $((SECONDS - begin))
     passed=$((passed + p))
     failed=$((failed + f))
+}
+
+finish() {
+    printf '\n%d passed, %d failed\n' "$passed" "$failed"
+    [ "$failed" -eq 0 ]
 }

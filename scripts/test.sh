@@ -2,17 +2,10 @@
 # Runs every test: one heading per stage, the whole output of a stage that fails (of all with
 # VERBOSE=1), and the sum as the last line. Called by "make test".
 set -uo pipefail
-cd "$(dirname "$0")/.."
-
-# The stages run their own make: they must not look for the job server of the make above.
-unset MAKEFLAGS MFLAGS MAKELEVEL
-
-CARGO_TARGET_DIR=$(realpath -m "${CARGO_TARGET_DIR:-target}")
-export CARGO_TARGET_DIR
-readonly LOGS=$CARGO_TARGET_DIR/test-logs
-mkdir -p "$LOGS"
+cd "$(dirname "$0")/.." || exit 1
 
 . scripts/stages.sh
+begin test-logs
 
 scripts/setup.sh || exit 1
 
@@ -51,8 +44,8 @@ stage check "Guide as a site" scripts/guide.sh "$CARGO_TARGET_DIR/guide"
 stage suite "Links of the guide" tests/guide/links.py "$CARGO_TARGET_DIR/guide"
 stage suite "Code blocks of the guide" tests/guide/run.py
 stage suite "Messages that the guide explains" tests/guide/sentences.py
+stage suite "Constants of the theory" tests/guide/constants.py
 stage check "What other codes are judged by" /usr/bin/python3 benches/peers/test_answers.py
 stage check "How limits of a call are counted" /usr/bin/python3 benches/peers/test_roofline.py
 
-printf '\n%d passed, %d failed\n' "$passed" "$failed"
-[ "$failed" -eq 0 ]
+finish

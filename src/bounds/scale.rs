@@ -19,7 +19,7 @@ pub(crate) struct Scale {
 
 /// Rounding of the sums and roots below, relative to s: γ₆ for the sums of S and the weights, halved by the root,
 /// and that of the root itself.
-const ROUNDING: f64 = 2.0 * f64::EPSILON;
+const OF_SCALE: f64 = 2.0 * f64::EPSILON;
 
 /// Root of the least normal number: an s below it has a square that is lost.
 const UNDERFLOW: f64 = 1.5e-154;
@@ -38,7 +38,7 @@ impl Scale {
         let surplus = [a.surplus(&solution.x), b.surplus(&solution.x)];
         let square = larger(solution.estimate - weighted(surplus[0], surplus[1]), 0.0);
         // What the regularisation adds to the larger of S_A and S_B at the point is no part of the upper bound.
-        let added = if problem == Problem::Midway { smaller(surplus[0], surplus[1]) * (1.0 - ROUNDING) } else { 0.0 };
+        let added = if problem == Problem::Midway { smaller(surplus[0], surplus[1]) * (1.0 - OF_SCALE) } else { 0.0 };
         let high = larger(square, larger(solution.lower, solution.upper) - added) + solution.rounding;
         Self::between(square, solution.lower - most - solution.rounding, high)
     }
@@ -49,8 +49,8 @@ impl Scale {
     pub fn between(square: f64, low: f64, high: f64) -> Self {
         let low = smaller(larger(low, 0.0), square);
         let s = square.sqrt();
-        let (low, high) = (low.sqrt() * (1.0 - ROUNDING), high.sqrt());
-        Self { s, gap: larger(s - low, high - s) + ROUNDING * s + UNDERFLOW, low, high: high * (1.0 + ROUNDING) }
+        let (low, high) = (low.sqrt() * (1.0 - OF_SCALE), high.sqrt());
+        Self { s, gap: larger(s - low, high - s) + OF_SCALE * s + UNDERFLOW, low, high: high * (1.0 + OF_SCALE) }
     }
 
     /// Whether it is no answer: s and its gap leave open on which side of 1 s lies, by more than [`INCONCLUSIVE`].

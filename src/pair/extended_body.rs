@@ -194,7 +194,7 @@ impl<'a> ExtendedBody<'a> {
             return;
         }
         let (particle, axes) = (self.body.particle, &self.axes);
-        self.reach = MARGIN * distance;
+        self.reach = GATHERED_AHEAD * distance;
         let from = rounded(&self.local).norm();
         // The excess is compared in doubles.
         let blur = OF_DEPTH * (particle.bounds.longest_normal * from + particle.bounds.offset_within(from));
@@ -402,7 +402,7 @@ impl<'a> ExtendedBody<'a> {
 }
 
 /// How much farther planes are gathered than they are needed.
-const MARGIN: f64 = 2.0;
+const GATHERED_AHEAD: f64 = 2.0;
 
 /// The axes of a body in the world, from its rotation as given.
 fn axes(pose: &Pose) -> [Wide; 3] {

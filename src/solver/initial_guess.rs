@@ -40,7 +40,7 @@ const LEVEL: f64 = 1e-9;
 const SLOW: f64 = 1e-6;
 
 /// Square of the shortest vector of the hull, relative to the longest, that is none: the planes hold each other.
-const BALANCED: f64 = 1e-20;
+const VANISHING: f64 = 1e-20;
 
 /// A start without memory; on a boundary, its point nearest to the centre.
 pub(crate) fn cold(pair: &Pair, [a, b]: [&Body; 2]) -> Start {
@@ -83,7 +83,7 @@ fn between_polyhedra(bodies: [&Body; 2], from: Vector3<f64>) -> Option<Start> {
     for _ in 0..MOST_PLANES {
         let y = hull.shortest();
         let rate = y.norm_squared();
-        if hull.count == 4 || rate <= BALANCED * hull.longest {
+        if hull.count == 4 || rate <= VANISHING * hull.longest {
             return hull.start(x, level);
         }
         let (way, next) = envelope.next(&x, &y, level, rate);
