@@ -7,7 +7,7 @@ use super::smoothness::{error_of_rule, norm};
 
 /// Most rays, and points on them.
 const MOST_RAYS: usize = 1500;
-const MOST_NODES: usize = 50_000;
+const MOST_NODES: usize = 500_000;
 
 /// Most halvings in the search for the direction in which the sequence of cells changes.
 const DEEPEST: u32 = 14;
@@ -309,7 +309,7 @@ impl<'w, 'f, 'a, 's> Fan<'w, 'f, 'a, 's> {
         let Sector { left, right, .. } = self.sectors[index];
         let (a, b) = (&self.rays[left], &self.rays[right]);
         let load = angle(&a.direction, &b.direction).abs() * a.sums[2].max(b.sums[2]);
-        if self.is_capped || OF_EFFECT * load <= self.negligible { 1 } else { 3 }
+        if OF_EFFECT * load <= self.negligible { 1 } else { 3 }
     }
 
     /// Integrates over a sector with 1, 3 or 7 rays; resolves it where one of them has another sequence of cells.
