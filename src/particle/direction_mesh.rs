@@ -27,6 +27,9 @@ pub(crate) struct Patch {
 /// Least height of a face and least depth of a cut, over the bounding radius: far more than the rounding of corners.
 const LEAST: f64 = 1e-9;
 
+/// So many faces are followed in any case: they are fewer than the cells that most bodies need.
+const FEW: usize = 1_000;
+
 impl Patch {
     fn of(corners: [Vector3<f64>; 4], normal: &Vector3<f64>, cuts: [f64; 2]) -> Self {
         let height = corners.iter().map(|corner| normal.dot(corner)).fold(f64::INFINITY, f64::min);
@@ -61,7 +64,7 @@ impl Patch {
     }
 }
 
-/// Patches along the faces of a particle, or along those of a cube where most faces are all rounding: cells then need not follow them.
+/// Patches along the faces of a particle, or along those of a cube where there are many and most are all rounding.
 pub(crate) fn of(shape: &Shape) -> Vec<Patch> {
     let mut polyhedron = Polyhedron::cube(shape.bounds.radius, LEAST * shape.bounds.radius);
     let cube = polyhedron.faces();
@@ -72,7 +75,7 @@ pub(crate) fn of(shape: &Shape) -> Vec<Patch> {
     }
     let mut faces = polyhedron.faces();
     let mut divided: Vec<Option<Vec<Patch>>> = faces.iter().map(|face| with_strips(face, shape)).collect();
-    if 2 * divided.iter().flatten().count() < faces.len() {
+    if faces.len() > FEW && 2 * divided.iter().flatten().count() < faces.len() {
         divided = vec![None; cube.len()];
         faces = cube;
     }
