@@ -354,3 +354,58 @@ impl Closest {
         smaller(smaller(self.least.point_bound, by_convexity), self.least.within(body, self.extent))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::pair::scattered;
+
+    fn on_triangle(particle: &Particle, pose: &Pose, triangle: &Triangle, precise: bool) -> Closest {
+        let settings = Settings { solve_separated: true, ..Settings::default() };
+        let (plane, flags) = (triangle.inside(), Flags::NONE);
+        let frame = plane.frame(pose);
+        let pair = Pair::on_boundary(particle, pose, &plane, &frame);
+        let placed = PlacedTriangle::of(triangle, pose, &pair);
+        let mut search =
+            Search { particle, pose, settings: &settings, precise, remembered: None, flags, iterations: 0 };
+        search.on_triangle(triangle, &frame, &placed).unwrap()
+    }
+
+    #[test]
+    fn an_edge_ends_at_its_two_vertices() {
+        for vertex in 0..3 {
+            let edges: Vec<usize> = ending_at(Feature::Vertex(vertex as u8)).collect();
+            assert!(edges.len() == 2 && (0..3).all(|i| edges.contains(&i) == (i == vertex || (i + 1) % 3 == vertex)));
+        }
+        assert_eq!(ending_at(Feature::Interior).chain(ending_at(Feature::Edge(1))).count(), 0);
+    }
+
+    /// Whether all parts of a triangle are solved in extended precision depends on the triangle: what it shares with others may not.
+    #[test]
+    fn edges_and_vertices_have_the_same_bits_whether_the_triangle_is_solved_precisely_or_not() {
+        let cube = Particle::cube(0.4, 0.1, 0.02, 0.9);
+        let (mut shared, mut inside) = (0, 0);
+        for seed in 0..150 {
+            let mut chance = scattered(30 * seed);
+            let mut vector = || Vector3::<f64>::from_fn(|_, _| chance());
+            let (at, turn) = (vector(), vector());
+            let pose = Pose::new((0.5 * at).into(), [0.5, turn.x, turn.y, turn.z]).unwrap();
+            let corners = [vector(), vector(), vector()].map(|v| (0.7 * at + v).into());
+            let Ok(triangle) = Triangle::new(corners) else { continue };
+            let [doubles, wide] = [false, true].map(|precise| on_triangle(&cube, &pose, &triangle, precise));
+            let off = (doubles.least.solution.estimate - wide.least.solution.estimate).abs();
+            assert!(off <= doubles.duality_gap + wide.duality_gap + 2.0 * doubles.least.solution.rounding, "{off:e}");
+            if wide.feature == Feature::Interior || wide.feature != doubles.feature {
+                inside += 1;
+                continue;
+            }
+            shared += 1;
+            let bits = |found: &Closest| {
+                let place = found.least.rotation * found.least.from_centre();
+                (found.least.solution.estimate.to_bits(), [place.x, place.y, place.z].map(f64::to_bits))
+            };
+            assert_eq!(bits(&doubles), bits(&wide));
+        }
+        assert!(shared > 50 && inside > 10, "{shared}, {inside}");
+    }
+}

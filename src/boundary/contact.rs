@@ -9,7 +9,7 @@ use crate::contact::contact::Kind;
 use crate::contact::detect::DetectError;
 use crate::contact::geometry::direction;
 use crate::flags::Flags;
-use crate::linalg::number::larger;
+use crate::linalg::number::{UNKNOWN_VECTOR, larger};
 use crate::pair::body::{Body, shift_in_a};
 use crate::pair::pair::Pair;
 use crate::pair::pair_state::{PairState, Remembered};
@@ -258,24 +258,21 @@ impl From<&FlatContact> for Section {
 
 impl FlatContact {
     /// Of which nothing is known yet.
-    const UNKNOWN: Self = {
-        let nan = Vector3::new(f64::NAN, f64::NAN, f64::NAN);
-        Self {
-            kind: Kind::Separated,
-            feature: Feature::Interior,
-            flags: Flags::NONE,
-            iterations: 0,
-            s: f64::NAN,
-            gap: f64::NAN,
-            point_bound: f64::NAN,
-            overlap: f64::NAN,
-            distance: 0.0,
-            normal: nan,
-            point: nan,
-            branch: nan,
-            on_boundary: nan,
-            on_particle: nan,
-        }
+    const UNKNOWN: Self = Self {
+        kind: Kind::Separated,
+        feature: Feature::Interior,
+        flags: Flags::NONE,
+        iterations: 0,
+        s: f64::NAN,
+        gap: f64::NAN,
+        point_bound: f64::NAN,
+        overlap: f64::NAN,
+        distance: 0.0,
+        normal: UNKNOWN_VECTOR,
+        point: UNKNOWN_VECTOR,
+        branch: UNKNOWN_VECTOR,
+        on_boundary: UNKNOWN_VECTOR,
+        on_particle: UNKNOWN_VECTOR,
     };
 
     /// What the patch of a contact is computed from.

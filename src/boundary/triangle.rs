@@ -62,3 +62,31 @@ impl PlacedTriangle {
         self.vertices.map(|vertex| pair.in_a(&vertex.push(0.0)))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::pair::scattered;
+
+    #[test]
+    fn no_point_of_the_triangle_is_nearer_than_the_nearest_or_farther_than_its_extent() {
+        let mut places = [0; 2];
+        for seed in 0..200 {
+            let mut chance = scattered(10 * seed);
+            let mut point = || Vector2::new(0.4 + 2.0 * chance(), 0.1 + 2.0 * chance());
+            let [a, b, c] = [point(), point(), point()];
+            let anticlockwise = if (b - a).perp(&(c - a)) > 0.0 { [a, b, c] } else { [a, c, b] };
+            let triangle = PlacedTriangle(anticlockwise);
+            let nearest = triangle.nearest();
+            places[usize::from(nearest == Vector2::zeros())] += 1;
+            assert!(triangle.from_edges(&nearest).iter().all(|distance| *distance > -1e-12), "{nearest:?}");
+            for (i, j) in (0..=20).flat_map(|i| (0..=20 - i).map(move |j| (i, j))) {
+                let (u, v) = (f64::from(i) / 20.0, f64::from(j) / 20.0);
+                let x: Vector2<f64> = u * a + v * b + (1.0 - u - v) * c;
+                assert!(x.norm() >= nearest.norm() * (1.0 - 1e-12), "{nearest:?}, {x:?}");
+                assert!((x - nearest).norm() <= triangle.extent(&nearest) * (1.0 + 1e-12));
+            }
+        }
+        assert!(places.iter().all(|count| *count > 20), "{places:?}");
+    }
+}

@@ -78,3 +78,31 @@ fn feasible(x: &Vector3<f64>, values: [f64; 2], bodies: [&Body; 2], problem: Pro
     let share = (1.0 - s0) / (s - s0);
     values[free].max(bodies[free].value(&(centre + share * (x - centre))))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::pair::pair::Pair;
+    use crate::pair::scattered;
+    use crate::particle::particle::Particle;
+    use crate::pose::Pose;
+
+    /// Balls of radii 1 and 2 at a distance of 2.4: s = 0.8 midway, 0.4 on B and 0.7 on A, whatever point and λ are given.
+    #[test]
+    fn the_bounds_of_any_point_hold_the_optimum() {
+        let balls = [1.0, 2.0].map(|radius| Particle::sphere(radius).unwrap());
+        let (pose_a, pose_b) = (Pose::at([0.0, 0.0, 2.4]).unwrap(), Pose::at([0.0; 3]).unwrap());
+        let pair = Pair::new(&balls[0], &pose_a, &balls[1], &pose_b);
+        let (a, b) = Body::both(&pair, 0.0);
+        for seed in 0..300 {
+            let mut chance = scattered(10 * seed);
+            let x = Vector3::new(0.0, 0.0, 1.6)
+                + 0.1_f64.powi((seed % 7) as i32) * Vector3::<f64>::from_fn(|_, _| chance());
+            for (problem, s) in [(Problem::Midway, 0.8), (Problem::OnB, 0.4), (Problem::OnA, 0.7)] {
+                let found = judged(&x, 2.0 * f64::exp(3.0 * chance()), s, [&a, &b], problem);
+                let (low, high) = (found.lower - found.rounding, found.upper + found.rounding);
+                assert!(low <= s * s && s * s <= high, "{problem:?} at {x:?}: {low}, {high}");
+            }
+        }
+    }
+}

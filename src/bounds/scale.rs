@@ -64,3 +64,28 @@ impl Scale {
         !(self.low > 0.0)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    #[test]
+    fn bounds_of_s_hold_it_whatever_the_bounds_of_its_square() {
+        for (square, low, high) in [(0.49, 0.48, 0.5), (0.49, -1.0, 0.5), (0.49, 0.5, 0.49), (0.0, -1e-30, 1e-20)] {
+            let scale = Scale::between(square, low, high);
+            assert!(scale.low <= scale.s && scale.s - scale.gap <= scale.low * (1.0 + 1e-15), "{scale:?}");
+            assert!(scale.high <= scale.s + scale.gap * (1.0 + 1e-15) || high < square, "{scale:?}");
+        }
+        assert!((Scale::between(0.25, 0.16, 0.36).gap - 0.1).abs() < 1e-15);
+    }
+
+    #[test]
+    fn what_leaves_the_side_of_1_open_is_undecided() {
+        for (low, high, undecided) in
+            [(0.9, 0.99, false), (1.01, 3.0, false), (0.5, 1.5, true), (0.999, 1.001, false), (0.5, f64::NAN, true)]
+        {
+            let scale = Scale::between(0.5 * (low * low + high * high), low * low, high * high);
+            assert_eq!(scale.is_undecided(), undecided, "{scale:?}");
+        }
+        assert!(Scale::between(0.1, -1.0, 0.2).may_be_zero() && !Scale::between(0.1, 0.05, 0.2).may_be_zero());
+    }
+}

@@ -126,3 +126,44 @@ impl Sensitivity {
         self.trace
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::dual_search::{DualSearch, side};
+    use crate::particle::potential::Quadratic;
+
+    fn about(centre: [f64; 3], hessian: Symmetric) -> Quadratic {
+        let to_centre = Vector3::from(centre);
+        let gradient = -hessian.times(&to_centre);
+        let value = -0.5 * gradient.dot(&to_centre);
+        Quadratic { value, expansion: value, gradient, hessian, pull: 0.0, count: 0, clear: f64::INFINITY }
+    }
+
+    /// The optimum of quadratics whose slope or value is changed by a little, against what the sensitivity says of it.
+    #[test]
+    fn the_answer_to_small_changes_is_that_of_another_solve() {
+        let q_a = about([-0.9, 0.1, 0.2], Symmetric { xx: 2.5, yx: 0.3, yy: 4.0, zx: -0.2, zy: 0.1, zz: 1.5 });
+        let q_b = about([0.95, -0.2, 0.1], Symmetric { xx: 1.8, yx: -0.1, yy: 2.0, zx: 0.4, zy: 0.5, zz: 5.0 });
+        let (soft, change) = ((1.0, 1.0), 1e-6_f64);
+        for problem in [Problem::Midway, Problem::OnB, Problem::OnA] {
+            let solve = |q_a: &Quadratic| {
+                DualSearch::new(side(q_a, soft.0), side(&q_b, soft.1), problem).solve(1.0).expect("an optimum")
+            };
+            let before = solve(&q_a);
+            let sensitivity = Sensitivity::of(&before, problem, soft, [f64::INFINITY; 2], 3).unwrap();
+            let (a, _) = problem.weights(before.lambda);
+            let turned: Vector3<f64> = change * Vector3::new(0.3, -0.5, 0.8);
+            // So that q_A at the optimum stays what it is.
+            let expansion = q_a.expansion - turned.dot(&before.step);
+            let after = solve(&Quadratic { gradient: q_a.gradient + turned, expansion, value: expansion, ..q_a });
+            let (moved, expected) = (after.step - before.step, a * sensitivity.to_slope.times(&turned));
+            assert!((moved - expected).norm() < 1e-4 * expected.norm(), "{problem:?}: {moved}, {expected}");
+            assert!(moved.norm() <= a * turned.norm() * sensitivity.per_slope(), "{problem:?}");
+            let expansion = q_a.expansion + change;
+            let raised = solve(&Quadratic { expansion, value: expansion, ..q_a }).step - before.step;
+            let bound = change * sensitivity.to_body_value(0, problem);
+            assert!((raised.norm() - bound).abs() <= 1e-4 * bound, "{problem:?}: {raised}, {bound}");
+        }
+    }
+}

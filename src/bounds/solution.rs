@@ -4,7 +4,7 @@ use crate::bounds::dual_bound::DualBound;
 use crate::bounds::rounding::Rounding;
 use crate::bounds::scale::INCONCLUSIVE;
 use crate::bounds::sensitivity::Sensitivity;
-use crate::linalg::number::{larger, smaller};
+use crate::linalg::number::{UNKNOWN_VECTOR, larger, smaller};
 use crate::model::kkt_check::Change;
 use crate::model::local_model::{self, LocalModel, Start, Step};
 use crate::model::problem::Problem;
@@ -69,11 +69,10 @@ pub(crate) enum Ending {
 impl Solution {
     /// Of a search that has found nothing but where it ended.
     pub fn unsettled(x: Vector3<f64>, lambda: f64, iterations: u32) -> Self {
-        let unknown = Vector3::new(f64::NAN, f64::NAN, f64::NAN);
         Self {
             x,
             lambda,
-            gradients: [unknown; 2],
+            gradients: [UNKNOWN_VECTOR; 2],
             gradient_norms: [f64::NAN; 2],
             forces: [f64::NAN; 2],
             values: [f64::NAN; 2],

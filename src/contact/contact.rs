@@ -1,6 +1,7 @@
 //! The answer for one pair.
 
 use crate::flags::Flags;
+use crate::linalg::number::UNKNOWN_VECTOR;
 use crate::settings::{BackEnd, Formulation};
 use nalgebra::Vector3;
 use std::fmt;
@@ -71,28 +72,25 @@ pub struct Contact {
 
 impl Contact {
     /// A pair of which nothing is known yet.
-    pub(crate) const UNKNOWN: Self = {
-        let nan = Vector3::new(f64::NAN, f64::NAN, f64::NAN);
-        Self {
-            kind: Kind::Separated,
-            formulation: Formulation::Midway,
-            back_end: BackEnd::Fast,
-            flags: Flags::NONE,
-            iterations: 0,
-            s: f64::NAN,
-            s_b: f64::NAN,
-            weight: f64::NAN,
-            gap: f64::NAN,
-            point_bound: f64::NAN,
-            overlap: f64::NAN,
-            distance: 0.0,
-            normal: nan,
-            point: nan,
-            branch_a: nan,
-            branch_b: nan,
-            point_on_a: nan,
-            point_on_b: nan,
-        }
+    pub(crate) const UNKNOWN: Self = Self {
+        kind: Kind::Separated,
+        formulation: Formulation::Midway,
+        back_end: BackEnd::Fast,
+        flags: Flags::NONE,
+        iterations: 0,
+        s: f64::NAN,
+        s_b: f64::NAN,
+        weight: f64::NAN,
+        gap: f64::NAN,
+        point_bound: f64::NAN,
+        overlap: f64::NAN,
+        distance: 0.0,
+        normal: UNKNOWN_VECTOR,
+        point: UNKNOWN_VECTOR,
+        branch_a: UNKNOWN_VECTOR,
+        branch_b: UNKNOWN_VECTOR,
+        point_on_a: UNKNOWN_VECTOR,
+        point_on_b: UNKNOWN_VECTOR,
     };
 
     /// A contact of which only the proof of separation is known.

@@ -101,3 +101,40 @@ pub(crate) fn any_across(n: &Vector3<f64>) -> Vector3<f64> {
     let axis = (0..3).rev().min_by(|&i, &j| n[i].abs().total_cmp(&n[j].abs())).unwrap_or(2);
     n.cross(&Vector3::ith(axis, 1.0)).normalize()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    struct Normals(Vec<(Vector3<f64>, f64)>);
+
+    impl StiffNormals for Normals {
+        fn visit(&self, mut visit: impl FnMut(Vector3<f64>, f64)) {
+            self.0.iter().for_each(|(n, weight)| visit(*n, *weight));
+        }
+    }
+
+    /// The softest of three directions keeps its curvature, 1e-18 of the stiffest one: the third axis is at right angles to both normals.
+    #[test]
+    fn axes_are_orthonormal_and_follow_the_stiffest_normals() {
+        let (stiff, soft) = (Vector3::new(0.6, 0.8, 0.1), Vector3::new(0.5, 0.9, 0.3));
+        // More than are kept from the first look, all but two of them along the first.
+        for repeated in [1, 2 * MOST_KEPT] {
+            let mut normals = vec![(soft, 1.0)];
+            normals.extend((0..repeated).map(|i| (stiff, 1e18 - i as f64)));
+            let axes = aligned(&Normals(normals), 3);
+            assert!((axes.transpose() * axes - Matrix3::identity()).norm() < 1e-15);
+            assert!((axes.column(0) - stiff.normalize()).norm() < 1e-15);
+            assert!(axes.column(2).dot(&stiff).abs() < 1e-16 && axes.column(2).dot(&soft).abs() < 1e-16);
+        }
+    }
+
+    #[test]
+    fn axes_of_a_boundary_stay_on_it() {
+        let normals = Normals(vec![(Vector3::new(0.6, 0.8, 5.0), 1e9), (Vector3::new(-0.8, 0.6, 2.0), 1.0)]);
+        let plane = aligned(&normals, 2);
+        assert!((plane.column(0) - Vector3::new(0.6, 0.8, 0.0)).norm() < 1e-15 && plane.column(2).norm() == 0.0);
+        assert!(plane.row(2).norm() == 0.0 && plane.column(0).dot(&plane.column(1)).abs() < 1e-16);
+        assert_eq!(aligned(&normals, 1), Matrix3::from_diagonal(&Vector3::x()));
+        assert_eq!(aligned(&normals, 0), Matrix3::zeros());
+    }
+}

@@ -1,13 +1,16 @@
 //! What the solver asks of a number: one double, two of them in lanes, or one of 32 digits.
 
 use super::double_double::DoubleDouble;
-use nalgebra::{ClosedAddAssign, ClosedDivAssign, ClosedMulAssign, ClosedSubAssign, Scalar, SimdValue};
+use nalgebra::{ClosedAddAssign, ClosedDivAssign, ClosedMulAssign, ClosedSubAssign, Scalar, SimdValue, Vector3};
 use num_traits::{One, Zero};
 use simba::simd::AutoF64x2;
 use std::ops::Neg;
 
 /// Two doubles on which the same is done at once.
 pub type Twin = AutoF64x2;
+
+/// A vector of which nothing is known.
+pub(crate) const UNKNOWN_VECTOR: Vector3<f64> = Vector3::new(f64::NAN, f64::NAN, f64::NAN);
 
 /// A number, or two of them in lanes. What is asked of a number is asked of both.
 pub trait Number:

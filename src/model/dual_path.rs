@@ -217,3 +217,62 @@ impl Optimum {
         self.mismatch_rate * problem.per_logarithm(problem.weights(self.lambda))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    /// q_A about the origin and q_B about another point, none of them a sphere.
+    fn path<'a>(sides: &'a [(Vector3<f64>, Symmetric); 2], problem: Problem) -> DualPath<'a, f64> {
+        let side = |(gradient, hessian): &'a (Vector3<f64>, Symmetric)| Side {
+            value: 0.5 * gradient.x * gradient.x,
+            gradient,
+            hessian,
+            soft: 0.1,
+        };
+        DualPath::new(side(&sides[0]), side(&sides[1]), problem)
+    }
+
+    fn sides() -> [(Vector3<f64>, Symmetric); 2] {
+        let of_a = Symmetric { xx: 2.5, yx: 0.3, yy: 4.0, zx: -0.2, zy: 0.1, zz: 1.5 };
+        let of_b = Symmetric { xx: 1.8, yx: -0.1, yy: 2.0, zx: 0.4, zy: 0.5, zz: 5.0 };
+        [(Vector3::new(1.1, -0.4, 0.2), of_a), (Vector3::new(-1.3, 0.2, 0.5), of_b)]
+    }
+
+    /// The derivatives of the curve by differences.
+    #[test]
+    fn along_and_rate_are_the_derivatives_of_the_curve() {
+        let sides = sides();
+        for problem in [Problem::Midway, Problem::OnB, Problem::OnA] {
+            let (path, lambda, step) = (path(&sides, problem), 1.7, 1e-5_f64);
+            let at = |lambda: f64| path.probe(lambda).unwrap();
+            let (here, more, less) = (at(lambda), at(lambda * step.exp()), at(lambda * (-step).exp()));
+            let of_theta = 2.0 * step * problem.per_logarithm(here.weights);
+            assert!(((more.step - less.step) / of_theta - here.along).norm() < 1e-7, "{problem:?}");
+            assert!(((more.mismatch - less.mismatch) / of_theta - here.rate).abs() < 1e-7, "{problem:?}");
+        }
+    }
+
+    /// With a tenth of the mismatch to begin with, the series of four terms leaves a hundred thousandth, and its point, of three, a ten
+    /// thousandth.
+    #[test]
+    fn the_series_leaves_the_fifth_power_of_the_mismatch() {
+        let sides = sides();
+        let path = path(&sides, Problem::Midway);
+        let mut root = 1.0;
+        for _ in 0..6 {
+            root = path.series(&path.probe(root).unwrap()).unwrap().lambda;
+        }
+        let left = |off: f64| {
+            let found = path.probe(root * off.exp()).unwrap();
+            let series = path.series(&found).unwrap();
+            let end = path.along(&found, &series);
+            let exact = path.probe(series.lambda).unwrap();
+            ((series.lambda / root).ln().abs(), (end.step - exact.step).norm())
+        };
+        let ((far, far_point), (near, near_point)) = (left(0.2), left(0.02));
+        assert!(
+            near < 10.0 * 1e-5 * far && near_point < 10.0 * 1e-4 * far_point,
+            "{far:e} to {near:e}, {far_point:e} to {near_point:e}"
+        );
+    }
+}

@@ -51,15 +51,15 @@ enum Advance<N> {
     Lambda(N),
 }
 
-/// The values of λ between which that of the optimum lies, as far as one search may go.
-struct Bracket<N> {
+/// The values of λ between which that of the optimum lies, limited to those that one search may go to.
+struct LimitedBracket<N> {
     low: N,
     high: N,
     nearest: N,
     farthest: N,
 }
 
-impl<N: Single> Bracket<N> {
+impl<N: Single> LimitedBracket<N> {
     #[inline(always)]
     fn about(lambda: N) -> Self {
         let (nearest, farthest) = (lambda / N::of(FARTHEST), lambda * N::of(FARTHEST));
@@ -110,7 +110,7 @@ impl<'a, N: Single> DualSearch<'a, N> {
         let approximate = guess.approximate();
         let kept = approximate.clamp(LAMBDA_RANGE.0, LAMBDA_RANGE.1);
         let mut found = self.curve.probe(if kept == approximate { guess } else { N::of(kept) })?;
-        let mut bracket = Bracket::about(found.lambda);
+        let mut bracket = LimitedBracket::about(found.lambda);
         for _ in 0..MOST_TRIALS {
             let (growing, falling) = self.sides(&found.values);
             let (difference, larger) =

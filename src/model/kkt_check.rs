@@ -216,3 +216,50 @@ impl<'a> Planes<'a> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::pair::pair::Pair;
+    use crate::particle::particle::Particle;
+    use crate::pose::Pose;
+
+    /// The check after steps from a point of a cube with faces at 0.4, and the place of the plane x ≤ 0.4.
+    fn after(y: [f64; 3], v: [f64; 3]) -> (KktCheck, usize, LocalPoint) {
+        let cube = Particle::cube(0.4, 0.1, 0.02, 0.9);
+        let pose = Pose::at([0.0; 3]).unwrap();
+        let pair = Pair::new(&cube, &pose, &cube, &pose);
+        let (_, body) = Body::both(&pair, 0.0);
+        let (point, v) = (body.locate(&y.into()), Vector3::from(v));
+        let q = body.at(&point, None);
+        let (_, face) = body.farthest_excess(&Vector3::new(1.0, 0.0, 0.0));
+        (KktCheck::after(&body, &point, &q, &v, v.norm()), face, point)
+    }
+
+    #[test]
+    fn a_step_changes_the_active_set_as_the_depths_say() {
+        // The plane x ≤ 0.4 is on by 0.1.
+        for (v, change, clear) in [
+            ([-0.05, 0.0, 0.0], Change::None, 0.4),
+            ([0.3, 0.2, 0.0], Change::None, 0.2),
+            ([0.0, 0.5, 0.0], Change::Entering, 0.4),
+            ([-0.2, 0.0, 0.0], Change::Pulling, 0.4),
+            ([-0.2, 0.5, 0.0], Change::Pulling, 0.4),
+        ] {
+            let (check, ..) = after([0.5, 0.0, 0.0], v);
+            assert_eq!(check.change, change, "{v:?}");
+            // By less than the distance of the planes that are off, and of that which is on where nothing was looked at.
+            assert!(check.clear > 0.0 && check.clear <= clear + 1e-12, "{v:?}: {}", check.clear);
+            assert!(check.drop.is_none());
+        }
+    }
+
+    #[test]
+    fn a_plane_that_is_on_by_rounding_is_dropped_where_it_pulls() {
+        let (check, face, mut point) = after([0.4, 0.0, 0.0], [-1e-3, 0.0, 0.0]);
+        assert_eq!((check.change, check.drop), (Change::Leaving, Some(face)));
+        assert!(point.is_active(face, 0.0));
+        point.drop(face);
+        assert!(!point.is_active(face, 0.0) && point.is_active(face, 2.0 * point.blur));
+    }
+}

@@ -273,3 +273,54 @@ pub(crate) struct Step {
     /// The worse of the two.
     pub change: Change,
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::pair::pair::Pair;
+    use crate::particle::particle::Particle;
+    use crate::pose::Pose;
+
+    /// In axes of B and in graded ones the quadratics are S and its gradient at the point.
+    #[test]
+    fn both_axes_give_the_same_quadratics() {
+        let cube = Particle::cube(0.4, 0.1, 0.02, 0.9);
+        let (pose_a, pose_b) =
+            (Pose::new([0.7, 0.4, 0.3], [0.9, 0.3, -0.2, 0.5]).unwrap(), Pose::at([0.0; 3]).unwrap());
+        let pair = Pair::new(&cube, &pose_a, &cube, &pose_b);
+        let (a, b) = Body::both(&pair, 0.0);
+        let bodies = [&a, &b];
+        let start = Start { x: Vector3::new(0.45, 0.2, 0.1), lambda: 1.0 };
+        let plain = LocalModel::at(bodies, &start, Problem::Midway, Axes::OfB);
+        let mut graded = plain;
+        graded.grade(bodies, (0.5, 0.5));
+        assert!(plain.in_solver_axes() && !graded.in_solver_axes());
+        for (i, body) in bodies.into_iter().enumerate() {
+            let [p, q] = [&plain, &graded].map(|model| if i == 0 { model.q_a } else { model.q_b });
+            assert!((p.value - body.value(&start.x)).abs() < 1e-14 * p.value);
+            assert!((p.gradient - graded.to_solver(&q.gradient)).norm() < 1e-13 * p.gradient.norm());
+            let e = Vector3::new(0.3, -0.8, 0.2);
+            let h = 1e-6;
+            let slope = (body.value(&(start.x + h * e)) - body.value(&(start.x - h * e))) / (2.0 * h);
+            assert!((slope - p.gradient.dot(&e)).abs() < 1e-7 * p.gradient.norm(), "{slope}");
+            let (of_p, of_q) =
+                (p.hessian.times(&e).dot(&e), q.hessian.times(&graded.to_axes(&e)).dot(&graded.to_axes(&e)));
+            assert!((of_p - of_q).abs() < 1e-12 * of_p);
+        }
+    }
+
+    /// The planes of a corner resist in all directions, that of a face in one.
+    #[test]
+    fn a_soft_direction_is_seen() {
+        let cube = Particle::cube(0.4, 1e-6, 1e-9, 0.9);
+        let pose = Pose::at([0.0; 3]).unwrap();
+        let pair = Pair::new(&cube, &pose, &cube, &pose);
+        let (a, b) = Body::both(&pair, 0.0);
+        assert_eq!(Axes::of([&a, &b]), Axes::Graded);
+        for (x, soft) in [([0.41, 0.41, 0.41], false), ([0.41, 0.0, 0.0], true), ([0.41, 0.41, 0.0], true)] {
+            let start = Start { x: x.into(), lambda: 1.0 };
+            let model = LocalModel::at([&a, &b], &start, Problem::Midway, Axes::Graded);
+            assert_eq!(model.in_solver_axes(), !soft, "{x:?}");
+        }
+    }
+}

@@ -193,3 +193,45 @@ impl Problem {
         if self == Self::OnBoundary { N::of(f64::INFINITY) } else { of_quadratics }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    const ALL: [Problem; 4] = [Problem::Midway, Problem::OnB, Problem::OnA, Problem::OnBoundary];
+
+    /// da/d ln λ and db/d ln λ by differences, and both S from the two sums.
+    #[test]
+    fn weights_rates_and_sums_belong_together() {
+        let (s_a, s_b) = (0.7, 1.3);
+        for problem in ALL {
+            let (alpha, beta): (f64, f64) = problem.weight_rates();
+            for lambda in [0.1, 1.0, 6.0] {
+                let (a, b): (f64, f64) = problem.weights(lambda);
+                let (step, rate) = (1e-6_f64, problem.per_logarithm((a, b)));
+                let (more, less): ((f64, f64), (f64, f64)) =
+                    (problem.weights(lambda * step.exp()), problem.weights(lambda * (-step).exp()));
+                assert!(((more.0 - less.0) / (2.0 * step) - alpha * rate).abs() < 1e-8, "{problem:?}, {lambda}");
+                assert!(((more.1 - less.1) / (2.0 * step) - beta * rate).abs() < 1e-8, "{problem:?}, {lambda}");
+                if problem != Problem::OnBoundary {
+                    let found = problem.apart(a * s_a + b * s_b, alpha * s_a + beta * s_b, (a, b));
+                    assert!((found.0 - s_a).abs() < 1e-14 && (found.1 - s_b).abs() < 1e-14, "{problem:?}, {lambda}");
+                }
+            }
+        }
+    }
+
+    /// Weak duality at a point: the dual value of any λ is at most the merit of any point, and equal where both sides are.
+    #[test]
+    fn the_dual_value_is_no_more_than_the_merit() {
+        for problem in ALL {
+            for (s_a, s_b) in [(0.3, 2.0), (1.7, 0.2), (0.9, 1.1), (1.0, 1.0)] {
+                for lambda in [0.01, 1.0, 50.0] {
+                    let (dual, merit) = (problem.dual(s_a, s_b, lambda), problem.merit(s_a, s_b, lambda));
+                    assert!(dual <= merit + 1e-15, "{problem:?}, {s_a}, {s_b}, {lambda}");
+                    let meets = problem.mismatch(s_a, s_b) == 0.0;
+                    assert!(!meets || (dual - merit).abs() < 1e-15, "{problem:?}, {s_a}, {s_b}, {lambda}");
+                }
+            }
+        }
+    }
+}

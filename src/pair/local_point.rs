@@ -51,3 +51,18 @@ impl LocalPoint {
         &self.dropped[..usize::from(self.count)]
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    #[test]
+    fn a_plane_is_dropped_only_where_its_depth_is_rounding() {
+        let blur = 1e-15;
+        let mut point = LocalPoint::new(Vector3::zeros(), 1e-16, blur);
+        assert!(point.is_active(3, 0.0) && point.is_active(3, -0.5 * blur) && !point.is_active(3, -2.0 * blur));
+        point.drop(3);
+        assert!(!point.is_active(3, 0.0) && point.is_active(3, 2.0 * blur) && point.is_active(4, 0.0));
+        (4..20).for_each(|place| point.drop(place));
+        assert!(point.is_full() && point.is_active(19, 0.0));
+    }
+}

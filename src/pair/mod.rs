@@ -40,7 +40,7 @@ pub mod separation;
 
 /// Numbers in (−1, 1) that look like chance, for tests.
 #[cfg(test)]
-fn scattered(seed: usize) -> impl FnMut() -> f64 {
+pub fn scattered(seed: usize) -> impl FnMut() -> f64 {
     let mut state = seed as f64;
     move || {
         state += 1.0;

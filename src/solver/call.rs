@@ -234,3 +234,53 @@ impl<'a> Call<'a> {
         model.pieces(self.bodies(), &solution.x, n)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::particle::particle::Particle;
+    use crate::pose::Pose;
+
+    /// Two turned cubes solved in doubles and, where that is asked for, in 32 digits: both contain the same s, and only the second is flagged.
+    #[test]
+    fn either_tier_bounds_the_answer_of_the_other() {
+        let cube = Particle::cube(0.4, 0.1, 0.02, 0.9);
+        let (pose_a, pose_b) =
+            (Pose::new([0.7, 0.4, 0.3], [0.9, 0.3, -0.2, 0.5]).unwrap(), Pose::at([0.0; 3]).unwrap());
+        let (pair, settings) = (Pair::new(&cube, &pose_a, &cube, &pose_b), Settings::default());
+        for problem in [Problem::Midway, Problem::OnB, Problem::OnA] {
+            let solve = |precise: bool| {
+                let mut call = Call::new(&pair, &settings);
+                call.precise = precise;
+                let start = call.cold();
+                let mut model = call.model(&start, problem);
+                let solution = call.solve(problem, start.lambda, &mut model).unwrap().solution;
+                (call.scale(&solution, problem), call.flags.contains(Flags::EXTENDED), solution)
+            };
+            let ((doubles, by_doubles, _), (wide, by_wide, _)) = (solve(false), solve(true));
+            assert!(!by_doubles && by_wide, "{problem:?}");
+            assert!((doubles.s - wide.s).abs() <= doubles.gap + wide.gap, "{problem:?}: {doubles:?}, {wide:?}");
+            assert!(wide.gap < 0.1 * doubles.gap, "{problem:?}: {doubles:?}, {wide:?}");
+        }
+    }
+
+    #[test]
+    fn from_its_own_solution_a_call_takes_one_step() {
+        let cube = Particle::cube(0.4, 0.1, 0.02, 0.9);
+        let (pose_a, pose_b) =
+            (Pose::new([0.7, 0.4, 0.3], [0.9, 0.3, -0.2, 0.5]).unwrap(), Pose::at([0.0; 3]).unwrap());
+        let (pair, settings) = (Pair::new(&cube, &pose_a, &cube, &pose_b), Settings::default());
+        let from = |start: Start| {
+            let mut call = Call::new(&pair, &settings);
+            let mut model = call.model(&start, Problem::Midway);
+            let solution = call.solve(Problem::Midway, start.lambda, &mut model).unwrap().solution;
+            (solution, call.iterations)
+        };
+        let (first, iterations) = from(Start { x: Vector3::new(-0.3, 0.5, 0.6), lambda: 7.0 });
+        let (again, once) = from(first.start());
+        assert!(iterations > 1 && once == 1, "{iterations}, {once}");
+        assert!(
+            (again.x - first.x).norm() < 1e-13 && (again.estimate - first.estimate).abs() <= first.gap() + again.gap()
+        );
+    }
+}

@@ -190,3 +190,60 @@ pub(crate) fn midway_between(points: &[CertifiedPoint; 2]) -> Remembered {
     let midway = Remembered { x: p2.x + 0.5 * way, lambda: square.sqrt(), overlapping: true, closest: [1.0; 2] };
     seen_from(midway, [value(0), value(1)], points)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::pair::pair::Pair;
+    use crate::particle::particle::Particle;
+    use crate::pose::Pose;
+    use crate::settings::Settings;
+
+    const RADII: [f64; 2] = [0.7, 1.6];
+
+    /// s and λ of midway, P1 and P2 of balls of these radii at a distance d, on whose line of centres all lie.
+    fn known(d: f64) -> [[f64; 2]; 3] {
+        let [a, b] = RADII;
+        let (at_p1, at_p2) = ((d - a) / b, (d - b) / a);
+        [[d / (a + b), b / a], [at_p1, b / (a * at_p1)], [at_p2, at_p2 * b / a]]
+    }
+
+    #[test]
+    fn between_balls_the_guesses_of_lambda_are_exact() {
+        for d in [1.7, 2.0, 2.25] {
+            let [[s, lambda], [_, of_p1], [_, of_p2]] = known(d);
+            let guesses = from_between([s * s, s * s], lambda);
+            assert!((guesses[0] / of_p1 - 1.0).abs() < 1e-13 && (guesses[1] / of_p2 - 1.0).abs() < 1e-13, "{d}");
+        }
+    }
+
+    #[test]
+    fn the_closest_points_of_balls_are_those_of_the_line_of_centres() {
+        let [small, large] = RADII.map(|radius| Particle::sphere(radius).unwrap());
+        for d in [1.7, 2.0, 2.25] {
+            let (pose_a, pose_b) = (Pose::at([0.0, d, 0.0]).unwrap(), Pose::at([0.0; 3]).unwrap());
+            let (pair, settings) = (Pair::new(&small, &pose_a, &large, &pose_b), Settings::default());
+            let mut call = Call::new(&pair, &settings);
+            let start = call.cold();
+            let mut model = call.model(&start, Problem::Midway);
+            let midway = call.solve(Problem::Midway, start.lambda, &mut model).unwrap();
+            let [p1, p2] = call.closest(&midway).unwrap().unwrap();
+            let [_, of_p1, of_p2] = known(d);
+            for (point, y, [s, lambda]) in [(p1, d - RADII[0], of_p1), (p2, RADII[1], of_p2)] {
+                assert!((point.x - Vector3::new(0.0, y, 0.0)).norm() <= point.bound, "{d}");
+                assert!((point.scale.s - s).abs() <= point.scale.gap && (point.lambda / lambda - 1.0).abs() < 1e-12);
+            }
+        }
+    }
+
+    /// A small ball in the core of a cube of k = 0, beside its centre: all of the ball has S = 0 of the cube, and no point of it is the closest.
+    #[test]
+    fn a_body_inside_the_core_of_another_has_no_closest_point() {
+        let (cube, ball) = (Particle::cube(0.4, 0.1, 0.0, 0.0), Particle::sphere(0.05).unwrap());
+        let (pose_a, pose_b) = (Pose::at([0.0; 3]).unwrap(), Pose::at([0.2, 0.1, 0.0]).unwrap());
+        let (pair, settings) = (Pair::new(&cube, &pose_a, &ball, &pose_b), Settings::default());
+        assert!(Call::new(&pair, &settings).closest_point(Problem::OnB, None).unwrap().is_none());
+        // With the ball's centre inside the cube, neither has the cube one nearest to the ball.
+        assert!(Call::new(&pair, &settings).closest_point(Problem::OnA, None).unwrap().is_none());
+    }
+}

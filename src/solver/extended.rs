@@ -15,6 +15,7 @@ use crate::linalg::double_double::DoubleDouble;
 use crate::linalg::graded_basis::{self, StiffNormals};
 use crate::linalg::line::Line;
 use crate::linalg::number::{Number, Single, larger, smaller};
+use crate::linalg::root::Bracket;
 use crate::linalg::symmetric::{Factor, Symmetric};
 use crate::linalg::wide::{Wide, rounded, wide};
 use crate::model::dual_path::{Optimum, Side};
@@ -72,25 +73,24 @@ struct Found {
     optimum: Option<Optimum<DoubleDouble>>,
 }
 
-/// The values of λ between which that of the optimum lies.
-struct Bracket {
-    low: f64,
-    high: f64,
+/// The values of λ between which that of the optimum lies, halved where the dual path narrows them too slowly.
+struct SafeguardedBracket {
+    ends: Bracket,
     /// Values of λ in a row that did not halve the logarithm of high/low.
     slow: u32,
 }
 
-impl Bracket {
+impl SafeguardedBracket {
+    fn new() -> Self {
+        Self { ends: Bracket { low: 0.0, high: f64::INFINITY }, slow: 0 }
+    }
+
     /// The next λ after one whose minimum has the side that grows with λ too large or too small, and whose dual path leads to
     /// `wanted`; `None` where the bracket has no double inside.
     fn next(&mut self, lambda: f64, too_large: bool, wanted: DoubleDouble) -> Option<DoubleDouble> {
-        let width = (self.high / self.low).ln();
-        if too_large {
-            self.high = lambda;
-        } else {
-            self.low = lambda;
-        }
-        let Self { low, high, .. } = *self;
+        let width = (self.ends.high / self.ends.low).ln();
+        self.ends.narrow(lambda, too_large);
+        let Bracket { low, high } = self.ends;
         let proposed = wanted.rounded();
         let next = if low > 0.0 && high < f64::INFINITY {
             self.slow = if (high / low).ln() > 0.5 * width { self.slow + 1 } else { 0 };
@@ -102,7 +102,7 @@ impl Bracket {
         } else {
             DoubleDouble::from(if proposed > low { proposed.min(low * STRIDE) } else { low * STRIDE })
         };
-        (low < next.rounded() && next.rounded() < high).then_some(next)
+        self.ends.contains(next.rounded()).then_some(next)
     }
 }
 
@@ -153,7 +153,7 @@ fn ending(solution: &Solution, bodies: [&Body; 2], goal: &Goal) -> Ending {
 impl Extended<'_> {
     fn search(&mut self, first: DoubleDouble) -> Found {
         let mut found = Found { delta: wide(&Vector3::zeros()), lambda: first, optimum: None };
-        let mut bracket = Bracket { low: 0.0, high: f64::INFINITY, slow: 0 };
+        let mut bracket = SafeguardedBracket::new();
         let mut lambda = first;
         // The active set at the start may be that of the optimum.
         let model = self.model(&found.delta, Undecided::BySign, first);
@@ -455,5 +455,46 @@ fn approximate(optimum: &Optimum<DoubleDouble>) -> Optimum {
         factored: scalar(optimum.factored),
         along: rounded(&optimum.along),
         mismatch_rate: scalar(optimum.mismatch_rate),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::particle::particle::Particle;
+    use crate::pose::Pose;
+
+    /// λ proposed just beyond one end each time: the other end would stay where it is.
+    #[test]
+    fn a_bracket_shrinks_whatever_is_proposed() {
+        for root in [7.3, 1e-9, 4e12] {
+            let (mut bracket, mut lambda, mut steps) = (SafeguardedBracket::new(), DoubleDouble::from(1.0), 0);
+            while bracket.ends.high > (1.0 + 1e-12) * bracket.ends.low {
+                let proposed = DoubleDouble::from(bracket.ends.low.max(1e-300) * (1.0 + 1e-15));
+                match bracket.next(lambda.rounded(), lambda.rounded() > root, proposed) {
+                    Some(next) => lambda = next,
+                    None => break,
+                }
+                steps += 1;
+                assert!(bracket.ends.low <= root && root < bracket.ends.high && steps < 500, "{:?}", bracket.ends);
+            }
+        }
+    }
+
+    /// Balls of radii 1 and 3, whose centres are 2 apart: s = ½, λ = 3, and P3 is 1.5 from the centre of B. The doubles given are exact.
+    #[test]
+    fn balls_are_solved_to_the_last_digit() {
+        let (small, large) = (Particle::sphere(1.0).unwrap(), Particle::sphere(3.0).unwrap());
+        let (pose_a, pose_b) = (Pose::at([0.0, 2.0, 0.0]).unwrap(), Pose::at([0.0; 3]).unwrap());
+        let pair = Pair::new(&small, &pose_a, &large, &pose_b);
+        let (a, b) = Body::both(&pair, 0.0);
+        let goal = Goal { problem: Problem::Midway, tolerance: 1e-15, stop_when_separated: false };
+        let start = Start { x: Vector3::new(0.3, 0.2, -0.4), lambda: 0.01 };
+        let found = solve(&pair, [&a, &b], &goal, &start);
+        assert_eq!(found.ending, Ending::Converged);
+        assert!((found.estimate - 0.25).abs() <= f64::EPSILON && found.gap() < f64::EPSILON, "{found:?}");
+        assert!((found.lambda - 3.0).abs() < 1e-15 * 3.0);
+        let off = (found.x - Vector3::new(0.0, 1.5, 0.0)).norm();
+        assert!(off <= found.point_bound.unwrap() && found.point_bound.unwrap() < 1e-13, "{found:?}");
     }
 }

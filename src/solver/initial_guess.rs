@@ -321,3 +321,60 @@ impl Hull {
         (lambda.is_finite() && x.iter().all(|v| v.is_finite())).then_some(Start { x, lambda })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::pair::scattered;
+    use crate::particle::particle::Particle;
+    use crate::pose::Pose;
+
+    /// With k = 0 a face of B, at x = 0.5, and a face or an edge of A meet where s·(r_A + r_B) is what is between the sharp ones.
+    #[test]
+    fn the_start_is_the_optimum_where_its_planes_are_those_that_are_on() {
+        let (of_a, of_b, s) = (0.1, 0.02, 0.6);
+        let (blunt, sharp) = (Particle::cube(0.4, of_a, 0.0, 0.0), Particle::cube(0.5, of_b, 0.0, 0.0));
+        let eighth = 0.125 * std::f64::consts::PI;
+        for (q, corner) in [([1.0, 0.0, 0.0, 0.0], 0.4), ([eighth.cos(), 0.0, 0.0, eighth.sin()], 0.4 * 2f64.sqrt())] {
+            let pose_a = Pose::new([0.5 + corner + s * (of_a + of_b), 0.03, -0.02], q).unwrap();
+            let pose_b = Pose::at([0.0; 3]).unwrap();
+            let pair = Pair::new(&blunt, &pose_a, &sharp, &pose_b);
+            let (a, b) = Body::both(&pair, 0.0);
+            let start = cold(&pair, [&a, &b]);
+            assert!((start.x.x - (0.5 + s * of_b)).abs() < 1e-14, "{start:?}");
+            assert!((start.lambda / (of_b / of_a) - 1.0).abs() < 1e-12, "{start:?}");
+            assert!([&a, &b].iter().all(|body| (body.value(&start.x) - s * s).abs() < 1e-11), "{start:?}");
+        }
+    }
+
+    /// Each plane that joins shortens y, which has the same product with all that are left: none is nearer to the origin.
+    #[test]
+    fn the_hull_gives_the_shortest_vector() {
+        let mut joined = 0;
+        for seed in 0..300 {
+            let mut chance = scattered(40 * seed);
+            let mut face = || {
+                let gradient = Vector3::new(0.4, 0.0, 0.0) + Vector3::<f64>::from_fn(|_, _| chance());
+                Face { gradient, on_a: true }
+            };
+            let mut hull = Hull::of(face());
+            for _ in 0..10 {
+                let (next, last) = (face(), hull.shortest());
+                // Others do not take over.
+                if hull.count == 4 || next.gradient.dot(&last) >= 0.9 * last.norm_squared() {
+                    continue;
+                }
+                if hull.join(next).is_none() {
+                    break;
+                }
+                joined += 1;
+                let (y, shares) = (hull.shortest(), &hull.shares[..hull.count]);
+                assert!(hull.count == 4 || y.norm() < last.norm(), "{y:?}");
+                assert!((shares.iter().sum::<f64>() - 1.0).abs() < 1e-12 && shares.iter().all(|share| *share > 0.0));
+                let scale = 1e-9 * hull.longest;
+                assert!((0..hull.count).all(|i| (y.dot(hull.g(i)) - y.norm_squared()).abs() < scale), "{y:?}");
+            }
+        }
+        assert!(joined > 300, "{joined}");
+    }
+}

@@ -93,3 +93,40 @@ fn first_crossing(v: f64, s: f64, c: f64) -> Option<f64> {
     let t = if s < 0.0 { 2.0 * v / (root - s) } else { -(s + root) / c };
     (t >= 0.0 && t.is_finite()).then_some(t)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::pair::pair::Pair;
+    use crate::particle::particle::Particle;
+    use crate::pose::Pose;
+
+    fn piece(value: f64, slope: f64, curvature: f64) -> OnLine {
+        OnLine { value, slope, curvature }
+    }
+
+    /// 1 − t against t: they cross at ½. 1 − 10 t against 0.9 − t + ½ t², which takes over at once and is least at 1.
+    #[test]
+    fn the_larger_of_two_pieces_is_least_where_they_cross_or_in_the_valley_of_one() {
+        for way in [1.0, -1.0] {
+            let falling = piece(1.0, -way, 0.1);
+            assert!((to_minimum(&[falling, falling]) - 10.0 * way).abs() < 1e-14);
+            assert!((to_minimum(&[falling, piece(0.0, way, 0.1)]) - 0.5 * way).abs() < 1e-15);
+            assert!((to_minimum(&[piece(1.0, -10.0 * way, 0.1), piece(0.9, -way, 1.0)]) - way).abs() < 1e-15);
+        }
+    }
+
+    /// Unit balls about 0 and 1.5: both S are equal at 0.75, and the surface of B ends at 1, up to which S_A falls.
+    #[test]
+    fn the_minimum_along_a_line_between_balls_is_known() {
+        let ball = Particle::sphere(1.0).unwrap();
+        let (pose_a, pose_b) = (Pose::at([1.5, 0.0, 0.0]).unwrap(), Pose::at([0.0; 3]).unwrap());
+        let pair = Pair::new(&ball, &pose_a, &ball, &pose_b);
+        let (a, b) = Body::both(&pair, 0.0);
+        for (problem, expected) in [(Problem::Midway, 0.75), (Problem::OnB, 1.0), (Problem::OnA, 0.5)] {
+            let (from, direction) = (Vector3::new(-0.3, 0.0, 0.0), Vector3::new(2.0, 0.0, 0.0));
+            let alpha = descend([&a, &b], Merit(problem, 1.0), &from, &direction);
+            assert!((from.x + alpha * direction.x - expected).abs() < 2.0 * CLOSE, "{problem:?}: {alpha}");
+        }
+    }
+}

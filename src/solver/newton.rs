@@ -264,3 +264,64 @@ impl Attempt {
         LocalModel::of(bodies, x, bodies.map(|body| body.locate(&x)), problem.weights(lambda), axes)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::pair::pair::Pair;
+    use crate::pair::scattered;
+    use crate::particle::particle::Particle;
+    use crate::pose::Pose;
+
+    fn solved(bodies: [&Body; 2], goal: &Goal, from: Vector3<f64>, lambda: f64) -> Solution {
+        let axes = Axes::of(bodies);
+        let points = bodies.map(|body| body.locate(&from));
+        let mut model = LocalModel::of(bodies, from, points, goal.problem.weights(lambda), axes);
+        solve(bodies, goal, lambda, axes, &mut model, None)
+    }
+
+    fn goal(problem: Problem) -> Goal {
+        Goal { problem, tolerance: 1e-12, stop_when_separated: false }
+    }
+
+    /// From where other planes are on: at the end the forces balance, both S are equal, and no point nearby has a lesser larger one.
+    #[test]
+    fn the_solution_is_the_optimum_by_its_definition() {
+        let cube = Particle::cube(0.4, 0.1, 0.02, 0.9);
+        for seed in 0..50 {
+            let mut chance = scattered(50 * seed);
+            let mut vector = || Vector3::<f64>::from_fn(|_, _| chance());
+            let (turn, towards, start) = (vector(), vector().normalize(), 0.6 * vector());
+            let pose_a = Pose::new((0.9 * towards).into(), [0.5, turn.x, turn.y, turn.z]).unwrap();
+            let pose_b = Pose::at([0.0; 3]).unwrap();
+            let pair = Pair::new(&cube, &pose_a, &cube, &pose_b);
+            let (a, b) = Body::both(&pair, 0.0);
+            let found = solved([&a, &b], &goal(Problem::Midway), start, 30.0);
+            assert!(matches!(found.ending, Ending::Converged | Ending::RoundingLimited), "{found:?}");
+            let [of_a, of_b] = [&a, &b].map(|body| body.at(&body.locate(&found.x), None));
+            let (u, v) = Problem::Midway.weights(found.lambda);
+            assert!((u * of_a.gradient + v * of_b.gradient).norm() < 1e-11 * of_a.gradient.norm(), "{found:?}");
+            assert!((of_a.value - of_b.value).abs() < 1e-11 * of_a.value, "{found:?}");
+            for _ in 0..20 {
+                let x = found.x + 1e-3 * vector();
+                assert!(a.value(&x).max(b.value(&x)) >= found.lower - found.rounding, "{found:?}");
+            }
+        }
+    }
+
+    /// Balls of radii 1 and 2 whose centres are 3.3 apart: s = 1.1.
+    #[test]
+    fn balls_apart_are_separated_where_that_is_enough() {
+        let balls = [1.0, 2.0].map(|radius| Particle::sphere(radius).unwrap());
+        let (pose_a, pose_b) = (Pose::at([0.0, 0.0, 3.3]).unwrap(), Pose::at([0.0; 3]).unwrap());
+        let pair = Pair::new(&balls[0], &pose_a, &balls[1], &pose_b);
+        let (a, b) = Body::both(&pair, 0.0);
+        let to_the_end = solved([&a, &b], &goal(Problem::Midway), Vector3::new(1.0, -0.5, 0.3), 1.0);
+        assert!((to_the_end.estimate.sqrt() - 1.1).abs() < 1e-14 && (to_the_end.lambda - 2.0).abs() < 1e-13);
+        assert!((to_the_end.x - Vector3::new(0.0, 0.0, 2.2)).norm() < 1e-14, "{to_the_end:?}");
+        let enough = Goal { stop_when_separated: true, ..goal(Problem::Midway) };
+        let separated = solved([&a, &b], &enough, Vector3::new(1.0, -0.5, 0.3), 1.0);
+        assert!(separated.ending == Ending::Separated && separated.lower > 1.0, "{separated:?}");
+        assert!(separated.lower <= 1.21 * (1.0 + 1e-14));
+    }
+}
