@@ -11,7 +11,7 @@ use crate::linalg::number::{larger, smaller};
 use crate::model::local_model::Start;
 use crate::model::problem::Problem;
 use crate::pair::body::{Body, shift_in_a};
-use crate::pair::boundary_part::{BoundaryPart, PartFrame};
+use crate::pair::boundary_part::{BoundaryPart, PartFrame, PlacedPart};
 use crate::pair::pair::Pair;
 use crate::pair::separation::MARGIN;
 use crate::particle::particle::Particle;
@@ -39,7 +39,8 @@ pub(super) struct Search<'a> {
 /// The least S on one part of a boundary.
 #[derive(Clone, Copy)]
 pub(super) struct Least {
-    pub part: BoundaryPart,
+    /// The number of coordinates that a point of the part has.
+    pub dimensions: usize,
     /// Part to world, the centre of the particle in the frame of the part, and the length that the rounding of its place is proportional to.
     pub rotation: Matrix3<f64>,
     centre: Vector3<f64>,
@@ -76,53 +77,55 @@ pub(super) struct Closest {
 }
 
 impl Search<'_> {
-    /// The least S on a part with its frame beside the particle, sought from a point of that.
-    fn on_part(&mut self, part: BoundaryPart, frame: &PartFrame, from: Vector2<f64>) -> Result<Least, DetectError> {
-        let pair = Pair::on_boundary(self.particle, self.pose, &part, frame);
+    /// The least S on a part, sought from a point of that.
+    fn on_part(&mut self, placed: &PlacedPart, from: Vector2<f64>) -> Result<Least, DetectError> {
+        let pair = Pair::on_boundary(self.particle, placed);
         let mut call = Call::new(&pair, self.settings);
         call.precise = self.precise;
         let start = Start { x: from.push(0.0), lambda: 1.0 };
         let mut model = call.model(&start, Problem::OnBoundary);
         let solved = call.solve(Problem::OnBoundary, start.lambda, &mut model)?;
         let solution = solved.solution;
-        let (inward_descent, rounding) = match (solution.inward_descent, part.descent(&solution.gradients[0], frame)) {
+        let (inward_descent, rounding) = match (solution.inward_descent, placed.descent(&solution.gradients[0])) {
             (Some(descent), _) => (descent, 0.0),
-            (None, Some(descent)) => (descent, part.descent_rounding(solution.gradient_norms[0])),
+            (None, Some(descent)) => (descent, placed.part.descent_rounding(solution.gradient_norms[0])),
             (None, None) => (0.0, 0.0),
         };
         let point_bound = call.point_bound(&solved, Problem::OnBoundary);
-        // Where S rises into the triangle for sure, wherever the point may be, it is that of the triangle.
+        // Where S provably rises into the triangle from everywhere within the bound, the optimum of the part is that of the triangle.
         let planes = f64::from(solved.model.q_a.count) * call.bodies()[0].stiffest_curvature();
         let doubt = solution.slope + rounding + (planes + call.bodies()[0].sphere_curvature()) * point_bound;
-        let is_all = part.dimensions() == 2 || -inward_descent > doubt;
+        let dimensions = placed.part.dimensions();
+        let is_all = dimensions == 2 || -inward_descent > doubt;
         let point_bound = if is_all { point_bound } else { f64::INFINITY };
         self.flags = self.flags.with(call.flags);
         self.iterations += call.iterations;
         // Of a point that is known to the last digits the frame has to be, too.
         let precise = call.flags.contains(Flags::EXTENDED);
-        let PartFrame { rotation, centre, lengths } = if precise { part.precise_frame(self.pose) } else { *frame };
+        let PartFrame { rotation, centre, lengths } = if precise { placed.precise_frame() } else { placed.frame };
         let descent = larger(inward_descent, 0.0) + rounding + solution.slope;
-        Ok(Least { part, rotation, centre, lengths, precise, solution, inward_descent, descent, point_bound })
+        Ok(Least { dimensions, rotation, centre, lengths, precise, solution, inward_descent, descent, point_bound })
     }
 
     /// The least S on the plane of a boundary, sought from the remembered point if there is one. The other parts are not sought from
     /// memory: all triangles that share one find the same bits.
-    fn inside(&mut self, plane: BoundaryPart, frame: &PartFrame) -> Result<Least, DetectError> {
-        let last = self.remembered.map(|x| frame.in_part(self.pose, &x).xy());
-        let least = self.on_part(plane, frame, last.unwrap_or_else(|| self.below(frame)))?;
+    fn inside(&mut self, plane: &PlacedPart) -> Result<Least, DetectError> {
+        let last = self.remembered.map(|x| plane.in_part(&x).xy());
+        let least = self.on_part(plane, last.unwrap_or_else(|| self.below(plane)))?;
         self.remembered = Some(self.pose.rotation().tr_mul(&(least.rotation * least.from_centre())));
         Ok(least)
     }
 
     /// A point of a plane near that of the least S: below the corners of the particle that lie beyond it, seen from the centre.
-    fn below(&self, frame: &PartFrame) -> Vector2<f64> {
+    fn below(&self, plane: &PlacedPart) -> Vector2<f64> {
+        let frame = &plane.frame;
         let towards = -frame.centre.z.signum() * self.pose.rotation().tr_mul(&frame.rotation.column(2));
         let corner = self.particle.bounds.beyond(&towards, frame.centre.z.abs());
-        corner.map_or_else(Vector2::zeros, |corner| frame.in_part(self.pose, &corner).xy())
+        corner.map_or_else(Vector2::zeros, |corner| plane.in_part(&corner).xy())
     }
 
-    pub fn on_plane(&mut self, plane: BoundaryPart, frame: &PartFrame) -> Result<Closest, DetectError> {
-        let least = self.inside(plane, frame)?;
+    pub fn on_plane(&mut self, plane: &PlacedPart) -> Result<Closest, DetectError> {
+        let least = self.inside(plane)?;
         Ok(Closest {
             duality_gap: least.solution.duality_gap,
             least,
@@ -135,14 +138,15 @@ impl Search<'_> {
     pub fn on_triangle(
         &mut self,
         triangle: &Triangle,
-        frame: &PartFrame,
+        plane: &PlacedPart,
         placed: &PlacedTriangle,
     ) -> Result<Closest, DetectError> {
-        let inside = self.inside(triangle.inside(), frame)?;
+        let inside = self.inside(plane)?;
         let x = inside.solution.x.xy();
         let mut on_edges = [None; 3];
         // An edge that the point cannot be told from by rounding counts as passed: S is no less there than on the triangle.
-        let from_edges = inside.from_edges(triangle, self.pose, placed);
+        let from_edges =
+            if inside.precise { plane.wide_from_edges(&triangle.vertices, &x) } else { placed.from_edges(&x) };
         for i in (0..3).filter(|i| from_edges[*i] <= inside.shift()) {
             on_edges[i] = Some(self.on_edge(triangle, i)?);
         }
@@ -236,11 +240,11 @@ impl Search<'_> {
     fn on_edge(&mut self, triangle: &Triangle, i: usize) -> Result<OnEdge, DetectError> {
         let (ends, reversed) = triangle.edge(i);
         let edge = BoundaryPart::Edge { ends, third: triangle.vertices[(i + 2) % 3] };
-        let frame = edge.frame(self.pose);
-        let along = frame.rotation.column(0).into_owned();
+        let edge = PlacedPart::new(edge, self.pose);
+        let along = edge.frame.rotation.column(0).into_owned();
         let [from, to] = ends.map(|end| along.dot(&(end - self.pose.position())));
-        let of_line = self.on_part(edge, &frame, Vector2::new(smaller(larger(from, 0.0), to), 0.0))?;
-        let [from, to] = if of_line.precise { edge.wide_ends(self.pose) } else { [from, to] };
+        let of_line = self.on_part(&edge, Vector2::new(smaller(larger(from, 0.0), to), 0.0))?;
+        let [from, to] = if of_line.precise { edge.wide_ends() } else { [from, to] };
         let x = of_line.solution.x.x;
         // Distances from both ends.
         let inside = [x - from, to - x];
@@ -253,7 +257,7 @@ impl Search<'_> {
         let vertex = (i + if reversed { 1 - end } else { end }) % 3;
         let others = [1, 2].map(|i| triangle.vertices[(vertex + i) % 3]);
         let corner = BoundaryPart::Corner { at: triangle.vertices[vertex], others };
-        let least = self.on_part(corner, &corner.frame(self.pose), Vector2::zeros())?;
+        let least = self.on_part(&PlacedPart::new(corner, self.pose), Vector2::zeros())?;
         let from_line = if end == nearest && inside[end] >= 0.0 { inside[end] } else { f64::INFINITY };
         Ok(OnEdge { least, feature: Feature::Vertex(vertex as u8), of_line, from_line })
     }
@@ -274,12 +278,6 @@ impl Least {
     fn shift(&self) -> f64 {
         let length = self.from_centre().norm();
         shift_in_a(length, if self.precise { length } else { self.lengths })
-    }
-
-    /// Distances of a point of the plane of a triangle from its edges; negative beyond.
-    fn from_edges(&self, triangle: &Triangle, pose: &Pose, placed: &PlacedTriangle) -> [f64; 3] {
-        let x = self.solution.x.xy();
-        if self.precise { self.part.wide_from_edges(&triangle.vertices, pose, &x) } else { placed.from_edges(&x) }
     }
 
     /// How far S on a boundary of this extent may be below its upper bound.
@@ -362,13 +360,12 @@ mod tests {
 
     fn on_triangle(particle: &Particle, pose: &Pose, triangle: &Triangle, precise: bool) -> Closest {
         let settings = Settings { solve_separated: true, ..Settings::default() };
-        let (plane, flags) = (triangle.inside(), Flags::NONE);
-        let frame = plane.frame(pose);
-        let pair = Pair::on_boundary(particle, pose, &plane, &frame);
+        let (plane, flags) = (PlacedPart::new(triangle.inside(), pose), Flags::NONE);
+        let pair = Pair::on_boundary(particle, &plane);
         let placed = PlacedTriangle::of(triangle, pose, &pair);
         let mut search =
             Search { particle, pose, settings: &settings, precise, remembered: None, flags, iterations: 0 };
-        search.on_triangle(triangle, &frame, &placed).unwrap()
+        search.on_triangle(triangle, &plane, &placed).unwrap()
     }
 
     #[test]

@@ -11,6 +11,7 @@ use crate::contact::geometry::direction;
 use crate::flags::Flags;
 use crate::linalg::number::{UNKNOWN_VECTOR, larger};
 use crate::pair::body::{Body, shift_in_a};
+use crate::pair::boundary_part::PlacedPart;
 use crate::pair::pair::Pair;
 use crate::pair::pair_state::{PairState, Remembered};
 use crate::pair::separation::Apart;
@@ -90,11 +91,10 @@ pub fn contact_with_plane(
     state: Option<&mut PairState>,
 ) -> Result<FlatContact, DetectError> {
     settings.validate()?;
-    let plane = wall.part();
-    let frame = plane.frame(pose);
+    let plane = PlacedPart::new(wall.part(), pose);
     let call = Call { particle: a, pose, normal: wall.normal, settings };
-    let pair = Pair::on_boundary(a, pose, &plane, &frame);
-    call.contact(separation::proof_of_separation(&pair, None), state, |search| search.on_plane(plane, &frame))
+    let pair = Pair::on_boundary(a, &plane);
+    call.contact(separation::proof_of_separation(&pair, None), state, |search| search.on_plane(&plane))
 }
 
 /// Contact of A at a pose with a closed triangle, which it may touch from either side; otherwise as [`contact_with_plane`].
@@ -109,13 +109,12 @@ pub fn contact_with_triangle(
     state: Option<&mut PairState>,
 ) -> Result<FlatContact, DetectError> {
     settings.validate()?;
-    let plane = triangle.inside();
-    let frame = plane.frame(pose);
+    let plane = PlacedPart::new(triangle.inside(), pose);
     let call = Call { particle: a, pose, normal: triangle.normal, settings };
-    let pair = Pair::on_boundary(a, pose, &plane, &frame);
+    let pair = Pair::on_boundary(a, &plane);
     let placed = PlacedTriangle::of(triangle, pose, &pair);
     let apart = separation::proof_of_separation(&pair, Some(&placed));
-    call.contact(apart, state, |search| search.on_triangle(triangle, &frame, &placed))
+    call.contact(apart, state, |search| search.on_triangle(triangle, &plane, &placed))
 }
 
 /// What a call is about.
@@ -219,7 +218,7 @@ impl Call<'_> {
         let doubt = solution.slope + body.sphere_curvature() * shift;
         let mut across = solution.gradients[0];
         // What it has along the part is rounding.
-        (0..least.part.dimensions()).for_each(|i| across[i] = 0.0);
+        (0..least.dimensions).for_each(|i| across[i] = 0.0);
         let steep = across.norm() > doubt;
         // Without a slope that tells, from the centre to the boundary; A is in front of one through its centre.
         let side = self.normal.dot(&(least.rotation * least.from_centre()));

@@ -15,7 +15,7 @@
 //! |---|---|
 //! | `boundary` | planes and triangles as given, checked |
 //! | `triangle` | a triangle in the frame of its plane |
-//! | `separation` | cheap proofs that the particle does not reach the boundary |
+//! | `separation` | separation tests |
 //! | `closest` | the least S on a whole boundary: on its plane, an edge or a corner |
 //! | `contact` | point, normal and overlap; [`contact_with_plane`], [`contact_with_triangle`] |
 

@@ -1,4 +1,4 @@
-//! Cheap proofs that a particle does not reach a boundary. Each is one-sided: `None` means nothing.
+//! Separation tests of a particle and a boundary: each proves that they share no point, or proves nothing (`None`).
 
 use super::triangle::PlacedTriangle;
 use crate::flags::Flags;

@@ -66,17 +66,23 @@ impl PlacedTriangle {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::pair::boundary_part::PlacedPart;
     use crate::pair::scattered;
+    use crate::particle::particle::Particle;
 
     #[test]
     fn no_point_of_the_triangle_is_nearer_than_the_nearest_or_farther_than_its_extent() {
         let mut places = [0; 2];
         for seed in 0..200 {
             let mut chance = scattered(10 * seed);
-            let mut point = || Vector2::new(0.4 + 2.0 * chance(), 0.1 + 2.0 * chance());
-            let [a, b, c] = [point(), point(), point()];
-            let anticlockwise = if (b - a).perp(&(c - a)) > 0.0 { [a, b, c] } else { [a, c, b] };
-            let triangle = PlacedTriangle(anticlockwise);
+            let mut point = || [0.4 + 2.0 * chance(), 0.1 + 2.0 * chance(), 0.0];
+            let Ok(given) = Triangle::new([point(), point(), point()]) else { continue };
+            // The origin is below the centre of the particle.
+            let (ball, pose) = (Particle::sphere(1.0).unwrap(), Pose::at([0.0, 0.0, 0.7]).unwrap());
+            let plane = PlacedPart::new(given.inside(), &pose);
+            let triangle = PlacedTriangle::of(&given, &pose, &Pair::on_boundary(&ball, &plane));
+            let [a, b, c] = triangle.vertices;
+            assert!((0..3).all(|i| (triangle.vertices[i].norm() - given.vertices[i].norm()).abs() < 1e-14));
             let nearest = triangle.nearest();
             places[usize::from(nearest == Vector2::zeros())] += 1;
             assert!(triangle.from_edges(&nearest).iter().all(|distance| *distance > -1e-12), "{nearest:?}");

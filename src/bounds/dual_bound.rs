@@ -11,7 +11,7 @@ use crate::model::local_model::{self, LocalModel, Step};
 use crate::model::problem::Problem;
 use crate::pair::body::Body;
 
-/// What a step leaves open.
+/// The gap of the dual value after a step.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct DualBound {
     /// The slope that is left, with all that is in doubt about it.

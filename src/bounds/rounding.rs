@@ -27,7 +27,7 @@ pub(crate) fn sums(count: u32) -> f64 {
 pub(crate) struct Rounding {
     /// In all.
     all: [f64; 2],
-    /// What the curvature of the planes may add while the point moves to make up for it.
+    /// Second-order term of the displacement of the point that it induces.
     by_curvature: [f64; 2],
     /// Of the sums alone.
     pub sums: [f64; 2],
@@ -73,8 +73,8 @@ impl Rounding {
     }
 }
 
-/// What the curvature of the planes may add to S_A and S_B while the point moves to make up for `rounding`: against the gradient of the
-/// side that is too high, as far as rounding over slope. Inactive planes within that way and the blur of their switch count, too.
+/// Second-order terms of S_A and S_B for the displacement induced by `rounding`: against the gradient of the side that is too high, of
+/// length rounding over slope. Inactive planes that may switch within that length and their blur count as well.
 #[inline(always)]
 fn by_curvature(
     bodies: [&Body; 2],
@@ -84,7 +84,7 @@ fn by_curvature(
 ) -> [f64; 2] {
     let (high_a, high_b) = problem.changes(rounding[0], rounding[1]);
     let (fall_a, fall_b) = problem.changes(gradients[0], gradients[1]);
-    // Where both gradients vanish with all rounding, the point stays.
+    // NaN where gradients and rounding are both 0: no displacement.
     let way = larger((high_a + high_b) / (fall_a + fall_b), 0.0);
     [0, 1].map(|i| {
         let (body, check, blur) = (bodies[i], &step.checks[i], blurs[i]);

@@ -43,8 +43,8 @@ impl Scale {
         Self::between(square, solution.lower - most - solution.rounding, high)
     }
 
-    /// From an estimate of S that is not negative and bounds of it. The gap is no number where `high` is none: the larger of two numbers
-    /// is the second where either is NaN.
+    /// From an estimate of S that is not negative and bounds of it. The gap is NaN where `high` is: `larger` gives its second argument where
+    /// either is NaN.
     #[inline(always)]
     pub fn between(square: f64, low: f64, high: f64) -> Self {
         let low = smaller(larger(low, 0.0), square);

@@ -62,7 +62,7 @@ pub(crate) enum Ending {
     RoundingLimited,
     /// The lower bound exceeds 1, which was enough.
     Separated,
-    /// Neither: there is no solution, or one whose bounds say little.
+    /// None of these: there is no solution, or its bounds are too wide.
     Unsettled,
 }
 
@@ -152,7 +152,7 @@ impl Solution {
         if problem == Problem::OnBoundary { self.forces[body] } else { self.gradient_norms[body] + q.gradient.norm() }
     }
 
-    /// Whether the optimum exceeds 1 for sure, where a regularisation adds no more than `flat`: what it adds proves nothing.
+    /// Whether the optimum provably exceeds 1 without what a regularisation adds, `flat` at most.
     #[inline]
     pub fn separates(&self, flat: f64) -> bool {
         self.lower - self.rounding - flat > 1.0

@@ -1,4 +1,4 @@
-//! The last contact of a pair carried on to new poses, without a look at any plane.
+//! The last contact of a pair carried on to new poses, without evaluating any plane.
 //!
 //! At a contact that is solved, S_A and S_B are known as quadratics, each in the frame of its own body, and so is how far a
 //! point may move there before a plane switches. While the contact point stays within, midway at new poses is the problem of
@@ -36,7 +36,7 @@ const MOST_ROUNDS: u32 = 8;
 /// Each change is at most this share of the last: the method converges then (Kantorovich's theorem asks for the half).
 const CONVERGING: f64 = 0.25;
 
-/// Share of the tolerance that the next change may be, as far as the last two tell: the first two tell up to ten times too little.
+/// Share of the tolerance that the predicted next change may take: the prediction from the first two changes is up to ten times too small.
 const ENOUGH: f64 = 0.02;
 
 /// Bound on how many times that of the solved contact the rounding of places is within reach (derived: 3.1).

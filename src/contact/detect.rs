@@ -97,7 +97,7 @@ pub fn detect(
 }
 
 /// The whole of [`detect()`], for every entry that gives a contact another form. `answer` makes that form where the contact
-/// comes into being: a contact is large, and most pairs of a scene end with a cheap proof, where copying it would take longer
+/// comes into being: a contact is large, and most pairs of a scene are rejected by a separation test, where copying it would take longer
 /// than finding it.
 #[inline(always)]
 pub(crate) fn detect_as<T>(
@@ -271,7 +271,7 @@ fn begin<T>(
     let pair = Pair::new(a.0, a.1, b.0, b.1);
     let proof = match overlapped {
         _ if settings.solve_separated => None,
-        // Of a pair that overlapped, only the cheapest proof is worth a try.
+        // Of a pair that overlapped, only the cheapest test is tried.
         true => separation::balls_apart(&pair),
         false => separation::proof_of_separation(&pair),
     };

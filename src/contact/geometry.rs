@@ -228,8 +228,8 @@ impl<'a> Ray<'a> {
     }
 }
 
-/// Ways to where two surfaces that have passed each other by rounding meet, as far from the one as from the other. One that is met
-/// aslant is that much nearer than it seems along the normal.
+/// Resolves a negative overlap that is rounding: both surfaces are moved to a common point, each by a share of the overlap in inverse
+/// proportion to the cosine at which the normal meets it.
 #[cold]
 fn meeting(rays: [Ray; 2], ways: [f64; 2]) -> (f64, f64) {
     // From a point that rounding has put in front of a face along the normal it is a long way to that face.

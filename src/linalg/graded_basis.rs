@@ -10,7 +10,7 @@ use nalgebra::{Matrix3, Vector3};
 /// Square of the sine below which what is left of a normal is rounding.
 pub(crate) const PARALLEL: f64 = 1e-30;
 
-/// Most normals that are kept from the first look at the planes for the second: few points have more planes on.
+/// Most normals kept from the first pass over the planes for the second: few points have more planes on.
 const MOST_KEPT: usize = 16;
 
 /// The normals of planes that are on, each with the weighted 2w of its plane; times |n|² that is its curvature in the sum.

@@ -18,7 +18,7 @@ pub(crate) struct KktCheck {
     pub change: Change,
     /// The plane to be dropped before the model is solved again.
     pub drop: Option<usize>,
-    /// Σ |n|·(doubt + ⟨−depth⟩) over planes of doubtful sign: how far each may pull after all.
+    /// Σ |n|·(doubt + ⟨−depth⟩) over planes of doubtful sign: bound on their negative multipliers, per curvature.
     pub doubtful: f64,
     /// A lower bound of |n|·depth over the active planes, after the step.
     pub least_push: f64,
@@ -35,14 +35,14 @@ pub(crate) struct KktCheck {
 /// What a step does to an active set, from best to worst.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Change {
-    /// Every active plane still pushes and no other has become active: the model is S there, and a lower bound of S
+    /// Every active plane has a multiplier ≥ 0 and no other has become active: the model is S there, and a lower bound of S
     /// everywhere.
     None,
-    /// Every active plane still pushes, but another has become active: the model is a lower bound only.
+    /// Every active plane has a multiplier ≥ 0, but another has become active: the model is a lower bound only.
     Entering,
-    /// A plane that was active by no more than its rounding pulls; without it, the model should be solved again.
+    /// A plane that was active by no more than its rounding has a negative multiplier: the model is solved again without it.
     Leaving,
-    /// Planes that are clearly on at the point pull after the step: the point has to move first.
+    /// A plane that is on by more than rounding has a negative multiplier after the step: the point moves before any plane is dropped.
     Pulling,
 }
 
@@ -114,16 +114,16 @@ impl KktCheck {
     }
 }
 
-/// What a step does to the planes of one body, as they are looked at one by one.
+/// What a step does to the planes of one body, one by one.
 struct Planes<'a> {
     body: &'a Body<'a>,
     point: &'a LocalPoint,
     /// Bound on the rounding of the step in the body's axes, and of a depth by it.
     step_rounding: f64,
     doubt_of_all: f64,
-    /// The plane that pulls most of those that were on by no more than their rounding, and its depth.
+    /// Of the planes that were on by no more than their rounding, the one with the most negative multiplier, and its depth.
     worst: Option<(usize, f64)>,
-    /// Whether a plane pulls that was clearly on.
+    /// Whether a plane that was on by more than rounding has a negative multiplier.
     pulling: bool,
     entering: bool,
     near_inactive: bool,
@@ -195,7 +195,7 @@ impl<'a> Planes<'a> {
 
     #[inline(always)]
     fn check(self) -> KktCheck {
-        // One at a time: without the worst, the others may push again.
+        // One at a time: without it, the multipliers of the others may be positive again.
         let drop = self.worst.map(|(place, _)| place).filter(|_| !self.pulling);
         let change = match drop {
             _ if self.pulling => Change::Pulling,
@@ -248,7 +248,7 @@ mod tests {
         ] {
             let (check, ..) = after([0.5, 0.0, 0.0], v);
             assert_eq!(check.change, change, "{v:?}");
-            // By less than the distance of the planes that are off, and of that which is on where nothing was looked at.
+            // No more than the distance of the planes that are off; where the step is short, than that of the plane that is on as well.
             assert!(check.clear > 0.0 && check.clear <= clear + 1e-12, "{v:?}: {}", check.clear);
             assert!(check.drop.is_none());
         }

@@ -258,7 +258,7 @@ pub(crate) struct Piece {
     /// What the regularisation adds where the line begins, and its gradient there, solver's frame.
     pub surplus: f64,
     pub surplus_gradient: Vector3<f64>,
-    /// How far it is the same quadratic for sure, either way, length.
+    /// Distance either way within which no plane switches, length.
     pub reach: f64,
 }
 

@@ -1,4 +1,4 @@
-//! Which point of two bodies is wanted, and what that makes of the two potentials.
+//! The formulations of a contact as one dual problem: weights, merit and dual value of each.
 //!
 //! Every problem is a dual problem in one weight θ: minimise a(θ)·S_A + b(θ)·S_B, a and b linear in θ. Midway:
 //! a = 1 − θ, b = θ; on B: a = 1, b = θ; on A: a = θ, b = 1; on a boundary: a = 1, b = 0. What is passed around is the ratio λ = b/a, which keeps
@@ -6,7 +6,7 @@
 
 use crate::linalg::number::{Number, larger};
 
-/// Which point of the curve is wanted.
+/// The formulation: which point of the dual path is sought.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Problem {
     /// S_A = S_B: minimise the larger (paper eq. 44).
@@ -113,7 +113,7 @@ impl Problem {
         a * error_a + b * error_b
     }
 
-    /// The two numbers that are equal at the wanted point. Their difference, first less second, grows with λ; one of the two may be the
+    /// Both sides of the optimality equation: equal at the optimum. Their difference, first less second, grows with λ; one may be the
     /// constant 1.
     #[inline]
     pub fn sides<N: Number>(self, s_a: N, s_b: N) -> (N, N) {
@@ -151,7 +151,7 @@ impl Problem {
         N::of(if matches!(self, Self::Midway | Self::OnBoundary) { 0.0 } else { 1.0 })
     }
 
-    /// The first of the two numbers less the second, from m: λ falls as θ grows for a point on A.
+    /// The first side less the second, from m: λ falls as θ grows for a point on A.
     #[inline]
     pub fn difference(self, mismatch: f64) -> f64 {
         if self == Self::OnA { -mismatch } else { mismatch }
@@ -168,14 +168,14 @@ impl Problem {
         }
     }
 
-    /// How far the two numbers are from being equal.
+    /// |first side − second side|.
     #[inline]
     pub fn mismatch<N: Number>(self, s_a: N, s_b: N) -> N {
         let (growing, falling) = self.sides(s_a, s_b);
         (growing - falling).magnitude()
     }
 
-    /// What changes of S_A and S_B do to the two numbers.
+    /// Changes of both sides by changes of S_A and S_B.
     #[inline]
     pub fn changes(self, of_a: f64, of_b: f64) -> (f64, f64) {
         match self {
@@ -186,8 +186,7 @@ impl Problem {
         }
     }
 
-    /// How fast the mismatch changes with θ, from what the quadratics make of it. Infinite where there is no θ: then nothing
-    /// that is off is made up for by another weight.
+    /// dm/dθ, given that of the quadratics. Infinite where there is no θ: no error is then compensated by a change of the weights.
     #[inline(always)]
     pub fn rate<N: Number>(self, of_quadratics: N) -> N {
         if self == Self::OnBoundary { N::of(f64::INFINITY) } else { of_quadratics }

@@ -10,6 +10,7 @@ use crate::linalg::number::{Number, larger};
 use crate::linalg::wide::{Wide, difference, rounded, wide};
 use crate::pose::Pose;
 use nalgebra::{Matrix3, Vector2, Vector3};
+use std::cell::OnceCell;
 
 /// A part of a boundary as the caller gave it, world frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -36,11 +37,23 @@ pub(crate) struct PartFrame {
     pub lengths: f64,
 }
 
-impl PartFrame {
-    /// A point of the local frame of the particle at this pose.
-    pub fn in_part(&self, pose: &Pose, x: &Vector3<f64>) -> Vector3<f64> {
-        self.rotation.tr_mul(&pose.rotate(x)) + self.centre
-    }
+/// The same in numbers of 32 digits.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct WideFrame {
+    /// The axes of the part, world frame.
+    pub axes: [Wide; 3],
+    pub centre: Wide,
+}
+
+/// A part of a boundary beside a particle.
+#[derive(Clone, Debug)]
+pub(crate) struct PlacedPart<'a> {
+    pub part: BoundaryPart,
+    /// Of the particle.
+    pub pose: &'a Pose,
+    pub frame: PartFrame,
+    /// Made where it is first asked for.
+    wide: OnceCell<WideFrame>,
 }
 
 impl BoundaryPart {
@@ -60,7 +73,7 @@ impl BoundaryPart {
     }
 
     /// Its frame beside a particle, whose pose is subtracted before anything is turned.
-    pub fn frame(&self, pose: &Pose) -> PartFrame {
+    fn frame(&self, pose: &Pose) -> PartFrame {
         let from_centre = |point: &Vector3<f64>| point - pose.position();
         match self {
             Self::Plane { point, normal, .. } => plane_frame(normal, &from_centre(point), from_centre(point).norm()),
@@ -83,60 +96,36 @@ impl BoundaryPart {
         }
     }
 
-    /// The same, right to the last digits wherever the points lie by which the part is given.
-    pub fn precise_frame(&self, pose: &Pose) -> PartFrame {
-        let (axes, centre) = self.wide_frame(pose);
-        let rotation = Matrix3::from_columns(&axes.map(|axis| rounded(&axis)));
-        PartFrame { rotation, centre: rounded(&centre), lengths: self.frame(pose).lengths }
-    }
-
-    /// The same in numbers of 32 digits: the axes of the part (columns, world frame), and the centre of the particle in it.
-    pub fn wide_frame(&self, pose: &Pose) -> ([Wide; 3], Wide) {
-        let zero = DoubleDouble::default();
-        match self {
-            Self::Plane { point, given, normal } => {
-                let axes = plane_axes(&wide_unit(&wide(given)), normal);
-                (axes, Vector3::new(zero, zero, axes[2].dot(&difference(pose.position(), point))))
-            }
+    /// The same in numbers of 32 digits.
+    fn wide_frame(&self, pose: &Pose) -> WideFrame {
+        let (axes, point) = match self {
+            Self::Plane { point, given, normal } => (plane_axes(&wide_unit(&wide(given)), normal), point),
             Self::Inside { vertices: [a, b, c], normal, .. } => {
-                let axes = plane_axes(&wide_unit(&difference(b, a).cross(&difference(c, a))), normal);
-                (axes, Vector3::new(zero, zero, axes[2].dot(&difference(pose.position(), a))))
+                (plane_axes(&wide_unit(&difference(b, a).cross(&difference(c, a))), normal), a)
             }
             Self::Edge { ends: [from, to], .. } => {
                 let along = wide_unit(&difference(to, from));
                 let across = wide_across(&along, &any_across(&unit(&(to - from))));
-                let axes = [along, across, along.cross(&across)];
-                let centre = difference(pose.position(), from);
-                (axes, Vector3::new(zero, axes[1].dot(&centre), axes[2].dot(&centre)))
+                ([along, across, along.cross(&across)], from)
             }
             Self::Corner { at, .. } => {
-                ([0, 1, 2].map(|i| wide(&Vector3::ith(i, 1.0))), difference(pose.position(), at))
+                let axes = [0, 1, 2].map(|i| wide(&Vector3::ith(i, 1.0)));
+                return WideFrame { axes, centre: difference(pose.position(), at) };
             }
-        }
+        };
+        let to_centre = difference(pose.position(), point);
+        let zero = DoubleDouble::default();
+        // The origin is below the centre.
+        let centre = [0, 1, 2].map(|i| if i < self.dimensions() { zero } else { axes[i].dot(&to_centre) });
+        WideFrame { axes, centre: centre.into() }
     }
 
-    /// How steeply a function with this gradient, frame of the part, falls at most from the part into the triangle that it is part
-    /// of; negative where it rises by at least so much. `None` for a part that is all of its boundary.
-    pub fn descent(&self, gradient: &Vector3<f64>, frame: &PartFrame) -> Option<f64> {
-        let towards = |v: &Vector3<f64>, from: &Vector3<f64>| frame.rotation.tr_mul(&(v - from));
-        self.steepest(towards, |v| v.normalize(), |side| -gradient.dot(side), |side| *side)
-    }
-
-    /// Bound on the rounding of [`Self::descent`] in doubles, for a gradient of this length: the direction from an edge into a narrow
+    /// Bound on the rounding of [`PlacedPart::descent`] in doubles, for a gradient of this length: the direction from an edge into a narrow
     /// triangle is a small difference of long sides.
     pub fn descent_rounding(&self, gradient: f64) -> f64 {
         let Self::Edge { ends: [from, to], third } = self else { return OF_DIRECTION * gradient };
         let (along, side) = (unit(&(to - from)), third - from);
         OF_DIRECTION * gradient * side.norm() / along.cross(&side).norm()
-    }
-
-    /// The same in numbers of 32 digits, with the axes of [`Self::wide_frame`]: a slope that is small beside the gradient keeps its digits.
-    pub fn wide_descent(&self, gradient: &Wide, axes: &[Wide; 3]) -> Option<f64> {
-        let towards = |v: &Vector3<f64>, from: &Vector3<f64>| {
-            let way = difference(v, from);
-            Vector3::from([0, 1, 2].map(|i| axes[i].dot(&way)))
-        };
-        self.steepest(towards, wide_unit, |side| -gradient.dot(side).rounded(), rounded)
     }
 
     /// Of the falls along the directions that bound the triangle at the part, which are made in either numbers.
@@ -159,18 +148,57 @@ impl BoundaryPart {
             }
         }
     }
+}
+
+impl<'a> PlacedPart<'a> {
+    pub fn new(part: BoundaryPart, pose: &'a Pose) -> Self {
+        Self { frame: part.frame(pose), part, pose, wide: OnceCell::new() }
+    }
+
+    pub fn wide_frame(&self) -> &WideFrame {
+        self.wide.get_or_init(|| self.part.wide_frame(self.pose))
+    }
+
+    /// Its frame in doubles, right to the last digits wherever the points lie by which the part is given.
+    pub fn precise_frame(&self) -> PartFrame {
+        let WideFrame { axes, centre } = self.wide_frame();
+        let rotation = Matrix3::from_columns(&axes.map(|axis| rounded(&axis)));
+        PartFrame { rotation, centre: rounded(centre), lengths: self.frame.lengths }
+    }
+
+    /// A point of the local frame of the particle in the frame of the part.
+    pub fn in_part(&self, x: &Vector3<f64>) -> Vector3<f64> {
+        self.frame.rotation.tr_mul(&self.pose.rotate(x)) + self.frame.centre
+    }
+
+    /// How steeply a function with this gradient, frame of the part, falls at most from the part into the triangle that it is part
+    /// of; negative where it rises by at least so much. `None` for a part that is all of its boundary.
+    pub fn descent(&self, gradient: &Vector3<f64>) -> Option<f64> {
+        let towards = |v: &Vector3<f64>, from: &Vector3<f64>| self.frame.rotation.tr_mul(&(v - from));
+        self.part.steepest(towards, |v| v.normalize(), |side| -gradient.dot(side), |side| *side)
+    }
+
+    /// The same in numbers of 32 digits: a slope that is small beside the gradient keeps its digits.
+    pub fn wide_descent(&self, gradient: &Wide) -> Option<f64> {
+        let WideFrame { axes, .. } = self.wide_frame();
+        let towards = |v: &Vector3<f64>, from: &Vector3<f64>| {
+            let way = difference(v, from);
+            Vector3::from([0, 1, 2].map(|i| axes[i].dot(&way)))
+        };
+        self.part.steepest(towards, wide_unit, |side| -gradient.dot(side).rounded(), rounded)
+    }
 
     /// The coordinates of the ends of an edge along it, of 32 digits before they are rounded.
-    pub fn wide_ends(&self, pose: &Pose) -> [f64; 2] {
-        let Self::Edge { ends, .. } = self else { return [f64::NEG_INFINITY, f64::INFINITY] };
-        let (axes, _) = self.wide_frame(pose);
-        ends.map(|end| axes[0].dot(&difference(&end, pose.position())).rounded())
+    pub fn wide_ends(&self) -> [f64; 2] {
+        let BoundaryPart::Edge { ends, .. } = &self.part else { return [f64::NEG_INFINITY, f64::INFINITY] };
+        let WideFrame { axes, .. } = self.wide_frame();
+        ends.map(|end| axes[0].dot(&difference(&end, self.pose.position())).rounded())
     }
 
     /// Distances of a point of a plane, in its frame, from the edges of a triangle there; negative beyond. Of 32 digits before they are
     /// rounded.
-    pub fn wide_from_edges(&self, vertices: &[Vector3<f64>; 3], pose: &Pose, x: &Vector2<f64>) -> [f64; 3] {
-        let (axes, centre) = self.wide_frame(pose);
+    pub fn wide_from_edges(&self, vertices: &[Vector3<f64>; 3], x: &Vector2<f64>) -> [f64; 3] {
+        let WideFrame { axes, centre } = self.wide_frame();
         let from_centre = wide(&x.push(0.0)) - centre;
         let point = axes[0] * from_centre.x + axes[1] * from_centre.y + axes[2] * from_centre.z;
         [0, 1, 2].map(|i| {
@@ -179,7 +207,7 @@ impl BoundaryPart {
                 return f64::INFINITY;
             }
             let inwards = axes[2].cross(&wide_unit(&difference(to, from)));
-            inwards.dot(&(point - difference(from, pose.position()))).rounded()
+            inwards.dot(&(point - difference(from, self.pose.position()))).rounded()
         })
     }
 }
@@ -243,8 +271,9 @@ mod tests {
             BoundaryPart::Corner { at: c, others: [a, b] },
         ];
         for part in parts {
-            let (frame, (axes, centre)) = (part.frame(&pose), part.wide_frame(&pose));
-            assert!((frame.centre - rounded(&centre)).norm() < 1e-15, "{part:?}");
+            let placed = PlacedPart::new(part, &pose);
+            let (frame, WideFrame { axes, centre }) = (placed.frame, placed.wide_frame());
+            assert!((frame.centre - rounded(centre)).norm() < 1e-15, "{part:?}");
             for (i, axis) in axes.iter().enumerate() {
                 assert!((frame.rotation.column(i) - rounded(axis)).norm() < 1e-15, "{part:?}");
                 let square = (axis.dot(axis) - DoubleDouble::from(1.0)).rounded();
@@ -278,9 +307,9 @@ mod tests {
             ([0.0, 1.0, -5.0], 1.0, 2f64.sqrt()),
         ] {
             for (part, expected) in [(edge, of_edge), (corner, of_corner)] {
-                let (frame, (axes, _)) = (part.frame(&pose), part.wide_frame(&pose));
-                let gradient = frame.rotation.tr_mul(&-Vector3::from(falls));
-                let (quick, precise) = (part.descent(&gradient, &frame), part.wide_descent(&wide(&gradient), &axes));
+                let placed = PlacedPart::new(part, &pose);
+                let gradient = placed.frame.rotation.tr_mul(&-Vector3::from(falls));
+                let (quick, precise) = (placed.descent(&gradient), placed.wide_descent(&wide(&gradient)));
                 assert!((quick.unwrap() - expected).abs() < 1e-14, "{part:?}, {falls:?}: {quick:?}");
                 assert!((precise.unwrap() - expected).abs() < 1e-14, "{part:?}, {falls:?}: {precise:?}");
             }

@@ -11,6 +11,7 @@ use crate::linalg::sine_and_cosine::sine_and_cosine;
 use crate::linalg::symmetric::Symmetric;
 use crate::linalg::wide::{Wide, difference, rounded, wide};
 use crate::pair::body::Body;
+use crate::pair::boundary_part::WideFrame;
 use crate::pair::pair::{Given, Pair};
 use crate::pose::{Pose, Turn};
 use nalgebra::{Matrix3, Vector3};
@@ -32,7 +33,8 @@ fn rounding_of_sums(count: u32) -> f64 {
 
 /// Which side a plane is on at a point where its depth cannot be told from 0.
 ///
-/// The gradient of S is the same either way, but not the curvature: a step that takes a plane for off ends at once where it comes on.
+/// At zero depth S and its gradient are the same either way, and both curvatures are one-sided second derivatives: a step with the plane
+/// off has length 0 if it leads to the other side.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Undecided {
     /// As the sign of its depth says.
@@ -79,7 +81,7 @@ impl Plane {
         DEPTH_AFTER * DoubleDouble::UNIT * (self.excess.rounded().abs() + self.length * length)
     }
 
-    /// The depth at x₀ + δ in doubles, and a bound on its rounding: what is clearly on or off needs no more digits.
+    /// The depth at x₀ + δ in doubles, and a bound on its rounding: a depth beyond that bound needs no more digits.
     fn quick_depth(&self, delta: &Vector3<f64>, length: f64) -> (f64, f64) {
         let excess = self.excess.rounded();
         let depth = excess + rounded(&self.normal).dot(delta);
@@ -122,7 +124,7 @@ pub(crate) struct WideValue {
     pub count: u32,
     pub blur: f64,
     pub turn: f64,
-    /// Number of planes at hand times their weight: one that is off may be on by rounding.
+    /// Number of planes kept times their weight: one that is off may be on by rounding.
     weight_of_planes: f64,
     /// Rounding of the centre of the sphere, in S.
     of_centre: f64,
@@ -150,9 +152,9 @@ impl<'a> ExtendedBody<'a> {
                 let (of_b, to_a) = (axes(pose_b), difference(pose_a.position(), pose_b.position()));
                 (pose_a, of_b, Vector3::from(of_b.map(|axis| axis.dot(&to_a))), pair.lengths)
             }
-            Given::Boundary(pose_a, part) => {
-                let (of_part, centre) = part.wide_frame(pose_a);
-                (pose_a, of_part, centre, pair.lengths * part.wide_condition())
+            Given::Boundary(placed) => {
+                let WideFrame { axes, centre } = *placed.wide_frame();
+                (placed.pose, axes, centre, pair.lengths * placed.part.wide_condition())
             }
         };
         let identity = [0, 1, 2].map(|i| wide(&Vector3::ith(i, 1.0)));
@@ -183,7 +185,7 @@ impl<'a> ExtendedBody<'a> {
         }
     }
 
-    /// Whether every plane that is on within a distance of x₀ is at hand.
+    /// Whether every plane that is on within a distance of x₀ is kept.
     pub fn covers(&self, distance: f64) -> bool {
         distance <= self.reach
     }

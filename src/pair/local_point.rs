@@ -16,7 +16,7 @@ pub(crate) struct LocalPoint {
     ///
     /// A plane is active if n·y − d > −blur: a stiff plane carries its share of the force with a depth below rounding.
     pub blur: f64,
-    /// Planes with |n·y − d| ≤ blur that were found to pull instead of push: they are not active.
+    /// Planes with |n·y − d| ≤ blur and a negative multiplier after a step: they are not active.
     dropped: [u16; MOST_DROPPED],
     count: u8,
 }
@@ -33,7 +33,7 @@ impl LocalPoint {
         excess > -self.blur && (self.count == 0 || excess > self.blur || !self.dropped().contains(&(place as u16)))
     }
 
-    /// From now on the plane at this place is not active until it is clearly on; without effect when too many are dropped.
+    /// Excludes the plane at this place from the active set while its n·y − d is within the blur; without effect when too many are excluded.
     pub fn drop(&mut self, place: usize) {
         if let Some(slot) = self.dropped.get_mut(usize::from(self.count)) {
             // Places fit: a particle has no more planes than `MAX_PLANES`.

@@ -2,7 +2,7 @@
 
 use crate::linalg::double_double::DoubleDouble;
 use crate::linalg::wide::difference;
-use crate::pair::boundary_part::{BoundaryPart, PartFrame};
+use crate::pair::boundary_part::PlacedPart;
 use crate::particle::particle::Particle;
 use crate::pose::Pose;
 use nalgebra::{Matrix3, Vector3};
@@ -32,7 +32,7 @@ pub struct Pair<'a> {
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Given<'a> {
     Poses([&'a Pose; 2]),
-    Boundary(&'a Pose, &'a BoundaryPart),
+    Boundary(&'a PlacedPart<'a>),
 }
 
 impl<'a> Pair<'a> {
@@ -49,13 +49,14 @@ impl<'a> Pair<'a> {
         }
     }
 
-    /// A particle and a part of a boundary, with its frame beside this particle.
-    pub(crate) fn on_boundary(a: &'a Particle, pose: &'a Pose, part: &'a BoundaryPart, frame: &PartFrame) -> Self {
+    /// A particle and a part of a boundary, placed beside it.
+    pub(crate) fn on_boundary(a: &'a Particle, placed: &'a PlacedPart<'a>) -> Self {
+        let frame = &placed.frame;
         Self {
             a,
-            b: Particle::boundary(part.dimensions()),
-            given: Given::Boundary(pose, part),
-            rotation: frame.rotation.tr_mul(pose.rotation()),
+            b: Particle::boundary(placed.part.dimensions()),
+            given: Given::Boundary(placed),
+            rotation: frame.rotation.tr_mul(placed.pose.rotation()),
             centre: frame.centre,
             lengths: frame.lengths,
         }

@@ -7,7 +7,7 @@ use crate::pose::Pose;
 use nalgebra::Vector3;
 
 /// The state of one ordered pair (A, B), of two particles or of one and a boundary: the last solution, from which the next call starts, and, with [`crate::Settings::carry_tolerance`]
-/// above 0, both potentials as quadratics about the last contact, from which the next contact may follow without a look at any plane.
+/// above 0, both potentials as quadratics about the last contact, from which the next contact may follow without evaluating any plane.
 /// Empty by default.
 ///
 /// The solution is a hint and can be saved ([`Self::into_raw`]): any content, even of another pair, leaves the answer within its gap.
@@ -43,10 +43,9 @@ pub(crate) struct Remembered {
     pub x: Vector3<f64>,
     /// Ratio of weights λ = u/(1−u).
     pub lambda: f64,
-    /// Whether the particles overlapped: if so, cheap proofs of separation are hardly worth a try.
+    /// Whether the particles overlapped: if so, most separation tests are left out.
     pub overlapping: bool,
-    /// By what the λ of P1 and P2 differ from what `dual_path::closest_from_between` makes of the above: factors, of use where both give
-    /// a λ in its range.
+    /// Factors from the λ of P1 and P2 that `solver::closest::from_between` predicts to theirs; used where the products are in the range of λ.
     pub closest: [f64; 2],
 }
 
@@ -72,7 +71,7 @@ pub(crate) struct KnownPiece {
     pub value: f64,
     pub gradient: Vector3<f64>,
     pub hessian: Symmetric,
-    /// How far from there it is S for sure, and places are rounded by no more than three times as much; length.
+    /// Distance from there within which no plane switches and points are rounded by no more than three times as much, length.
     pub reach: f64,
 }
 

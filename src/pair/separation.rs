@@ -1,4 +1,4 @@
-//! Cheap proofs that a pair is separated. Each is one-sided: "no" means nothing.
+//! Separation tests: each proves that two particles share no point, with a lower bound on their distance, or proves nothing.
 
 use crate::flags::Flags;
 use crate::linalg::number::{larger, smaller};
@@ -33,7 +33,7 @@ pub fn balls_apart(pair: &Pair) -> Option<Apart> {
     (distance > 0.0).then(|| Apart::new(Flags::BY_SPHERES, distance))
 }
 
-/// A cheap proof, by balls or by faces, that the particles share no point.
+/// The separation tests by balls and by faces.
 pub fn proof_of_separation(pair: &Pair) -> Option<Apart> {
     let (a, b) = (pair.a, pair.b);
     balls_apart(pair).or_else(|| {

@@ -1,6 +1,6 @@
 //! The two closest points P1 and P2 (paper eqs 3, 9, 34–43).
 //!
-//! Both lie on the dual path of midway, beyond its point P3: from there, or from the last call, one step along the quadratics at hand is
+//! Both lie on the dual path of midway, beyond its point P3: from there, or from the last call, one step along the current quadratics is
 //! mostly enough for both at once, in two lanes ([`crate::model::dual_search::both_closest`]). Else each is solved by itself.
 
 use crate::bounds::point_bound::point_bound;
@@ -56,7 +56,7 @@ impl Call<'_> {
         Ok(None)
     }
 
-    /// P1 and P2 from the quadratics at hand and what the last call left, where one step is enough for both and either scale
+    /// P1 and P2 from the current quadratics and the remembered factors, where one step is enough for both and either scale
     /// tells that the particles overlap: midway is then needed neither for that nor as a start.
     #[inline(never)]
     pub fn closest_from_memory(&mut self, last: &Remembered, model: &LocalModel) -> Option<[CertifiedPoint; 2]> {
@@ -65,7 +65,7 @@ impl Call<'_> {
         self.both(lambdas, model, |found| found.scale.s + found.scale.gap < 1.0)
     }
 
-    /// P1 and P2 by one step from guesses of their λ, if both will do.
+    /// P1 and P2 by one step from guesses of their λ, if both are accepted.
     #[inline(always)]
     fn both(
         &mut self,
@@ -145,7 +145,7 @@ fn towards(midway: &Solution, problem: Problem) -> f64 {
     // S and dS/d ln μ.
     let (value, rate) = if on_b { (midway.values[1], rate_b) } else { (midway.values[0], -rate_a) };
     let change = 1.0 + 2.0 * (1.0 - value.sqrt()) * value / rate;
-    // NaN and what is far fail the test.
+    // Not for NaN, nor for a change beyond the range of the extrapolation.
     if !(change > 1.0 / FAR && change < FAR) {
         midway.lambda
     } else if on_b {

@@ -1,4 +1,4 @@
-//! The extended tier: the same problem in numbers of 32 digits, by a method that always ends.
+//! The extended tier: the same problem in numbers of 32 digits, by a method that converges from any start.
 //!
 //! For a fixed ratio of weights λ the sum φ = a·S_A + b·S_B is strictly convex, continuously differentiable and piecewise
 //! quadratic: Newton's method with an exact line search ends at its minimum. Along the minima one side of the problem grows with λ
@@ -32,8 +32,8 @@ use nalgebra::{Matrix3, Vector3};
 const MOST_WEIGHTS: u32 = 60;
 const MOST_STEPS: u32 = 100;
 
-/// Relative to the smaller particle, how far from the start planes are looked at to begin with; and how far a solution may lie from there
-/// that is not sought again about itself.
+/// Radii of the smaller particle about the start within which planes are gathered first; a solution farther away is sought again about
+/// itself.
 const FIRST_REACH: f64 = 0.05;
 
 /// Factor by which λ moves while only one end of its bracket is known, at most.
@@ -246,7 +246,7 @@ impl Extended<'_> {
                 *delta += v * alpha;
                 undecided = Undecided::BySign;
             } else if undecided == Undecided::BySign {
-                // A plane that counts as off comes on at once.
+                // The step has length 0: a plane of zero depth counts as off but is on along it.
                 undecided = Undecided::On;
                 self.bodies.iter_mut().for_each(|body| body.restore());
             } else if !self.drop_most_negative(delta, &v) {
@@ -319,7 +319,7 @@ impl Extended<'_> {
         let upper = self.upper(delta, &values);
         let error = values.map(|of| of.rounding());
         let inward_descent = match given {
-            Given::Boundary(pose, part) => part.wide_descent(&of_a.gradient, &part.wide_frame(pose).0),
+            Given::Boundary(placed) => placed.wide_descent(&of_a.gradient),
             Given::Poses(_) => None,
         };
         let slope = rounded(&(of_a.gradient * weights.0 + of_b.gradient * weights.1)).rows(0, self.dimensions).norm();

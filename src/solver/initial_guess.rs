@@ -7,7 +7,7 @@
 //! F(x) = max over the planes of A and of B of √w·(n·x − d)
 //! ```
 //!
-//! Its minimum lies where up to four planes hold each other, Σ c_i g_i = 0 with g_i = √w n_i, c_i ≥ 0 and Σ c_i = 1:
+//! Its minimum lies where up to four planes balance, Σ c_i g_i = 0 with g_i = √w n_i, c_i ≥ 0 and Σ c_i = 1:
 //! a linear program in x and F. It is solved by steepest descent: against the shortest vector y in the convex hull of
 //! the g_i in force, until another plane takes over, which joins the hull; those that y no longer needs leave it.
 //!
@@ -39,7 +39,7 @@ const LEVEL: f64 = 1e-9;
 /// Relative to the rate of F: a plane that falls slower than F by no more than this does not take over.
 const SLOW: f64 = 1e-6;
 
-/// Square of the shortest vector of the hull, relative to the longest, that is none: the planes hold each other.
+/// Square of the shortest vector of the hull, relative to the longest, that counts as 0: the planes balance.
 const VANISHING: f64 = 1e-20;
 
 /// A start without memory; on a boundary, its point nearest to the centre.
@@ -56,7 +56,7 @@ pub(crate) fn cold(pair: &Pair, [a, b]: [&Body; 2]) -> Start {
     between.filter(|start| start.x.iter().all(|c| c.is_finite())).unwrap_or(on_centre_line)
 }
 
-/// Whether so many planes share each place of the surface that the sharp polyhedron says little of it. On a ball, a plane is on
+/// Whether so many planes share each place of the surface that the sharp polyhedron is a poor start. On a ball, a plane is on
 /// within a cap as high as the rounding, r/√(1−k), which is the share r/√(1−k)/(2·radius) of the ball.
 fn is_smooth(body: &Body) -> bool {
     let (particle, bounds) = (body.particle, &body.particle.bounds);

@@ -41,7 +41,7 @@ pub(crate) struct Goal {
 }
 
 impl Goal {
-    /// Whether an answer that is as good as doubles allow will do, though its gap exceeds the tolerance.
+    /// Whether an answer at the rounding floor of doubles is accepted although its gap exceeds the tolerance.
     pub fn takes_rounding(&self) -> bool {
         self.tolerance >= LEAST_OF_DOUBLES
     }
@@ -119,12 +119,12 @@ struct Search<'a> {
     bodies: [&'a Body<'a>; 2],
     goal: &'a Goal,
     axes: Axes,
-    /// The model at hand.
+    /// The current model.
     model: &'a mut LocalModel,
     lambda: f64,
     /// The step from there, while it is the first.
     first: Option<Step>,
-    /// The step that led to the model at hand.
+    /// The step that led to the current model.
     attempt: Option<Attempt>,
     best: Option<Best>,
     iterations: u32,
