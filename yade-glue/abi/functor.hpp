@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Functor down to IGeomFunctor and BoundFunctor: what a dispatcher calls for a pair of shapes, and for one.
+// Functor down to IGeomFunctor, IPhysFunctor and LawFunctor, which dispatchers call for a pair, and BoundFunctor, for one shape.
 #pragma once
 
 #include "bound.hpp"
@@ -16,6 +16,9 @@ namespace yade {
 
 class TimingDeltas;
 class Body;
+class Material;
+class IGeom;
+class IPhys;
 
 class Functor : public Serializable {
 public:
@@ -90,6 +93,29 @@ public:
     virtual void preStep();
 };
 PP_ABI_SIZE(IGeomFunctor, 88);
+
+using IPhysArguments = boost::mpl::vector<
+    const boost::shared_ptr<Material>&, const boost::shared_ptr<Material>&, const boost::shared_ptr<Interaction>&>;
+
+// Makes the physics of a new contact.
+class IPhysFunctor : public Functor2D<Material, Material, void, IPhysArguments> {
+public:
+    IPhysFunctor() { }
+    ~IPhysFunctor() override;
+    PP_ABI_SERIALIZABLE_OVERRIDES
+};
+PP_ABI_SIZE(IPhysFunctor, 88);
+
+using LawArguments = boost::mpl::vector<boost::shared_ptr<IGeom>&, boost::shared_ptr<IPhys>&, Interaction*>;
+
+// The forces of a contact; false ends it.
+class LawFunctor : public Functor2D<IGeom, IPhys, bool, LawArguments> {
+public:
+    LawFunctor() { }
+    ~LawFunctor() override;
+    PP_ABI_SERIALIZABLE_OVERRIDES
+};
+PP_ABI_SIZE(LawFunctor, 88);
 
 template <class Dispatch, class Result, class Arguments>
 class Functor1D : public Functor, public FunctorWrapper<Result, Arguments> {

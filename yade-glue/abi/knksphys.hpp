@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// IPhys down to KnKsPhys: the contact physics of YADE's law for potential particles.
+// IPhys down to FrictPhys, and KnKsPhys, the contact physics of YADE's law for potential particles.
 #pragma once
 
 #include "indexable.hpp"
@@ -40,6 +40,7 @@ PP_ABI_SIZE(NormShearPhys, 96);
 
 class FrictPhys : public NormShearPhys {
 public:
+    FrictPhys();
     ~FrictPhys() override;
     PP_ABI_SERIALIZABLE_OVERRIDES
     PP_ABI_INDEX_OVERRIDES

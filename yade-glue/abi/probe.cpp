@@ -22,6 +22,7 @@
 #include "functor.hpp"
 #include "interaction.hpp"
 #include "knksphys.hpp"
+#include "material.hpp"
 #include "primitives.hpp"
 #include "scene.hpp"
 #include "scgeom.hpp"

@@ -5,6 +5,7 @@
 
 #include "body.hpp"
 #include "engine.hpp"
+#include "forces.hpp"
 
 namespace yade {
 
@@ -38,6 +39,9 @@ public:
 
     boost::shared_ptr<Engine> engineByName(const std::string& className);
 
+    // A ForceContainer begins here.
+    ForceContainer& forces() { return reinterpret_cast<ForceContainer&>(before[8]); }
+
     std::byte before[416];
     Real dt;
     long iter;
@@ -58,11 +62,14 @@ public:
     std::vector<boost::shared_ptr<Engine>> engines;
     std::vector<boost::shared_ptr<Engine>> nextEngines;
     boost::shared_ptr<BodyContainer> bodies;
-    std::byte between[72];
+    std::byte between[16];
+    boost::shared_ptr<EnergyTracker> energy;
+    std::byte behindEnergy[40];
     boost::shared_ptr<Cell> cell;
     std::byte behind[48];
 };
 PP_ABI_SIZE(Scene, 752);
+PP_ABI_OFFSET(Scene, before, 24); // of which the forces lie at 32
 PP_ABI_OFFSET(Scene, dt, 440);
 PP_ABI_OFFSET(Scene, iter, 448);
 PP_ABI_OFFSET(Scene, isPeriodic, 496);
@@ -70,6 +77,7 @@ PP_ABI_OFFSET(Scene, doSort, 498);
 PP_ABI_OFFSET(Scene, tags, 528);
 PP_ABI_OFFSET(Scene, engines, 552);
 PP_ABI_OFFSET(Scene, bodies, 600);
+PP_ABI_OFFSET(Scene, energy, 632);
 PP_ABI_OFFSET(Scene, cell, 688);
 
 } // namespace yade

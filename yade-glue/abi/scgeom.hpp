@@ -50,6 +50,9 @@ public:
                     const Vector3r& currentNormal, bool isNew, const Vector3r& shift2,
                     bool avoidGranularRatcheting);
 
+    // Carries a vector of the tangent plane along with the turn of the frame that precompute() found.
+    Vector3r& rotate(Vector3r& tangent) const;
+
     Vector3r twist_axis;
     Vector3r orthonormal_axis;
     Real& radius1; // refR1

@@ -15,6 +15,8 @@ Then these classes stand beside YADE's own:
                                  contacts of either with YADE's own shapes
     ScGeomConicPP                the ScGeom that they fill
     ConicInteractionLoop         the contact loop that skips pairs which cannot have met
+    ConicJointMat, Ip2_ConicJointMat_ConicJointMat_ConicJointPhys, Law2_ScGeomConicPP_ConicJointPhys
+                                 joints: stiffness per area, friction against slip and twist, restitution
     BoundWatch, Bo1_ConicPP_Aabb, Bo1_PP_Aabb_Conic
                                  boxes for verletDist > 0
 
@@ -185,7 +187,7 @@ def _prepare_ours(yade):
 
 def _prepare_before_steps(yade):
     """O.run and O.step, as they are, but for what is looked at before them."""
-    from . import unserved
+    from . import joints, unserved
     watch = unserved.Watch()
 
     def preparing(method):
@@ -193,6 +195,7 @@ def _prepare_before_steps(yade):
         def prepared(self, *arguments, **keywords):
             if not self.running:
                 _prepare_ours(yade)
+                joints.require_patches(self.engines)
                 watch.look(self, _dispatchers(yade)[1])
             return method(self, *arguments, **keywords)
         return prepared

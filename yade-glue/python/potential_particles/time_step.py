@@ -7,7 +7,11 @@ stiffness of all contacts is at most twice that of each body alone, held by its 
 
     omega^2 <= 2 max over bodies of the largest eigenvalue of M_b^-1 sum over its contacts B^T K_c B.
 
-Dashpots lower the limit: safety leaves room for those below about half of the critical damping.
+A contact patch holds against turning as well: its stiffness has a part for turns alone, K J across the normal and k_s J about it, J the
+polar moment of the patch.
+
+Dashpots lower the limit. Those of joints, of the ratio z to the critical one, to dt < 2/omega (sqrt(1 + z^2) - z), which is taken into
+account; for others safety leaves room, below about half of the critical damping.
 """
 import math
 
@@ -21,7 +25,7 @@ def critical_time_step(stiffness=None, bodies=None, contacts=3, safety=0.5):
 
     stiffness: of a contact, N/m; None: from the scene's physics functor. For KnKsPhys that is Knormal, times the area of the body's largest
     circle where the contact functor computes areas (calContactArea); for laws with springs from E and radii (FrictPhys), young times
-    the bounding radius. bodies: ids, default all. safety: share of the proved limit that is used, 0 to 1.
+    the bounding radius; for ConicJointMat its stiffness per area times the area of the largest circle. bodies: ids, default all. safety: share of the proved limit that is used, 0 to 1.
     ValueError where nothing moves or no stiffness is known.
     """
     import yade
@@ -34,13 +38,19 @@ def critical_time_step(stiffness=None, bodies=None, contacts=3, safety=0.5):
     if not chosen:
         raise ValueError("no body with a shape and a mass is free to move: there is no time step to find")
     rule = _rule(scene, stiffness)
-    largest = 0.0
+    largest, damping = 0.0, 0.0
     for body in chosen:
+        damping = max(damping, _damping_ratio(getattr(body.mat, "restitution", 1.0)))
         present = _eigenvalue(body, [_of_contact(scene, body, one) for one in body.intrs() if one.isReal])
         mass, inertia, radius = body.state.mass, min(body.state.inertia), _radius(body)
         assumed = contacts * rule(body, radius) * (1.0 / mass + radius**2 / inertia)
         largest = max(largest, present, assumed)
-    return safety * 2.0 / math.sqrt(2.0 * largest)
+    return safety * 2.0 / math.sqrt(2.0 * largest) * (math.hypot(1.0, damping) - damping)
+
+
+def _damping_ratio(restitution):
+    """At least that of a joint with this restitution e: e < exp(-2 z) up to z = 1, and 1/(4 z^2) < e < 1/(2 z^2) beyond."""
+    return 0.0 if restitution >= 1.0 else max(-0.5 * math.log(restitution), math.sqrt(0.5 / restitution) if restitution < 0.14 else 0.0)
 
 
 def _chosen(scene, bodies):
@@ -73,19 +83,32 @@ def _rule(scene, stiffness):
     if knormal is not None and number(knormal, "Knormal") > 0.0:
         with_area = any(getattr(one, "calContactArea", False) for one in loop.geomDispatcher.functors)
         return lambda body, radius: knormal * (math.pi * radius**2 if with_area else 1.0)
+    if type(functor).__name__ == "Ip2_ConicJointMat_ConicJointMat_ConicJointPhys":
+        return lambda body, radius: _joint_stiffness(body, radius) * math.pi * radius**2
     if functor is not None and type(functor).__name__.startswith("Ip2_FrictMat_FrictMat_"):
         return lambda body, radius: positive(body.mat.young, f"young of the material of body {body.id}") * radius
     raise ValueError("the scene has no physics functor with a known stiffness: set O.engines first, or give stiffness in N/m")
 
 
+def _joint_stiffness(body, radius):
+    """Per area, N/m^3, the largest that a joint of this body can have: twice its own, if its neighbour is rigid."""
+    material = body.mat
+    return 2.0 * (getattr(material, "normalStiffness", 0.0)
+                  or positive(material.young, f"young of the material of body {body.id}") / (2.0 * radius))
+
+
 def _of_contact(scene, body, contact):
-    """Arm (3,) and stiffness (3, 3) of a real contact, world axes."""
+    """Arm (3,), stiffness against displacement there (3, 3) and against turns alone (3, 3) of a real contact, world axes."""
     normal, kn, ks = np.array(contact.geom.normal), contact.phys.kn, contact.phys.ks
     along = np.outer(normal, normal)
     arm = np.array(contact.geom.contactPoint - body.state.pos)
     if scene.periodic and contact.id2 == body.id:
         arm = arm - np.array(scene.cell.hSize * contact.cellDist)
-    return arm, kn * along + ks * (np.eye(3) - along)
+    turning = np.zeros((3, 3))
+    if hasattr(contact.phys, "twistStiffness"):
+        turning = (contact.phys.normalStiffness * contact.geom.polarMoment * (np.eye(3) - along)
+                   + contact.phys.twistStiffness * along)
+    return arm, kn * along + ks * (np.eye(3) - along), turning
 
 
 def _eigenvalue(body, contacts):
@@ -95,9 +118,10 @@ def _eigenvalue(body, contacts):
     turn = body.state.ori.toRotationMatrix()
     turn = np.array([[turn[i, j] for j in range(3)] for i in range(3)])
     whole_stiffness = np.zeros((6, 6))
-    for arm, stiffness in contacts:
+    for arm, stiffness, turning in contacts:
         x, y, z = turn.T @ arm
         moved = np.hstack([np.eye(3), [[0, z, -y], [-z, 0, x], [y, -x, 0]]])
         whole_stiffness += moved.T @ (turn.T @ stiffness @ turn) @ moved
+        whole_stiffness[3:, 3:] += turn.T @ turning @ turn
     scale = 1.0 / np.sqrt([body.state.mass] * 3 + list(body.state.inertia))
     return float(np.linalg.eigvalsh(scale[:, None] * whole_stiffness * scale)[-1])

@@ -7,6 +7,7 @@
 
 #include "abi/functor.hpp"
 #include "abi/knksphys.hpp"
+#include "abi/material.hpp"
 #include "abi/primitives.hpp"
 #include "abi/scene.hpp"
 #include "abi/scgeom.hpp"
@@ -268,6 +269,18 @@ namespace {
             .field("isSliding", &P::isSliding);
     }
 
+    void checkMaterial(Differences& found)
+    {
+        using M = yade::FrictMat;
+        Probe<M>(found, "FrictMat")
+            .field<int>("id", [](M& m) -> int& { return m.id; })
+            .field<std::string>("label", [](M& m) -> std::string& { return m.label; })
+            .field<double>("density", [](M& m) -> double& { return m.density; })
+            .field<double>("young", [](M& m) -> double& { return m.young; })
+            .field<double>("poisson", [](M& m) -> double& { return m.poisson; })
+            .field("frictionAngle", &M::frictionAngle);
+    }
+
     void checkInteraction(Differences& found)
     {
         using I = Interaction;
@@ -354,6 +367,10 @@ namespace {
         S& scene = probe.instance();
         if (!scene.cell || scene.cell->getClassName() != "Cell")
             found.push_back("Scene.cell: not found at its declared place");
+        if (!scene.energy || scene.energy->getClassName() != "EnergyTracker")
+            found.push_back("Scene.energy: not found at its declared place");
+        if (scene.forces().getNumAllocatedThreads() != py::extract<int>(py::import("yade.wrapper").attr("Omega")().attr("numThreads"))())
+            found.push_back("Scene.forces: not found at its declared place");
         if (!scene.bodies || scene.bodies->getClassName() != "BodyContainer") {
             found.push_back("Scene.bodies: not found at its declared place");
             return;
@@ -373,7 +390,7 @@ namespace {
 std::vector<std::string> differencesOfLayout()
 {
     Differences found;
-    const std::array checks = { checkShape, checkPrimitives, checkState, checkGeometry, checkPhysics, checkInteraction, checkFunctor,
+    const std::array checks = { checkShape, checkPrimitives, checkState, checkGeometry, checkPhysics, checkMaterial, checkInteraction, checkFunctor,
                                 checkBound, checkEngine, checkBody, checkScene, checkTables };
     for (const auto check : checks) {
         try {

@@ -44,6 +44,13 @@ namespace {
             return pp_contact_area(sphere, &left, sphere, &right, &found, tolerance, &area) != PP_BAD_SETTING;
         }
 
+        bool acceptsForPatch(double tolerance)
+        {
+            requireOk(pp_contact_detect(sphere, &left, sphere, &right, nullptr, nullptr, &found));
+            pp_patch patch;
+            return pp_patch_of_contact(sphere, &left, sphere, &right, &found, tolerance, 0, &patch, nullptr, 0, nullptr) != PP_BAD_SETTING;
+        }
+
     private:
         static constexpr pp_pose left = { { 0, 0, 0 }, { 1, 0, 0, 0 } };
         static constexpr pp_pose right = { { 1.5, 0, 0 }, { 1, 0, 0, 0 } };
@@ -100,6 +107,10 @@ pp_settings ContactSettings::parsed() const
         refuse("carryTolerance", shown(carryTolerance), "it must lie in [0, 0.1]");
     if (!trial.acceptsForArea(areaTolerance))
         refuse("areaTolerance", shown(areaTolerance), "it must lie in [1e-12, 0.1]");
+    if (!trial.acceptsForPatch(patchTolerance))
+        refuse("patchTolerance", shown(patchTolerance), "it must lie in [1e-12, 0.1]");
+    if (patch && twoDimension)
+        refuse("patch", "True", "with twoDimension the contact area is a width: choose one of them");
 
     if (!(std::isfinite(unitWidth2D) && unitWidth2D > 0))
         refuse("unitWidth2D", shown(unitWidth2D), "give a positive length");

@@ -19,6 +19,8 @@ struct ContactSettings {
     double tolerance; // these two: the library's defaults
     double flatRegularisation;
     double carryTolerance = 1e-9;
+    bool patch = false;
+    double patchTolerance = 1e-4;
     bool calContactArea = true;
     double areaTolerance = 1e-6;
     bool twoDimension = false;
@@ -49,6 +51,10 @@ struct ContactSettings {
         visit("carryTolerance", &S::carryTolerance,
               "To what part of the smaller particle's size the point of a contact has to be known that is carried on from the "
               "last step without a look at the planes; 0: every contact is solved in every step.");
+        visit("patch", &S::patch,
+              "Whether the contact patch decides: contactPoint is then its centre of pressure, normal the direction of the force of its "
+              "pressure, penetrationDepth that force over stiffness and area, KnKsPhys.contactArea the area.");
+        visit("patchTolerance", &S::patchTolerance, "Relative error allowed in the patch's force and area.");
         visit("calContactArea", &S::calContactArea,
               "Whether KnKsPhys.contactArea is computed; otherwise it is 1 (with twoDimension: unitWidth2D).");
         visit("areaTolerance", &S::areaTolerance, "Relative error allowed in the contact area.");

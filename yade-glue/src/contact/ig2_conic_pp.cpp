@@ -2,6 +2,7 @@
 //
 // What go() does. The attributes and their way to Python and archives: ig2_conic_pp_python.cpp.
 #include "abi/knksphys.hpp"
+#include "abi/scene.hpp"
 
 #include "answer_path.hpp"
 #include "ig2_conic_pp.hpp"
@@ -230,9 +231,28 @@ pp_status Ig2_ConicPP_ConicPP_ScGeom::detect(Pair& pair, pp_contact& found)
 
 void Ig2_ConicPP_ConicPP_ScGeom::fill(Pair& pair, pp_contact& found)
 {
+    const Posed body1 { pair.particle1, pair.pose1() }, body2 { pair.particle2, pair.pose2() };
+    // For physics made from radii (FrictPhys, Mindlin). A property of the body, so that stiffness
+    // does not depend on where a particle happens to be touched first.
+    pair.geom->refR1 = pair.particle1->boundingRadius();
+    pair.geom->refR2 = pair.particle2->boundingRadius();
+
     const Vector3r point(found.point);
     Vector3r normal(found.normal);
-    if (prescribedNormal(*pair.cm1, *pair.cm2, normal)) {
+    const bool prescribed = prescribedNormal(*pair.cm1, *pair.cm2, normal);
+    if (pair.settings.given.patch && !prescribed) {
+        pp_patch patch;
+        const pp_status status
+            = pp_patch_of_contact(body1.particle->handle(), &body1.pose, body2.particle->handle(), &body2.pose, &found,
+                                  pair.settings.given.patchTolerance, tracksEnergy(), &patch, nullptr, 0, nullptr);
+        if (fillPatch(pair, status, patch, Vector3r::Zero(), 1.0)) {
+            fillPhysics(pair, body1, body2, found, patch.area);
+            return;
+        }
+    }
+    if (prescribed) {
+        if (pair.settings.given.patch)
+            pair.counts.add(Count::patchFallbacks);
         // Overlap, and the points on both surfaces, along that normal through the contact point.
         const double depth1 = distanceToSurface(*pair.particle1, pair.pose1(), point, normal);
         const double depth2 = distanceToSurface(*pair.particle2, pair.pose2(), point, -normal);
@@ -246,16 +266,50 @@ void Ig2_ConicPP_ConicPP_ScGeom::fill(Pair& pair, pp_contact& found)
     ScGeom& geom = *pair.geom;
     geom.contactPoint = point;
     geom.penetrationDepth = found.overlap;
-    // For physics made from radii (FrictPhys, Mindlin). A property of the body, so that stiffness
-    // does not depend on where a particle happens to be touched first.
-    geom.refR1 = pair.particle1->boundingRadius();
-    geom.refR2 = pair.particle2->boundingRadius();
     pair.precompute(normal, scene);
-    fillPhysics(pair, { pair.particle1, pair.pose1() }, { pair.particle2, pair.pose2() }, found);
+    fillPhysics(pair, body1, body2, found, 0);
 }
 
-void Ig2_ConicPP_ConicPP_ScGeom::fillPhysics(PairInScene& pair, const Posed& body1, const Posed& body2, const pp_contact& found)
+bool Ig2_ConicPP_ConicPP_ScGeom::tracksEnergy() const { return scene && scene->trackEnergy; }
+
+bool Ig2_ConicPP_ConicPP_ScGeom::fillPatch(PairInScene& pair, pp_status status, const pp_patch& patch, const Vector3r& origin,
+                                           double sense)
 {
+    const Vector3r force(patch.force);
+    const double size = force.norm();
+    if (status != PP_OK || patch.flags & PP_PATCH_EMPTY || !(patch.area > 0 && size > 0)) {
+        pair.counts.add(Count::patchFallbacks);
+        return false;
+    }
+    pair.counts.add(Count::patches);
+    if (patch.flags)
+        pair.counts.add(Count::doubtfulPatches);
+    ScGeom& geom = *pair.geom;
+    geom.contactPoint = origin + Vector3r(patch.pressure_centre);
+    geom.penetrationDepth = size / patch.area;
+    pair.precompute(sense / size * force, scene);
+    if (pair.own)
+        pair.own->patch = ContactPatch::of(patch);
+    return true;
+}
+
+double Ig2_ConicPP_ConicPP_ScGeom::areaAtPoint(const PairInScene& pair, const Posed& body1, const Posed& body2, const pp_contact& found)
+{
+    double area;
+    requireOk(pp_contact_area(body1.particle->handle(), &body1.pose, body2.particle->handle(), &body2.pose, &found,
+                              pair.settings.given.areaTolerance, &area));
+    pair.counts.add(Count::areas);
+    return area;
+}
+
+void Ig2_ConicPP_ConicPP_ScGeom::fillPhysics(PairInScene& pair, const Posed& body1, const Posed& body2, const pp_contact& found,
+                                             double patchArea)
+{
+    const ContactSettings& settings = pair.settings.given;
+    if (settings.patch && patchArea == 0 && pair.own) {
+        patchArea = areaAtPoint(pair, body1, body2, found);
+        pair.own->patch = ContactPatch::disc(patchArea, found.overlap, Vector3r(found.normal));
+    }
     // In the first step of a contact YADE calls this functor before the one that makes the physics:
     // the area of that step stays 0, as with YADE's own functor. Physics of another kind have no
     // place for an area, which is then not computed at all.
@@ -265,7 +319,6 @@ void Ig2_ConicPP_ConicPP_ScGeom::fillPhysics(PairInScene& pair, const Posed& bod
     phys->ptOnP1 = Vector3r(found.point_on_a);
     phys->ptOnP2 = Vector3r(found.point_on_b);
 
-    const ContactSettings& settings = pair.settings.given;
     if (!settings.calContactArea) {
         phys->jointLength = 1.0;
         phys->contactArea = settings.twoDimension ? settings.unitWidth2D : 1.0;
@@ -285,11 +338,7 @@ void Ig2_ConicPP_ConicPP_ScGeom::fillPhysics(PairInScene& pair, const Posed& bod
         phys->contactArea = settings.unitWidth2D * phys->jointLength;
         pair.counts.add(Count::areas);
     } else {
-        double area;
-        requireOk(pp_contact_area(body1.particle->handle(), &body1.pose, body2.particle->handle(), &body2.pose, &found,
-                                  settings.areaTolerance, &area));
-        phys->contactArea = area;
-        pair.counts.add(Count::areas);
+        phys->contactArea = patchArea > 0 ? patchArea : areaAtPoint(pair, body1, body2, found);
     }
 }
 

@@ -53,8 +53,13 @@ protected:
     // one of which that is not known.
     bool leaveApart(PairInScene& pair);
     bool keep(PairInScene& pair);
-    // Area and points for KnKsPhys, if the pair has it.
-    void fillPhysics(PairInScene& pair, const Posed& body1, const Posed& body2, const pp_contact& found);
+    // Area and points for KnKsPhys, if the pair has it. patchArea: 0 for a contact at its point.
+    void fillPhysics(PairInScene& pair, const Posed& body1, const Posed& body2, const pp_contact& found, double patchArea);
+    // Point, normal and overlap of the patch in the place of those of the point; false where there is none. `origin`: of its
+    // positions; `sense`: -1 if its force, which is on its own second body, is on body 1.
+    bool fillPatch(PairInScene& pair, pp_status status, const pp_patch& patch, const yade::Vector3r& origin, double sense);
+    static double areaAtPoint(const PairInScene& pair, const Posed& body1, const Posed& body2, const pp_contact& found);
+    bool tracksEnergy() const;
     void fail(const PairInScene& pair, const std::string& why);
     void fail(const yade::Interaction& interaction, const yade::State& state1, const yade::State& state2,
               const yade::Vector3r& shift2, const char* why) noexcept;

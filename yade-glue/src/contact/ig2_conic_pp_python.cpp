@@ -107,6 +107,11 @@ void Ig2_ConicPP_ConicPP_ScGeom::pyRegisterClass(py::object scope)
     count("calls", Count::calls, "Calls so far, pairs of two boundaries excepted.");
     count("overlapping", Count::overlapping, "Pairs found in contact.");
     count("areas", Count::areas, "Contact areas computed.");
+    count("patches", Count::patches, "Contacts that were given by their patch.");
+    count("doubtfulPatches", Count::doubtfulPatches,
+          "Those of them whose patch was folded, reached into both cores, or missed patchTolerance.");
+    count("patchFallbacks", Count::patchFallbacks,
+          "Contacts that were given by their point although the patch was asked for: none was found, or the normal is prescribed.");
     count("extended", Count::extended, "Pairs answered in extended precision, because doubles did not settle them.");
     count("failures", Count::failures, "Failed calls: no answer by the back end asked for, or no valid particle or pose.");
     registered
@@ -195,9 +200,11 @@ template <class Archive> void Ig2_ConicPP_ConicPP_ScGeom::serialize(Archive& arc
 {
     requireReadable<Ig2_ConicPP_ConicPP_ScGeom>(version);
     serializeBase<yade::IGeomFunctor>(archive, *this, "IGeomFunctor");
-    ContactSettings::eachAttribute([&](const char* name, auto member, const char*) {
-        if (version > 0 || std::string(name) != "carryTolerance")
-            archiveAttribute(archive, name, written.*member);
+    ContactSettings::eachAttribute([&](const char* attribute, auto member, const char*) {
+        const std::string name(attribute);
+        const unsigned since = name == "patch" || name == "patchTolerance" ? 2 : name == "carryTolerance" ? 1 : 0;
+        if (version >= since)
+            archiveAttribute(archive, attribute, written.*member);
     });
     if (Archive::is_loading::value) {
         if (written.backEnd == "conic") // the name of files saved before it was changed

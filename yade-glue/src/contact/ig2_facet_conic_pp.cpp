@@ -7,6 +7,8 @@
 #include "flat_pair.hpp"
 #include "ig2_facet_conic_pp.hpp"
 
+#include <array>
+
 namespace potential_particles {
 
 using yade::Body;
@@ -14,14 +16,19 @@ using yade::Vector3r;
 
 namespace {
 
+    std::array<double, 9> rowsOf(const BoundaryPoints& vertices)
+    {
+        std::array<double, 9> rows;
+        for (std::size_t i = 0; i < 3; ++i)
+            std::copy_n(vertices[i].data(), 3, rows.data() + 3 * i);
+        return rows;
+    }
+
     // `state`: of the pair with this triangle, or null.
     pp_status contactWith(const FlatPair& pair, const BoundaryPoints& vertices, pp_pair_state* state, pp_flat_contact& found)
     {
-        double rows[9];
-        for (std::size_t i = 0; i < 3; ++i)
-            std::copy_n(vertices[i].data(), 3, rows + 3 * i);
         const pp_pose turn = pair.turn();
-        return pp_contact_triangle(pair.particle->handle(), &turn, rows, &pair.settings.library, state, &found);
+        return pp_contact_triangle(pair.particle->handle(), &turn, rowsOf(vertices).data(), &pair.settings.library, state, &found);
     }
 
     // The body, if it has a facet that meets the same bodies as `own`.
@@ -55,7 +62,8 @@ BoundaryPoints Ig2_Facet_ConicPP_ScGeom::pointsOf(const FlatPair& pair) const
 pp_status Ig2_Facet_ConicPP_ScGeom::detect(FlatPair& pair, const BoundaryPoints& points, pp_flat_contact& found)
 {
     const pp_status status = contactWith(pair, points, pair.state(), found);
-    if (status != PP_OK || found.kind != PP_OVERLAPPING)
+    // Patches on triangles that share an edge add up: each has what lies on it.
+    if (status != PP_OK || found.kind != PP_OVERLAPPING || pair.settings.given.patch)
         return status;
     pp_flat_contact ofOwner;
     const yade::Interaction* const owner = ownerOf(pair, points, found, ofOwner);
@@ -68,6 +76,18 @@ pp_status Ig2_Facet_ConicPP_ScGeom::detect(FlatPair& pair, const BoundaryPoints&
         found.distance = 0;
     }
     return status;
+}
+
+// The particle stays on the side on which the contact began.
+pp_status Ig2_Facet_ConicPP_ScGeom::findPatch(const FlatPair& pair, const BoundaryPoints& points, const pp_flat_contact& found,
+                                              pp_patch& patch) const
+{
+    const Vector3r front = (points[1] - points[0]).cross(points[2] - points[0]);
+    const bool lasts = pair.real && !(pair.geom->penetrationDepth < 0);
+    const Vector3r towardsParticle = lasts ? pair.lastNormal() : Vector3r(-Vector3r(found.normal));
+    const pp_pose turn = pair.turn();
+    return pp_patch_on_triangle(pair.particle->handle(), &turn, rowsOf(points).data(), towardsParticle.dot(front) > 0, &found,
+                                pair.settings.given.patchTolerance, tracksEnergy(), &patch, nullptr, 0, nullptr);
 }
 
 // A contact that appears has no force in its first step with KnKsPhys, whose area is not known before the step after (see

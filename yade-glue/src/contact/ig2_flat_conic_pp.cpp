@@ -77,34 +77,38 @@ bool Ig2_Flat_ConicPP::contact(FlatPair& pair)
     }
     pair.counts.add(Count::overlapping);
     pair.noteTouching();
-    fill(pair, found);
+    fill(pair, points, found);
     return true;
 }
 
-void Ig2_Flat_ConicPP::fill(FlatPair& pair, const pp_flat_contact& found)
+void Ig2_Flat_ConicPP::fill(FlatPair& pair, const BoundaryPoints& points, const pp_flat_contact& found)
 {
     const Vector3r centre = pair.centre();
     // From body 1, the boundary, to the particle.
     const Vector3r normal = -Vector3r(found.normal);
     // In this order: precompute() takes the old normal and the new contact point.
     yade::ScGeom& geom = *pair.geom;
-    geom.contactPoint = centre + Vector3r(found.point);
-    geom.penetrationDepth = found.overlap;
     // For physics made from radii; a boundary has none of its own.
     geom.refR1 = geom.refR2 = pair.particle->boundingRadius();
-    pair.precompute(normal, scene);
+    pp_patch patch;
+    const bool patched = pair.settings.given.patch && fillPatch(pair, findPatch(pair, points, found, patch), patch, centre, -1.0);
+    if (!patched) {
+        geom.contactPoint = centre + Vector3r(found.point);
+        geom.penetrationDepth = found.overlap;
+        pair.precompute(normal, scene);
+    }
 
     // The boundary cuts nothing off: the area is that of the particle with itself.
     pp_contact cut = {};
     cut.kind = PP_OVERLAPPING;
     copyTo(cut.normal, normal);
-    copyTo(cut.point, geom.contactPoint);
+    copyTo(cut.point, centre + Vector3r(found.point));
     copyTo(cut.point_on_a, centre + Vector3r(found.on_boundary));
     copyTo(cut.point_on_b, centre + Vector3r(found.on_particle));
     copyTo(cut.branch_a, Vector3r(found.point));
     copyTo(cut.branch_b, Vector3r(found.point));
     const Posed posed { pair.particle, pair.pose2() };
-    fillPhysics(pair, posed, posed, cut);
+    fillPhysics(pair, posed, posed, cut, patched ? patch.area : 0);
 }
 
 } // namespace potential_particles

@@ -25,10 +25,12 @@ protected:
     // The contact; positions from the particle's centre, world axes. A boundary that leaves its contact to another
     // answers separated by the distance 0.
     virtual pp_status detect(FlatPair& pair, const BoundaryPoints& points, pp_flat_contact& found) = 0;
+    // The patch of that contact, from the particle's centre.
+    virtual pp_status findPatch(const FlatPair& pair, const BoundaryPoints& points, const pp_flat_contact& found, pp_patch& patch) const = 0;
 
 private:
     bool contact(FlatPair& pair);
-    void fill(FlatPair& pair, const pp_flat_contact& found);
+    void fill(FlatPair& pair, const BoundaryPoints& points, const pp_flat_contact& found);
 };
 
 } // namespace potential_particles

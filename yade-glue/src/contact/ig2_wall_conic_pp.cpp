@@ -44,6 +44,14 @@ pp_status Ig2_Wall_ConicPP_ScGeom::detect(FlatPair& pair, const BoundaryPoints& 
     return status;
 }
 
+pp_status Ig2_Wall_ConicPP_ScGeom::findPatch(const FlatPair& pair, const BoundaryPoints&, const pp_flat_contact& found,
+                                             pp_patch& patch) const
+{
+    const pp_pose turn = pair.turn();
+    return pp_patch_on_plane(pair.particle->handle(), &turn, &found, pair.settings.given.patchTolerance, tracksEnergy(), &patch, nullptr,
+                             0, nullptr);
+}
+
 } // namespace potential_particles
 
 BOOST_CLASS_EXPORT_IMPLEMENT(potential_particles::Ig2_Wall_ConicPP_ScGeom)

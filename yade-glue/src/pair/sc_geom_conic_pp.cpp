@@ -81,6 +81,20 @@ void ScGeomConicPP::pyRegisterClass(py::object scope)
     auto registered = registerClass<ScGeomConicPP, yade::ScGeom>();
     registered.add_property("memory", &ScGeomConicPP::pyMemory, &ScGeomConicPP::pySetMemory,
                             "The library's memory of the pair, as hexadecimal digits.");
+    // What a functor with patch=True found; read only, since each step makes it anew.
+    const auto ofPatch = [&](const char* name, auto member, const char* text) {
+        using Value = typename Pointed<decltype(member)>::type;
+        registered.add_property(name, pythonFunction<Value, const ScGeomConicPP&>(
+                                          [member](const ScGeomConicPP& geom) { return Value(geom.patch.*member); }), text);
+    };
+    ofPatch("contactArea", &ContactPatch::area, "Area of the contact patch, m^2; 0 without one.");
+    ofPatch("couple", &ContactPatch::couple, "Couple of the pressure on body 2 about the normal, over the stiffness per area, m^4.");
+    ofPatch("twistLever", &ContactPatch::twistLever, "Lever of friction against twist, m: it holds up to friction * normal force * lever.");
+    ofPatch("polarMoment", &ContactPatch::polarMoment, "Polar moment of the patch's area about contactPoint, m^4.");
+    ofPatch("largestDepth", &ContactPatch::largestDepth, "Largest depth on the patch, m: pressure over stiffness per area.");
+    ofPatch("patchEnergy", &ContactPatch::energy, "Elastic energy over the stiffness per area, m^4; computed if O.trackEnergy.");
+    ofPatch("centroid", &ContactPatch::centroid, "Centroid of the patch, from contactPoint, m.");
+    ofPatch("patchOfPoint", &ContactPatch::ofPoint, "Whether no patch was found in the last step, and the contact point stands in for it.");
 }
 
 template <class Archive> void ScGeomConicPP::serialize(Archive& archive, unsigned version)

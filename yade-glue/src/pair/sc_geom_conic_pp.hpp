@@ -5,6 +5,7 @@
 
 #include "abi/archive.hpp"
 #include "abi/scgeom.hpp"
+#include "contact_patch.hpp"
 #include "kept_apart.hpp"
 
 #include <boost/serialization/access.hpp>
@@ -30,6 +31,8 @@ public:
     pp_pair_state state {};
     // Not saved: made again by the first look after loading, and after saving.
     KeptApart apart;
+    // Of the last look, if the functor is told to find it; not saved.
+    ContactPatch patch;
 
     // At each look, first: drops what is not saved if the pair was saved since the last, so that a run goes on from a save as
     // one that is loaded from it does. By the thread that looks, since a script may save from another.

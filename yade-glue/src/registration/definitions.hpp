@@ -32,6 +32,15 @@ template <class Class> void registerWithFactory()
                                  + ": is potential_particles loaded from two places?");
 }
 
+template <class Class> void takeClassIndex(Class& object)
+{
+    int& index = object.modifyClassIndex();
+    if (index == -1) {
+        index = object.getMaxCurrentlyUsedClassIndexOfKin() + 1;
+        object.incrementMaxCurrentlyUsedClassIndexOfKin();
+    }
+}
+
 // Begin of pyRegisterClass(); properties are added to the result.
 template <class Class, class Base> PythonClass<Class, Base> registerClass()
 {
@@ -44,6 +53,21 @@ template <class Class, class Base> PythonClass<Class, Base> registerClass()
     std::string Class::getClassName() const { return Entry<Class>::name; }                         \
     std::string Class::getBaseClassName(unsigned int index) const { return index == 0 ? Entry<Class>::base : ""; } \
     template <> void enterInFactory<Class>() { registerWithFactory<Class>(); }
+
+// Of a class that YADE's dispatchers know by an index of its own: its constructor calls takeClassIndex. An instance of the base,
+// because that is what knows the index; kept, because the index is a reference.
+#define PP_INDEX_DEFINITIONS(Class, Base)                                                          \
+    int& Class::modifyClassIndex()                                                                 \
+    {                                                                                              \
+        static int index = -1;                                                                     \
+        return index;                                                                              \
+    }                                                                                              \
+    const int& Class::getClassIndex() const { return const_cast<Class*>(this)->modifyClassIndex(); } \
+    const int& Class::getBaseClassIndex(int depth) const                                           \
+    {                                                                                              \
+        static const Base& base = *new Base;                                                       \
+        return depth == 1 ? base.getClassIndex() : base.getBaseClassIndex(depth - 1);              \
+    }
 
 #define PP_FUNCTOR_1D_DEFINITIONS(Class)                                                           \
     PP_CLASS_DEFINITIONS(Class)                                                                    \

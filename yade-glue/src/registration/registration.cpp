@@ -4,14 +4,18 @@
 #include "abi/registry.hpp"
 
 #include "class_table.hpp"
+#include "joint/conic_joint_mat.hpp"
+#include "joint/conic_joint_phys.hpp"
 #include "shape/conic_potential_particle.hpp"
 
 namespace potential_particles {
 
 void registerClasses()
 {
-    // The shape's class index must exist before any dispatcher sizes its table.
-    const ConicPotentialParticle indexed;
+    // Their class indices must exist before any dispatcher sizes its table.
+    const ConicPotentialParticle shape;
+    const ConicJointMat material;
+    const ConicJointPhys physics;
 
 #define PP_CLASS(Name, Base, First, Second, Version, Doc) enterInFactory<Name>();
 #include "class_table.inc"

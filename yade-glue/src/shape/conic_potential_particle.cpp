@@ -37,11 +37,7 @@ namespace {
 ConicPotentialParticle::ConicPotentialParticle()
     : accepted(Definition::of(*this))
 {
-    int& index = modifyClassIndex();
-    if (index == -1) {
-        index = getMaxCurrentlyUsedClassIndexOfKin() + 1;
-        incrementMaxCurrentlyUsedClassIndexOfKin();
-    }
+    takeClassIndex(*this);
 }
 
 ConicPotentialParticle::~ConicPotentialParticle() = default;
@@ -49,23 +45,7 @@ ConicPotentialParticle::~ConicPotentialParticle() = default;
 PP_CLASS_DEFINITIONS(ConicPotentialParticle)
 int ConicPotentialParticle::getBaseClassNumber() const { return 1; }
 
-int& ConicPotentialParticle::modifyClassIndex()
-{
-    static int index = -1;
-    return index;
-}
-
-const int& ConicPotentialParticle::getClassIndex() const
-{
-    return const_cast<ConicPotentialParticle*>(this)->modifyClassIndex();
-}
-
-const int& ConicPotentialParticle::getBaseClassIndex(int depth) const
-{
-    // An instance, because that is what knows the index; kept, because the index is a reference.
-    static const yade::PotentialParticle& base = *new yade::PotentialParticle;
-    return depth == 1 ? base.getClassIndex() : base.getBaseClassIndex(depth - 1);
-}
+PP_INDEX_DEFINITIONS(ConicPotentialParticle, yade::PotentialParticle)
 
 // --- the particle ---------------------------------------------------------------------------
 

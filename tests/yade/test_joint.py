@@ -1,0 +1,215 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# The law of joints on a contact patch: stiffness of a face, friction against twist and slip, energy, restitution.
+import math
+
+from harness import *
+import potential_particles
+import yade
+
+check = Checks()
+
+STIFFNESS = 1e9  # per area, N/m^3
+HALF, RADIUS, DENSITY = 0.5, 0.01, 2000.0
+AREA = (2 * (HALF - RADIUS))**2  # of the flat part of a face
+
+
+def scene(gravity=(0, 0, 0), damping=0.0, track=False, loop=yade.InteractionLoop, **material):
+    O.reset()
+    given = dict(normalStiffness=STIFFNESS, shearStiffness=STIFFNESS / 2, frictionAngle=math.atan(0.5), density=DENSITY)
+    O.materials.append(yade.ConicJointMat(**{**given, **material}))
+    O.engines = [
+        yade.ForceResetter(),
+        yade.InsertionSortCollider([yade.PotentialParticle2AABB(), yade.Bo1_Wall_Aabb(), yade.Bo1_Facet_Aabb()], verletDist=0.01),
+        loop([yade.Ig2_ConicPP_ConicPP_ScGeom(patch=True), yade.Ig2_Wall_ConicPP_ScGeom(patch=True),
+              yade.Ig2_Facet_ConicPP_ScGeom(patch=True)],
+             [yade.Ip2_ConicJointMat_ConicJointMat_ConicJointPhys()],
+             [yade.Law2_ScGeomConicPP_ConicJointPhys()]),
+        yade.NewtonIntegrator(damping=damping, exactAsphericalRot=True, gravity=gravity),
+    ]
+    O.trackEnergy = track
+    O.dt = 1e-5
+
+
+def block(position, orientation=Quaternion.Identity, fixed=False, half=HALF, r=RADIUS, k=0.0):
+    return O.bodies[add(cube(r=r, k=k, half=half), Vector3(position), orientation, fixed)]
+
+
+def wall():
+    return O.bodies[O.bodies.append(utils.wall((0, 0, 0), axis=2, sense=1))]
+
+
+def force_on(body):
+    return O.forces.f(body.id), O.forces.t(body.id)
+
+
+# --- a face on a wall: N = K A overlap, M = K I tilt ---------------------------------------------------------
+
+for overlap in (1e-5, 1e-6):
+    scene()
+    floor = wall()
+    body = block((0, 0, HALF - overlap), fixed=True)
+    O.step()
+    force, torque = force_on(body)
+    # The rounding adds to the face: a rim of the width sqrt(2 overlap r) whose depth falls to 0.
+    check.true(0 <= force[2] / (STIFFNESS * AREA * overlap) - 1 < 10 * math.sqrt(overlap * RADIUS), f"N = K A overlap: {force}")
+    check.close(torque, Vector3.Zero, 1e-9 * force[2], "no moment")
+    check.close(Vector3(force[0], force[1], 0), Vector3.Zero, 1e-9 * force[2], "no force along the wall")
+    contact = O.interactions[0, 1]
+    check.close(contact.phys.normalForce, force, 1e-9 * force[2], "normalForce acts on body 2")
+
+    straight = force[2]
+    tilt = 0.1 * overlap / HALF
+    body.state.ori = turned((0, 1, 0), tilt)
+    O.step()
+    force, torque = force_on(body)
+    side = 2 * (HALF - RADIUS)
+    check.true(abs(torque[1] / (-STIFFNESS * side**4 / 12 * tilt) - 1) < 20 * math.sqrt(overlap * RADIUS), f"M = K I tilt: {torque}")
+    check.close(force[2], straight, 1e-4 * straight, "tilting does not change N")
+
+
+
+# --- a block spun on its base: M = 0.382598 mu N a, until it stops ---------------------------------------------
+
+scene(gravity=(0, 0, -9.81), track=True)
+wall()
+body = block((0, 0, HALF), r=1e-3)
+side = 2 * (HALF - 1e-3)
+weight = body.state.mass * 9.81
+body.state.pos = Vector3(0, 0, HALF - weight / (STIFFNESS * side**2))
+body.state.angVel = Vector3(0, 0, 1)
+body.state.angMom = Vector3(0, 0, body.state.inertia[2])
+run(10)
+speed, work = body.state.angVel[2], O.energy["plastDissip"]
+run(4000)
+moment = (speed - body.state.angVel[2]) * body.state.inertia[2] / (4000 * O.dt)
+check.true(O.interactions[0, 1].phys.isSliding, "it slips")
+check.true(abs(moment / (0.382598 * 0.5 * weight * side) - 1) < 2e-3, f"moment {moment / (0.5 * weight * side)} mu N a")
+lost = 0.5 * body.state.inertia[2] * (speed**2 - body.state.angVel[2]**2)
+check.close(O.energy["plastDissip"] - work, lost, 1e-3 * lost, "friction takes the energy of the spin")
+run(8000)
+check.true(abs(body.state.angVel[2]) < 0.02 and not O.interactions[0, 1].phys.isSliding, f"it stops: {body.state.angVel}")
+
+# --- slip and twist together stay on the ellipse --------------------------------------------------------------
+
+scene()
+wall()
+body = block((0, 0, HALF - 1e-5))
+body.state.blockedDOFs = "xyzXYZ"
+body.state.vel, body.state.angVel = Vector3(0.3, 0, 0), Vector3(0, 0, 0.8)
+run(200)
+joint, geom = O.interactions[0, 1].phys, O.interactions[0, 1].geom
+most = 0.5 * joint.normalForce.norm()
+check.close((joint.shearForce.norm() / most)**2 + (joint.twistMoment / (most * geom.twistLever))**2, 1.0, 1e-9, "on the ellipse")
+check.true(joint.shearForce[0] < 0 and joint.twistMoment < 0, "against the motion")
+# Slip is normal to the ellipse: displacement per turn as F/F_max^2 to M/M_max^2.
+slope = -joint.shearForce[0] * geom.twistLever**2 / -joint.twistMoment
+check.close(slope, 0.3 / 0.8, 2e-2, "slip over turn")
+
+# --- tiles and one slab give the same force -------------------------------------------------------------------
+
+
+def dragged(triangles):
+    scene()
+    for one in O.engines[2].geomDispatcher.functors:
+        one.patchTolerance = 1e-10
+    for corners in triangles:
+        O.bodies.append(utils.facet([Vector3(*corner, 0) for corner in corners], fixed=True))
+    body = block((0.013, 0.021, HALF - 1e-4))
+    body.state.blockedDOFs = "xyzXYZ"
+    body.state.vel = Vector3(1, 0.3, 0)
+    O.dt = 5e-3
+    forces = []
+    for _ in range(60):
+        O.step()
+        forces.append(force_on(body))
+    return forces
+
+
+TILE = 0.37
+tiles = [triangle for i in range(-3, 4) for j in range(-3, 3)
+         for a, b, c, d in [[((i + x) * TILE, (j + y) * TILE) for x, y in ((0, 0), (1, 0), (1, 1), (0, 1))]]
+         for triangle in ((a, b, c), (a, c, d))]
+slab = [((-9, -9), (9, -9), (9, 9)), ((-9, -9), (9, 9), (-9, 9))]
+one, many = dragged(slab), dragged(tiles)
+check.true(max(abs(a[0][2] / b[0][2] - 1) for a, b in zip(one, many)) < 1e-9, "tiles press as one slab")
+check.true(max(abs(a[0][2] / one[0][0][2] - 1) for a in many) < 1e-9, "at all places")
+# (Each tile begins with a spring of its own: the drag is that of sliding once all have slipped.)
+check.true(all(abs(math.hypot(a[0][0], a[0][1]) / a[0][2] - 0.5) < 1e-3 for a in many[5:]), "friction 0.5")
+
+# --- elastic impacts keep the energy ---------------------------------------------------------------------------
+
+
+def energy(bodies):
+    total = 0
+    for one in bodies:
+        spin = one.state.ori.conjugate() * one.state.angVel
+        total += 0.5 * one.state.mass * one.state.vel.squaredNorm() + 0.5 * sum(one.state.inertia[i] * spin[i]**2 for i in range(3))
+    return total
+
+
+for k in (0.0, 0.05):
+    scene(frictionAngle=0.0)
+    left = block((0, 0, 0), turned((1, 2, 3), 0.7), r=0.05, k=k)
+    right = block((1.35, 0.2, 0.1), turned((3, 1, 2), 1.1), r=0.05, k=k)
+    left.state.vel, right.state.vel = Vector3(2, 0, 0), Vector3(-2, 0, 0)
+    O.dt = 1e-4
+    before = energy([left, right])
+    deepest = met = 0
+    while not met or any(i.isReal for i in O.interactions):
+        O.step()
+        for contact in O.interactions:
+            if contact.isReal:
+                met, deepest = 1, max(deepest, contact.geom.largestDepth)
+    check.true(deepest > 0.01 and right.state.angVel.norm() > 0.1, f"a firm impact off centre, {deepest} deep")
+    check.close(energy([left, right]) / before, 1.0, 1e-4, f"energy after an elastic impact, k = {k}")
+    check.equal(O.interactions.countReal(), 0, "they leave each other")
+
+# --- restitution ------------------------------------------------------------------------------------------------
+
+for wanted in (0.9, 0.5, 0.1):
+    scene(restitution=wanted, track=True)
+    wall()
+    body = block((0, 0, HALF + 1e-4))
+    body.state.vel = Vector3(0, 0, -0.1)
+    O.dt = 2e-6
+    run(20)
+    before = energy([body])
+    while O.time < 0.02 and body.state.vel[2] < 0 or O.interactions.countReal():
+        O.step()
+    check.close(body.state.vel[2] / 0.1, wanted, 0.01, "restitution")
+    check.close(O.energy["viscDissip"], before - energy([body]), 5e-3 * before, "what the dashpot took")
+
+# --- what is refused ---------------------------------------------------------------------------------------------
+
+check.raises(ValueError, lambda: yade.ConicJointMat(restitution=0), "restitution", "restitution = 0: it must lie in [0.01, 1]")
+check.raises(ValueError, lambda: yade.ConicJointMat(normalStiffness=-1), "stiffness", "normalStiffness = -1: give a stiffness per area")
+check.raises(ValueError, lambda: yade.Ig2_ConicPP_ConicPP_ScGeom(patchTolerance=0.2), "tolerance", "patchTolerance = 0.2")
+check.raises(ValueError, lambda: yade.Ig2_ConicPP_ConicPP_ScGeom(patch=True, twoDimension=True), "two dimensions", "choose one of them")
+scene()
+O.engines[2].geomDispatcher.functors[1].patch = False
+check.raises(ValueError, O.step, "a functor without patch", "give Ig2_Wall_ConicPP_ScGeom the keyword patch=True")
+
+# --- the same with ConicInteractionLoop and after a save ----------------------------------------------------------
+
+
+def falling(loop, saved=False):
+    scene(gravity=(0, 0, -9.81), loop=loop, restitution=0.5, damping=0.1)
+    wall()
+    for number in range(3):
+        block((0.03 * number, 0.02 * number, HALF + 1.01 * number), turned((1, 2, 0.5), 0.02 * number), r=0.02)
+    O.dt = 5e-5
+    run(600)
+    if saved:
+        O.saveTmp("joint")
+        O.loadTmp("joint")
+        potential_particles.prepare()
+    run(600)
+    return state_numbers()
+
+
+plain_loop = falling(yade.InteractionLoop)
+check.equal(falling(yade.ConicInteractionLoop), plain_loop, "ConicInteractionLoop")
+check.equal(falling(yade.ConicInteractionLoop, saved=True), falling(yade.ConicInteractionLoop, saved=True), "saved runs repeat")
+check.true(max(abs(a - b) for a, b in zip(falling(yade.ConicInteractionLoop, saved=True), plain_loop)) < 1e-6, "a saved run goes on")
+
+check.finish()

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "registration/attributes.hpp"
+
+#include "conic_joint_phys.hpp"
+
+namespace potential_particles {
+
+ConicJointPhys::ConicJointPhys() { takeClassIndex(*this); }
+ConicJointPhys::~ConicJointPhys() = default;
+
+PP_CLASS_DEFINITIONS(ConicJointPhys)
+PP_INDEX_DEFINITIONS(ConicJointPhys, yade::FrictPhys)
+PP_ATTRIBUTE_DEFINITIONS(ConicJointPhys, FrictPhys)
+void ConicJointPhys::callPostLoad() { yade::FrictPhys::callPostLoad(); }
+
+} // namespace potential_particles
+
+BOOST_CLASS_EXPORT_IMPLEMENT(potential_particles::ConicJointPhys)

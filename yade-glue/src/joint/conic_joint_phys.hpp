@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The physics of a joint between potential particles.
+#pragma once
+
+#include "abi/archive.hpp"
+#include "abi/knksphys.hpp"
+
+#include <boost/serialization/access.hpp>
+
+namespace potential_particles {
+
+// kn and ks of its bases are those of the whole patch, N/m; normalForce and shearForce act on body 2.
+class ConicJointPhys final : public yade::FrictPhys {
+public:
+    ConicJointPhys();
+    ~ConicJointPhys() override;
+    PP_ABI_SERIALIZABLE_OVERRIDES
+    PP_ABI_INDEX_OVERRIDES
+
+    double normalStiffness = 0;
+    double shearStiffness = 0;
+    double dampingRatio = 0;
+    yade::Vector3r shearDisplacement = yade::Vector3r::Zero();
+    double twist = 0;
+    double twistStiffness = 0;
+    double twistMoment = 0;
+    double couple = 0;
+    bool isSliding = false;
+
+    template <class Visit> static void eachAttribute(Visit&& visit)
+    {
+        using P = ConicJointPhys;
+        visit("normalStiffness", &P::normalStiffness, "Normal stiffness per area, N/m^3.");
+        visit("shearStiffness", &P::shearStiffness, "Shear stiffness per area, N/m^3.");
+        visit("dampingRatio", &P::dampingRatio, "Dashpot over the critical one, from the restitution of the materials.");
+        visit("shearDisplacement", &P::shearDisplacement,
+              "Elastic part of the displacement of body 2 against body 1 along the joint, world axes, m.");
+        visit("twist", &P::twist, "Elastic part of the turn of body 2 against body 1 about the normal, radians.");
+        visit("twistStiffness", &P::twistStiffness, "Stiffness against it, N m: shear stiffness per area times the polar moment.");
+        visit("twistMoment", &P::twistMoment, "Moment of friction on body 2 about the normal, N m.");
+        visit("couple", &P::couple, "Moment of the pressure on body 2 about the normal, N m.");
+        visit("isSliding", &P::isSliding, "Whether friction was at its limit in the last step.");
+    }
+
+private:
+    friend class boost::serialization::access;
+    template <class Archive> void serialize(Archive& archive, unsigned);
+};
+
+} // namespace potential_particles

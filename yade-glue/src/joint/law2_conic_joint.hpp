@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The law of joints: forces and moments of a contact patch.
+#pragma once
+
+#include "abi/archive.hpp"
+#include "abi/functor.hpp"
+#include "registration/class_table.hpp"
+
+#include <boost/serialization/access.hpp>
+
+namespace potential_particles {
+
+// go() runs in many threads at once.
+class Law2_ScGeomConicPP_ConicJointPhys final : public yade::LawFunctor {
+public:
+    ~Law2_ScGeomConicPP_ConicJointPhys() override;
+    PP_ABI_SERIALIZABLE_OVERRIDES
+
+    std::string get2DFunctorType1() const override;
+    std::string get2DFunctorType2() const override;
+    std::string checkOrder() const override;
+
+    bool go(boost::shared_ptr<yade::IGeom>& geometry, boost::shared_ptr<yade::IPhys>& physics, yade::Interaction* interaction) override;
+
+    bool neverErase = false;
+
+    template <class Visit> static void eachAttribute(Visit&& visit)
+    {
+        visit("neverErase", &Law2_ScGeomConicPP_ConicJointPhys::neverErase,
+              "Whether a contact that opens is kept, without force, and with what it remembers.");
+    }
+
+private:
+    friend class boost::serialization::access;
+    template <class Archive> void serialize(Archive& archive, unsigned);
+
+    struct Energies;
+    void track(const Energies& energies);
+
+    // Where the scene's tracker keeps them; each thread finds the same.
+    int elasticNumber = -1, frictionNumber = -1, viscousNumber = -1, areaNumber = -1;
+};
+
+} // namespace potential_particles

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// One of the two bodies of a joint: how it moves, and what pushes it.
+#pragma once
+
+#include "abi/scene.hpp"
+#include "abi/state.hpp"
+
+namespace potential_particles {
+
+// A member of a clump moves as the clump does: YADE keeps its velocities up to date, its mass is the clump's.
+class MovingBody {
+public:
+    // shift: of its periodic image, world axes.
+    MovingBody(yade::Scene& scene, int id, const yade::Vector3r& shift)
+        : scene(scene)
+        , body(*scene.bodies->body[static_cast<std::size_t>(id)])
+        , position(body.state->se3.position + shift)
+        , shift(shift)
+    {
+    }
+
+    yade::Vector3r velocityAt(const yade::Vector3r& point) const
+    {
+        return body.state->vel + body.state->angVel.cross(point - position);
+    }
+    const yade::Vector3r& spin() const { return body.state->angVel; }
+
+    // Velocity in that direction of the point for a unit impulse there in that direction, 1/kg: 0 of a body that is held.
+    double mobility(const yade::Vector3r& point, const yade::Vector3r& direction) const
+    {
+        const bool inClump = body.clumpId >= 0 && body.clumpId != body.id;
+        const yade::State& state = inClump ? *scene.bodies->body[static_cast<std::size_t>(body.clumpId)]->state : *body.state;
+        double sum = 0;
+        if (state.mass > 0)
+            for (int i = 0; i < 3; ++i)
+                if (!(state.blockedDOFs >> i & 1))
+                    sum += direction[i] * direction[i] / state.mass;
+        constexpr unsigned allTurns = 8 + 16 + 32;
+        if ((state.blockedDOFs & allTurns) != allTurns) {
+            const yade::Vector3r lever
+                = state.se3.orientation.conjugate() * (point - state.se3.position - shift).cross(direction);
+            for (int i = 0; i < 3; ++i)
+                if (state.inertia[i] > 0)
+                    sum += lever[i] * lever[i] / state.inertia[i];
+        }
+        return sum;
+    }
+
+    void push(const yade::Vector3r& point, const yade::Vector3r& force, const yade::Vector3r& moment) const
+    {
+        scene.forces().addForce(body.id, force);
+        scene.forces().addTorque(body.id, (point - position).cross(force) + moment);
+    }
+
+private:
+    yade::Scene& scene;
+    const yade::Body& body;
+    yade::Vector3r position;
+    yade::Vector3r shift;
+};
+
+} // namespace potential_particles
