@@ -169,7 +169,7 @@ impl Call<'_> {
         }
         let contact = self.described(&body, &found, scale)?;
         let flags = contact.flags.with(search.flags);
-        if let (Some(state), Some(x)) = (state.as_deref_mut(), search.remembered) {
+        if let (Some(state), Some(x)) = (state, search.remembered) {
             let overlapping = contact.kind == Kind::Overlapping;
             state.remember(Remembered { x, lambda: 1.0, overlapping, closest: [1.0; 2] });
         }
