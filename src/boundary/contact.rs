@@ -132,7 +132,7 @@ impl Call<'_> {
     fn contact(
         &self,
         apart: Option<Apart>,
-        mut state: Option<&mut PairState>,
+        state: Option<&mut PairState>,
         closest: impl Fn(&mut Search) -> Result<Closest, DetectError>,
     ) -> Result<FlatContact, DetectError> {
         if let Some(apart) = apart.filter(|_| !self.settings.solve_separated) {
@@ -169,7 +169,7 @@ impl Call<'_> {
         }
         let contact = self.described(&body, &found, scale)?;
         let flags = contact.flags.with(search.flags);
-        if let (Some(state), Some(x)) = (state.as_deref_mut(), search.remembered) {
+        if let (Some(state), Some(x)) = (state, search.remembered) {
             let overlapping = contact.kind == Kind::Overlapping;
             state.remember(Remembered { x, lambda: 1.0, overlapping, closest: [1.0; 2] });
         }
