@@ -132,7 +132,7 @@ impl Call<'_> {
     fn contact(
         &self,
         apart: Option<Apart>,
-        mut state: Option<&mut PairState>,
+        state: Option<&mut PairState>,
         closest: impl Fn(&mut Search) -> Result<Closest, DetectError>,
     ) -> Result<FlatContact, DetectError> {
         if let Some(apart) = apart.filter(|_| !self.settings.solve_separated) {

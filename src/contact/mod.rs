@@ -18,7 +18,8 @@
 //! overlap is |P1 − P2|, and the contact point lies between the two by the weight of the settings.
 //!
 //! The particles overlap if s < 1. The answer carries |s − s*| ≤ gap and a bound on the distance of the point to the optimum
-//! ([`crate::bounds`]). An answer that leaves s < 1 open by more than 10⁻² is an error and never "separated". Each file uses only
+//! ([`crate::bounds`]). An answer that leaves s < 1 open by more than 10⁻² is an error and never "separated",
+//! except where a raised regularisation was asked for, whose gap says so. Each file uses only
 //! those above it:
 //!
 //! | file | holds |
