@@ -132,9 +132,11 @@ def lintel(share=1.05, seconds=1.5):
     O.forces.setPermF(abutment.id, Vector3(-thrust, 0, 0))
     O.engines[-1].gravity = (0, 0, 0)
     O.dt = 1e-4
-    run(0.1)  # the thrust comes before the weight
-    O.engines[-1].gravity = (0, 0, -9.81)
-    begin = [stone.state.pos for stone in stones]
+    run(0.1)  # the thrust comes before the weight, and that by and by: a sudden weight would count twice
+    begin = [Vector3(stone.state.pos) for stone in stones]
+    for part in range(1, 51):
+        O.engines[-1].gravity = (0, 0, -9.81 * part / 50)
+        run(0.01)
     run(seconds)
     drop = max((stone.state.pos - place).norm() for stone, place in zip(stones, begin))
     return drop, fastest()
@@ -143,7 +145,7 @@ def lintel(share=1.05, seconds=1.5):
 def lintels():
     """Thrust 2 % above and below what the joints need: the one stands (speed at the end, m/s), the other falls."""
     stands, falls = lintel(1.02), lintel(0.98)
-    return {"value": stands[1], "target": 1e-6, "moved_standing": stands[0], "moved_falling": falls[0], "falls": falls[0] > 20 * stands[0]}
+    return {"value": stands[1], "target": 1e-6, "moved_standing": stands[0], "moved_falling": falls[0], "falls": stands[0] < 1e-3 and falls[0] > 0.05}
 
 
 def stack():
