@@ -75,32 +75,52 @@ impl Chart {
         (c.is_finite() && slopes.iter().all(|slope| slope.is_finite())).then_some(Self { origin, arms, c, slopes })
     }
 
+    #[inline(always)]
     pub fn combine(&self, a: [f64; 3]) -> Vector {
         a[0] * self.arms[0] + a[1] * self.arms[1] + a[2] * self.arms[2]
     }
 
     /// The change of the last excess with a change of the coordinates.
+    #[inline(always)]
     pub fn change(&self, a: [f64; 3]) -> f64 {
         a[0] * self.slopes[0] + a[1] * self.slopes[1] + a[2] * self.slopes[2]
     }
 }
 
-/// a cos x + b sin x as size · cos(x − peak).
+/// a cos x + b sin x. Angles are given by the tangent of their half, so that only roots and quotients are needed.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Wave {
+    pub a: f64,
+    pub b: f64,
     pub size: f64,
-    pub peak: f64,
 }
 
 impl Wave {
+    #[inline(always)]
     pub fn new(a: f64, b: f64) -> Self {
-        Self { size: a.hypot(b), peak: b.atan2(a) }
+        Self { a, b, size: (a * a + b * b).sqrt() }
     }
 
-    /// The distance from the peak at which the wave has fallen to a value; 0 where it never is as high.
-    pub fn fallen_to(&self, value: f64) -> f64 {
-        (value / self.size).clamp(-1.0, 1.0).acos()
+    /// Where it is largest.
+    #[inline(always)]
+    pub fn peak(&self) -> f64 {
+        self.b / (self.size + self.a)
     }
+
+    /// Where, on the side of a sign from the peak, it has fallen to a value, the peak if it never is as high; and the sine of the angle between.
+    #[inline(always)]
+    pub fn fallen_to(&self, value: f64, sign: f64) -> (f64, f64) {
+        let ratio = (value / self.size).clamp(-1.0, 1.0);
+        let (peak, away) = (self.peak(), sign * ((1.0 - ratio) / (1.0 + ratio)).sqrt());
+        ((peak + away) / (1.0 - peak * away), sign * (1.0 - ratio * ratio).sqrt())
+    }
+}
+
+/// Sine and cosine of an angle with this tangent of its half, and how fast the angle changes with that.
+#[inline(always)]
+pub(super) fn turn(half: f64) -> (f64, f64, f64) {
+    let rate = 2.0 / (1.0 + half * half);
+    (half * rate, rate - 1.0, rate)
 }
 
 /// A node from the place, the vector of area for a unit of both parameters, s, and the weight. `None` where the patch is no graph.

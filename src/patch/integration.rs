@@ -244,6 +244,7 @@ impl Summary {
         patch.mean_depth = task.length * load / area;
     }
 
+    #[inline(always)]
     fn point(&self, task: &Task, node: &Node) -> PatchPoint {
         let normal = vector(node);
         let stretch = normal.norm();
@@ -257,6 +258,7 @@ impl Summary {
 }
 
 /// The normal whose z is 1.
+#[inline(always)]
 fn vector(node: &Node) -> Vector3<f64> {
     Vector3::new(node.normal[0], node.normal[1], 1.0)
 }

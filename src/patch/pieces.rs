@@ -15,13 +15,17 @@ pub(super) struct PieceScratch {
 }
 
 /// Points of the rules, from coarse to fine: across a strip, along it, in a cap, in a disc outwards and around.
-const RULES: [[usize; 5]; 4] = [[3, 2, 2, 3, 7], [4, 4, 3, 4, 10], [5, 8, 5, 6, 14], [8, 14, 8, 10, 24]];
+const RULES: [[usize; 5]; 5] =
+    [[3, 2, 1, 3, 7], [3, 2, 2, 3, 7], [4, 4, 3, 4, 10], [5, 8, 5, 6, 14], [8, 14, 8, 10, 24]];
 
 /// Part of the tolerance that the pieces may take.
 const SHARE: f64 = 0.9;
 
 /// Bodies with no more planes than this together are loaded at once.
 const FEW: usize = 48;
+
+/// Part of a cap's load by which a rule of one point is wrong at most, about.
+const SINGLE: f64 = 0.3;
 
 /// A part of the patch.
 #[derive(Clone, Copy, Debug)]
@@ -147,6 +151,10 @@ impl Piece {
             }
             Kind::Cap(zone) => {
                 zone.integrate(cap, into)?;
+                if cap == 1 {
+                    let size = Vector::new(fine[0], fine[1], fine[2]).norm();
+                    return Some((SINGLE * size, SINGLE * fine[3]));
+                }
                 zone.integrate(cap - 1, only)?;
             }
             Kind::Disc(disc) => {
@@ -272,12 +280,12 @@ impl Builder<'_, '_, '_> {
         let [first, last] = strip.lengths();
         let outline = strip.outline().map(|at| strip.place(at));
         let width = (outline[4] - 0.5 * (outline[0] + outline[1])).norm();
-        let mut neglected = self.neglected(&outline, width * first.max(last).max(0.0), active);
+        let mut neglected = self.neglected(&outline[2..], width * first.max(last).max(0.0), active);
         if first < 0.0 || last < 0.0 {
             // The ends cross before the rim.
             neglected += width * (first.abs() + last.abs()) * strip.depth().max(0.0);
         }
-        self.zones.push(Piece { kind: Kind::Strip(strip), rule: 0, neglected, error: 0.0 });
+        self.zones.push(Piece { kind: Kind::Strip(strip), rule: 1, neglected, error: 0.0 });
     }
 
     fn cap(&mut self, cap: Cap, active: &[u32]) {
@@ -291,11 +299,12 @@ impl Builder<'_, '_, '_> {
     /// What planes may change, over an area, that are on at one of these places though they do not count as active, or the reverse.
     fn neglected(&self, places: &[Vector], area: f64, active: &[u32]) -> f64 {
         let mut most = 0.0_f64;
+        let weight = [0.5 * self.field.a.plane_weight, 0.5 * self.field.b.map_or(0.0, |b| b.plane_weight)];
         for (k, plane) in self.field.planes.iter().enumerate().filter(|(_, plane)| plane.owner != Owner::Edge) {
             let n = normal(plane);
             let sign = if active.contains(&(k as u32)) { -1.0 } else { 1.0 };
             let excess = places.iter().map(|x| sign * (plane.excess + n.dot(x))).fold(0.0, f64::max);
-            most = most.max(0.5 * (excess / radius(self.field, plane.owner)).powi(2));
+            most = most.max(weight[usize::from(plane.owner == Owner::B)] * excess * excess);
         }
         let farthest = places.iter().map(|x| x.norm()).fold(0.0, f64::max);
         if farthest > self.field.loaded() { f64::INFINITY } else { area * most }
@@ -338,7 +347,7 @@ impl Builder<'_, '_, '_> {
         }
         let active = [three[0], three[1], three[2], last.unwrap_or(usize::MAX)].map(|k| k as u32);
         let neglected = self.neglected(&outline, across, &active);
-        self.zones.push(Piece { kind: Kind::Disc(disc), rule: 0, neglected, error: 0.0 });
+        self.zones.push(Piece { kind: Kind::Disc(disc), rule: 1, neglected, error: 0.0 });
         Some(())
     }
 
@@ -350,7 +359,7 @@ impl Builder<'_, '_, '_> {
             return Some(false);
         };
         let wave = Wave::new(-chart.slopes[0] * radii[0], -chart.slopes[1] * radii[0]);
-        let [cos, sin] = [wave.peak.cos(), wave.peak.sin()];
+        let [cos, sin] = [wave.a / wave.size, wave.b / wave.size];
         if !(cos > 0.0 && sin > 0.0) {
             return Some(false);
         }

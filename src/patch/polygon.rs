@@ -125,7 +125,7 @@ fn middle(level: &Level, polygon: &[Corner]) -> Option<[f64; 2]> {
 
 /// Points that are exact for pressures times linear functions, and nearly so for distances from the middle of the load.
 ///
-/// In each triangle between that point and a side: two Gauss points for the weight ρ towards the side, three or more along it.
+/// In each triangle between that point and a side: two Gauss points for the weight ρ towards the side, two or more along it.
 pub(super) fn integrate(level: &Level, polygon: &[Corner], nodes: &mut Vec<Node>) -> Option<()> {
     let centre = middle(level, polygon)?;
     let root = 6.0_f64.sqrt();
@@ -137,7 +137,8 @@ pub(super) fn integrate(level: &Level, polygon: &[Corner], nodes: &mut Vec<Node>
         let dot = (a[0] - centre[0]) * (b[0] - centre[0]) + (a[1] - centre[1]) * (b[1] - centre[1]);
         // The distance from the middle varies along a side by the angle under which it is seen.
         let points = match () {
-            () if dot > cross => 3,
+            () if dot > cross => 2,
+            () if dot > 0.5 * cross => 3,
             () if dot > -0.3 * cross => 4,
             () if dot > -cross => 6,
             () => 10,

@@ -1,9 +1,12 @@
 //! Parts of a patch on which the same planes are active: strips along an edge, caps at a corner, and discs.
+//!
+//! Angles are given by the tangents of their halves.
 
-use super::chart::{Chart, Vector, Wave, node};
+use super::chart::{Chart, Vector, Wave, node, turn};
 use super::ray::Node;
-use super::rules::gauss;
-use std::f64::consts::{FRAC_PI_2, TAU};
+use super::rules::{MOST_POINTS, gauss};
+use std::f64::consts::TAU;
+use std::sync::LazyLock;
 
 /// Most steps towards the corner of a strip.
 const MOST_STEPS: usize = 12;
@@ -37,10 +40,10 @@ pub(super) struct Strip {
 type Place = (Vector, Vector, f64);
 
 impl Strip {
-    /// From `start` (the peak where there is none) to the rim.
+    /// From `start`, or from the ridge, to the rim.
     pub fn new(chart: Chart, radii: [f64; 2], start: Option<f64>, sign: f64, ends: [End; 2]) -> Option<Self> {
         let wave = Wave::new(-chart.slopes[0] * radii[0], -chart.slopes[1] * radii[0]);
-        let start = start.unwrap_or(wave.peak);
+        let start = start.unwrap_or_else(|| wave.peak());
         let mut strip = Self {
             chart,
             radii: [radii[0], radii[1]],
@@ -53,10 +56,10 @@ impl Strip {
         };
         for side in 0..2 {
             let first = strip.end(side, start).0;
-            let (mut width, mut along) = (strip.width(first), first);
+            let (mut width, mut along) = (strip.width(first).0, first);
             for _ in 0..MOST_STEPS {
                 along = strip.end(side, start + width).0;
-                let next = strip.width(along);
+                let next = strip.width(along).0;
                 let step = (next - width).abs();
                 width = next;
                 if step <= 1e-9 * width.abs() {
@@ -84,35 +87,39 @@ impl Strip {
             [self.start, self.starts[1]],
             [self.start + a, t],
             [self.start + b, u],
-            [self.start + self.width(middle), middle],
+            [self.start + self.width(middle).0, middle],
         ]
     }
 
-    /// How far it extends in angle at a distance along the edge.
-    fn width(&self, along: f64) -> f64 {
-        let fallen = self.wave.fallen_to(self.chart.c + self.chart.slopes[2] * along - self.radii[1]);
-        (self.wave.peak - self.start) + self.sign * fallen
+    /// How far it extends in angle at a distance along the edge, and how fast that changes.
+    #[inline(always)]
+    fn width(&self, along: f64) -> (f64, f64) {
+        let g = self.chart.slopes[2];
+        let (rim, sine) = self.wave.fallen_to(self.chart.c + g * along - self.radii[1], self.sign);
+        (rim - self.start, -0.5 * (1.0 + rim * rim) * g / (self.wave.size * sine))
     }
 
-    /// F with s = (c + g t)/F, and its derivative.
-    fn denominator(&self, theta: f64) -> (f64, f64) {
-        let (sin, cos) = (theta - self.wave.peak).sin_cos();
-        (self.radii[1] + self.wave.size * cos, -self.wave.size * sin)
+    /// F with s = (c + g t)/F, and its derivative in the angle.
+    #[inline(always)]
+    fn denominator(&self, sin: f64, cos: f64) -> (f64, f64) {
+        let Wave { a, b, .. } = self.wave;
+        (self.radii[1] + a * cos + b * sin, b * cos - a * sin)
     }
 
     /// Where an end lies at an angle, and its change with it.
+    #[inline(always)]
     fn end(&self, side: usize, theta: f64) -> (f64, f64) {
         match self.ends[side] {
             End::At(along) => (along, 0.0),
             End::Line { value, slopes } => {
                 let [h1, h2, h3] = slopes;
-                let (f, f1) = self.denominator(theta);
-                let (sin, cos) = theta.sin_cos();
+                let (sin, cos, rate) = turn(theta);
+                let (f, f1) = self.denominator(sin, cos);
                 let k = (cos * h1 + sin * h2) * self.radii[0] / f;
                 let k1 = (cos * h2 - sin * h1) * self.radii[0] / f - k * f1 / f;
                 let (c, g) = (self.chart.c, self.chart.slopes[2]);
                 let (up, down) = (value + c * k, h3 + g * k);
-                (-up / down, -(c * k1 * down - up * g * k1) / (down * down))
+                (-up / down, -rate * (c * k1 * down - up * g * k1) / (down * down))
             }
         }
     }
@@ -123,37 +130,38 @@ impl Strip {
     }
 
     pub fn place(&self, [theta, along]: [f64; 2]) -> Vector {
-        let s = (self.chart.c + self.chart.slopes[2] * along) / self.denominator(theta).0;
-        let (sin, cos) = theta.sin_cos();
+        let (sin, cos, _) = turn(theta);
+        let s = (self.chart.c + self.chart.slopes[2] * along) / self.denominator(sin, cos).0;
         let scale = s * self.radii[0];
         self.chart.origin + self.chart.combine([scale * cos, scale * sin, along])
     }
 
+    #[inline(always)]
     fn at(&self, theta: f64, along: f64) -> Place {
-        let (f, f1) = self.denominator(theta);
+        let (sin, cos, rate) = turn(theta);
+        let (f, f1) = self.denominator(sin, cos);
         let s = (self.chart.c + self.chart.slopes[2] * along) / f;
         let (by_theta, by_along) = (-s * f1 / f, self.chart.slopes[2] / f);
-        let (sin, cos) = theta.sin_cos();
         let [d, e, t] = self.chart.arms;
         let r = self.radii[0];
         let outwards = r * (cos * d + sin * e);
         let x = self.chart.origin + s * outwards + along * t;
         let area = (by_theta * outwards + (r * s) * (cos * e - sin * d)).cross(&(t + by_along * outwards));
-        (x, area, s)
+        (x, rate * area, s)
     }
 
     /// Gauss' rule of points across and along.
     pub fn integrate(&self, across: usize, along: usize, mut visit: impl FnMut(Node)) -> Option<()> {
         let [(first, t0), (last, t1)] = self.corners;
-        for (tau, weight_along) in &gauss(along).nodes[..along] {
-            let t = t0 + tau * (t1 - t0);
-            let width = self.width(t);
-            let fallen = width - (self.wave.peak - self.start);
-            let width_by_tau =
-                if first == last { 0.0 } else { -self.chart.slopes[2] / (self.wave.size * fallen.sin()) * (t1 - t0) };
-            for (lambda, weight) in &gauss(across).nodes[..across] {
-                let [(from, from1), (to, to1)] =
-                    [self.end(0, self.start + lambda * first), self.end(1, self.start + lambda * last)];
+        let mut widths = [(0.0, 0.0); MOST_POINTS];
+        for (width, (tau, _)) in widths.iter_mut().zip(&gauss(along).nodes[..along]) {
+            let (wide, by_along) = self.width(t0 + tau * (t1 - t0));
+            *width = (wide, if first == last { 0.0 } else { by_along * (t1 - t0) });
+        }
+        for (lambda, weight) in &gauss(across).nodes[..across] {
+            let [(from, from1), (to, to1)] =
+                [self.end(0, self.start + lambda * first), self.end(1, self.start + lambda * last)];
+            for ((tau, weight_along), (width, width_by_tau)) in gauss(along).nodes[..along].iter().zip(&widths) {
                 let theta = self.start + lambda * width;
                 let jacobian =
                     width * (to - from) - lambda * width_by_tau * (from1 * first * (1.0 - tau) + to1 * last * tau);
@@ -189,38 +197,32 @@ impl Cap {
     /// Beyond the end of a strip.
     pub fn new(chart: Chart, strip: &Strip, third: Third) -> Option<Self> {
         let mut cap = Self { chart, radii: strip.radii, third, start: strip.start, width: 0.0 };
-        let (at_rest, wave) = cap.at_border();
-        cap.width = (wave.peak - cap.start) + strip.sign * wave.fallen_to(chart.c - at_rest);
+        let wave = Wave::new(-chart.slopes[0] * cap.radii[0], -chart.slopes[1] * cap.radii[0]);
+        cap.width = wave.fallen_to(chart.c - cap.radii[1], strip.sign).0 - cap.start;
         cap.width.is_finite().then_some(cap)
     }
 
-    /// At the border with the strip: F as a constant and a wave in the first angle.
-    fn at_border(&self) -> (f64, Wave) {
-        let [r, other] = self.radii;
-        (other, Wave::new(-self.chart.slopes[0] * r, -self.chart.slopes[1] * r))
-    }
-
     /// F as a constant and a wave in the second angle.
-    fn across(&self, theta: f64) -> (f64, [f64; 2]) {
+    #[inline(always)]
+    fn across(&self, theta: f64) -> (f64, Wave) {
         let [r, other] = self.radii;
-        let (sin, cos) = theta.sin_cos();
+        let (sin, cos, _) = turn(theta);
         let first = -(self.chart.slopes[0] * cos + self.chart.slopes[1] * sin) * r;
         match self.third {
-            Third::Same => (other, [first, -self.chart.slopes[2] * r]),
-            Third::Other => (first, [other, -self.chart.slopes[2] * other]),
+            Third::Same => (other, Wave::new(first, -self.chart.slopes[2] * r)),
+            Third::Other => (first, Wave::new(other, -self.chart.slopes[2] * other)),
         }
     }
 
     /// By how much F rises beyond the border with the strip, over its value there: a part of the patch is then missing.
     pub fn rise(&self) -> f64 {
-        let (_, [a, b]) = self.across(self.start);
-        if b > 0.0 { (a.hypot(b) - a) / self.chart.c.abs() } else { 0.0 }
+        let Wave { a, b, size } = self.across(self.start).1;
+        if b > 0.0 { (size - a) / self.chart.c.abs() } else { 0.0 }
     }
 
     fn height(&self, theta: f64) -> f64 {
-        let (constant, [a, b]) = self.across(theta);
-        let wave = Wave::new(a, b);
-        (wave.peak + wave.fallen_to(self.chart.c - constant)).max(0.0)
+        let (constant, wave) = self.across(theta);
+        wave.fallen_to(self.chart.c - constant, 1.0).0.max(0.0)
     }
 
     /// Where it begins.
@@ -236,8 +238,9 @@ impl Cap {
         })
     }
 
+    #[inline(always)]
     fn at(&self, theta: f64, psi: f64) -> Place {
-        let ([sin, cos], [sin2, cos2]) = ([theta.sin(), theta.cos()], [psi.sin(), psi.cos()]);
+        let ((sin, cos, rate), (sin2, cos2, rate2)) = (turn(theta), turn(psi));
         let [r, other] = self.radii;
         // The coordinates over s and their changes, and the same of the last plane.
         let (a, by_theta, by_psi, last, last_by_psi) = match self.third {
@@ -256,17 +259,19 @@ impl Cap {
                 -other * sin2,
             ),
         };
-        place(&self.chart, a, [by_theta, by_psi], last, [0.0, last_by_psi])
+        let (x, area, s) = place(&self.chart, a, [by_theta, by_psi], last, [0.0, last_by_psi]);
+        (x, rate * rate2 * area, s)
     }
 
     /// Gauss' rule of so many points in both angles.
     pub fn integrate(&self, points: usize, mut visit: impl FnMut(Node)) -> Option<()> {
         let rule = &gauss(points).nodes[..points];
         for (xi, weight) in rule {
-            let (sin, cos) = (FRAC_PI_2 * xi).sin_cos();
-            let theta = self.start + self.width * sin;
+            // The height ends as a root does: the square of the rest makes it smooth.
+            let rest = 1.0 - xi;
+            let theta = self.start + self.width * (1.0 - rest * rest);
             let height = self.height(theta);
-            let share = weight * (FRAC_PI_2 * cos * self.width).abs() * height;
+            let share = weight * (2.0 * rest * self.width).abs() * height;
             for (nu, weight) in rule {
                 let (x, area, s) = self.at(theta, nu * height);
                 visit(node(x, area, s, share * weight)?);
@@ -277,6 +282,7 @@ impl Cap {
 }
 
 /// The place for coordinates over s and an excess of the last plane over s, with their changes by two parameters; the vector of area; s.
+#[inline(always)]
 fn place(chart: &Chart, a: [f64; 3], by: [[f64; 3]; 2], last: f64, last_by: [f64; 2]) -> Place {
     let f = last - chart.change(a);
     let s = chart.c / f;
@@ -300,9 +306,8 @@ impl Disc {
     /// Gauss' rule in the distance from the middle, equal steps around it.
     pub fn integrate(&self, outwards: usize, around: usize, mut visit: impl FnMut(Node)) -> Option<()> {
         for (rho, weight) in &gauss(outwards).nodes[..outwards] {
-            for i in 0..around {
-                let chi = TAU * (i as f64 + 0.5) / around as f64;
-                let (x, area, s) = self.at(rho * rho, chi)?;
+            for direction in &circle(around)[..around] {
+                let (x, area, s) = self.at(rho * rho, direction)?;
                 visit(node(x, area, s, 2.0 * rho * weight * TAU / around as f64)?);
             }
         }
@@ -313,14 +318,13 @@ impl Disc {
     pub fn outline(&self) -> Option<[Vector; 12]> {
         let mut places = [Vector::zeros(); 12];
         for (i, place) in places.iter_mut().enumerate() {
-            *place = self.at(1.0, TAU * i as f64 / 12.0)?.0;
+            *place = self.at(1.0, &circle(12)[i])?.0;
         }
         Some(places)
     }
 
-    /// At the square of the distance, 1 on the rim, and an angle.
-    fn at(&self, u: f64, chi: f64) -> Option<Place> {
-        let (sin_chi, cos_chi) = chi.sin_cos();
+    /// At the square of the distance, 1 on the rim, in a direction.
+    fn at(&self, u: f64, &(sin_chi, cos_chi): &(f64, f64)) -> Option<Place> {
         match self.third {
             Third::Same => self.on_sphere(u, sin_chi, cos_chi),
             Third::Other => self.on_torus(u, sin_chi, cos_chi),
@@ -362,8 +366,12 @@ impl Disc {
             return None;
         }
         let half = [axes[0] * u.sqrt() * cos_chi, axes[1] * u.sqrt() * sin_chi];
-        let (theta, psi) = (first.peak + 2.0 * half[0].asin(), second.peak + 2.0 * half[1].asin());
-        let ((sin, cos), (sin2, cos2)) = (theta.sin_cos(), psi.sin_cos());
+        let root = half.map(|h| (1.0 - h * h).sqrt());
+        let from_peak = |wave: &Wave, i: usize| {
+            let (sin, cos) = (2.0 * half[i] * root[i], 1.0 - 2.0 * half[i] * half[i]);
+            ((wave.b * cos + wave.a * sin) / wave.size, (wave.a * cos - wave.b * sin) / wave.size)
+        };
+        let ((sin, cos), (sin2, cos2)) = (from_peak(&first, 0), from_peak(&second, 1));
         let (x, area, s) = place(
             &self.chart,
             [r * cos, r * sin, other * sin2],
@@ -371,7 +379,19 @@ impl Disc {
             other * cos2,
             [0.0, -other * sin2],
         );
-        let scale = 2.0 * axes[0] * axes[1] / ((1.0 - half[0] * half[0]) * (1.0 - half[1] * half[1])).sqrt();
+        let scale = 2.0 * axes[0] * axes[1] / (root[0] * root[1]);
         Some((x, scale * area, s))
     }
+}
+
+/// Most points around a disc.
+const MOST_AROUND: usize = 24;
+
+/// Sine and cosine of so many equal steps around.
+fn circle(count: usize) -> &'static [(f64, f64); MOST_AROUND] {
+    type Table = [[(f64, f64); MOST_AROUND]; MOST_AROUND];
+    static TABLE: LazyLock<Table> = LazyLock::new(|| {
+        std::array::from_fn(|n| std::array::from_fn(|i| (TAU * (i as f64 + 0.5) / (n + 1) as f64).sin_cos()))
+    });
+    &TABLE[count - 1]
 }
