@@ -10,6 +10,8 @@ mod definition;
 mod estimates;
 #[path = "patch/gradients.rs"]
 mod gradients;
+#[path = "patch/pieces.rs"]
+mod pieces;
 #[path = "patch/planar.rs"]
 mod planar;
 #[path = "patch/walks.rs"]

@@ -95,6 +95,22 @@ impl<'a, 's> Field<'a, 's> {
         self.radius
     }
 
+    /// Number of planes of both bodies.
+    pub fn plane_count(&self) -> usize {
+        self.a.particle.plane_count() + self.b.map_or(0, |b| b.particle.plane_count())
+    }
+
+    /// What is loaded, for [`Self::restore`].
+    pub fn state(&self) -> (usize, f64) {
+        (self.planes.len(), self.loaded)
+    }
+
+    /// Forgets what was loaded since.
+    pub fn restore(&mut self, (count, loaded): (usize, f64)) {
+        self.planes.truncate(count);
+        self.loaded = loaded;
+    }
+
     /// Loads the planes that may be active within a distance.
     pub fn load(&mut self, distance: f64) {
         let first = self.loaded < 0.0;

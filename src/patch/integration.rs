@@ -38,11 +38,65 @@ pub(super) struct Task<'a> {
 }
 
 /// Computes the patch; its points are handed to `visit`.
+///
+/// In pieces where that is possible, else by a fan of rays, as well as with the energy.
 pub(super) fn patch(task: &Task, scratch: &mut PatchScratch, mut visit: impl FnMut(PatchPoint)) -> Patch {
-    let PatchScratch { planes, ray_planes, nodes, rays, sectors, stack } = scratch;
+    let PatchScratch { planes, ray_planes, nodes, points, pieces, rays, sectors, stack } = scratch;
     let mut field = Field::new(task.a, task.b, task.edges, task.near, planes);
+    let start = on_patch(&mut field, 0.0, 0.0, 0.0).unwrap_or_default();
+    let deepest = field.values(&start)[0].0;
+    let state = field.state();
+    let in_pieces =
+        if task.with_energy { None } else { super::pieces::pieces(&mut field, &start, task.tolerance, pieces, points) };
+    let mut outcome = Outcome::default();
+    if let Some(estimate) = in_pieces {
+        let force = points.iter().map(|node| node.weight * node.pressure * vector(node)).sum::<Vector3<f64>>().norm();
+        outcome.error = estimate.force / force;
+        outcome.area_error = estimate.area / points.iter().map(|node| node.weight).sum::<f64>();
+    } else {
+        field.restore(state);
+        let walker = Walker {
+            field: &mut field,
+            planes: ray_planes,
+            nodes,
+            order: 2,
+            with_energy: false,
+            budget: f64::INFINITY,
+        };
+        let mut fan = Fan::new(walker, rays, sectors, stack, [0.0; 3], task.tolerance);
+        outcome = spread(task, &mut fan, start, points);
+    }
     let mut flags = task.flags;
-    let axis = flattest_axis(&field);
+    let is_empty = points.is_empty() || !outcome.error.is_finite();
+    flags.set(PatchFlags::EMPTY, is_empty);
+    flags.set(PatchFlags::FOLDED, outcome.is_folded);
+    flags.set(PatchFlags::TOLERANCE_NOT_REACHED, outcome.error > task.tolerance);
+    let mut summary = Summary::of(task, points, deepest);
+    if !is_empty {
+        summary.complete(task, points);
+    }
+    if task.with_energy {
+        summary.patch.energy = task.length * outcome.energy;
+    }
+    points.iter().for_each(|node| visit(summary.point(task, node)));
+    let error = if is_empty { 0.0 } else { outcome.error };
+    let area_error = if is_empty { 0.0 } else { outcome.area_error };
+    Patch { flags, error, area_error, rays: outcome.rays, ..summary.patch }
+}
+
+/// What is known of a patch besides its points.
+#[derive(Default)]
+struct Outcome {
+    error: f64,
+    area_error: f64,
+    energy: f64,
+    is_folded: bool,
+    rays: usize,
+}
+
+/// Integrates by a fan of rays and copies its points.
+fn spread(task: &Task, fan: &mut Fan, start: [f64; 3], points: &mut Vec<Node>) -> Outcome {
+    let axis = flattest_axis(fan.walker.field);
     let order = if task.tolerance >= 1e-3 {
         3
     } else if task.tolerance >= 1e-7 {
@@ -50,10 +104,6 @@ pub(super) fn patch(task: &Task, scratch: &mut PatchScratch, mut visit: impl FnM
     } else {
         8
     };
-    let walker =
-        Walker { field: &mut field, planes: ray_planes, nodes, order: 2, with_energy: false, budget: f64::INFINITY };
-    let mut fan = Fan::new(walker, rays, sectors, stack, [0.0; 3], task.tolerance);
-    let start = on_patch(fan.walker.field, 0.0, 0.0, 0.0).unwrap_or_default();
     let start = inwards(&mut fan.walker, start, task.inside);
     let (centre, rough) = middle(&mut fan.walker, start, axis);
     fan.centre = centre;
@@ -78,22 +128,27 @@ pub(super) fn patch(task: &Task, scratch: &mut PatchScratch, mut visit: impl FnM
         break;
     }
     let force = norm(&integral.sums[..3]);
-    flags.set(PatchFlags::EMPTY, !(force > 0.0));
-    flags.set(PatchFlags::FOLDED, fan.rays.iter().any(|ray| ray.is_folded));
+    points.clear();
+    let is_folded = fan.rays.iter().any(|ray| ray.is_folded);
+    if !(force > 0.0) {
+        return Outcome { is_folded, rays: fan.rays.len(), ..Outcome::default() };
+    }
+    for sector in fan.sectors.iter() {
+        for (ray, angle) in &sector.rays[..sector.count] {
+            let (from, to) = fan.rays[*ray].nodes;
+            let nodes = &fan.walker.nodes[from as usize..to as usize];
+            points.extend(nodes.iter().map(|node| Node { weight: angle * node.weight, ..*node }));
+        }
+    }
     let of_energy = if task.with_energy { integral.error[3] / integral.sums[7] } else { 0.0 };
     let error = ((integral.error[0] + integral.radial).max(integral.error[1] / fan.extent) / force).max(of_energy);
-    flags.set(PatchFlags::TOLERANCE_NOT_REACHED, error > task.tolerance);
-    let mut summary = Summary::of(task, &mut fan);
-    if force > 0.0 {
-        summary.complete(task, &mut fan);
+    Outcome {
+        error,
+        area_error: integral.error[2] / integral.sums[6],
+        energy: integral.sums[7],
+        is_folded,
+        rays: fan.rays.len(),
     }
-    if task.with_energy {
-        summary.patch.energy = task.length * integral.sums[7];
-    }
-    for_each(&fan, |node, weight| visit(summary.point(task, node, weight)));
-    let error = if force > 0.0 { error } else { 0.0 };
-    let area_error = if force > 0.0 { integral.error[2] / integral.sums[6] } else { 0.0 };
-    Patch { flags, error, area_error, rays: fan.rays.len(), ..summary.patch }
 }
 
 /// From a point of the patch that may lie on the edge of a triangle to the middle of the line towards a point inside.
@@ -110,35 +165,20 @@ fn inwards(walker: &mut Walker, start: [f64; 3], inside: Option<[f64; 2]>) -> [f
     [start[0] + half * direction[0], start[1] + half * direction[1], start[2]]
 }
 
-/// Calls `visit` with every node and its weight as an area in the plane of the frame.
-fn for_each(fan: &Fan, mut visit: impl FnMut(&Node, f64)) {
-    for sector in fan.sectors.iter() {
-        for (ray, angle) in &sector.rays[..sector.count] {
-            let (from, to) = fan.rays[*ray].nodes;
-            for node in &fan.walker.nodes[from as usize..to as usize] {
-                visit(node, angle * node.weight);
-            }
-        }
-    }
-}
-
 /// The answer in the making.
 struct Summary {
     patch: Patch,
 }
 
 impl Summary {
-    /// Force and torque, by the sums over the nodes.
-    fn of(task: &Task, fan: &mut Fan) -> Self {
-        let (mut force, mut torque, mut count) = (Vector3::zeros(), Vector3::zeros(), 0);
-        for_each(fan, |node, weight| {
-            let load = weight * node.pressure * vector(node);
+    /// Force and torque, by the sums over the points; `deepest`: S at the contact point.
+    fn of(task: &Task, points: &[Node], deepest: f64) -> Self {
+        let (mut force, mut torque) = (Vector3::zeros(), Vector3::zeros());
+        for node in points {
+            let load = node.weight * node.pressure * vector(node);
             force += load;
             torque += Vector3::from(node.x).cross(&load);
-            count += 1;
-        });
-        let contact_point = on_patch(fan.walker.field, 0.0, 0.0, 0.0).unwrap_or_default();
-        let start = fan.walker.field.values(&contact_point)[0].0;
+        }
         let patch = Patch {
             length: task.length,
             force: task.length * (task.frame * force),
@@ -153,43 +193,43 @@ impl Summary {
             polar_moment: 0.0,
             twist_lever: 0.0,
             mean_depth: 0.0,
-            largest_depth: task.length * (1.0 - start.max(0.0).sqrt()),
+            largest_depth: task.length * (1.0 - deepest.max(0.0).sqrt()),
             energy: f64::NAN,
             error: 0.0,
             area_error: 0.0,
             flags: PatchFlags::default(),
-            points: count,
+            points: points.len(),
             rays: 0,
         };
         Self { patch }
     }
 
     /// What needs the axis of the wrench.
-    fn complete(&mut self, task: &Task, fan: &mut Fan) {
+    fn complete(&mut self, task: &Task, points: &[Node]) {
         let frame = &task.frame;
         let (force, torque) =
             (frame.tr_mul(&self.patch.force) / task.length, frame.tr_mul(&self.patch.torque) / task.length);
         let axis = force.normalize();
         let (mut area, mut first, mut load, mut loaded) = (0.0, Vector3::zeros(), 0.0, Vector3::zeros());
-        for_each(fan, |node, weight| {
-            let (x, share) = (Vector3::from(node.x), weight * vector(node).norm());
+        for node in points {
+            let (x, share) = (Vector3::from(node.x), node.weight * vector(node).norm());
             area += share;
             first += share * x;
             load += share * node.pressure;
             loaded += share * node.pressure * x;
-        });
+        }
         let (centroid, mean) = (first / area, loaded / load);
         // The point of the axis that is nearest to the origin, and from there to the height of the patch.
         let foot = force.cross(&torque) / force.norm_squared();
         let pole = foot + axis * axis.dot(&(mean - foot));
         let (mut second, mut polar, mut lever) = (Matrix3::zeros(), 0.0, 0.0);
-        for_each(fan, |node, weight| {
-            let (x, share) = (Vector3::from(node.x), weight * vector(node).norm());
+        for node in points {
+            let (x, share) = (Vector3::from(node.x), node.weight * vector(node).norm());
             let (y, arm) = (x - centroid, (x - pole).cross(&axis));
             second += share * y * y.transpose();
             polar += share * arm.norm_squared();
             lever += share * node.pressure * arm.norm();
-        });
+        }
         let patch = &mut self.patch;
         let branch = frame * pole;
         patch.pressure_centre = task.position + (task.branches[0] + branch);
@@ -204,12 +244,13 @@ impl Summary {
         patch.mean_depth = task.length * load / area;
     }
 
-    fn point(&self, task: &Task, node: &Node, weight: f64) -> PatchPoint {
+    #[inline(always)]
+    fn point(&self, task: &Task, node: &Node) -> PatchPoint {
         let normal = vector(node);
         let stretch = normal.norm();
         PatchPoint {
             position: task.frame * Vector3::from(node.x),
-            area: weight * stretch,
+            area: node.weight * stretch,
             depth: task.length * node.pressure,
             normal: task.frame * (normal / stretch),
         }
@@ -217,6 +258,7 @@ impl Summary {
 }
 
 /// The normal whose z is 1.
+#[inline(always)]
 fn vector(node: &Node) -> Vector3<f64> {
     Vector3::new(node.normal[0], node.normal[1], 1.0)
 }

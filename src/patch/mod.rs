@@ -10,6 +10,10 @@
 //! | `cell` | a stretch of a ray on which they are quadratics |
 //! | `energy` | the elastic energy as an integral over the patch |
 //! | `ray` | the walk over a ray |
+//! | `chart` | coordinates in which the patch is explicit |
+//! | `polygon` | its flat part |
+//! | `zone` | the parts about edges and corners |
+//! | `pieces` | the patch in such parts |
 //! | `centre` | where the rays start |
 //! | `smoothness` | how far off a rule over a sector is |
 //! | `fan` | sectors of rays, refined |
@@ -20,6 +24,7 @@
 
 mod cell;
 mod centre;
+mod chart;
 mod contact;
 mod energy;
 mod fan;
@@ -27,11 +32,14 @@ mod field;
 mod integration;
 #[allow(clippy::module_inception)]
 mod patch;
+mod pieces;
 pub(crate) mod planar;
+mod polygon;
 mod ray;
 mod rules;
 mod scratch;
 mod smoothness;
+mod zone;
 
 pub use contact::{PatchError, PatchSettings, patch_of_contact, patch_on_plane, patch_on_triangle};
 pub use patch::{Patch, PatchFlags, PatchPoint};

@@ -3,6 +3,7 @@
 use super::cell::RayPlane;
 use super::fan::Sector;
 use super::field::FramePlane;
+use super::pieces::PieceScratch;
 use super::ray::{Node, Ray};
 
 /// Buffers that a caller keeps from patch to patch, so that nothing is allocated once they have grown.
@@ -13,6 +14,8 @@ pub struct PatchScratch {
     pub(super) planes: Vec<FramePlane>,
     pub(super) ray_planes: Vec<RayPlane>,
     pub(super) nodes: Vec<Node>,
+    pub(super) points: Vec<Node>,
+    pub(super) pieces: PieceScratch,
     pub(super) rays: Vec<Ray>,
     pub(super) sectors: Vec<Sector>,
     pub(super) stack: Vec<(usize, usize, u32)>,

@@ -1,0 +1,159 @@
+//! The flat part of a patch: where one plane of each body is active, a polygon with a linear pressure.
+
+use super::chart::{Flat, Vector, normal, radius};
+use super::field::{Field, Owner};
+use super::ray::{Node, RIM};
+use super::rules::gauss;
+
+/// Most corners.
+const MOST_CORNERS: usize = 64;
+
+/// A corner, and the number of the plane that ends the polygon from there on ([`RIM`] where s = 1).
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Corner {
+    pub at: [f64; 2],
+    pub side: u32,
+}
+
+/// The plane of the flat part: its height and the pressure over the plane of the frame, value and slopes.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Level {
+    pub height: [f64; 3],
+    pub pressure: [f64; 3],
+}
+
+/// A linear function of the plane of the frame.
+fn linear([c, u, v]: &[f64; 3], at: &[f64; 2]) -> f64 {
+    c + u * at[0] + v * at[1]
+}
+
+impl Level {
+    /// Where plane `i` of A and the flat body are level with each other.
+    pub fn new(field: &Field, i: usize, other: &Flat) -> Option<Self> {
+        let plane = &field.planes[i];
+        let of_a = 1.0 / radius(field, Owner::A);
+        let n = normal(plane);
+        // e_i/r_A − e_j/r_B = 0; with a boundary e_j = 0.
+        let (difference, excess) = if other.radius > 0.0 {
+            (n * of_a - other.normal / other.radius, plane.excess * of_a - other.excess / other.radius)
+        } else {
+            (-other.normal, -other.excess)
+        };
+        if !(difference.z > 0.0) {
+            return None;
+        }
+        let height = [-excess / difference.z, -difference.x / difference.z, -difference.y / difference.z];
+        let level = Self { height, pressure: [0.0; 3] };
+        let pressure = level.on(&(-of_a * n), 1.0 - of_a * plane.excess);
+        Some(Self { pressure, ..level })
+    }
+
+    /// A linear function of space on the plane.
+    pub fn on(&self, slope: &Vector, value: f64) -> [f64; 3] {
+        let [c, u, v] = self.height;
+        [value + slope.z * c, slope.x + slope.z * u, slope.y + slope.z * v]
+    }
+
+    pub fn point(&self, at: &[f64; 2]) -> Vector {
+        Vector::new(at[0], at[1], linear(&self.height, at))
+    }
+
+    pub fn pressure_at(&self, at: &[f64; 2]) -> f64 {
+        linear(&self.pressure, at)
+    }
+}
+
+/// Cuts a square about the origin by all planes of the field but two; `None` for nothing that is left, or too many corners.
+pub(super) fn cut(field: &Field, level: &Level, active: [usize; 2], half: f64, corners: &mut [Vec<Corner>; 2]) -> bool {
+    let [polygon, next] = corners;
+    polygon.clear();
+    let square = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
+    polygon.extend(square.map(|[u, v]| Corner { at: [half * u, half * v], side: OPEN }));
+    let below = level.pressure.map(|c| -c);
+    let planes = field.planes.iter().enumerate().filter(|(k, _)| !active.contains(k));
+    let lines = planes.map(|(k, plane)| (k as u32, level.on(&normal(plane), plane.excess)));
+    for (side, line) in lines.chain([(RIM, below)]) {
+        let Some(first) = polygon.first() else { return false };
+        let mut here = linear(&line, &first.at);
+        let mut crosses = here > 0.0;
+        if !crosses {
+            crosses = polygon.iter().any(|corner| linear(&line, &corner.at) > 0.0);
+        }
+        if !crosses {
+            continue;
+        }
+        next.clear();
+        for (k, corner) in polygon.iter().enumerate() {
+            let following = &polygon[(k + 1) % polygon.len()];
+            let there = linear(&line, &following.at);
+            let between = || {
+                let t = here / (here - there);
+                std::array::from_fn(|c| corner.at[c] + t * (following.at[c] - corner.at[c]))
+            };
+            match (here <= 0.0, there <= 0.0) {
+                (true, true) => next.push(*corner),
+                (true, false) => next.extend([*corner, Corner { at: between(), side }]),
+                (false, true) => next.push(Corner { at: between(), side: corner.side }),
+                (false, false) => (),
+            }
+            here = there;
+        }
+        std::mem::swap(polygon, next);
+    }
+    (3..=MOST_CORNERS).contains(&polygon.len())
+}
+
+/// The side of the square that a polygon starts from.
+pub(super) const OPEN: u32 = u32::MAX - 1;
+
+/// The middle of the load.
+fn middle(level: &Level, polygon: &[Corner]) -> Option<[f64; 2]> {
+    let start = polygon[0].at;
+    let (mut load, mut moment) = (0.0, [0.0; 2]);
+    for pair in polygon[1..].windows(2) {
+        let [a, b] = [pair[0].at, pair[1].at];
+        let area = (a[0] - start[0]) * (b[1] - start[1]) - (a[1] - start[1]) * (b[0] - start[0]);
+        let [p, q, r] = [start, a, b].map(|at| level.pressure_at(&at));
+        load += area * (p + q + r) / 6.0;
+        for c in 0..2 {
+            let sum = (start[c] + a[c] + b[c]) * (p + q + r) + start[c] * p + a[c] * q + b[c] * r;
+            moment[c] += area * sum / 24.0;
+        }
+    }
+    (load > 0.0).then(|| moment.map(|m| m / load))
+}
+
+/// Points that are exact for pressures times linear functions, and nearly so for distances from the middle of the load.
+///
+/// In each triangle between that point and a side: two Gauss points for the weight ρ towards the side, two or more along it.
+pub(super) fn integrate(level: &Level, polygon: &[Corner], nodes: &mut Vec<Node>) -> Option<()> {
+    let centre = middle(level, polygon)?;
+    let root = 6.0_f64.sqrt();
+    let towards = [((6.0 - root) / 10.0, 0.25 - root / 36.0), ((6.0 + root) / 10.0, 0.25 + root / 36.0)];
+    let normal = [-level.height[1], -level.height[2]];
+    for (k, corner) in polygon.iter().enumerate() {
+        let (a, b) = (corner.at, polygon[(k + 1) % polygon.len()].at);
+        let cross = (a[0] - centre[0]) * (b[1] - centre[1]) - (a[1] - centre[1]) * (b[0] - centre[0]);
+        let dot = (a[0] - centre[0]) * (b[0] - centre[0]) + (a[1] - centre[1]) * (b[1] - centre[1]);
+        // The distance from the middle varies along a side by the angle under which it is seen.
+        let points = match () {
+            () if dot > cross => 2,
+            () if dot > 0.5 * cross => 3,
+            () if dot > -0.3 * cross => 4,
+            () if dot > -cross => 6,
+            () => 10,
+        };
+        for (t, weight) in &gauss(points).nodes[..points] {
+            for (rho, share) in &towards {
+                let at = std::array::from_fn(|c| centre[c] + rho * (a[c] + t * (b[c] - a[c]) - centre[c]));
+                nodes.push(Node {
+                    x: level.point(&at).into(),
+                    weight: weight * share * cross,
+                    pressure: level.pressure_at(&at),
+                    normal,
+                });
+            }
+        }
+    }
+    Some(())
+}
