@@ -166,7 +166,8 @@
 // The tolerance was not reached; error tells how far off the answer may be.
 #define PP_PATCH_TOLERANCE_NOT_REACHED 2
 
-// The contact point lies in the core of both bodies (s is 0 or nearly): the patch is that of slightly rounder bodies.
+// The contact point lies in the core of both bodies (s is 0 or nearly): the patch is that of slightly
+// rounder bodies.
 #define PP_PATCH_DEEP 4
 
 // No patch was found around the contact point, and force and area are 0: an overlap within rounding.
@@ -603,8 +604,8 @@ typedef struct pp_closest_2d {
     double branch_b[2];
 } pp_closest_2d;
 
-// The contact patch of two particles of the plane, a curve: the fields of struct pp_patch, with lengths in place of
-// areas, all per unit of thickness.
+// The contact patch of two particles of the plane, a curve: the fields of struct pp_patch, with lengths in
+// place of areas, all per unit of thickness.
 typedef struct pp_patch_2d {
     // Sum of PP_PATCH_... bits.
     uint32_t flags;
@@ -1005,8 +1006,8 @@ pp_status pp_patch_of_contact(const struct pp_particle *a,
                               size_t capacity,
                               size_t *count);
 
-// The patch of an overlapping contact of A with a plane: the part of the plane inside A. Its normal is that of the
-// contact, from A to the plane.
+// The patch of an overlapping contact of A with a plane: the part of the plane inside A. Its normal is that
+// of the contact, from A to the plane.
 //
 // contact: an answer of pp_contact_plane for the same particle and pose. The rest as for pp_patch_of_contact.
 // Errors: those of pp_patch_of_contact.

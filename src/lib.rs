@@ -22,6 +22,7 @@
 //! | `contact` | point, normal and overlap from a solution; [`detect`](detect()), the whole on one screen; many pairs at once |
 //! | `section` | the contact area |
 //! | `boundary` | the contact with a flat boundary: a plane, or a triangle of a mesh |
+//! | `patch` | the contact patch: pressure, force, torque, area, energy |
 //! | `surface` | a closed mesh of triangles on the surface |
 //! | [`packing`] | bodies placed in a container without overlap, as a start for a simulation |
 //! | [`planar`] | the same for particles of the plane |

@@ -5,12 +5,8 @@ mod accuracy;
 #[path = "../../tests/patch/bodies.rs"]
 mod bodies;
 mod cases;
-#[path = "../scene/evaluation.rs"]
-mod evaluation;
-#[path = "../scene/polyhedra.rs"]
-mod polyhedra;
-#[path = "../scene/random.rs"]
-mod random;
+#[path = "../scene/mod.rs"]
+mod scene;
 mod speed;
 
 use serde_json::{Value, json};

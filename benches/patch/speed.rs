@@ -1,8 +1,8 @@
 //! Time and error of contact patches by kind, in units of one evaluation of both bodies.
 
 use crate::cases::{Case, kinds};
-use crate::evaluation::Plain;
-use crate::{polyhedra, random};
+use crate::scene::evaluation::Plain;
+use crate::scene::{polyhedra, random};
 use nalgebra::Matrix3;
 use potential_particles::{Patch, PatchScratch, PatchSettings, patch_of_contact};
 use serde_json::{Value, json};

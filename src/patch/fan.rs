@@ -3,10 +3,11 @@
 
 use super::ray::{EVENTS, Event, Line, RIM, Ray, SUMS, Walker};
 use super::rules::GAUSS_KRONROD;
-use std::sync::LazyLock;
+use super::smoothness::{error_of_rule, norm};
 
-/// Most rays.
-pub(super) const MOST_RAYS: usize = 1500;
+/// Most rays, and points on them.
+const MOST_RAYS: usize = 1500;
+const MOST_NODES: usize = 500_000;
 
 /// Most halvings in the search for the direction in which the sequence of cells changes.
 const DEEPEST: u32 = 14;
@@ -18,17 +19,14 @@ const COINCIDENT: f64 = 0.1;
 /// Part of the tolerance that the pieces next to a border may take which are not cut off there.
 const NEGLIGIBLE: f64 = 0.05;
 
+/// Part of what lies beyond an event that another sequence of cells changes at most, about.
+const OF_EFFECT: f64 = 0.15;
+
 /// Part of the tolerance that is left for the sectors.
 const ANGULAR: f64 = 0.9;
 
 /// Part of the tolerance that one rule on a ray may take, over the load of the ray.
 const RADIAL: f64 = 0.1;
-
-/// Error of 3 rays over the load of a sector and the third power of the relative variation of the load among them.
-const OF_VARIATION: f64 = 0.05;
-
-/// Error of 3 and 7 rays over the distance by which their polynomial misses the loads at the ends.
-const OF_ENDS: [f64; 2] = [0.02, 0.004];
 
 /// Relative distance from a straight line up to which a border counts as straight: the loads of flat cells are then polynomials.
 const STRAIGHT: f64 = 1e-7;
@@ -109,7 +107,8 @@ impl<'w, 'f, 'a, 's> Fan<'w, 'f, 'a, 's> {
         self.walker.nodes.clear();
         (self.extent, self.is_capped) = (0.0, false);
         let [e, f] = axis;
-        self.walker.budget = RADIAL * self.tolerance * 0.25 * rough;
+        let budget = RADIAL * self.tolerance * 0.25 * rough;
+        self.walker.budget = if budget > 0.0 { budget } else { f64::INFINITY };
         let first = [[e, f], [-f, e], [-e, -f], [f, -e]].map(|direction| self.cast(direction));
         self.negligible = NEGLIGIBLE * self.tolerance * rough * std::f64::consts::FRAC_PI_2;
         for i in 0..4 {
@@ -120,7 +119,7 @@ impl<'w, 'f, 'a, 's> Fan<'w, 'f, 'a, 's> {
             // Sectors that are cut again are appended.
             while let Some(sector) = self.sectors.get(next) {
                 // One that is cut leaves its place to another.
-                if sector.count > 0 || self.evaluate(next, 3) {
+                if sector.count > 0 || self.evaluate(next, self.first_count(next)) {
                     next += 1;
                 }
             }
@@ -130,8 +129,9 @@ impl<'w, 'f, 'a, 's> Fan<'w, 'f, 'a, 's> {
             if error <= ANGULAR * self.tolerance || self.is_capped {
                 return integral;
             }
-            if self.sectors[worst].count == 3 {
-                self.evaluate(worst, 7);
+            if self.sectors[worst].count < 7 {
+                let count = if self.sectors[worst].count == 1 { 3 } else { 7 };
+                self.evaluate(worst, count);
             } else {
                 let Sector { left, right, rays, .. } = self.sectors[worst];
                 self.sectors.swap_remove(worst);
@@ -186,7 +186,10 @@ impl<'w, 'f, 'a, 's> Fan<'w, 'f, 'a, 's> {
         let ray = self.walker.walk(&self.line(direction));
         self.extent = self.extent.max(last(&ray).rho);
         self.rays.push(ray);
-        self.is_capped |= self.rays.len() >= MOST_RAYS;
+        if self.rays.len() >= MOST_RAYS || self.walker.nodes.len() >= MOST_NODES {
+            // What is left is done as cheaply as it can be.
+            (self.is_capped, self.walker.budget) = (true, f64::INFINITY);
+        }
         self.rays.len() - 1
     }
 
@@ -234,12 +237,12 @@ impl<'w, 'f, 'a, 's> Fan<'w, 'f, 'a, 's> {
                 continue;
             };
             let effect = angle(&a.direction, &b.direction) * a.tail(m).max(b.tail(m));
-            if 0.25 * effect <= self.negligible || depth >= DEEPEST || self.is_capped {
+            if OF_EFFECT * effect <= self.negligible || depth >= DEEPEST || self.is_capped {
                 self.emit(left, right, None);
                 continue;
             }
             let share = self.change(left, right, m, &at_a, &at_b);
-            if let Some(t) = share.filter(|t| 0.5 * effect * t.min(1.0 - t) <= self.negligible) {
+            if let Some(t) = share.filter(|t| OF_EFFECT * effect * t.min(1.0 - t) <= self.negligible) {
                 self.emit(left, right, Some(if t > 0.5 { left } else { right }));
                 continue;
             }
@@ -301,7 +304,15 @@ impl<'w, 'f, 'a, 's> Fan<'w, 'f, 'a, 's> {
         if first.id == i { (middle, swapped) } else { (swapped, middle) }
     }
 
-    /// Integrates over a sector with 3 or 7 rays; resolves it where one of them has another sequence of cells.
+    /// One ray for a sector that hardly counts, three for any other.
+    fn first_count(&self, index: usize) -> usize {
+        let Sector { left, right, .. } = self.sectors[index];
+        let (a, b) = (&self.rays[left], &self.rays[right]);
+        let load = angle(&a.direction, &b.direction).abs() * a.sums[2].max(b.sums[2]);
+        if OF_EFFECT * load <= self.negligible { 1 } else { 3 }
+    }
+
+    /// Integrates over a sector with 1, 3 or 7 rays; resolves it where one of them has another sequence of cells.
     ///
     /// The rays end on a conic about the centre, through the places where the rays at both ends and in the middle leave a cell: a straight
     /// edge and an ellipse about the centre then cost nothing, as on both equal areas belong to equal steps.
@@ -340,7 +351,11 @@ impl<'w, 'f, 'a, 's> Fan<'w, 'f, 'a, 's> {
                 _ => self.cast(unit(at)),
             };
             let density = constant / (at[0] * at[0] + at[1] * at[1]);
-            let weight = if count == 3 { *few } else { *many };
+            let weight = match count {
+                1 => &1.0,
+                3 => few,
+                _ => many,
+            };
             rays[i] = (ray, weight * density);
             let low = if count == 7 {
                 *few
@@ -375,6 +390,7 @@ impl<'w, 'f, 'a, 's> Fan<'w, 'f, 'a, 's> {
         let of_energy = if self.walker.with_energy { error_of_rule(&energies[..count], &ends) } else { 0.0 };
         let estimate = |off: f64, size: f64| match count {
             _ if like.is_none() || odd.is_some() => off,
+            1 => 0.0,
             3 => off * (2.0 * off / size).powi(2).min(1.0),
             _ => off * (10.0 * off / size).min(1.0),
         };
@@ -418,67 +434,6 @@ impl<'w, 'f, 'a, 's> Fan<'w, 'f, 'a, 's> {
     }
 }
 
-/// Error of a rule from how far the polynomial through its loads misses those at the ends, and from how smooth they are.
-fn error_of_rule(loads: &[[f64; 3]], ends: &[[f64; 3]; 2]) -> f64 {
-    let few = loads.len() == 3;
-    let weights = if few { &at_ends().0[..] } else { &at_ends().1[..] };
-    let missed = ends.iter().enumerate().map(|(side, end)| {
-        let mut off = *end;
-        for (weight, load) in weights.iter().zip(loads) {
-            (0..3).for_each(|j| off[j] -= weight[side] * load[j]);
-        }
-        norm(&off)
-    });
-    let missed = missed.fold(0.0, f64::max);
-    if few {
-        (OF_ENDS[0] * missed).max(error_of_three(loads))
-    } else {
-        (OF_ENDS[1] * missed).max(error_of_seven(loads))
-    }
-}
-
-/// Weights of the polynomials through 3 and 7 points at both ends.
-fn at_ends() -> &'static ([[f64; 2]; 3], [[f64; 2]; 7]) {
-    static WEIGHTS: LazyLock<([[f64; 2]; 3], [[f64; 2]; 7])> = LazyLock::new(|| {
-        let weight = |count: usize, i: usize| {
-            [0.0, 1.0].map(|end| {
-                let factor = |j: usize| (end - GAUSS_KRONROD[j].0) / (GAUSS_KRONROD[i].0 - GAUSS_KRONROD[j].0);
-                (0..count).filter(|j| *j != i).map(factor).product::<f64>()
-            })
-        };
-        (std::array::from_fn(|i| weight(3, i)), std::array::from_fn(|i| weight(7, i)))
-    });
-    &WEIGHTS
-}
-
-/// Error of the rule of 3 rays from how their loads vary.
-fn error_of_three(loads: &[[f64; 3]]) -> f64 {
-    let mean = [0, 1, 2].map(|j| GAUSS_KRONROD.iter().zip(loads).map(|((_, w, _), load)| w * load[j]).sum::<f64>());
-    let off = |load: &[f64; 3]| norm(&[load[0] - mean[0], load[1] - mean[1], load[2] - mean[2]]);
-    let most = loads.iter().map(off).fold(0.0, f64::max);
-    if most > 0.0 { OF_VARIATION * most * (most / norm(&mean)).powi(2).min(1.0) } else { 0.0 }
-}
-
-/// Error of the rule of 7 rays from how fast the coefficients of Legendre's series of the loads fall.
-fn error_of_seven(loads: &[[f64; 3]]) -> f64 {
-    let mut coefficients = [[0.0; 3]; 6];
-    for ((t, _, weight), load) in GAUSS_KRONROD.iter().zip(loads) {
-        let x = 2.0 * t - 1.0;
-        let (mut before, mut value) = (0.0, 1.0);
-        for (n, coefficient) in coefficients.iter_mut().enumerate() {
-            let n = n as f64;
-            for j in 0..3 {
-                coefficient[j] += (2.0 * n + 1.0) * weight * value * load[j];
-            }
-            (before, value) = (value, ((2.0 * n + 1.0) * x * value - n * before) / (n + 1.0));
-        }
-    }
-    let size = coefficients.map(|c| norm(&c));
-    let (high, low) = (size[4].max(size[5]), size[1].max(size[2]).max(size[3]));
-    // By six degrees more they fall twice as much again as by three.
-    if high > 0.0 { high * (high / low).powi(2).min(1.0) } else { 0.0 }
-}
-
 fn last(ray: &Ray) -> &Event {
     &ray.events[ray.count.max(1) - 1]
 }
@@ -491,8 +446,4 @@ fn unit([e, f]: [f64; 2]) -> [f64; 2] {
 /// From a to b, counter-clockwise positive.
 fn angle(a: &[f64; 2], b: &[f64; 2]) -> f64 {
     (a[0] * b[1] - a[1] * b[0]).atan2(a[0] * b[0] + a[1] * b[1])
-}
-
-pub(super) fn norm(v: &[f64]) -> f64 {
-    v.iter().map(|c| c * c).sum::<f64>().sqrt()
 }

@@ -1,15 +1,16 @@
 //! From the potentials to the answer.
 
 use super::centre::{flattest_axis, middle, on_patch};
-use super::fan::{Fan, Integral, norm};
+use super::fan::{Fan, Integral};
 use super::field::{Field, FramePlane, Placed};
 use super::patch::{Patch, PatchFlags, PatchPoint};
 use super::ray::{Line, Node, Walker};
 use super::scratch::PatchScratch;
+use super::smoothness::norm;
 use nalgebra::{Matrix3, Vector3};
 
 /// Parts of the patch's reach by which the centre of pressure may lie off the centre of the rays before they start anew.
-const OFF_CENTRE: f64 = 0.1;
+const OFF_CENTRE: f64 = 0.25;
 
 /// Most such starts.
 const MOST_STARTS: usize = 3;

@@ -11,6 +11,7 @@
 //! | `energy` | the elastic energy as an integral over the patch |
 //! | `ray` | the walk over a ray |
 //! | `centre` | where the rays start |
+//! | `smoothness` | how far off a rule over a sector is |
 //! | `fan` | sectors of rays, refined |
 //! | `scratch` | the buffers |
 //! | `integration` | from the potentials to the answer |
@@ -30,6 +31,7 @@ pub(crate) mod planar;
 mod ray;
 mod rules;
 mod scratch;
+mod smoothness;
 
 pub use contact::{PatchError, PatchSettings, patch_of_contact, patch_on_plane, patch_on_triangle};
 pub use patch::{Patch, PatchFlags, PatchPoint};
