@@ -277,7 +277,9 @@ bool Ig2_ConicPP_ConicPP_ScGeom::fillPatch(PairInScene& pair, pp_status status, 
 {
     const Vector3r force(patch.force);
     const double size = force.norm();
-    if (status != PP_OK || patch.flags & PP_PATCH_EMPTY || !(patch.area > 0 && size > 0)) {
+    // Nowhere does the pressure exceed that of the largest depth: a force beyond is no answer.
+    const bool found = status == PP_OK && !(patch.flags & PP_PATCH_EMPTY) && patch.area > 0 && size > 0;
+    if (!found || size > 1.1 * patch.area * patch.largest_depth) {
         pair.counts.add(Count::patchFallbacks);
         return false;
     }
