@@ -15,6 +15,9 @@ const OFF_CENTRE: f64 = 0.25;
 /// Most such starts.
 const MOST_STARTS: usize = 3;
 
+/// Least tolerance for which a patch is taken in pieces: below it their estimate of small zones beside sharp corners is not sure.
+const FINEST_OF_PIECES: f64 = 1e-5;
+
 /// What a patch is computed from.
 pub(super) struct Task<'a> {
     pub a: Placed<'a>,
@@ -46,8 +49,9 @@ pub(super) fn patch(task: &Task, scratch: &mut PatchScratch, mut visit: impl FnM
     let start = on_patch(&mut field, 0.0, 0.0, 0.0).unwrap_or_default();
     let deepest = field.values(&start)[0].0;
     let state = field.state();
+    let finely = task.with_energy || task.tolerance < FINEST_OF_PIECES;
     let in_pieces =
-        if task.with_energy { None } else { super::pieces::pieces(&mut field, &start, task.tolerance, pieces, points) };
+        if finely { None } else { super::pieces::pieces(&mut field, &start, task.tolerance, pieces, points) };
     let mut outcome = Outcome::default();
     if let Some(estimate) = in_pieces {
         let force = points.iter().map(|node| node.weight * node.pressure * vector(node)).sum::<Vector3<f64>>().norm();
