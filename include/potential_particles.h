@@ -193,7 +193,8 @@
 #define PP_OVERLAPPING 2
 
 // "closest" was asked for, but its constraint is slack: a centre (for k = 0, the core) of one particle
-// lies inside the other, so that |P1 - P2| is no overlap distance. All fields are those of midway.
+// lies inside the other, or cannot be told from that, so that |P1 - P2| is no overlap distance. All fields
+// are those of midway.
 #define PP_FLAG_SLACK 1
 
 // Separation was proved without solving to the end: s is a proved lower bound >= 1; of the geometry only
@@ -863,7 +864,8 @@ pp_status pp_contact_area(const struct pp_particle *a,
 //
 // settings: may be NULL (defaults); gap_tolerance, flat_regularisation and solve_separated count. A
 // gap_tolerance below 1e-13, or a gap in doubles that is too wide, is answered in extended precision
-// (PP_FLAG_EXTENDED). state: may be NULL; else that of A and this boundary, in which nothing is kept so far.
+// (PP_FLAG_EXTENDED). state: may be NULL; else that of A and this boundary, read and updated as
+// by pp_contact_detect (the last point, from which the next search starts).
 // Pointers: point and normal hold 3 numbers each.
 // Errors: PP_NULL_POINTER, PP_BAD_POSITION, PP_BAD_ORIENTATION, PP_BAD_POINT, PP_UNKNOWN_FORMULATION,
 // PP_UNKNOWN_BACK_END, PP_NO_CONE_PROGRAM, PP_BAD_SETTING, PP_SOLVER_FAILED.
@@ -882,7 +884,8 @@ pp_status pp_contact_plane(const struct pp_particle *a,
 // (PP_FLAG_NORMAL_BY_BOUNDARY).
 // settings: may be NULL (defaults); gap_tolerance, flat_regularisation and solve_separated count. A
 // gap_tolerance below 1e-13, or a gap in doubles that is too wide, is answered in extended precision
-// (PP_FLAG_EXTENDED). state: may be NULL; else that of A and this boundary, in which nothing is kept so far.
+// (PP_FLAG_EXTENDED). state: may be NULL; else that of A and this boundary, read and updated as
+// by pp_contact_detect.
 // Pointers: vertices holds 9 numbers.
 // Errors: those of pp_contact_plane, and PP_DEGENERATE_TRIANGLE.
 pp_status pp_contact_triangle(const struct pp_particle *a,
