@@ -122,8 +122,13 @@ for old in sorted(DATA.glob("classes_*.xml")):
     O.load(str(old))
     found = contents()
     expected = expected_of(versions(old.read_text()))
-    for part in {"shapes", "functors", "bounds", "engines", "materials", "joint"} & set(expected):
+    for part in {"shapes", "functors", "bounds", "engines", "materials"} & set(expected):
         check.equal(found[part], expected[part], f"{old.name}: {part}")
+    if "joint" in expected:
+        # The patch was that of the library that saved the file.
+        for name, value in expected["joint"][1].items():
+            check.close(found["joint"][1][name], value, 1e-6 * max(1.0, abs(value) if not hasattr(value, "norm") else value.norm()),
+                        f"{old.name}: {name} of the joint")
     worst = max(abs(x - y) for x, y in zip(found["state"], expected["state"]))
     check.true(len(found["state"]) == len(expected["state"]) and worst < 1e-9, f"{old.name}: poses, off by {worst:g}")
     name, memory, point, area = found["contact"]
