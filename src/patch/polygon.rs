@@ -8,6 +8,9 @@ use super::rules::gauss;
 /// Most corners.
 const MOST_CORNERS: usize = 64;
 
+/// Sides shorter than this part of the polygon are rounding.
+const SHORTEST: f64 = 1e-12;
+
 /// A corner, and the number of the plane that ends the polygon from there on ([`RIM`] where s = 1).
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Corner {
@@ -100,6 +103,15 @@ pub(super) fn cut(field: &Field, level: &Level, active: [usize; 2], half: f64, c
         }
         std::mem::swap(polygon, next);
     }
+    // Sides without length.
+    let size = polygon.iter().flat_map(|corner| corner.at).fold(0.0, |most: f64, c| most.max(c.abs()));
+    let count = polygon.len();
+    next.clear();
+    next.extend((0..count).filter_map(|k| {
+        let (a, b) = (polygon[k].at, polygon[(k + 1) % count].at);
+        ((b[0] - a[0]).abs().max((b[1] - a[1]).abs()) > SHORTEST * size).then_some(polygon[k])
+    }));
+    std::mem::swap(polygon, next);
     (3..=MOST_CORNERS).contains(&polygon.len())
 }
 
