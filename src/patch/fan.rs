@@ -5,8 +5,9 @@ use super::ray::{EVENTS, Event, Line, RIM, Ray, SUMS, Walker};
 use super::rules::GAUSS_KRONROD;
 use super::smoothness::{error_of_rule, norm};
 
-/// Most rays.
-pub(super) const MOST_RAYS: usize = 1500;
+/// Most rays, and points on them.
+const MOST_RAYS: usize = 1500;
+const MOST_NODES: usize = 500_000;
 
 /// Most halvings in the search for the direction in which the sequence of cells changes.
 const DEEPEST: u32 = 14;
@@ -106,7 +107,8 @@ impl<'w, 'f, 'a, 's> Fan<'w, 'f, 'a, 's> {
         self.walker.nodes.clear();
         (self.extent, self.is_capped) = (0.0, false);
         let [e, f] = axis;
-        self.walker.budget = RADIAL * self.tolerance * 0.25 * rough;
+        let budget = RADIAL * self.tolerance * 0.25 * rough;
+        self.walker.budget = if budget > 0.0 { budget } else { f64::INFINITY };
         let first = [[e, f], [-f, e], [-e, -f], [f, -e]].map(|direction| self.cast(direction));
         self.negligible = NEGLIGIBLE * self.tolerance * rough * std::f64::consts::FRAC_PI_2;
         for i in 0..4 {
@@ -184,7 +186,10 @@ impl<'w, 'f, 'a, 's> Fan<'w, 'f, 'a, 's> {
         let ray = self.walker.walk(&self.line(direction));
         self.extent = self.extent.max(last(&ray).rho);
         self.rays.push(ray);
-        self.is_capped |= self.rays.len() >= MOST_RAYS;
+        if self.rays.len() >= MOST_RAYS || self.walker.nodes.len() >= MOST_NODES {
+            // What is left is done as cheaply as it can be.
+            (self.is_capped, self.walker.budget) = (true, f64::INFINITY);
+        }
         self.rays.len() - 1
     }
 

@@ -23,8 +23,8 @@ const RULES: [[usize; 5]; 5] =
 /// Part of the tolerance that the pieces may take.
 const SHARE: f64 = 0.9;
 
-/// Finest tolerance at which what is neglected about an edge is known well enough.
-const FINEST_OF_EDGES: f64 = 1e-5;
+/// Finest tolerance at which the error of a rule is taken for less than its difference to a coarser one, and edges are made of zones.
+const FINEST: f64 = 1e-5;
 
 /// Bodies with no more planes than this together are loaded at once.
 const FEW: usize = 48;
@@ -109,7 +109,7 @@ fn refine(zones: &mut [Piece], flat: usize, tolerance: f64, nodes: &mut Vec<Node
         nodes.truncate(flat);
         let mut estimate = Estimate::default();
         for piece in zones.iter_mut() {
-            let (force, area) = piece.integrate(nodes)?;
+            let (force, area) = piece.integrate(tolerance, nodes)?;
             piece.error = force;
             estimate.force += force + piece.neglected;
             estimate.area += area;
@@ -145,7 +145,7 @@ impl PieceScratch {
 
 impl Piece {
     /// Appends its points; the estimated errors of force and area from a coarser rule.
-    fn integrate(&self, nodes: &mut Vec<Node>) -> Option<(f64, f64)> {
+    fn integrate(&self, tolerance: f64, nodes: &mut Vec<Node>) -> Option<(f64, f64)> {
         let [across, along, cap, outwards, around] = RULES[self.rule];
         let mut fine = [0.0; 4];
         let mut coarse = [0.0; 4];
@@ -183,7 +183,8 @@ impl Piece {
         let off = [0, 1, 2].map(|i| fine[i] - coarse[i]);
         let (off, size) = (Vector::from(off).norm(), Vector::new(fine[0], fine[1], fine[2]).norm());
         // Between one point and two the difference does not tell how fast it falls.
-        let least = if matches!(self.kind, Kind::Cap(_)) && cap == 2 { 1.0 } else { 0.02 };
+        let is_plain = tolerance < FINEST || matches!(self.kind, Kind::Cap(_)) && cap == 2;
+        let least = if is_plain { 1.0 } else { 0.02 };
         let of = |off: f64, size: f64| if off > 0.0 { off * (3.0 * off / size).clamp(least, 1.0) } else { 0.0 };
         Some((of(off, size), of((fine[3] - coarse[3]).abs(), fine[3])))
     }
@@ -340,7 +341,7 @@ impl Builder<'_, '_, '_> {
                     let flats: &[usize] = if others.is_empty() { &[usize::MAX] } else { others };
                     for &j in flats {
                         if self.edge(i, a, Some(j).filter(|j| *j != usize::MAX), start)? {
-                            return (tolerance >= FINEST_OF_EDGES).then_some(());
+                            return (tolerance >= FINEST).then_some(());
                         }
                     }
                 }

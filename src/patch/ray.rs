@@ -253,6 +253,7 @@ impl Walker<'_, '_, '_> {
             let to = if from + step < h * (1.0 - 1e-6) { from + step } else { h };
             let known = self.nodes.len();
             let Some((sums, error)) = self.piece(line, cell, start, (from, to))? else {
+                self.nodes.truncate(known);
                 ray.is_folded = true;
                 return Ok(());
             };
@@ -298,7 +299,8 @@ impl Walker<'_, '_, '_> {
             let pressure = 1.0 - cell.s.value(along, up).max(0.0).sqrt();
             let density = by_distance(distance);
             let weight = weight * (to - from) * density;
-            let (n_along, n_across) = (cell.d.by_h(along, up) / rise, cell.d.across(along, up) / rise);
+            let run = 1.0 / rise;
+            let (n_along, n_across) = (cell.d.by_h(along, up) * run, cell.d.across(along, up) * run);
             let normal = [n_along * e - n_across * f, n_along * f + n_across * e];
             let arm = [distance * e, distance * f, zeta + up];
             let load = weight * pressure;
@@ -322,6 +324,9 @@ impl Walker<'_, '_, '_> {
                     largest[j / 3] = largest[j / 3].max(value.abs());
                 }
             }
+        }
+        if !sums.iter().all(|sum| sum.is_finite()) {
+            return Ok(None);
         }
         if is_flat {
             return Ok(Some((sums, 0.0)));

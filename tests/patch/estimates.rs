@@ -91,3 +91,26 @@ fn cores_that_meet_are_flagged() {
     // At the core the pressure ends its rise: K (ℓ_A + ℓ_B) on the smaller face.
     assert!(found.force.z > 0.9 * 0.2 * 0.36 && found.force.z < 1.1 * 0.2 * 0.8 * 0.8, "{}", found.force);
 }
+
+/// A contact that is not that of the poses leads to some answer, soon, and to no number of points without end.
+#[test]
+fn a_contact_of_other_poses_ends() {
+    let mut chance = Chance::new(8);
+    let mut empty = 0;
+    for _ in 0..300 {
+        let k = chance.pick(&[0.0, 1e-6, 0.3]);
+        let families = [chance.pick(&FAMILIES), chance.pick(&FAMILIES)];
+        let mut pair = Pair::random(families, [k, k], chance.pick(&[1e-6, 0.05, 0.9]), 0.1, &mut chance);
+        let far = chance.pick(&[1e-9, 1e-3, 0.1, 1.0, 1e6]);
+        let (moved, turned) = (far * chance.direction(), far * chance.direction());
+        pair.contact.branch_a += moved;
+        pair.contact.branch_b -= 0.3 * moved;
+        pair.contact.normal = (pair.contact.normal + turned).normalize();
+        pair.contact.overlap = chance.pick(&[0.0, 1e-300, 1e300, f64::NAN, f64::INFINITY]);
+        let found = patch(&pair, 1e-4, chance.uniform() < 0.2);
+        assert!(found.force.iter().all(|c| c.is_finite()), "{found:?}");
+        assert!(found.rays < 10_000, "{} rays, {} points, {}", found.rays, found.points, found.flags);
+        empty += usize::from(found.flags.contains(PatchFlags::EMPTY));
+    }
+    assert!(empty > 20, "{empty}");
+}
