@@ -303,6 +303,8 @@ impl Builder<'_, '_, '_> {
         let outline = strip.outline().map(|at| strip.place(at));
         let width = (outline[4] - 0.5 * (outline[0] + outline[1])).norm();
         let mut neglected = self.neglected(&outline[2..], width * first.max(last).max(0.0), active);
+        let ends = [(outline[2] - outline[0]).norm(), (outline[3] - outline[1]).norm()];
+        neglected += ends[0].max(ends[1]) * strip.overhang();
         if first < 0.0 || last < 0.0 {
             // The ends cross before the rim.
             neglected += width * (first.abs() + last.abs()) * strip.depth().max(0.0);

@@ -124,6 +124,15 @@ impl Strip {
         }
     }
 
+    /// ∫ p over what lies beyond an end where s = 1 at the start, since s falls at first with the angle, about, over the width there.
+    pub fn overhang(&self) -> f64 {
+        let Wave { a, b, size } = self.wave;
+        let rise = size - a;
+        let ends_at_rim = self.start == 0.0 && self.ends.iter().any(|end| matches!(end, End::At(_)));
+        let (g, c) = (self.chart.slopes[2].abs(), self.chart.c.abs());
+        if ends_at_rim && b > 0.0 { rise * rise / (g * c) } else { 0.0 }
+    }
+
     /// 1 − s in the middle of its start.
     pub fn depth(&self) -> f64 {
         1.0 - self.at(self.start, 0.5 * (self.starts[0] + self.starts[1])).2
