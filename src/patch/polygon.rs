@@ -5,9 +5,6 @@ use super::field::{Field, Owner};
 use super::ray::{Node, RIM};
 use super::rules::gauss;
 
-/// Most corners.
-const MOST_CORNERS: usize = 64;
-
 /// Sides shorter than this part of the polygon are rounding.
 const SHORTEST: f64 = 1e-12;
 
@@ -66,7 +63,7 @@ impl Level {
     }
 }
 
-/// Cuts a square about the origin by all planes of the field but two; `None` for nothing that is left, or too many corners.
+/// Cuts a square about the origin by all planes of the field but two; whether anything is left.
 pub(super) fn cut(field: &Field, level: &Level, active: [usize; 2], half: f64, corners: &mut [Vec<Corner>; 2]) -> bool {
     let [polygon, next] = corners;
     polygon.clear();
@@ -112,7 +109,7 @@ pub(super) fn cut(field: &Field, level: &Level, active: [usize; 2], half: f64, c
         ((b[0] - a[0]).abs().max((b[1] - a[1]).abs()) > SHORTEST * size).then_some(polygon[k])
     }));
     std::mem::swap(polygon, next);
-    (3..=MOST_CORNERS).contains(&polygon.len())
+    polygon.len() >= 3
 }
 
 /// The side of the square that a polygon starts from.
