@@ -232,16 +232,13 @@ impl Builder<'_, '_, '_> {
             let is_open = corners[0].iter().any(|corner| corner.side == OPEN);
             let farthest = corners[0].iter().map(|c| level.point(&c.at).norm()).fold(0.0, f64::max);
             let rim = 2.0 * (radius(self.field, Owner::A) + other.radius);
-            let needed = if is_open { 4.0 * reach } else { farthest + rim.min(farthest) };
+            let needed = if is_open { 16.0 * reach } else { farthest + rim.min(farthest) };
             if needed <= self.field.loaded() {
-                if is_open {
-                    return None;
-                }
-                break;
+                return (!is_open).then_some(Some((level, (i, j))));
             }
             self.field.load(needed);
         }
-        Some(Some((level, (i, j))))
+        None
     }
 
     /// Strips along the sides of a polygon that are planes, and caps at their ends.
