@@ -25,7 +25,7 @@ const NEAR: f64 = 4.0;
 pub struct PatchSettings {
     /// Relative error of the force, and of the torque over |force| times the reach of the patch, in [1e-12, 0.1].
     pub tolerance: f64,
-    /// Whether the elastic energy is computed, which takes about as long as all else.
+    /// Whether the elastic energy is computed. The patch is then integrated by rays, which takes many times as long.
     pub with_energy: bool,
 }
 

@@ -1,9 +1,11 @@
 //! From the potentials to the answer.
 
+use super::border::around;
 use super::centre::{flattest_axis, middle, on_patch};
 use super::fan::{Fan, Integral};
 use super::field::{Field, FramePlane, Placed};
 use super::patch::{Patch, PatchFlags, PatchPoint};
+use super::pieces::pieces as in_zones;
 use super::ray::{Line, Node, Walker};
 use super::scratch::PatchScratch;
 use super::smoothness::norm;
@@ -14,9 +16,6 @@ const OFF_CENTRE: f64 = 0.25;
 
 /// Most such starts.
 const MOST_STARTS: usize = 3;
-
-/// Least tolerance for which a patch is taken in pieces: below it their estimate of small zones beside sharp corners is not sure.
-const FINEST_OF_PIECES: f64 = 1e-5;
 
 /// What a patch is computed from.
 pub(super) struct Task<'a> {
@@ -49,12 +48,18 @@ pub(super) fn patch(task: &Task, scratch: &mut PatchScratch, mut visit: impl FnM
     let start = on_patch(&mut field, 0.0, 0.0, 0.0).unwrap_or_default();
     let deepest = field.values(&start)[0].0;
     let state = field.state();
-    let finely = task.with_energy || task.tolerance < FINEST_OF_PIECES;
-    let in_pieces =
-        if finely { None } else { super::pieces::pieces(&mut field, &start, task.tolerance, pieces, points) };
+    let in_pieces = if task.with_energy { None } else { in_zones(&mut field, &start, task.tolerance, pieces, points) };
     let mut outcome = Outcome::default();
+    let in_pieces = in_pieces.or_else(|| {
+        let (level, polygon) = pieces.flat()?;
+        let order = if task.tolerance >= 1e-5 { 3 } else { 5 };
+        let (budget, with_energy) = (f64::INFINITY, false);
+        let mut walker = Walker { field: &mut field, planes: ray_planes, nodes, order, with_energy, budget };
+        around(&mut walker, level, polygon, task.tolerance, points)
+    });
     if let Some(estimate) = in_pieces {
         let force = points.iter().map(|node| node.weight * node.pressure * vector(node)).sum::<Vector3<f64>>().norm();
+        outcome.rays = estimate.rays;
         outcome.error = estimate.force / force;
         outcome.area_error = estimate.area / points.iter().map(|node| node.weight).sum::<f64>();
     } else {

@@ -14,6 +14,7 @@
 //! | `polygon` | its flat part |
 //! | `zone` | the parts about edges and corners |
 //! | `pieces` | the patch in such parts |
+//! | `border` | a flat part with rays around it |
 //! | `centre` | where the rays start |
 //! | `smoothness` | how far off a rule over a sector is |
 //! | `fan` | sectors of rays, refined |
@@ -22,6 +23,7 @@
 //! | `contact` | the patch of two particles, of a particle and a plane, of a particle and a triangle |
 //! | `planar` | the patch of two particles of the plane |
 
+mod border;
 mod cell;
 mod centre;
 mod chart;

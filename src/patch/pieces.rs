@@ -12,6 +12,8 @@ use super::zone::{Cap, Disc, End, Strip, Third};
 pub(super) struct PieceScratch {
     corners: [Vec<Corner>; 2],
     zones: Vec<Piece>,
+    /// The flat part, where there is one.
+    level: Option<Level>,
 }
 
 /// Points of the rules, from coarse to fine: across a strip, along it, in a cap, in a disc outwards and around.
@@ -20,6 +22,9 @@ const RULES: [[usize; 5]; 5] =
 
 /// Part of the tolerance that the pieces may take.
 const SHARE: f64 = 0.9;
+
+/// Finest tolerance at which the error of a rule is taken for less than its difference to a coarser one, and edges are made of zones.
+const FINEST: f64 = 1e-5;
 
 /// Bodies with no more planes than this together are loaded at once.
 const FEW: usize = 48;
@@ -45,11 +50,13 @@ enum Kind {
     Disc(Disc),
 }
 
-/// Estimated errors of force and area, and the farthest point.
+/// Estimated errors of force and area.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Estimate {
     pub force: f64,
     pub area: f64,
+    /// Number of rays.
+    pub rays: usize,
 }
 
 /// Fills `nodes` with points of the patch; `None` where it is not made of such pieces or its error is above the tolerance.
@@ -65,6 +72,7 @@ pub(super) fn pieces(
     }
     nodes.clear();
     scratch.zones.clear();
+    scratch.level = None;
     if field.plane_count() <= FEW && field.loaded() < field.radius() {
         field.load(field.radius());
     }
@@ -82,11 +90,14 @@ pub(super) fn pieces(
         return None;
     }
     let mut builder = Builder { field, zones: &mut scratch.zones };
-    let polygon = builder.face([&active[0][..count[0]], &active[1][..count[1]]], &mut scratch.corners)?;
-    if let Some(level) = &polygon {
-        integrate(level, &scratch.corners[0], nodes)?;
+    let active = [&active[0][..count[0]], &active[1][..count[1]]];
+    if let Some((level, sides)) = builder.face(active, &mut scratch.corners)? {
+        scratch.level = Some(level);
+        let polygon = &scratch.corners[0];
+        integrate(&level, polygon, nodes)?;
+        builder.around(&level, polygon, sides)?;
     } else {
-        builder.edge_or_disc([&active[0][..count[0]], &active[1][..count[1]]], &at)?;
+        builder.edge_or_disc(active, &at, tolerance)?;
     }
     let flat = nodes.len();
     refine(&mut scratch.zones, flat, tolerance, nodes)
@@ -98,7 +109,7 @@ fn refine(zones: &mut [Piece], flat: usize, tolerance: f64, nodes: &mut Vec<Node
         nodes.truncate(flat);
         let mut estimate = Estimate::default();
         for piece in zones.iter_mut() {
-            let (force, area) = piece.integrate(nodes)?;
+            let (force, area) = piece.integrate(tolerance, nodes)?;
             piece.error = force;
             estimate.force += force + piece.neglected;
             estimate.area += area;
@@ -111,10 +122,10 @@ fn refine(zones: &mut [Piece], flat: usize, tolerance: f64, nodes: &mut Vec<Node
         if estimate.force <= limit {
             return Some(estimate);
         }
-        if zones.iter().map(|piece| piece.neglected).sum::<f64>() > 0.5 * limit {
+        if zones.iter().map(|piece| piece.neglected).sum::<f64>() > 0.9 * limit {
             return None;
         }
-        let share = 0.3 * limit / zones.len() as f64;
+        let share = 0.15 * limit / zones.len() as f64;
         for piece in zones.iter_mut().filter(|piece| piece.error > share) {
             piece.rule += 1;
             if piece.rule == RULES.len() {
@@ -125,9 +136,16 @@ fn refine(zones: &mut [Piece], flat: usize, tolerance: f64, nodes: &mut Vec<Node
     None
 }
 
+impl PieceScratch {
+    /// The flat part of the last patch and its polygon.
+    pub fn flat(&self) -> Option<(&Level, &[Corner])> {
+        self.level.as_ref().map(|level| (level, &self.corners[0][..]))
+    }
+}
+
 impl Piece {
     /// Appends its points; the estimated errors of force and area from a coarser rule.
-    fn integrate(&self, nodes: &mut Vec<Node>) -> Option<(f64, f64)> {
+    fn integrate(&self, tolerance: f64, nodes: &mut Vec<Node>) -> Option<(f64, f64)> {
         let [across, along, cap, outwards, around] = RULES[self.rule];
         let mut fine = [0.0; 4];
         let mut coarse = [0.0; 4];
@@ -164,10 +182,16 @@ impl Piece {
         }
         let off = [0, 1, 2].map(|i| fine[i] - coarse[i]);
         let (off, size) = (Vector::from(off).norm(), Vector::new(fine[0], fine[1], fine[2]).norm());
-        let of = |off: f64, size: f64| if off > 0.0 { off * (3.0 * off / size).min(1.0) } else { 0.0 };
+        // Between one point and two the difference does not tell how fast it falls.
+        let is_plain = tolerance < FINEST || matches!(self.kind, Kind::Cap(_)) && cap == 2;
+        let least = if is_plain { 1.0 } else { 0.02 };
+        let of = |off: f64, size: f64| if off > 0.0 { off * (3.0 * off / size).clamp(least, 1.0) } else { 0.0 };
         Some((of(off, size), of((fine[3] - coarse[3]).abs(), fine[3])))
     }
 }
+
+/// The plane of A and that of B whose faces meet.
+type Faces = (usize, Option<usize>);
 
 /// The parts of a patch in the making.
 struct Builder<'b, 'f, 's> {
@@ -184,7 +208,7 @@ impl Builder<'_, '_, '_> {
     }
 
     /// The polygon of the two planes that face each other most, with strips and caps around it; within, `None` where it is empty.
-    fn face(&mut self, active: [&[usize]; 2], corners: &mut [Vec<Corner>; 2]) -> Option<Option<Level>> {
+    fn face(&mut self, active: [&[usize]; 2], corners: &mut [Vec<Corner>; 2]) -> Option<Option<(Level, Faces)>> {
         let unit = |k: usize| normal(&self.field.planes[k]).normalize();
         let others: &[usize] = if active[1].is_empty() { &[usize::MAX] } else { active[1] };
         let (mut best, mut pair) = (f64::INFINITY, (0, 0));
@@ -208,23 +232,18 @@ impl Builder<'_, '_, '_> {
             let is_open = corners[0].iter().any(|corner| corner.side == OPEN);
             let farthest = corners[0].iter().map(|c| level.point(&c.at).norm()).fold(0.0, f64::max);
             let rim = 2.0 * (radius(self.field, Owner::A) + other.radius);
-            let needed = if is_open { 4.0 * reach } else { farthest + rim.min(farthest) };
+            let needed = if is_open { 16.0 * reach } else { farthest + rim.min(farthest) };
             if needed <= self.field.loaded() {
-                if is_open {
-                    return None;
-                }
-                break;
+                return (!is_open).then_some(Some((level, (i, j))));
             }
             self.field.load(needed);
         }
-        let polygon = std::mem::take(&mut corners[0]);
-        let done = self.around(&level, &polygon, i, j, &other);
-        corners[0] = polygon;
-        done.map(|()| Some(level))
+        None
     }
 
     /// Strips along the sides of a polygon that are planes, and caps at their ends.
-    fn around(&mut self, level: &Level, polygon: &[Corner], i: usize, j: Option<usize>, other: &Flat) -> Option<()> {
+    fn around(&mut self, level: &Level, polygon: &[Corner], (i, j): Faces) -> Option<()> {
+        let other = &self.flat(j);
         let a = self.flat(Some(i));
         let count = polygon.len();
         for k in 0..count {
@@ -281,6 +300,8 @@ impl Builder<'_, '_, '_> {
         let outline = strip.outline().map(|at| strip.place(at));
         let width = (outline[4] - 0.5 * (outline[0] + outline[1])).norm();
         let mut neglected = self.neglected(&outline[2..], width * first.max(last).max(0.0), active);
+        let ends = [(outline[2] - outline[0]).norm(), (outline[3] - outline[1]).norm()];
+        neglected += ends[0].max(ends[1]) * strip.overhang();
         if first < 0.0 || last < 0.0 {
             // The ends cross before the rim.
             neglected += width * (first.abs() + last.abs()) * strip.depth().max(0.0);
@@ -311,7 +332,7 @@ impl Builder<'_, '_, '_> {
     }
 
     /// The patch about an edge, or one zone.
-    fn edge_or_disc(&mut self, active: [&[usize]; 2], start: &Vector) -> Option<()> {
+    fn edge_or_disc(&mut self, active: [&[usize]; 2], start: &Vector, tolerance: f64) -> Option<()> {
         for body in 0..2 {
             let (of, others) = (active[body], active[1 - body]);
             for (p, &i) in of.iter().enumerate() {
@@ -319,7 +340,7 @@ impl Builder<'_, '_, '_> {
                     let flats: &[usize] = if others.is_empty() { &[usize::MAX] } else { others };
                     for &j in flats {
                         if self.edge(i, a, Some(j).filter(|j| *j != usize::MAX), start)? {
-                            return Some(());
+                            return (tolerance >= FINEST).then_some(());
                         }
                     }
                 }
@@ -339,7 +360,10 @@ impl Builder<'_, '_, '_> {
         let last_flat = self.flat(last);
         let chart = Chart::corner(three.map(|k| &planes[k]), &last_flat)?;
         let disc = Disc { chart, radii: [radius(self.field, planes[three[0]].owner), last_flat.radius], third };
+        // Between places on the rim it reaches out a little farther.
         let outline = disc.outline()?;
+        let middle = outline.iter().sum::<Vector>() / outline.len() as f64;
+        let outline = outline.map(|x| middle + 1.035 * (x - middle));
         let across = (outline[0] - outline[6]).norm() * (outline[3] - outline[9]).norm();
         let farthest = outline.iter().map(|x| x.norm()).fold(0.0, f64::max);
         if farthest > self.field.loaded() {

@@ -5,8 +5,8 @@ use super::field::{Field, Owner};
 use super::ray::{Node, RIM};
 use super::rules::gauss;
 
-/// Most corners.
-const MOST_CORNERS: usize = 64;
+/// Sides shorter than this part of the polygon are rounding.
+const SHORTEST: f64 = 1e-12;
 
 /// A corner, and the number of the plane that ends the polygon from there on ([`RIM`] where s = 1).
 #[derive(Clone, Copy, Debug)]
@@ -63,7 +63,7 @@ impl Level {
     }
 }
 
-/// Cuts a square about the origin by all planes of the field but two; `None` for nothing that is left, or too many corners.
+/// Cuts a square about the origin by all planes of the field but two; whether anything is left.
 pub(super) fn cut(field: &Field, level: &Level, active: [usize; 2], half: f64, corners: &mut [Vec<Corner>; 2]) -> bool {
     let [polygon, next] = corners;
     polygon.clear();
@@ -100,7 +100,16 @@ pub(super) fn cut(field: &Field, level: &Level, active: [usize; 2], half: f64, c
         }
         std::mem::swap(polygon, next);
     }
-    (3..=MOST_CORNERS).contains(&polygon.len())
+    // Sides without length.
+    let size = polygon.iter().flat_map(|corner| corner.at).fold(0.0, |most: f64, c| most.max(c.abs()));
+    let count = polygon.len();
+    next.clear();
+    next.extend((0..count).filter_map(|k| {
+        let (a, b) = (polygon[k].at, polygon[(k + 1) % count].at);
+        ((b[0] - a[0]).abs().max((b[1] - a[1]).abs()) > SHORTEST * size).then_some(polygon[k])
+    }));
+    std::mem::swap(polygon, next);
+    polygon.len() >= 3
 }
 
 /// The side of the square that a polygon starts from.

@@ -124,6 +124,15 @@ impl Strip {
         }
     }
 
+    /// ∫ p over what lies beyond an end where s = 1 at the start, since s falls at first with the angle, about, over the width there.
+    pub fn overhang(&self) -> f64 {
+        let Wave { a, b, size } = self.wave;
+        let rise = size - a;
+        let ends_at_rim = self.start == 0.0 && self.ends.iter().any(|end| matches!(end, End::At(_)));
+        let (g, c) = (self.chart.slopes[2].abs(), self.chart.c.abs());
+        if ends_at_rim && b > 0.0 { rise * rise / (g * c) } else { 0.0 }
+    }
+
     /// 1 − s in the middle of its start.
     pub fn depth(&self) -> f64 {
         1.0 - self.at(self.start, 0.5 * (self.starts[0] + self.starts[1])).2
@@ -230,9 +239,9 @@ impl Cap {
         self.at(self.start, 0.0).0
     }
 
-    /// The end of its rim at the start, and its middle.
-    pub fn outline(&self) -> [Vector; 2] {
-        [0.0, 0.7].map(|part| {
+    /// Places on its rim, from that at the start on.
+    pub fn outline(&self) -> [Vector; 3] {
+        [0.0, 0.5, 0.8].map(|part| {
             let theta = self.start + part * self.width;
             self.at(theta, self.height(theta)).0
         })
@@ -268,7 +277,7 @@ impl Cap {
         let rule = &gauss(points).nodes[..points];
         for (xi, weight) in rule {
             // The height ends as a root does: the square of the rest makes it smooth.
-            let rest = 1.0 - xi;
+            let rest = 1.0 - if points == 1 { SINGLE } else { *xi };
             let theta = self.start + self.width * (1.0 - rest * rest);
             let height = self.height(theta);
             let share = weight * (2.0 * rest * self.width).abs() * height;
@@ -280,6 +289,9 @@ impl Cap {
         Some(())
     }
 }
+
+/// Where a single point gives the load of a quarter of a paraboloid.
+const SINGLE: f64 = 0.407;
 
 /// The place for coordinates over s and an excess of the last plane over s, with their changes by two parameters; the vector of area; s.
 #[inline(always)]

@@ -2,18 +2,20 @@
 
 use crate::bodies::{Chance, FAMILIES, Pair, cuboid};
 use crate::patch;
-use nalgebra::{Rotation3, Vector3};
-use potential_particles::{Patch, PatchFlags};
+use nalgebra::{Matrix3, Rotation3, Vector3};
+use potential_particles::{
+    Patch, PatchFlags, PatchScratch, PatchSettings, Pose, Settings, Triangle, Wall, contact_with_plane,
+    contact_with_triangle, patch_on_plane, patch_on_triangle,
+};
 
-/// Errors of force, torque, area, lever and second moments, relative to the patch.
-fn errors(found: &Patch, exact: &Patch) -> [f64; 5] {
+/// Errors of force, torque, area and second moments, relative to the patch.
+fn errors(found: &Patch, exact: &Patch) -> [f64; 4] {
     let force = exact.force.norm();
     let reach = exact.area.sqrt();
     [
         (found.force - exact.force).norm() / force,
         (found.torque - exact.torque).norm() / (force * reach),
         (found.area / exact.area - 1.0).abs(),
-        (found.twist_lever / exact.twist_lever - 1.0).abs(),
         (found.second_moment - exact.second_moment).norm() / exact.second_moment.norm(),
     ]
 }
@@ -30,8 +32,16 @@ fn pairs(seed: u64) -> Vec<(String, Pair)> {
                 let turn = Rotation3::new(tilt * overlap * Vector3::new(1.0, 0.3, 0.0)).into_inner() * spin;
                 let (a, b) = (cuboid([0.7, 0.6, 0.5], r, 0.0), cuboid([0.5, 0.4, 0.3], 0.5 * r, 0.0));
                 let aside = Vector3::new(0.6 * chance.uniform(), 0.5 * chance.uniform(), 1.0).normalize();
-                let pair = Pair::at_overlap(a, &nalgebra::Matrix3::identity(), b, &turn, &aside, overlap);
+                let pair = Pair::at_overlap(a, &Matrix3::identity(), b, &turn, &aside, overlap);
                 pairs.push((format!("face, r {r}, depth {depth}, tilt {tilt}"), pair));
+            }
+            for shift in [0.0, 0.1, 1.0] {
+                let overlap = depth * r;
+                let (a, b) = (cuboid([0.5, 0.4, 0.3], r, 0.0), cuboid([0.5, 0.4, 0.3], r, 0.0));
+                let aside = Vector3::new(0.6 * shift * overlap, -0.3 * shift * overlap, 0.6).normalize();
+                let turn = Rotation3::new(shift * overlap * Vector3::new(0.5, 0.3, 0.4)).into_inner();
+                let pair = Pair::at_overlap(a, &Matrix3::identity(), b, &turn, &aside, overlap);
+                pairs.push((format!("aligned, r {r}, depth {depth}, shift {shift}"), pair));
             }
             for family in &FAMILIES[..5] {
                 let other = chance.pick(&FAMILIES[..5]);
@@ -46,25 +56,64 @@ fn pairs(seed: u64) -> Vec<(String, Pair)> {
 #[test]
 fn pieces_are_as_the_fan() {
     for tolerance in [1e-4, 1e-6] {
-        let (mut in_pieces, mut count, mut over) = (0, 0, 0);
+        let (mut count, mut over) = (0, 0);
         for (name, pair) in pairs(5) {
             let (found, exact) = (patch(&pair, tolerance, false), patch(&pair, 0.01 * tolerance, true));
             if exact.flags.contains(PatchFlags::FOLDED) {
                 continue;
             }
+            let off = errors(&found, &exact);
             count += 1;
-            if found.rays > 0 {
-                eprintln!("FAN  {name} rays {}", found.rays);
-                continue;
-            }
-            in_pieces += 1;
-            let off = errors(&found, &exact).map(|e| (e * 1e9).round() * 1e-9);
-            eprintln!(
-                "{tolerance} {name}: est {:.1e}, {off:?} ({} points, exact's {:.1e})",
-                found.error, found.points, exact.error
-            );
             over += usize::from(off[0] > found.error.max(0.1 * tolerance));
+            assert!(
+                off[0] < 1.5 * tolerance && off[1] < 1.5 * tolerance,
+                "{tolerance} {name}: {off:?}, {}",
+                found.error
+            );
+            // Where a side of the patch narrows to a point, area and moments have no smooth end.
+            assert!(off[2] < 20.0 * tolerance && off[3] < 100.0 * tolerance, "{tolerance} {name}: {off:?}");
         }
-        eprintln!("{in_pieces} of {count}, {over} over");
+        assert!(count > 130 && 50 * over <= count, "{tolerance}: {over} of {count}");
+    }
+}
+
+/// The patch of a block on a floor: a plane, or a slab of two triangles.
+fn on_floor(tilt: f64, with_energy: bool, in_triangles: bool) -> (Vector3<f64>, Vector3<f64>, f64) {
+    let block = cuboid([0.5, 0.4, 0.3], 0.02, 0.0);
+    let turn = Rotation3::new(tilt * Vector3::new(1.0, 0.4, 0.0)) * Rotation3::new(0.3 * Vector3::z());
+    let pose = Pose::from_rotation([0.1, 0.05, 0.299], &turn.into_inner()).unwrap();
+    let (settings, scratch) = (PatchSettings { tolerance: 1e-5, with_energy }, &mut PatchScratch::new());
+    let (mut force, mut torque, mut area) = (Vector3::zeros(), Vector3::zeros(), 0.0);
+    let mut add = |found: Patch, at: Vector3<f64>| {
+        force += found.force;
+        torque += found.torque + (at - pose.position()).cross(&found.force);
+        area += found.area;
+    };
+    if in_triangles {
+        let [a, b, c, d] = [[-2.0, -1.0, 0.0], [1.5, -1.3, 0.0], [1.6, 1.1, 0.0], [-1.2, 1.0, 0.0]];
+        for corners in [[a, b, c], [a, c, d]] {
+            let triangle = Triangle::new(corners).unwrap();
+            let contact = contact_with_triangle(&block, &pose, &triangle, &Settings::default(), None).unwrap();
+            let found = patch_on_triangle(&block, &pose, &triangle, true, &contact, &settings, scratch, |_| ());
+            add(found.unwrap(), contact.on_boundary);
+        }
+    } else {
+        let wall = Wall::new([0.0; 3], [0.0, 0.0, 1.0]).unwrap();
+        let contact = contact_with_plane(&block, &pose, &wall, &Settings::default(), None).unwrap();
+        add(patch_on_plane(&block, &pose, &contact, &settings, scratch, |_| ()).unwrap(), contact.on_boundary);
+    }
+    (force, torque, area)
+}
+
+#[test]
+fn floors_are_as_the_fan() {
+    for tilt in [0.0, 1e-3, 5e-3] {
+        let (force, torque, area) = on_floor(tilt, true, false);
+        let size = force.norm();
+        for in_triangles in [false, true] {
+            let found = on_floor(tilt, false, in_triangles);
+            let off = [(found.0 - force).norm() / size, (found.1 - torque).norm() / size, (found.2 / area - 1.0).abs()];
+            assert!(off[0] < 2e-5 && off[1] < 2e-5 && off[2] < 2e-4, "tilt {tilt}, triangles {in_triangles}: {off:?}");
+        }
     }
 }
