@@ -163,8 +163,7 @@ impl Call<'_> {
             let contact = Call { settings: &settings, ..*self }.contact(None, state, closest)?;
             return Ok(FlatContact { flags: contact.flags.with(Flags::DEFAULT_REGULARISATION), ..contact });
         }
-        // A raised regularisation was asked for with the gap that it leaves.
-        if scale.is_undecided() && !settings.raises_regularisation() {
+        if scale.is_undecided(settings.raises_regularisation()) {
             return Err(SolveError::Undecided { low: scale.low, high: scale.high }.into());
         }
         let contact = self.described(&body, &found, scale)?;

@@ -53,10 +53,12 @@ impl Scale {
         Self { s, gap: larger(s - low, high - s) + OF_SCALE * s + UNDERFLOW, low, high: high * (1.0 + OF_SCALE) }
     }
 
-    /// Whether it is no answer: s and its gap leave open on which side of 1 s lies, by more than [`INCONCLUSIVE`].
-    pub fn is_undecided(&self) -> bool {
+    /// Whether it is no answer: s and its gap leave open on which side of 1 s lies, by more than [`INCONCLUSIVE`]. A regularisation that is
+    /// raised was asked for with the gap that it leaves, which may be any number.
+    pub fn is_undecided(&self, raised: bool) -> bool {
+        let most = if raised { f64::MAX } else { INCONCLUSIVE };
         // What is no number is no answer either.
-        !(self.s - self.gap >= 1.0 || self.s + self.gap <= 1.0 || self.gap <= INCONCLUSIVE)
+        !(self.s - self.gap >= 1.0 || self.s + self.gap <= 1.0 || self.gap <= most)
     }
 
     /// Whether s cannot be told from 0, as where a constraint is slack.
@@ -84,7 +86,8 @@ mod tests {
             [(0.9, 0.99, false), (1.01, 3.0, false), (0.5, 1.5, true), (0.999, 1.001, false), (0.5, f64::NAN, true)]
         {
             let scale = Scale::between(0.5 * (low * low + high * high), low * low, high * high);
-            assert_eq!(scale.is_undecided(), undecided, "{scale:?}");
+            assert_eq!(scale.is_undecided(false), undecided, "{scale:?}");
+            assert_eq!(scale.is_undecided(true), high.is_nan(), "{scale:?}");
         }
         assert!(Scale::between(0.1, -1.0, 0.2).may_be_zero() && !Scale::between(0.1, 0.05, 0.2).may_be_zero());
     }

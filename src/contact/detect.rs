@@ -208,7 +208,7 @@ fn solved(
         return Ok(Contact { flags: contact.flags.with(Flags::DEFAULT_REGULARISATION), ..contact });
     }
     // What is proved apart may have any upper bound; a raised regularisation was asked for with the gap that it leaves.
-    if !separated && scale.is_undecided() && !settings.raises_regularisation() {
+    if !separated && scale.is_undecided(settings.raises_regularisation()) {
         return Err(SolveError::Undecided { low: scale.low, high: scale.high }.into());
     }
     let overlapping = !separated && scale.s < 1.0;
