@@ -17,6 +17,9 @@ const OFF_CENTRE: f64 = 0.25;
 /// Most such starts.
 const MOST_STARTS: usize = 3;
 
+/// Least tolerance for which a patch is taken in pieces: the rules of their zones have no more points for a finer one.
+const FINEST_OF_PIECES: f64 = 1e-8;
+
 /// What a patch is computed from.
 pub(super) struct Task<'a> {
     pub a: Placed<'a>,
@@ -48,10 +51,11 @@ pub(super) fn patch(task: &Task, scratch: &mut PatchScratch, mut visit: impl FnM
     let start = on_patch(&mut field, 0.0, 0.0, 0.0).unwrap_or_default();
     let deepest = field.values(&start)[0].0;
     let state = field.state();
-    let in_pieces = if task.with_energy { None } else { in_zones(&mut field, &start, task.tolerance, pieces, points) };
+    let by_fan = task.with_energy || task.tolerance < FINEST_OF_PIECES;
+    let in_pieces = if by_fan { None } else { in_zones(&mut field, &start, task.tolerance, pieces, points) };
     let mut outcome = Outcome::default();
     let in_pieces = in_pieces.or_else(|| {
-        let (level, polygon) = pieces.flat()?;
+        let (level, polygon) = pieces.flat().filter(|_| !by_fan)?;
         let order = if task.tolerance >= 1e-5 { 3 } else { 5 };
         let (budget, with_energy) = (f64::INFINITY, false);
         let mut walker = Walker { field: &mut field, planes: ray_planes, nodes, order, with_energy, budget };
