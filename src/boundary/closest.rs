@@ -148,7 +148,7 @@ impl Search<'_> {
         let from_edges =
             if inside.precise { plane.wide_from_edges(&triangle.vertices, &x) } else { placed.from_edges(&x) };
         for i in (0..3).filter(|i| from_edges[*i] <= inside.shift()) {
-            on_edges[i] = Some(self.on_edge(triangle, i)?);
+            self.on_edge_once(triangle, &mut on_edges, i)?;
         }
         let Some(mut found) = least_of(&on_edges) else {
             let point_bound =
@@ -158,8 +158,8 @@ impl Search<'_> {
         };
         if found.least.inward_descent > 0.0 {
             // S falls into the triangle: rounding may have decided which edges the point of the plane lies beyond.
-            for (i, on_edge) in on_edges.iter_mut().enumerate() {
-                *on_edge = Some(on_edge.map_or_else(|| self.on_edge(triangle, i), Ok)?);
+            for i in 0..3 {
+                self.on_edge_once(triangle, &mut on_edges, i)?;
             }
             found = least_of(&on_edges).unwrap_or(found);
         }
@@ -200,8 +200,7 @@ impl Search<'_> {
         for _ in 0..3 {
             let at = found.feature;
             for i in ending_at(at) {
-                let on_edge = on_edges[i].map_or_else(|| self.on_edge(triangle, i), Ok)?;
-                on_edges[i] = Some(on_edge);
+                let on_edge = self.on_edge_once(triangle, on_edges, i)?;
                 if on_edge.feature != at {
                     found = on_edge;
                     break;
@@ -211,8 +210,8 @@ impl Search<'_> {
         Ok(found)
     }
 
-    /// A point in extended precision, with that of an edge or a vertex as that alone asks for it: whether it is solved in extended precision may not depend on
-    /// the triangle, or triangles that share it had different bits.
+    /// Replaces the point of an edge or a vertex that was found in extended precision by the one that the edge finds without regard to the
+    /// triangle, so that all triangles that share it get the same bits. Its bounds are those found, and what the two differ by.
     fn as_without_triangle(&mut self, triangle: &Triangle, precise: Closest) -> Result<Closest, DetectError> {
         let edge = match precise.feature {
             Feature::Edge(i) => Some(usize::from(i)),
@@ -220,8 +219,7 @@ impl Search<'_> {
         };
         let Some(edge) = edge else { return Ok(precise) };
         let (mut search, mut on_edges) = (Search { precise: false, ..*self }, [None; 3]);
-        let found = search.on_edge(triangle, edge)?;
-        on_edges[edge] = Some(found);
+        let found = search.on_edge_once(triangle, &mut on_edges, edge)?;
         let OnEdge { mut least, feature, .. } = search.from_vertices(triangle, &mut on_edges, found)?;
         (self.flags, self.iterations) = (search.flags, search.iterations);
         let place = |least: &Least| least.rotation * least.from_centre();
@@ -234,6 +232,18 @@ impl Search<'_> {
             feature,
             extent: precise.extent + off,
         })
+    }
+
+    /// The least S on edge i, found at most once.
+    fn on_edge_once(
+        &mut self,
+        triangle: &Triangle,
+        on_edges: &mut [Option<OnEdge>; 3],
+        i: usize,
+    ) -> Result<OnEdge, DetectError> {
+        let on_edge = on_edges[i].map_or_else(|| self.on_edge(triangle, i), Ok)?;
+        on_edges[i] = Some(on_edge);
+        Ok(on_edge)
     }
 
     /// The least S on edge i, from the edge alone.

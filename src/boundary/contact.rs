@@ -13,7 +13,7 @@ use crate::linalg::number::{UNKNOWN_VECTOR, larger};
 use crate::pair::body::{Body, shift_in_a};
 use crate::pair::boundary_part::PlacedPart;
 use crate::pair::pair::Pair;
-use crate::pair::pair_state::{PairState, Remembered};
+use crate::pair::pair_state::{PairState, Remembered, from_memory_or_anew};
 use crate::pair::separation::Apart;
 use crate::particle::particle::Particle;
 use crate::particle::{potential, ray_cast};
@@ -142,14 +142,10 @@ impl Call<'_> {
         let remembered = state.as_ref().and_then(|state| state.remembered_on_boundary(particle));
         let flags = if remembered.is_some() { Flags::WARM } else { Flags::NONE };
         let mut search = Search { particle, pose, settings, precise: false, remembered, flags, iterations: 0 };
-        let mut found = match closest(&mut search) {
-            // What is remembered may be of any other pair, and no start leads to the answer from everywhere.
-            Err(_) if remembered.is_some() => {
-                search.remembered = None;
-                closest(&mut search)?
-            }
-            found => found?,
-        };
+        let mut found = from_memory_or_anew(remembered.is_some(), |remembers| {
+            search.remembered = remembered.filter(|_| remembers);
+            closest(&mut search)
+        })?;
         if found.is_inconclusive() {
             search.precise = true;
             found = closest(&mut search)?;

@@ -130,21 +130,14 @@ impl Sensitivity {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::model::dual_search::tests::two_ellipsoids;
     use crate::model::dual_search::{DualSearch, side};
     use crate::particle::potential::Quadratic;
-
-    fn about(centre: [f64; 3], hessian: Symmetric) -> Quadratic {
-        let to_centre = Vector3::from(centre);
-        let gradient = -hessian.times(&to_centre);
-        let value = -0.5 * gradient.dot(&to_centre);
-        Quadratic { value, expansion: value, gradient, hessian, pull: 0.0, count: 0, clear: f64::INFINITY }
-    }
 
     /// The optimum of quadratics whose slope or value is changed by a little, against what the sensitivity says of it.
     #[test]
     fn the_answer_to_small_changes_is_that_of_another_solve() {
-        let q_a = about([-0.9, 0.1, 0.2], Symmetric { xx: 2.5, yx: 0.3, yy: 4.0, zx: -0.2, zy: 0.1, zz: 1.5 });
-        let q_b = about([0.95, -0.2, 0.1], Symmetric { xx: 1.8, yx: -0.1, yy: 2.0, zx: 0.4, zy: 0.5, zz: 5.0 });
+        let [q_a, q_b] = two_ellipsoids();
         let (soft, change) = ((1.0, 1.0), 1e-6_f64);
         for problem in [Problem::Midway, Problem::OnB, Problem::OnA] {
             let solve = |q_a: &Quadratic| {

@@ -7,7 +7,7 @@ use crate::flags::Flags;
 use crate::model::local_model::Start;
 use crate::model::problem::Problem;
 use crate::pair::pair::Pair;
-use crate::pair::pair_state::{LastContact, PairState, Remembered};
+use crate::pair::pair_state::{LastContact, PairState, Remembered, from_memory_or_anew};
 use crate::pair::separation::{self, Apart};
 use crate::particle::particle::Particle;
 use crate::pose::Pose;
@@ -158,12 +158,9 @@ fn anew<T>(
     };
     begin(a, b, settings, last, rejected, |pair| {
         let mut state = state;
-        let mut found = solved(pair, b.1, settings, state.as_deref_mut(), last.is_some());
-        // What is remembered may be of any other pair, and no start leads to the answer from everywhere.
-        if found.is_err() && last.is_some() {
-            found = solved(pair, b.1, settings, state, false);
-        }
-        found.map(&answer)
+        from_memory_or_anew(last.is_some(), |remembers| {
+            solved(pair, b.1, settings, state.as_deref_mut(), remembers).map(&answer)
+        })
     })
 }
 

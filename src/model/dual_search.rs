@@ -252,21 +252,25 @@ impl Optimum<Twin> {
 }
 
 #[cfg(test)]
-mod tests {
+pub(crate) mod tests {
     use super::*;
 
-    /// S of a body whose surface is an ellipsoid about a centre, seen from the origin.
-    fn about(centre: [f64; 3], hessian: Symmetric) -> Quadratic {
-        let to_centre = Vector3::from(centre);
-        let gradient = -hessian.times(&to_centre);
-        let value = -0.5 * gradient.dot(&to_centre);
-        Quadratic { value, expansion: value, gradient, hessian, pull: 0.0, count: 0, clear: f64::INFINITY }
+    /// S of two bodies whose surfaces are ellipsoids, seen from a point between them.
+    pub(crate) fn two_ellipsoids() -> [Quadratic; 2] {
+        let about = |centre: [f64; 3], hessian: Symmetric| {
+            let to_centre = Vector3::from(centre);
+            let gradient = -hessian.times(&to_centre);
+            let value = -0.5 * gradient.dot(&to_centre);
+            Quadratic { value, expansion: value, gradient, hessian, pull: 0.0, count: 0, clear: f64::INFINITY }
+        };
+        let of_a = Symmetric { xx: 2.5, yx: 0.3, yy: 4.0, zx: -0.2, zy: 0.1, zz: 1.5 };
+        let of_b = Symmetric { xx: 1.8, yx: -0.1, yy: 2.0, zx: 0.4, zy: 0.5, zz: 5.0 };
+        [about([-0.9, 0.1, 0.2], of_a), about([0.95, -0.2, 0.1], of_b)]
     }
 
     #[test]
     fn both_closest_points_in_lanes_are_those_of_the_search() {
-        let q_a = about([-0.9, 0.1, 0.2], Symmetric { xx: 2.5, yx: 0.3, yy: 4.0, zx: -0.2, zy: 0.1, zz: 1.5 });
-        let q_b = about([0.95, -0.2, 0.1], Symmetric { xx: 1.8, yx: -0.1, yy: 2.0, zx: 0.4, zy: 0.5, zz: 5.0 });
+        let [q_a, q_b] = two_ellipsoids();
         let soft = (1.0, 1.0);
         let alone = [Problem::OnA, Problem::OnB]
             .map(|problem| DualSearch::new(side(&q_a, soft.0), side(&q_b, soft.1), problem).solve(1.0).unwrap());

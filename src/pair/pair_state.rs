@@ -135,6 +135,16 @@ impl PairState {
     }
 }
 
+/// What `solve` gives from what is remembered, if anything is; where that fails, what it gives without. What is remembered may be of any
+/// other pair, and no start leads to the answer from everywhere.
+#[inline(always)]
+pub(crate) fn from_memory_or_anew<T, E>(remembers: bool, mut solve: impl FnMut(bool) -> Result<T, E>) -> Result<T, E> {
+    match solve(remembers) {
+        Err(_) if remembers => solve(false),
+        found => found,
+    }
+}
+
 impl LastContact {
     /// Whether it is one of these two particles, in numbers that may be used.
     #[inline(always)]

@@ -153,22 +153,18 @@ fn ending(solution: &Solution, bodies: [&Body; 2], goal: &Goal) -> Ending {
 impl Extended<'_> {
     fn search(&mut self, first: DoubleDouble) -> Found {
         let mut found = Found { delta: wide(&Vector3::zeros()), lambda: first, optimum: None };
-        let mut bracket = SafeguardedBracket::new();
-        let mut lambda = first;
         // The active set at the start may be that of the optimum.
         let model = self.model(&found.delta, Undecided::BySign, first);
-        if let Some(optimum) = model.quadratics(self.problem).solve(first) {
-            self.accept(&mut found, &model, optimum);
+        let at_once = model.quadratics(self.problem).solve(first);
+        if let Some(accepted) = at_once.and_then(|optimum| self.accepted(&found.delta, &model, optimum)) {
+            return accepted;
         }
+        let (mut bracket, mut lambda) = (SafeguardedBracket::new(), first);
         for _ in 0..MOST_WEIGHTS {
-            if found.optimum.is_some() {
-                break;
-            }
             let mut delta = found.delta;
             // Where the minimum is not found, the last one bounds the optimum.
             let Some((last, v)) = self.minimise(&mut delta, lambda) else { break };
-            let before = Found { delta, lambda, optimum: None };
-            found = Found { delta: delta + v, ..before };
+            found = Found { delta: delta + v, lambda, optimum: None };
             // The quadratics are those of the last step, but about another point.
             let model = self.model(&found.delta, last.undecided, lambda);
             if self.is_slack(&model) {
@@ -176,15 +172,13 @@ impl Extended<'_> {
             }
             let Some(optimum) = model.quadratics(self.problem).solve(lambda) else { break };
             let wanted = optimum.lambda;
-            if self.accept(&mut found, &model, optimum) {
-                break;
-            }
-            // By rounding a plane may have switched in the step: then they are those before it.
-            if let Some(optimum) = last.quadratics(self.problem).solve(lambda) {
-                let mut before = before;
-                if self.accept(&mut before, &last, optimum) {
-                    found = before;
-                }
+            // By rounding a plane may have switched in the step: then the quadratics are those before it.
+            let accepted = self.accepted(&found.delta, &model, optimum).or_else(|| {
+                let optimum = last.quadratics(self.problem).solve(lambda)?;
+                self.accepted(&delta, &last, optimum)
+            });
+            if let Some(accepted) = accepted {
+                return accepted;
             }
             if self.problem == Problem::OnBoundary {
                 break;
@@ -204,14 +198,11 @@ impl Extended<'_> {
         self.bodies[free].may_be_all_regularisation(value) && value_of_held < 1.0
     }
 
-    /// Goes to the optimum of a model, if the active set is the same there; whether it is.
-    fn accept(&mut self, found: &mut Found, model: &WideModel, optimum: Optimum<DoubleDouble>) -> bool {
+    /// The optimum of a model about x₀ + δ, if the active set is the same there.
+    fn accepted(&mut self, delta: &Wide, model: &WideModel, optimum: Optimum<DoubleDouble>) -> Option<Found> {
         let v = model.to_solver(&optimum.step);
-        let accepted = optimum.settled && self.keeps_active_sets(&found.delta, model.undecided, &v);
-        if accepted {
-            *found = Found { delta: found.delta + v, lambda: optimum.lambda, optimum: Some(optimum) };
-        }
-        accepted
+        let same = optimum.settled && self.keeps_active_sets(delta, model.undecided, &v);
+        same.then(|| Found { delta: delta + v, lambda: optimum.lambda, optimum: Some(optimum) })
     }
 
     fn keeps_active_sets(&mut self, delta: &Wide, undecided: Undecided, v: &Wide) -> bool {
