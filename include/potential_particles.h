@@ -472,7 +472,7 @@ typedef int32_t (*pp_placed)(void *context, const struct pp_placement *placement
 typedef struct pp_patch {
     // Sum of PP_PATCH_... bits.
     uint32_t flags;
-    // Number of rays over which was walked.
+    // Number of rays that were followed.
     uint32_t rays;
     // Estimated error of the force over its size, of the torque over |force| times the reach of the patch,
     // and of the energy, if asked for, over itself: the largest.

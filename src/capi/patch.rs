@@ -30,7 +30,7 @@ pub const PP_PATCH_EMPTY: u32 = 8;
 pub struct pp_patch {
     /// Sum of PP_PATCH_... bits.
     pub flags: u32,
-    /// Number of rays over which was walked.
+    /// Number of rays that were followed.
     pub rays: u32,
     /// Estimated error of the force over its size, of the torque over |force| times the reach of the patch,
     /// and of the energy, if asked for, over itself: the largest.
@@ -216,7 +216,7 @@ pub unsafe extern "C" fn pp_patch_on_triangle(
 /// Runs with the scratch of this thread, and writes the answer and its points.
 ///
 /// # Safety
-/// points is NULL or valid for writing `capacity` points, `count` NULL or valid for writing.
+/// As of [`with_points`].
 unsafe fn answer(
     run: impl Fn(&mut PatchScratch, &mut dyn FnMut(PatchPoint)) -> Result<Patch, PatchError>,
     out: &Output<pp_patch>,
@@ -224,30 +224,46 @@ unsafe fn answer(
     capacity: usize,
     count: *mut usize,
 ) -> Result<(), pp_status> {
+    let point_to = |point: PatchPoint| pp_patch_point {
+        position: point.position.into(),
+        area: point.area,
+        depth: point.depth,
+        normal: point.normal.into(),
+    };
+    let patch = unsafe { with_points(run, |patch| patch.points, point_to, points, capacity, count) }?;
+    out.write(patch_to(&patch));
+    Ok(())
+}
+
+/// The patch that `run` finds with the scratch of this thread, in space or in the plane: its points are handed over, their number is written, and
+/// one that has more points than there is room for is refused.
+///
+/// # Safety
+/// points is NULL or valid for writing `capacity` points, `count` NULL or valid for writing.
+pub(super) unsafe fn with_points<Patch, Point, Out>(
+    run: impl FnOnce(&mut PatchScratch, &mut dyn FnMut(Point)) -> Result<Patch, PatchError>,
+    number: impl Fn(&Patch) -> usize,
+    point_to: impl Fn(Point) -> Out,
+    points: *mut Out,
+    capacity: usize,
+    count: *mut usize,
+) -> Result<Patch, pp_status> {
     check_room(points, capacity)?;
     let count = if capacity == 0 && count.is_null() { None } else { Some(unsafe { output(count) }?) };
     let places = unsafe { outputs(points, capacity) }?;
     let mut next = 0;
-    let mut visit = |point: PatchPoint| {
+    let mut visit = |point: Point| {
         if let Some(place) = places.get_mut(next) {
-            place.write(pp_patch_point {
-                position: point.position.into(),
-                area: point.area,
-                depth: point.depth,
-                normal: point.normal.into(),
-            });
+            place.write(point_to(point));
         }
         next += 1;
     };
     let patch = SCRATCH.with_borrow_mut(|scratch| run(scratch, &mut visit)).map_err(patch_status)?;
+    let needed = number(&patch);
     if let Some(count) = count {
-        count.write(patch.points);
+        count.write(needed);
     }
-    if capacity > 0 && patch.points > capacity {
-        return Err(PP_BUFFER_TOO_SMALL);
-    }
-    out.write(patch_to(&patch));
-    Ok(())
+    if capacity > 0 && needed > capacity { Err(PP_BUFFER_TOO_SMALL) } else { Ok(patch) }
 }
 
 fn patch_to(patch: &Patch) -> pp_patch {
@@ -297,7 +313,7 @@ pub(super) fn settings(tolerance: f64, with_energy: u32) -> Result<PatchSettings
     Ok(PatchSettings { tolerance, with_energy: is_on(with_energy)? })
 }
 
-pub(super) fn patch_status(error: PatchError) -> pp_status {
+fn patch_status(error: PatchError) -> pp_status {
     match error {
         PatchError::Tolerance(_) => PP_BAD_SETTING,
         PatchError::Separated | PatchError::NotFinite => PP_BAD_POINT,

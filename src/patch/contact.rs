@@ -18,7 +18,7 @@ const DEEP: f64 = 1e-3;
 const DEEP_SPHERICITY: f64 = 1e-5;
 
 /// Overlaps within which planes are loaded first.
-const NEAR: f64 = 4.0;
+pub(super) const NEAR: f64 = 4.0;
 
 /// How a patch is computed.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,12 +1,14 @@
 //! From the potentials to the answer.
 
 use super::border::around;
+use super::cell::RayPlane;
 use super::centre::{flattest_axis, middle, on_patch};
 use super::fan::{Fan, Integral};
 use super::field::{Field, FramePlane, Placed};
 use super::patch::{Patch, PatchFlags, PatchPoint};
-use super::pieces::pieces as in_zones;
+use super::pieces::{PieceScratch, pieces};
 use super::ray::{Line, Node, Walker};
+use super::rules::order_of;
 use super::scratch::PatchScratch;
 use super::smoothness::norm;
 use nalgebra::{Matrix3, Vector3};
@@ -51,34 +53,13 @@ pub(super) fn patch(task: &Task, scratch: &mut PatchScratch, mut visit: impl FnM
     let start = on_patch(&mut field, 0.0, 0.0, 0.0).unwrap_or_default();
     let deepest = field.values(&start)[0].0;
     let state = field.state();
-    let by_fan = task.with_energy || task.tolerance < FINEST_OF_PIECES;
-    let in_pieces = if by_fan { None } else { in_zones(&mut field, &start, task.tolerance, pieces, points) };
-    let mut outcome = Outcome::default();
-    let in_pieces = in_pieces.or_else(|| {
-        let (level, polygon) = pieces.flat().filter(|_| !by_fan)?;
-        let order = if task.tolerance >= 1e-5 { 3 } else { 5 };
-        let (budget, with_energy) = (f64::INFINITY, false);
-        let mut walker = Walker { field: &mut field, planes: ray_planes, nodes, order, with_energy, budget };
-        around(&mut walker, level, polygon, task.tolerance, points)
-    });
-    if let Some(estimate) = in_pieces {
-        let force = points.iter().map(|node| node.weight * node.pressure * vector(node)).sum::<Vector3<f64>>().norm();
-        outcome.rays = estimate.rays;
-        outcome.error = estimate.force / force;
-        outcome.area_error = estimate.area / points.iter().map(|node| node.weight).sum::<f64>();
-    } else {
+    let outcome = in_parts(task, &mut field, start, (ray_planes, nodes), pieces, points).unwrap_or_else(|| {
         field.restore(state);
-        let walker = Walker {
-            field: &mut field,
-            planes: ray_planes,
-            nodes,
-            order: 2,
-            with_energy: false,
-            budget: f64::INFINITY,
-        };
+        let (order, budget, with_energy) = (2, f64::INFINITY, false);
+        let walker = Walker { field: &mut field, planes: ray_planes, nodes, order, with_energy, budget };
         let mut fan = Fan::new(walker, rays, sectors, stack, [0.0; 3], task.tolerance);
-        outcome = spread(task, &mut fan, start, points);
-    }
+        spread(task, &mut fan, start, points)
+    });
     let mut flags = task.flags;
     let is_empty = points.is_empty() || !outcome.error.is_finite();
     flags.set(PatchFlags::EMPTY, is_empty);
@@ -105,6 +86,34 @@ struct Outcome {
     energy: f64,
     is_folded: bool,
     rays: usize,
+}
+
+/// In zones that need no search or, where those do not suffice, by rays around the flat part; `None` where that is not possible either, or the
+/// fan is asked for: with the energy, and by the finest tolerances.
+fn in_parts(
+    task: &Task,
+    field: &mut Field,
+    start: [f64; 3],
+    (ray_planes, nodes): (&mut Vec<RayPlane>, &mut Vec<Node>),
+    scratch: &mut PieceScratch,
+    points: &mut Vec<Node>,
+) -> Option<Outcome> {
+    if task.with_energy || task.tolerance < FINEST_OF_PIECES {
+        return None;
+    }
+    let estimate = pieces(field, &start, task.tolerance, scratch, points).or_else(|| {
+        let (level, polygon) = scratch.flat()?;
+        let (order, budget, with_energy) = (order_of(task.tolerance), f64::INFINITY, false);
+        let mut walker = Walker { field, planes: ray_planes, nodes, order, with_energy, budget };
+        around(&mut walker, level, polygon, task.tolerance, points)
+    })?;
+    let force = points.iter().map(|node| node.weight * node.pressure * vector(node)).sum::<Vector3<f64>>().norm();
+    Some(Outcome {
+        error: estimate.force / force,
+        area_error: estimate.area / points.iter().map(|node| node.weight).sum::<f64>(),
+        rays: estimate.rays,
+        ..Outcome::default()
+    })
 }
 
 /// Integrates by a fan of rays and copies its points.

@@ -49,7 +49,7 @@ pub struct Patch {
     pub flags: PatchFlags,
     /// Number of points of quadrature.
     pub points: usize,
-    /// Number of rays over which was walked.
+    /// Number of rays that were followed.
     pub rays: usize,
 }
 

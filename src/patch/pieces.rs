@@ -5,6 +5,7 @@ use super::chart::{Chart, Flat, Vector, Wave, normal, radius};
 use super::field::{Field, Owner};
 use super::polygon::{Corner, Level, OPEN, cut, integrate};
 use super::ray::{Node, RIM};
+use super::rules::FINE;
 use super::zone::{Cap, Disc, End, Strip, Third};
 
 /// Buffers.
@@ -22,9 +23,6 @@ const RULES: [[usize; 5]; 5] =
 
 /// Part of the tolerance that the pieces may take.
 const SHARE: f64 = 0.9;
-
-/// Finest tolerance at which the error of a rule is taken for less than its difference to a coarser one, and edges are made of zones.
-const FINEST: f64 = 1e-5;
 
 /// Bodies with no more planes than this together are loaded at once.
 const FEW: usize = 48;
@@ -183,7 +181,7 @@ impl Piece {
         let off = [0, 1, 2].map(|i| fine[i] - coarse[i]);
         let (off, size) = (Vector::from(off).norm(), Vector::new(fine[0], fine[1], fine[2]).norm());
         // Between one point and two the difference does not tell how fast it falls.
-        let is_plain = tolerance < FINEST || matches!(self.kind, Kind::Cap(_)) && cap == 2;
+        let is_plain = tolerance < FINE || matches!(self.kind, Kind::Cap(_)) && cap == 2;
         let least = if is_plain { 1.0 } else { 0.02 };
         let of = |off: f64, size: f64| if off > 0.0 { off * (3.0 * off / size).clamp(least, 1.0) } else { 0.0 };
         Some((of(off, size), of((fine[3] - coarse[3]).abs(), fine[3])))
@@ -340,7 +338,7 @@ impl Builder<'_, '_, '_> {
                     let flats: &[usize] = if others.is_empty() { &[usize::MAX] } else { others };
                     for &j in flats {
                         if self.edge(i, a, Some(j).filter(|j| *j != usize::MAX), start)? {
-                            return (tolerance >= FINEST).then_some(());
+                            return (tolerance >= FINE).then_some(());
                         }
                     }
                 }

@@ -1,10 +1,11 @@
 //! The patch of two particles of the plane: a curve, walked over to both sides of the contact point.
 
 use super::centre::on_patch;
-use super::contact::{PatchError, PatchSettings, checked, least_sphericity};
+use super::contact::{NEAR, PatchError, PatchSettings, checked, least_sphericity};
 use super::field::{Field, Placed};
 use super::patch::PatchFlags;
 use super::ray::{Line, Node, Ray, SUMS, Walker};
+use super::rules::order_of;
 use super::scratch::PatchScratch;
 use crate::planar::{Contact, Particle, Pose};
 use nalgebra::{Matrix3, Vector2, Vector3};
@@ -96,7 +97,7 @@ pub fn patch_of_contact(
         Placed::new(a.in_space(), &pose_a.in_space(), &branches[0], &frame, least),
         Placed::new(b.in_space(), &pose_b.in_space(), &branches[1], &frame, least),
     );
-    let mut field = Field::new(bodies.0, Some(bodies.1), &[], 4.0 * contact.overlap, planes);
+    let mut field = Field::new(bodies.0, Some(bodies.1), &[], NEAR * contact.overlap, planes);
     field.is_planar = true;
     let start = on_patch(&mut field, 0.0, 0.0, 0.0).unwrap_or_default();
     let deepest = field.values(&start)[0].0;
@@ -104,7 +105,7 @@ pub fn patch_of_contact(
         field: &mut field,
         planes: ray_planes,
         nodes,
-        order: if settings.tolerance >= 1e-5 { 3 } else { 5 },
+        order: order_of(settings.tolerance),
         with_energy: settings.with_energy,
         budget: f64::INFINITY,
     };

@@ -46,6 +46,15 @@ fn computed(points: usize) -> Gauss {
     Gauss { nodes, at_end }
 }
 
+/// Tolerance below which rules of few points are not trusted: the error of a rule then counts as much as its difference to a coarser one,
+/// and edges are not made of zones.
+pub(super) const FINE: f64 = 1e-5;
+
+/// Points in a cell of a ray that starts on the rim of a flat part, or of one of the plane.
+pub(super) fn order_of(tolerance: f64) -> usize {
+    if tolerance >= FINE { 3 } else { 5 }
+}
+
 /// Gauss' rule of 3 points and its extension by Kronrod to 7, on [0, 1]: point, weight among 3, weight among 7. The first is the
 /// middle, the first three are Gauss' own.
 pub(super) const GAUSS_KRONROD: [(f64, f64, f64); 7] = [

@@ -4,12 +4,11 @@ use super::convert::pose_from;
 use super::particle::pp_particle_2d;
 use super::types::{pp_contact_2d, pp_pose_2d};
 use crate::PatchScratch;
-use crate::capi::fence::{borrow, check_room, fenced, output, outputs};
-use crate::capi::patch::{kind, patch_status, settings};
+use crate::capi::fence::{borrow, fenced, output};
+use crate::capi::patch::{kind, settings, with_points};
 use crate::capi::status::*;
 use crate::contact::contact as space;
 use crate::planar::{Contact, PatchPoint, patch_of_contact};
-use std::cell::RefCell;
 
 /// The contact patch of two particles of the plane, a curve: the fields of struct pp_patch, with lengths in
 /// place of areas, all per unit of thickness.
@@ -62,10 +61,6 @@ pub struct pp_patch_point_2d {
     pub normal: [f64; 2],
 }
 
-thread_local! {
-    static SCRATCH: RefCell<PatchScratch> = RefCell::new(PatchScratch::new());
-}
-
 /// The patch of an overlapping contact of two particles of the plane. As pp_patch_of_contact.
 ///
 /// Errors: those of pp_patch_of_contact.
@@ -98,30 +93,17 @@ pub unsafe extern "C" fn pp_patch_of_contact_2d(
             ..Contact::from(space::Contact::UNKNOWN)
         };
         let out = unsafe { output(patch) }?;
-        check_room(points, capacity)?;
-        let count = if capacity == 0 && count.is_null() { None } else { Some(unsafe { output(count) }?) };
-        let places = unsafe { outputs(points, capacity) }?;
-        let mut next = 0;
-        let visit = |point: PatchPoint| {
-            if let Some(place) = places.get_mut(next) {
-                place.write(pp_patch_point_2d {
-                    position: point.position.into(),
-                    length: point.length,
-                    depth: point.depth,
-                    normal: point.normal.into(),
-                });
-            }
-            next += 1;
+        let run = |scratch: &mut PatchScratch, visit: &mut dyn FnMut(PatchPoint)| {
+            patch_of_contact(a, &pose_a, b, &pose_b, &contact, &settings, scratch, visit)
         };
-        let patch = SCRATCH
-            .with_borrow_mut(|scratch| patch_of_contact(a, &pose_a, b, &pose_b, &contact, &settings, scratch, visit))
-            .map_err(patch_status)?;
-        if let Some(count) = count {
-            count.write(patch.points);
-        }
-        if capacity > 0 && patch.points > capacity {
-            return Err(PP_BUFFER_TOO_SMALL);
-        }
+        let point_to = |point: PatchPoint| pp_patch_point_2d {
+            position: point.position.into(),
+            length: point.length,
+            depth: point.depth,
+            normal: point.normal.into(),
+        };
+        // SAFETY: as the caller has promised.
+        let patch = unsafe { with_points(run, |patch| patch.points, point_to, points, capacity, count) }?;
         out.write(pp_patch_2d {
             flags: patch.flags.bits(),
             reserved: 0,
