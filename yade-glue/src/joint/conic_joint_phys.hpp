@@ -28,6 +28,12 @@ public:
     double couple = 0;
     bool isSliding = false;
 
+    // Of the springs along the joint, with this displacement and turn.
+    double springEnergy(const yade::Vector3r& displacement, double turn) const
+    {
+        return 0.5 * (ks * displacement.squaredNorm() + twistStiffness * turn * turn);
+    }
+
     template <class Visit> static void eachAttribute(Visit&& visit)
     {
         using P = ConicJointPhys;

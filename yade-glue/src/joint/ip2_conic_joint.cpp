@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "registration/definitions.hpp"
+#include "registration/attributes.hpp"
 
 #include "abi/scgeom.hpp"
 #include "conic_joint_mat.hpp"
@@ -35,24 +35,8 @@ namespace {
 
 Ip2::~Ip2_ConicJointMat_ConicJointMat_ConicJointPhys() = default;
 PP_FUNCTOR_2D_DEFINITIONS(Ip2_ConicJointMat_ConicJointMat_ConicJointPhys)
-int Ip2::getBaseClassNumber() const { return 1; }
-void Ip2::pySetAttr(const std::string& key, const py::object& value) { IPhysFunctor::pySetAttr(key, value); }
-py::dict Ip2::pyDict() const { return IPhysFunctor::pyDict(); }
+PP_ATTRIBUTE_DEFINITIONS(Ip2_ConicJointMat_ConicJointMat_ConicJointPhys, IPhysFunctor)
 void Ip2::callPostLoad() { IPhysFunctor::callPostLoad(); }
-
-void Ip2::pyRegisterClass(py::object scope)
-{
-    checkPyClassRegistersItself(Entry<Ip2>::name);
-    const py::scope inside(scope);
-    const auto style = docstringStyle();
-    registerClass<Ip2, yade::IPhysFunctor>();
-}
-
-template <class Archive> void Ip2::serialize(Archive& archive, unsigned version)
-{
-    requireReadable<Ip2>(version);
-    serializeBase<yade::IPhysFunctor>(archive, *this, "IPhysFunctor");
-}
 
 void Ip2::go(const boost::shared_ptr<yade::Material>& material1, const boost::shared_ptr<yade::Material>& material2,
              const boost::shared_ptr<yade::Interaction>& interaction)

@@ -23,6 +23,8 @@ public:
     void go(const boost::shared_ptr<yade::Material>& material1, const boost::shared_ptr<yade::Material>& material2,
             const boost::shared_ptr<yade::Interaction>& interaction) override;
 
+    template <class Visit> static void eachAttribute(Visit&&) { }
+
 private:
     friend class boost::serialization::access;
     template <class Archive> void serialize(Archive& archive, unsigned);

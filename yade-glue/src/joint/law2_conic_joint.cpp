@@ -30,8 +30,14 @@ namespace {
         Vector3r force, moment;
     };
 
-    // The resistance of a bed of dashpots to the approach of the bodies, per area 2 z sqrt(m K/A), m the mass that the
-    // centre of pressure moves along the normal. It pulls nowhere more than the springs push.
+    // Of dashpots beside springs of this stiffness, per area: 2 z sqrt(m K/A), m = 1/mobility the mass that the centre of pressure
+    // moves; 0 where it moves none.
+    double dashpotPerArea(const ConicJointPhys& phys, double stiffness, double mobility, double area)
+    {
+        return mobility > 0 ? 2 * phys.dampingRatio * std::sqrt(stiffness / (mobility * area)) : 0;
+    }
+
+    // The resistance of a bed of dashpots to the approach of the bodies. It pulls nowhere more than the springs push.
     Wrench dashpot(const ConicJointPhys& phys, const yade::ScGeom& geom, const ContactPatch& patch, const MovingBody& one,
                    const MovingBody& other)
     {
@@ -39,7 +45,7 @@ namespace {
         const double mobility = one.mobility(geom.contactPoint, n) + other.mobility(geom.contactPoint, n);
         if (!(mobility > 0))
             return { Vector3r::Zero(), Vector3r::Zero() };
-        const double perArea = 2 * phys.dampingRatio * std::sqrt(phys.normalStiffness / (mobility * patch.area));
+        const double perArea = dashpotPerArea(phys, phys.normalStiffness, mobility, patch.area);
         const Vector3r centre = geom.contactPoint + patch.centroid;
         const double opening = (other.velocityAt(centre) - one.velocityAt(centre)).dot(n);
         const Vector3r tilting = n.cross(other.spin() - one.spin());
@@ -63,7 +69,7 @@ bool Law::go(boost::shared_ptr<yade::IGeom>& geometry, boost::shared_ptr<yade::I
     const bool apart = geom.penetrationDepth < 0;
     if (apart || !own || !(own->patch.area > 0)) {
         if (scene->trackEnergy)
-            track({ 0, 0, 0, 0.5 * (phys.ks * phys.shearDisplacement.squaredNorm() + phys.twistStiffness * phys.twist * phys.twist) });
+            track({ 0, 0, 0, phys.springEnergy(phys.shearDisplacement, phys.twist) });
         phys.normalForce = phys.shearForce = phys.shearDisplacement = Vector3r::Zero();
         phys.kn = phys.ks = phys.twist = phys.twistStiffness = phys.twistMoment = phys.couple = 0;
         phys.isSliding = false;
@@ -80,7 +86,7 @@ bool Law::go(boost::shared_ptr<yade::IGeom>& geometry, boost::shared_ptr<yade::I
     const double pressing = phys.normalStiffness * patch.force + damping.force.dot(n);
 
     // The springs of the joint take along what they hold; where the patch grows or shrinks, springs join and leave.
-    const double formerEnergy = 0.5 * (phys.ks * phys.shearDisplacement.squaredNorm() + phys.twistStiffness * phys.twist * phys.twist);
+    const double formerEnergy = phys.springEnergy(phys.shearDisplacement, phys.twist);
     Vector3r shear = phys.shearDisplacement;
     if (const double length = shear.norm(); length > 0) {
         geom.rotate(shear);
@@ -91,7 +97,7 @@ bool Law::go(boost::shared_ptr<yade::IGeom>& geometry, boost::shared_ptr<yade::I
     phys.kn = phys.normalStiffness * patch.area;
     phys.ks = phys.shearStiffness * patch.area;
     phys.twistStiffness = phys.shearStiffness * patch.polarMoment;
-    const double energyWithArea = 0.5 * (phys.ks * shear.squaredNorm() + phys.twistStiffness * phys.twist * phys.twist);
+    const double energyWithArea = phys.springEnergy(shear, phys.twist);
     const double spin = (other.spin() - one.spin()).dot(n);
     shear += geom.shearInc;
     double twist = phys.twist + spin * scene->dt;
@@ -122,7 +128,7 @@ bool Law::go(boost::shared_ptr<yade::IGeom>& geometry, boost::shared_ptr<yade::I
         if (!phys.isSliding) {
             const Vector3r direction = geom.shearInc.norm() > 0 ? Vector3r(geom.shearInc.normalized()) : n.unitOrthogonal();
             const double mobility = one.mobility(geom.contactPoint, direction) + other.mobility(geom.contactPoint, direction);
-            const double perArea = mobility > 0 ? 2 * phys.dampingRatio * std::sqrt(phys.shearStiffness / (mobility * patch.area)) : 0;
+            const double perArea = dashpotPerArea(phys, phys.shearStiffness, mobility, patch.area);
             Vector3r total = phys.shearForce - perArea * patch.area / scene->dt * geom.shearInc;
             if (total.norm() > most)
                 total *= most / total.norm();
@@ -133,7 +139,7 @@ bool Law::go(boost::shared_ptr<yade::IGeom>& geometry, boost::shared_ptr<yade::I
         }
     }
     if (scene->trackEnergy) {
-        const double elastic = phys.normalStiffness * patch.energy + 0.5 * (phys.ks * shear.squaredNorm() + phys.twistStiffness * twist * twist);
+        const double elastic = phys.normalStiffness * patch.energy + phys.springEnergy(shear, twist);
         track({ elastic, friction, viscous, formerEnergy - energyWithArea });
     }
 
