@@ -76,7 +76,7 @@ pub struct Triangle {
 const FLAT: f64 = 16.0 * f64::EPSILON;
 
 /// The same sine below which the normal is taken from numbers of 32 digits: the rounding of the sides, over the sine, turns it.
-const NARROW: f64 = 0.1;
+const NARROW: f64 = 0.5;
 
 impl Triangle {
     /// With these vertices.
