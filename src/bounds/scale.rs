@@ -61,6 +61,11 @@ impl Scale {
         !(self.s - self.gap >= 1.0 || self.s + self.gap <= 1.0 || self.gap <= most)
     }
 
+    /// Whether it proves on which side of 1 s lies.
+    pub fn tells_the_side(&self) -> bool {
+        (self.s - 1.0).abs() > self.gap
+    }
+
     /// Whether s cannot be told from 0, as where a constraint is slack.
     pub fn may_be_zero(&self) -> bool {
         !(self.low > 0.0)

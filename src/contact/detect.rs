@@ -220,8 +220,8 @@ fn solved(
     let points = if settings.formulation == Formulation::Closest { call.closest(&midway)? } else { None };
     let local = match &points {
         Some(points) => {
-            // By rounding, midway and closest may lie on different sides of 1: the kind is that of the scales that are answered.
-            remembered.overlapping = closest::is_overlap(points);
+            // By rounding, midway and closest may lie on different sides of 1. Where midway does not tell, the scales that are answered do.
+            remembered.overlapping = if scale.tells_the_side() { overlapping } else { closest::is_overlap(points) };
             remembered = closest::seen_from(remembered, values, points);
             LocalContact::closest(pair, points, settings.weight_on_a, remembered.overlapping)
         }

@@ -3,8 +3,7 @@
 import math
 
 import potential_particles
-from potential_particles import boundaries, packing, shapes
-from scene import O, add, block_shape, fastest, fresh, moving, run, spun, wall
+from scene import O, add, block_shape, fastest, fresh, run, spun, wall
 from yade import Quaternion, Vector3, utils
 
 K = 1e9  # stiffness per area, N/m^3
@@ -59,19 +58,6 @@ def tiles():
             O.step()
             forces[width].append(O.forces.f(cube.id)[2])
     return {"value": max(abs(a / b - 1) for a, b in zip(*forces.values())), "target": 1e-9}
-
-
-def pile(patch=True, seconds=2.5):
-    """Unbalanced force of 50 cubes in a box after 2.5 s."""
-    fresh(patch=patch, damping=0.3, young=1e8, poisson=0.3, frictionAngle=0.5, **({"restitution": 0.5} if patch else {}))
-    cube = shapes.cuboid((0.15, 0.15, 0.15))
-    for place in potential_particles.pack(packing.Box((-0.3, -0.3, 0), (0.3, 0.3, 2.6)), [cube], number=50):
-        potential_particles.add_packing([place])
-    O.bodies.append(boundaries.box_walls((-0.3, -0.3, 0), (0.3, 0.3, 2.6)))
-    O.dt = 1.5e-4
-    took = run(seconds)
-    return {"value": utils.unbalancedForce(), "target": 1e-5, "seconds": took, "kinetic_energy": utils.kineticEnergy(),
-            "bodies": len(moving())}
 
 
 def lintel(share=1.05, seconds=1.5):
@@ -135,4 +121,4 @@ def step_time(number=2000, falling_steps=60, rest_steps=60):
     return {"value": rest, "target": 1.8, "falling": falling, "falling_target": 4.0, "seconds_at_rest": seconds[True][1]}
 
 
-ROWS = {row.__name__: row for row in (face, spin, tiles, pile, lintels, stack, step_time)}
+ROWS = {row.__name__: row for row in (face, spin, tiles, lintels, stack, step_time)}

@@ -10,12 +10,14 @@ from pathlib import Path
 HERE = Path(sys.argv[0]).resolve().parent
 sys.path[:0] = [str(HERE), str(HERE.parent)]
 
+import buildings  # noqa: E402
 import impacts  # noqa: E402
+import piles  # noqa: E402
 import rows  # noqa: E402
 from summary import print_table, write_summary  # noqa: E402
 
 
-ROWS = rows.ROWS | impacts.ROWS
+ROWS = rows.ROWS | impacts.ROWS | piles.ROWS | buildings.ROWS
 
 
 def targets(name, row):
