@@ -268,7 +268,8 @@ impl Search<'_> {
         let others = [1, 2].map(|i| triangle.vertices[(vertex + i) % 3]);
         let corner = BoundaryPart::Corner { at: triangle.vertices[vertex], others };
         let least = self.on_part(&PlacedPart::new(corner, self.pose), Vector2::zeros())?;
-        let from_line = if end == nearest && inside[end] >= 0.0 { inside[end] + of_line.shift() } else { f64::INFINITY };
+        let from_line =
+            if end == nearest && inside[end] >= 0.0 { inside[end] + of_line.shift() } else { f64::INFINITY };
         Ok(OnEdge { least, feature: Feature::Vertex(vertex as u8), of_line, from_line })
     }
 
