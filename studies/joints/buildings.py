@@ -1,0 +1,151 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Buildings of blocks that are pushed sideways: below their limit they come to rest, above it they fall."""
+import math
+
+import numpy as np
+import potential_particles
+from limit_analysis import Joint, largest_load
+from potential_particles import shapes
+from scene import O, fastest, fresh, run
+from yade import Vector3
+
+FRICTION, DENSITY, GRAVITY = 0.7, 2000.0, 9.81
+ROUNDING = 2e-3  # of the edges, m
+K = 1e9  # stiffness per area, N/m^3
+STEP = 5e-5  # s, a fifth of the limit of the joints that there are
+
+
+class Building:
+    """Stones as convex hulls of corners, the fixed ones last, and the joints between them."""
+
+    def __init__(self, stones, fixed, joints, directions):
+        self.stones, self.fixed, self.joints = [np.asarray(one, float) for one in stones], [np.asarray(one, float) for one in fixed], joints
+        self.directions = directions
+        made = [self.shape(one) for one in self.stones]
+        self.centroids = np.array([shape.centroid for shape in made])
+        self.weights = np.array([shape.volume * DENSITY * GRAVITY for shape in made])
+
+    @staticmethod
+    def shape(corners):
+        size = 2 * potential_particles.polyhedron.Polyhedron.of_points(corners).ball_radius
+        return shapes.from_vertices(corners, r=ROUNDING / size, k=0)
+
+    def limit(self):
+        """The horizontal acceleration in `directions`, over gravity, at which it falls."""
+        return largest_load(self.centroids, self.weights, self.joints, FRICTION, np.outer(self.weights, self.directions))
+
+    def pushed(self, acceleration, seconds=2.0, patch=True):
+        """How far stones are off after the acceleration has come up slowly and stayed for a time, m, and the fastest one, m/s."""
+        fresh(patch=patch, damping=0.2, normalStiffness=K, shearStiffness=K / 2, frictionAngle=math.atan(FRICTION), restitution=0.5)
+        stones = [O.bodies[O.bodies.append(potential_particles.body(self.shape(one)))] for one in self.stones]
+        for one in self.fixed:
+            O.bodies.append(potential_particles.body(self.shape(one), fixed=True))
+        O.dt = STEP
+        O.engines[-1].gravity = Vector3(0, 0, 0)
+        run(2 * O.dt)
+        for part in range(1, 21):
+            O.engines[-1].gravity = Vector3(0, 0, -GRAVITY * part / 20)
+            run(0.02)
+        run(0.3)
+        begin = [Vector3(stone.state.pos) for stone in stones]
+        for part in range(1, 101):
+            O.engines[-1].gravity = GRAVITY * Vector3(*(acceleration * part / 100 * x for x in self.directions)) - Vector3(0, 0, GRAVITY)
+            run(0.015)
+        run(seconds)
+        return max((stone.state.pos - place).norm() for stone, place in zip(stones, begin)), fastest()
+
+
+def brick(x, z, length=0.4, width=0.2, height=0.2, y=0.0):
+    """The corners of a brick whose lowest corner is at x, z, about y = 0."""
+    return np.array([(x + i * length, y + (j - 0.5) * width, z + k * height) for i in (0, 1) for j in (0, 1) for k in (0, 1)])
+
+
+def bed_joints(stones, fixed):
+    """Joints between bricks that lie on each other: where the flat parts of both faces meet."""
+    every, joints = stones + fixed, []
+    for lower, below in enumerate(every):
+        for upper, above in enumerate(stones):
+            if abs(below[:, 2].max() - above[:, 2].min()) > 1e-9:
+                continue
+            low = np.maximum(below.min(0), above.min(0))[:2] + ROUNDING
+            high = np.minimum(below.max(0), above.max(0))[:2] - ROUNDING
+            if (high > low).all():
+                z = above[:, 2].min()
+                joints.append(Joint(lower, upper, [(x, y, z) for x in (low[0], high[0]) for y in (low[1], high[1])], (0, 0, 1)))
+    return joints
+
+
+def wall():
+    """3 bricks wide and 8 courses high, with open head joints."""
+    gap, stones = 0.004, []
+    for course in range(8):
+        ends = (0, 0.4, 0.8, 1.2) if course % 2 == 0 else (0, 0.2, 0.6, 1.0, 1.2)
+        stones += [brick(a + gap / 2, 0.2 * course, b - a - gap) for a, b in zip(ends, ends[1:])]
+    fixed = [brick(-0.2, -0.2, 1.6, width=0.4)]
+    return Building(stones, fixed, bed_joints(stones, fixed), (1, 0, 0))
+
+
+def portal():
+    """A beam on two pillars of four blocks."""
+    stones = [brick(x, 0.2 * course, 0.15) for x in (0, 0.65) for course in range(4)] + [brick(-0.05, 0.8, 0.9, height=0.12)]
+    fixed = [brick(-0.2, -0.2, 1.2, width=0.4)]
+    return Building(stones, fixed, bed_joints(stones, fixed), (1, 0, 0))
+
+
+def tower():
+    """Bricks laid crosswise, pushed along neither of them."""
+    stones = [brick(0, 0.1 * course, 0.3, 0.2, 0.1) if course % 2 == 0 else brick(0.05, 0.1 * course, 0.2, 0.3, 0.1) for course in range(8)]
+    fixed = [brick(-0.2, -0.2, 0.7, width=0.7)]
+    return Building(stones, fixed, bed_joints(stones, fixed), (math.cos(0.5), math.sin(0.5), 0))
+
+
+def arch(stones=12, thickness=1.3 * 0.1075, depth=0.14, radius=1.0):
+    """A round arch of 1.3 times its least thickness, pushed out of its plane."""
+    inner, outer = radius - thickness / 2, radius + thickness / 2
+    angles = np.pi * np.arange(stones + 1) / stones
+
+    def point(distance, angle, side):
+        return distance * math.cos(angle), side * depth / 2, distance * math.sin(angle)
+
+    blocks = [[point(d, a, s) for d in (inner, outer) for a in angles[i:i + 2] for s in (-1, 1)] for i in range(stones)]
+    fixed = [brick(side - thickness, -0.2, 2 * thickness, width=2 * depth) for side in (-radius, radius)]
+    joints = []
+    for i, angle in enumerate(angles):
+        corners = [point(d, angle, s) for d in (inner + ROUNDING, outer - ROUNDING) for s in (-1 + 2 * ROUNDING / depth, 1 - 2 * ROUNDING / depth)]
+        first, second = (i - 1) if i else stones + 1, i if i < stones else stones
+        joints.append(Joint(first, second, corners, (-math.sin(angle), 0, math.cos(angle))))
+    return Building(blocks, fixed, joints, (0, 1, 0))
+
+
+def _row(building, below=0.98, above=1.02):
+    limit = building.limit()
+    stands, falls = building.pushed(below * limit), building.pushed(above * limit)
+    return {"value": stands[1], "target": 1e-6, "limit": limit, "moved_standing": stands[0], "moved_falling": falls[0],
+            "falls": stands[0] < 5e-3 and falls[0] > 0.05}
+
+
+def pushed_wall():
+    """A wall of 3 x 8 bricks 2 % below and above the limit of a push along it: speed below, m/s."""
+    return _row(wall())
+
+
+def pushed_portal():
+    """A beam on two pillars."""
+    return _row(portal())
+
+
+def pushed_tower():
+    """Bricks laid crosswise."""
+    return _row(tower())
+
+
+def pushed_arch():
+    """A round arch of 1.3 times its least thickness under 0.02 g across it: speed, m/s; and 2 % above its limit."""
+    building = arch()
+    limit = building.limit()
+    stands, falls = building.pushed(0.02), building.pushed(1.02 * limit)
+    return {"value": stands[1], "target": 1e-6, "limit": limit, "moved_standing": stands[0], "moved_falling": falls[0],
+            "falls": stands[0] < 5e-3 and falls[0] > 0.05}
+
+
+ROWS = {row.__name__: row for row in (pushed_wall, pushed_portal, pushed_tower, pushed_arch)}
