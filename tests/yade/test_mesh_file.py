@@ -115,5 +115,59 @@ for path, words in [(os.path.join(folder, "none.stl"), "is no file"), (folder, "
                     (text("huge.stl", b"\0" * 80 + struct.pack("<I", 2**32 - 1), "wb"), "huge.stl"),
                     (text("nan.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv nan nan 1\nf 1 2 3\nf 1 2 4\nf 2 3 4\nf 1 3 4\n"), "nan.obj")]:
     check.raises(ValueError, lambda: shapes.from_mesh(path), f"unreadable: {words}", words)
+# Numbers that do not fit each other, which would end the process in a reader.
+corners, sides = np.array([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)], float), [(0, 2, 1), (0, 1, 3), (1, 2, 3), (0, 3, 2)]
+tetrahedron = {kind: open(write(kind, corners, sides, "tetrahedron"), "rb").read() for kind in ("stl binary", "stl", "obj", "gts")}
+for name, kind, old, new, words in [
+    ("index.obj", "obj", b"f 1 3 2", b"f 1 3 99999999", "names v 99999999, and there are 4"),
+    ("zero.obj", "obj", b"f 1 3 2", b"f 0 3 2", "names v 0"),
+    ("behind.obj", "obj", b"f 1 3 2", b"f -5 3 2", "names v -5"),
+    ("normal.obj", "obj", b"f 1 3 2", b"f 1//1 3//2 2//9", "names vn 1, and there are 0"),
+    ("claims.stl", "stl binary", struct.pack("<I", 4), struct.pack("<I", 10**9), "states 1000000000 triangles, and its 284 bytes hold 4"),
+    ("fewer.stl", "stl binary", struct.pack("<I", 4), struct.pack("<I", 3), "states 3 triangles"),
+    ("corner.stl", "stl", b"endloop", b"vertex 1 2 3\nendloop", "4 facets have 13 vertices"),
+    ("negative.gts", "gts", b"4 6 4", b"4 6 -3", "4 vertices, 6 edges and -3 faces"),
+    ("many.gts", "gts", b"4 6 4", b"4 1000000000 4", "1000000000 edges"),
+    ("edge.gts", "gts", b"\n1 2\n", b"\n1 7\n", "vertex 7 is named, and there are 4"),
+]:
+    broken = text(name, tetrahedron[kind].replace(old, new, 1), "wb")
+    check.raises(ValueError, lambda: shapes.from_mesh(broken), name, words)
+
+# Files with random damage: a shape, or an error of one sentence. PP_MESH_FILES sets how many of each kind.
+seed = int.from_bytes(os.urandom(4), "little")
+random = np.random.default_rng(seed)
+
+
+def damaged(content):
+    content = bytearray(content)
+    for _ in range(random.integers(1, 4)):
+        where, way = int(random.integers(len(content))), random.integers(5)
+        if way == 0:
+            content[where] = random.integers(256)
+        elif way == 1:
+            del content[where:where + int(random.integers(1, 20))]
+        elif way == 2:
+            content[where:where] = content[where:where + int(random.integers(1, 60))]
+        elif way == 3:
+            content[where:where] = str(random.choice([-1, 0, 7, 2**31, -2**31, 2**63, "1e308", "nan", "/", " "])).encode()
+        else:
+            content[80:84] = struct.pack("<I", random.integers(2**32))
+        content = content or bytearray(b" ")
+    return bytes(content)
+
+
+refused = {}
+for kind, content in tetrahedron.items():
+    for i in range(int(os.environ.get("PP_MESH_FILES", 150))):
+        broken = text("damaged." + kind.split()[0], damaged(content), "wb")
+        try:
+            shapes.from_mesh(broken, hull=bool(i % 2))
+        except ValueError as error:
+            refused[kind] = refused.get(kind, 0) + 1
+            if "damaged" not in str(error):
+                check.true(False, f"seed {seed}, {kind}, file {i}: the error names no file: {error}")
+        except Exception as error:
+            check.true(False, f"seed {seed}, {kind}, file {i}: {error!r}")
+check.true(min(refused.get(kind, 0) for kind in tetrahedron) > 20, f"damaged files are refused, seed {seed}: {refused}")
 check.raises(ValueError, lambda: shapes.from_mesh(write("stl", points, triangles), scale=0), "scale", "scale=0")
 check.finish()

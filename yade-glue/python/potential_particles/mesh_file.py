@@ -6,6 +6,8 @@ import numpy as np
 from scipy.spatial import ConvexHull
 
 from .arguments import positive
+from .gts_file import read_gts
+from .mesh_check import refuse_misstated
 from .polyhedron import COPLANAR, refuse_flat
 from .rounding import ROUNDING, SPHERICITY
 from .solids import rounded_hull
@@ -92,6 +94,7 @@ def _place(point):
 
 
 def _by_vtk(file, kind):
+    refuse_misstated(file, kind)
     from vtkmodules.util.numpy_support import vtk_to_numpy
     from vtkmodules.vtkCommonCore import vtkObject
     from vtkmodules.vtkFiltersCore import vtkCleanPolyData, vtkTriangleFilter
@@ -127,12 +130,7 @@ def _by_vtk(file, kind):
 
 
 def _by_gts(file, kind):
-    import gts
     try:
-        with open(file) as opened:
-            surface = gts.read(opened)
-    except (RuntimeError, OSError, UnicodeDecodeError, SystemError) as error:
+        return read_gts(file)
+    except (OSError, ValueError) as error:
         raise ValueError(f"{file} cannot be read as {kind}: {error}") from None
-    vertices = surface.vertices()
-    triangles = np.array(surface.face_indices(vertices), int).reshape(-1, 3)
-    return np.array([(one.x, one.y, one.z) for one in vertices], float).reshape(-1, 3), triangles
