@@ -20,10 +20,15 @@ using Plane = Eigen::Vector2d; // y and z of the bond
 
 namespace {
 
-    // How far a body reaches from a point within it.
-    class Reach {
+    // Where a ray leaves a body.
+    struct Exit {
+        double length;
+        Vector3r outward; // along the normal of the surface there
+    };
+
+    class Outline {
     public:
-        explicit Reach(const MovingBody& body)
+        explicit Outline(const MovingBody& body)
             : shape(*body.shape())
             , isWall(dynamic_cast<const yade::Wall*>(&shape))
             , isFacet(dynamic_cast<const yade::Facet*>(&shape))
@@ -36,20 +41,25 @@ namespace {
             pose = poseOf(body.state(), shift);
         }
 
-        double along(const Vector3r& point, const Vector3r& direction) const
+        // From a point within; never, along a wall.
+        Exit exit(const Vector3r& point, const Vector3r& direction) const
         {
-            if (particle)
-                return particle->handle() ? distanceToSurface(*particle, pose, point, direction) : 0;
-            double least = std::numeric_limits<double>::infinity();
-            if (isFacet) {
+            Exit first { std::numeric_limits<double>::infinity(), direction };
+            if (particle && particle->handle()) {
+                first.length = distanceToSurface(*particle, pose, point, direction);
+                const Vector3r at = point + first.length * direction;
+                double potential;
+                requireOk(pp_particle_potential(particle->handle(), &pose, at.data(), &potential, first.outward.data()));
+            } else if (isFacet) {
                 const Vector3r up = (vertices[1] - vertices[0]).cross(vertices[2] - vertices[0]);
                 for (std::size_t i = 0; i < 3; ++i) {
                     const Vector3r outward = (vertices[(i + 1) % 3] - vertices[i]).cross(up);
-                    if (const double slope = outward.dot(direction); slope > 0)
-                        least = std::min(least, std::max(0.0, outward.dot(vertices[i] - point) / slope));
+                    const double length = std::max(0.0, outward.dot(vertices[i] - point)) / outward.dot(direction);
+                    if (outward.dot(direction) > 0 && length < first.length)
+                        first = { length, outward };
                 }
             }
-            return least;
+            return first;
         }
 
     private:
@@ -71,43 +81,69 @@ namespace {
         return sum;
     }
 
-    // Where two lines meet, each through two points; the origin where they do not.
-    Plane meet(const Plane& a, const Plane& b, const Plane& c, const Plane& d)
-    {
-        const double slope = cross(b - a, d - c);
-        return slope != 0 ? Plane(a + cross(c - a, d - c) / slope * (b - a)) : Plane(Plane::Zero());
-    }
+    // A point of the rim of a convex area about the origin, and the direction outwards there.
+    struct RimPoint {
+        Plane at, outward;
+    };
 
-    // The corners of a convex area about the origin, from rays. Where the sides next to two rays meet between them, another ray seeks
-    // the corner. `spread`: lengths in which the area is about as wide as high.
-    template <class Length> std::vector<Plane> cornersOf(const Plane& spread, const Length& lengthAlong)
-    {
-        constexpr int rays = 24;
-        const auto point = [&](const Plane& towards) {
-            const Plane direction = towards.normalized();
-            return Plane(lengthAlong(direction) * direction);
-        };
-        std::vector<Plane> found, all;
-        for (int i = 0; i < rays; ++i)
-            found.push_back(point({ spread.x() * std::cos(2 * M_PI * (i + 0.5) / rays), spread.y() * std::sin(2 * M_PI * (i + 0.5) / rays) }));
-        for (int i = 0; i < rays; ++i) {
-            const Plane &before = found[(i + rays - 1) % rays], &here = found[i], &next = found[(i + 1) % rays], &after = found[(i + 2) % rays];
-            all.push_back(here);
-            const Plane corner = meet(before, here, next, after);
-            const double close = 1e-6 * spread.norm();
-            if (cross(here, corner) > 0 && cross(corner, next) > 0 && (corner - here).norm() > close && (corner - next).norm() > close)
-                all.push_back(point(corner));
+    // The corners of such an area, from rays. Where the tangents at two neighbours meet is a corner if another ray ends there; if
+    // not, the rim has more corners in between, or is round.
+    template <class RimAlong> class CornerSearch {
+    public:
+        // spread: lengths in which the area is about as wide as high.
+        CornerSearch(const Plane& spread, const RimAlong& rimAlong) : rimAlong(rimAlong), close(1e-7 * spread.norm())
+        {
+            constexpr int rays = 12;
+            const auto ray = [&](int i) {
+                const double angle = 2 * M_PI * (i + 0.5) / rays;
+                return rimAlong(Plane(spread.x() * std::cos(angle), spread.y() * std::sin(angle)).normalized());
+            };
+            RimPoint here = ray(0);
+            for (int i = 1; i <= rays; ++i) {
+                const RimPoint next = ray(i % rays);
+                all.push_back(here.at);
+                between(here, next, 3);
+                here = next;
+            }
         }
-        // What lies on a straight side is no corner.
-        const double area = polygonArea(all);
-        std::vector<Plane> corners;
-        for (std::size_t i = 0; i < all.size(); ++i) {
-            const Plane &before = corners.empty() ? all.back() : corners.back(), &after = all[(i + 1) % all.size()];
-            if (cross(all[i] - before, after - all[i]) > 1e-5 * area)
-                corners.push_back(all[i]);
+
+        std::vector<Plane> corners() const
+        {
+            // What lies on a straight side is no corner.
+            const double least = 1e-5 * polygonArea(all);
+            std::vector<Plane> found;
+            for (std::size_t i = 0; i < all.size(); ++i) {
+                const Plane &before = found.empty() ? all.back() : found.back(), &after = all[(i + 1) % all.size()];
+                if (cross(all[i] - before, after - all[i]) > least)
+                    found.push_back(all[i]);
+            }
+            return found;
         }
-        return corners;
-    }
+
+    private:
+        void between(const RimPoint& here, const RimPoint& next, int depth)
+        {
+            const double slope = cross(here.outward, next.outward);
+            if (!(slope > 0))
+                return;
+            const double height = here.outward.dot(here.at), nextHeight = next.outward.dot(next.at);
+            const Plane meeting = Plane(height * next.outward.y() - nextHeight * here.outward.y(),
+                                        nextHeight * here.outward.x() - height * next.outward.x()) / slope;
+            if (!((meeting - here.at).norm() > close && (meeting - next.at).norm() > close))
+                return;
+            const RimPoint middle = rimAlong(meeting.normalized());
+            const bool isCorner = (middle.at - meeting).norm() <= close;
+            if (!isCorner && depth > 0)
+                between(here, middle, depth - 1);
+            all.push_back(middle.at);
+            if (!isCorner && depth > 0)
+                between(middle, next, depth - 1);
+        }
+
+        const RimAlong& rimAlong;
+        const double close;
+        std::vector<Plane> all;
+    };
 
 } // namespace
 
@@ -151,12 +187,15 @@ void bondPatch(ConicJointPhys& phys, const ContactPatch& patch, const PatchPlace
     const Plane radii(2 * std::sqrt(alongY / patch.area), 2 * std::sqrt(alongZ / patch.area));
     std::vector<Plane> corners;
     if (!patch.ofPoint && radii.minCoeff() > 0) {
-        const Reach reach1(one), reach2(other);
-        corners = cornersOf(radii, [&](const Plane& direction) {
+        const Outline outline1(one), outline2(other);
+        const auto rimAlong = [&](const Plane& direction) {
             const Vector3r way = axes.col(1) * direction.x() + axes.col(2) * direction.y();
-            const double length = std::min(reach1.along(centroid, way), reach2.along(centroid, way));
-            return std::isfinite(length) ? length : 0;
-        });
+            const Exit exit1 = outline1.exit(centroid, way), exit2 = outline2.exit(centroid, way);
+            const Exit& first = exit1.length < exit2.length ? exit1 : exit2;
+            const Plane outward(axes.col(1).dot(first.outward), axes.col(2).dot(first.outward));
+            return RimPoint { std::isfinite(first.length) ? Plane(first.length * direction) : Plane(Plane::Zero()), outward.normalized() };
+        };
+        corners = CornerSearch(radii, rimAlong).corners();
     }
     // A patch that is not plane may leave its own plane: what its points enclose is then another area.
     if (const double area = polygonArea(corners); !(area > 0.8 * patch.area && area < 1.25 * patch.area)) {

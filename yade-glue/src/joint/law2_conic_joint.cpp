@@ -218,8 +218,7 @@ void Law::holdAsPatch(const Joint& joint, const ContactPatch& patch, bool broken
     // What the strength was above the residual one is lost at once; friction does work over the slip.
     if (breaks)
         energies.breaking += trialEnergy - phys.springEnergy(shear, twist) - energies.friction;
-    const Vector3r heldForce = phys.normalForce - damping.force.dot(n) * n + phys.shearForce;
-    const Vector3r heldMoment = (phys.couple + phys.twistMoment) * n;
+    const Wrench ofSprings { phys.normalStiffness * patch.force * n + phys.shearForce, (phys.couple + phys.twistMoment) * n };
 
     // While it sticks, the joint is damped along its plane as it is across it.
     if (phys.dampingRatio > 0) {
@@ -245,7 +244,7 @@ void Law::holdAsPatch(const Joint& joint, const ContactPatch& patch, bool broken
     other.push(geom.contactPoint, force, moment);
 
     if (phys.bonded) {
-        bondPatch(phys, patch, { geom.contactPoint, n }, { heldForce, heldMoment }, one, other);
+        bondPatch(phys, patch, { geom.contactPoint, n }, ofSprings, one, other);
         phys.shearDisplacement = Vector3r::Zero();
         phys.twist = 0;
         const double energy = BondStrain(phys, { one.centre(), one.turn() }, { other.centre(), other.turn() })
