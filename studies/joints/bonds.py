@@ -82,13 +82,13 @@ def fracture_energy():
     return {"value": max(abs(share - 1) for share in shares), "target": 5e-3, "shares": shares}
 
 
-def _pushed(bonds, cohesion, peak, residual, pressure=2e5):
+def _pushed(bonds, cohesion, peak, residual, pressure=1e5):
     """Peak and residual shear force of a cuboid that is pressed on a wall and pushed along it."""
     fresh(gravity=(0, 0, 0), normalStiffness=NORMAL, shearStiffness=SHEAR, cohesion=cohesion, residualCohesion=0.2 * cohesion,
           tensileStrength=STRONG, frictionAngle=math.atan(peak), residualFrictionAngle=math.atan(residual))
     O.engines[3].physDispatcher.functors[0].bonds = bonds
     wall((0, 0, 0), 2, 1)
-    block = add(block_shape((LENGTH, WIDTH, HEIGHT), r=RADIUS), (0, 0, 0.5 * HEIGHT - pressure / NORMAL))
+    block = add(block_shape((LENGTH, WIDTH, HEIGHT), r=1e-3), (0, 0, 0.5 * HEIGHT - pressure / NORMAL))
     block.state.blockedDOFs = "xyzXYZ"
     block.state.vel = Vector3(0.1, 0, 0)
     O.dt, forces = 1e-5, []

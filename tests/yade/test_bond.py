@@ -230,7 +230,7 @@ for softening in (0.0, 3e-4):
         upper.state.pos = Vector3(0, 0, EDGE - OVERLAP + i * 1e-6)
         O.step()
     expected = 0.5 * 1e5 * (1e5 / NORMAL + softening) * AREA
-    check.true(abs(O.energy["bondBreaking"] / expected - 1) < 2e-2, f"fracture energy {O.energy['bondBreaking']}, expected {expected}")
+    check.true(abs(O.energy["bondBreaking"] / expected - 1) < 3e-2, f"fracture energy {O.energy['bondBreaking']}, expected {expected}")
 
 # --- a bond outlives its overlap, ends with its bodies, and is made when asked for -----------------------------------------
 

@@ -95,7 +95,7 @@ namespace {
         {
             constexpr int rays = 12;
             const auto ray = [&](int i) {
-                const double angle = 2 * M_PI * (i + 0.5) / rays;
+                const double angle = 2 * M_PI * (i + 0.3) / rays; // no axis of symmetry: corners may lie there
                 return rimAlong(Plane(spread.x() * std::cos(angle), spread.y() * std::sin(angle)).normalized());
             };
             RimPoint here = ray(0);
@@ -129,7 +129,8 @@ namespace {
             const double height = here.outward.dot(here.at), nextHeight = next.outward.dot(next.at);
             const Plane meeting = Plane(height * next.outward.y() - nextHeight * here.outward.y(),
                                         nextHeight * here.outward.x() - height * next.outward.x()) / slope;
-            if (!((meeting - here.at).norm() > close && (meeting - next.at).norm() > close))
+            const bool isBetween = cross(here.at, meeting) > 0 && cross(meeting, next.at) > 0;
+            if (!isBetween || !((meeting - here.at).norm() > close && (meeting - next.at).norm() > close))
                 return;
             const RimPoint middle = rimAlong(meeting.normalized());
             const bool isCorner = (middle.at - meeting).norm() <= close;

@@ -148,10 +148,9 @@ bool Law::holdsAsBond(const Joint& joint, Energies& energies) const
         geom.contactPoint = middle;
         geom.normal = n;
     }
-    joint.one.push(strain.point1(), -reaction.force, reaction.torque1);
-    joint.other.push(strain.point2(), reaction.force, reaction.torque2);
-    joint.one.push(middle, -damping.force, -damping.moment);
-    joint.other.push(middle, damping.force, damping.moment);
+    // One force a body: in which order threads add up more of them is left to chance.
+    joint.one.push(strain.point1(), -force, reaction.torque1 - damping.moment - (middle - strain.point1()).cross(damping.force));
+    joint.other.push(strain.point2(), force, reaction.torque2 + damping.moment + (middle - strain.point2()).cross(damping.force));
     return true;
 }
 
