@@ -100,8 +100,9 @@ void Law::open(const Joint& joint, bool broken, Energies& energies) const
     phys.broken = true;
 }
 
-// False when the bond breaks, or a script has ended it: what it held along the joint is left to the springs of the patch, and
-// energies.breaking is all of its energy.
+// A bond that reaches its strength holds for this step, since the contact was not looked for, and is ended in the next one, as if a
+// script had done so. False when it is ended: what it held along the joint is left to the springs of the patch, and energies.breaking
+// is all of its energy.
 bool Law::holdsAsBond(const Joint& joint, Energies& energies) const
 {
     ConicJointPhys& phys = joint.phys;
@@ -109,8 +110,8 @@ bool Law::holdsAsBond(const Joint& joint, Energies& energies) const
     const BondStrain strain(phys, { joint.one.centre(), joint.one.turn() }, { joint.other.centre(), joint.other.turn() });
     const BondStiffness stiffness { phys.normalStiffness, phys.shearStiffness };
     const double before = strain.energy(stiffness, phys.damage), left = 1 - phys.damage;
-    phys.damage = std::max(phys.damage, damageOf(phys, strain));
-    if (phys.damage >= 1 || !phys.bonded) {
+    auto* const own = dynamic_cast<ScGeomConicPP*>(&geom);
+    if (!phys.bonded && !(own && own->isHeldByBond())) {
         phys.shearDisplacement = left * strain.slip();
         phys.twist = left * strain.twist();
         phys.endBond();
@@ -118,6 +119,13 @@ bool Law::holdsAsBond(const Joint& joint, Energies& energies) const
         energies.breaking = before;
         return false;
     }
+    const double damage = phys.bonded ? damageOf(phys, strain) : 0;
+    if (damage >= 1)
+        phys.bonded = false;
+    else
+        phys.damage = std::max(phys.damage, damage);
+    if (own)
+        own->setHeldByBond(phys.bonded);
     energies.elastic = strain.energy(stiffness, phys.damage);
     energies.breaking = before - energies.elastic;
 
@@ -143,7 +151,7 @@ bool Law::holdsAsBond(const Joint& joint, Energies& energies) const
     phys.shearForce = force - phys.normalForce;
     phys.twistMoment = moment.dot(n);
     phys.bendingMoment = moment - phys.twistMoment * n;
-    // Where there is no overlap, the contact is where the bond is.
+    // Where no contact was found or sought, it is where the bond is.
     if (geom.penetrationDepth < 0) {
         geom.contactPoint = middle;
         geom.normal = n;
