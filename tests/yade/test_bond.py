@@ -115,7 +115,8 @@ for turn1, turn2, way in (((0, 0, 0), (1e-3, 2e-3, -1e-3), (1e-3, -2e-3, 3e-3)),
             body.state.ori = turn
             check.close(torque[axis], -(ends[0] - ends[1]) / (2 * h), 1e-7 * scale, f"torque {axis} on {body.id}")
     check.close(found[0][0] + found[1][0], Vector3.Zero, 1e-12 * scale, "forces are opposite")
-    check.close(found[0][1] + found[1][1] + (upper.state.pos - lower.state.pos).cross(found[1][0]), Vector3.Zero, 1e-12 * scale, "and moments")
+    lever = upper.state.pos - lower.state.pos
+    check.close(found[0][1] + found[1][1] + lever.cross(found[1][0]), Vector3.Zero, 1e-12 * scale, "and moments")
 
 # A rigid motion of both changes nothing.
 lower, upper = column()
@@ -123,7 +124,8 @@ phys, turn = joint(), turned_by((0.4, -1.1, 0.7))
 for body in (lower, upper):
     body.state.pos, body.state.ori = turn * body.state.pos + Vector3(0.5, 0, -0.2), turn * body.state.ori
 O.step()
-check.close(turn.conjugate() * on(upper)[0], Vector3(0, 0, NORMAL * phys.bondArea * OVERLAP), 1e-3 * NORMAL * OVERLAP, "a rigid motion turns the force")
+held = Vector3(0, 0, NORMAL * phys.bondArea * OVERLAP)
+check.close(turn.conjugate() * on(upper)[0], held, 1e-3 * held.norm(), "a rigid motion turns the force")
 
 # --- strength ------------------------------------------------------------------------------------------------------
 
@@ -162,7 +164,8 @@ step = STRENGTH / NORMAL / 300
 for name, found, expected in (
         ("tension", load_at_break(displaced(0, 0, step), lambda b: -on(b)[0][2], tensileStrength=STRENGTH), STRENGTH * AREA),
         ("shear", load_at_break(displaced(STRENGTH / SHEAR / 300, 0, 0), lambda b: -on(b)[0][0], cohesion=STRENGTH), STRENGTH * AREA),
-        ("bending", load_at_break(bent((0, 1, 0), 2 * step / FACE), lambda b: -on(b)[1][1], tensileStrength=STRENGTH), STRENGTH * FACE**3 / 6),
+        ("bending", load_at_break(bent((0, 1, 0), 2 * step / FACE), lambda b: -on(b)[1][1], tensileStrength=STRENGTH),
+         STRENGTH * FACE**3 / 6),
         ("twist", load_at_break(bent((0, 0, 1), math.sqrt(2) * STRENGTH / SHEAR / 300 / FACE), lambda b: -on(b)[1][2], cohesion=STRENGTH),
          STRENGTH * POLAR / (FACE / math.sqrt(2)))):
     check.true(abs(found / expected - 1) < 5e-3, f"{name}: {found:.6g} against {expected:.6g}")
@@ -198,7 +201,8 @@ def potential_energy():
 
 def set_moving(body, velocity, spin):
     body.state.vel, body.state.angVel = Vector3(*velocity), Vector3(*spin)
-    body.state.angMom = body.state.ori * Vector3(*(body.state.inertia[i] * (body.state.ori.conjugate() * body.state.angVel)[i] for i in range(3)))
+    local = body.state.ori.conjugate() * body.state.angVel
+    body.state.angMom = body.state.ori * Vector3(*(local[i] * body.state.inertia[i] for i in range(3)))
 
 
 # Bonded bodies that fly and turn: nothing is lost. (Kinetic energy is that of half a step before.)

@@ -57,8 +57,9 @@ double BondStrain::energy(const BondStiffness& stiffness, double damage) const
 BondStrain::Reaction BondStrain::reaction(const BondStiffness& stiffness) const
 {
     const double left = 1 - bond.damage;
-    const Vector3r perDisplacement(stiffness.normal * normalShare(displacement.x(), bond.damage), stiffness.shear * left, stiffness.shear * left);
-    const Vector3r perRotation(stiffness.shear * left, stiffness.normal * left, stiffness.normal * left);
+    const double across = stiffness.normal * normalShare(displacement.x(), bond.damage), along = stiffness.shear * left;
+    const Vector3r perDisplacement(across, along, along);
+    const Vector3r perRotation(along, stiffness.normal * left, stiffness.normal * left);
     const Vector3r force = bond.bondArea * (axes * perDisplacement.cwiseProduct(displacement)); // dW/du
     const Vector3r moment = axes * (ofRotation * perRotation.cwiseProduct(bond.bondMoments).cwiseProduct(rotation));
     // The axes midway turn by half the sum of both bodies' turns, but for what the angle between them adds.

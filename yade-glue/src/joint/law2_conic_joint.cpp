@@ -140,9 +140,11 @@ bool Law::holdsAsBond(const Joint& joint, Energies& energies) const
     const Vector3r middle = strain.middle();
     if (phys.dampingRatio > 0) {
         const auto perArea = [&](const Vector3r& direction, double springs) {
-            return dashpotPerArea(phys, springs, joint.one.mobility(middle, direction) + joint.other.mobility(middle, direction), phys.bondArea);
+            const double mobility = joint.one.mobility(middle, direction) + joint.other.mobility(middle, direction);
+            return dashpotPerArea(phys, springs, mobility, phys.bondArea);
         };
-        const Vector3r velocity = joint.other.velocityAt(middle) - joint.one.velocityAt(middle), spin = joint.other.spin() - joint.one.spin();
+        const Vector3r velocity = joint.other.velocityAt(middle) - joint.one.velocityAt(middle);
+        const Vector3r spin = joint.other.spin() - joint.one.spin();
         damping = strain.dashpot({ perArea(n, stiffness.normal), perArea(n.unitOrthogonal(), stiffness.shear) }, velocity, spin);
         energies.viscous = -scene->dt * (damping.force.dot(velocity) + damping.moment.dot(spin));
     }

@@ -39,7 +39,8 @@ inline double damageOf(const ConicJointPhys& phys, const BondStrain& strain)
         const BondStrain::Gap gap = strain.gap(phys.bondRim[i], phys.bondRim[i + 1]);
         const double tension = phys.normalStiffness * gap.opening;
         const double shear = phys.shearStiffness * gap.slip + phys.tangensOfFrictionAngle * tension;
-        most = std::max({ most, damage(tension, phys.tensileStrength, phys.normalStiffness), damage(shear, phys.cohesion, phys.shearStiffness) });
+        most = std::max({ most, damage(tension, phys.tensileStrength, phys.normalStiffness),
+                          damage(shear, phys.cohesion, phys.shearStiffness) });
     }
     return most;
 }
