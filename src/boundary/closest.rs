@@ -268,7 +268,7 @@ impl Search<'_> {
         let others = [1, 2].map(|i| triangle.vertices[(vertex + i) % 3]);
         let corner = BoundaryPart::Corner { at: triangle.vertices[vertex], others };
         let least = self.on_part(&PlacedPart::new(corner, self.pose), Vector2::zeros())?;
-        let from_line = if end == nearest && inside[end] >= 0.0 { inside[end] } else { f64::INFINITY };
+        let from_line = if end == nearest && inside[end] >= 0.0 { inside[end] + of_line.shift() } else { f64::INFINITY };
         Ok(OnEdge { least, feature: Feature::Vertex(vertex as u8), of_line, from_line })
     }
 
@@ -299,7 +299,7 @@ impl Least {
     /// Bound on the way to any point of a boundary of this extent where S is no larger.
     fn within(&self, body: &Body, extent: f64) -> f64 {
         let level = larger(self.solution.upper, 1.0);
-        smaller(self.from_centre().norm() + body.particle.reach(level), extent) * (1.0 + OF_LENGTHS)
+        smaller(self.from_centre().norm() + body.particle.reach(level), extent + self.shift()) * (1.0 + OF_LENGTHS)
     }
 }
 

@@ -91,10 +91,12 @@ pub fn contact_with_plane(
     state: Option<&mut PairState>,
 ) -> Result<FlatContact, DetectError> {
     settings.validate()?;
-    let plane = PlacedPart::new(wall.part(), pose);
     let call = Call { particle: a, pose, normal: wall.normal, settings };
-    let pair = Pair::on_boundary(a, &plane);
-    call.contact(separation::proof_of_separation(&pair, None), state, |search| search.on_plane(&plane))
+    if let Some(apart) = call.apart(&[wall.point]) {
+        return Ok(apart);
+    }
+    let plane = PlacedPart::new(wall.part(), pose);
+    call.contact(state, |search| search.on_plane(&plane))
 }
 
 /// Contact of A at a pose with a closed triangle, which it may touch from either side; otherwise as [`contact_with_plane`].
@@ -109,12 +111,13 @@ pub fn contact_with_triangle(
     state: Option<&mut PairState>,
 ) -> Result<FlatContact, DetectError> {
     settings.validate()?;
-    let plane = PlacedPart::new(triangle.inside(), pose);
     let call = Call { particle: a, pose, normal: triangle.normal, settings };
-    let pair = Pair::on_boundary(a, &plane);
-    let placed = PlacedTriangle::of(triangle, pose, &pair);
-    let apart = separation::proof_of_separation(&pair, Some(&placed));
-    call.contact(apart, state, |search| search.on_triangle(triangle, &plane, &placed))
+    if let Some(apart) = call.apart(&triangle.vertices) {
+        return Ok(apart);
+    }
+    let plane = PlacedPart::new(triangle.inside(), pose);
+    let placed = PlacedTriangle::of(triangle, pose, &Pair::on_boundary(a, &plane));
+    call.contact(state, |search| search.on_triangle(triangle, &plane, &placed))
 }
 
 /// What a call is about.
@@ -128,16 +131,19 @@ struct Call<'a> {
 }
 
 impl Call<'_> {
-    /// Rejects, or searches and describes.
+    /// The answer if a test proves that the particle and a boundary given by these points are apart, and that will do.
+    fn apart(&self, given: &[Vector3<f64>]) -> Option<FlatContact> {
+        let wanted = !self.settings.solve_separated;
+        let proof = wanted.then(|| separation::proof_of_separation(self.particle, self.pose, &self.normal, given));
+        proof.flatten().map(|proof| FlatContact::apart(&proof))
+    }
+
+    /// Searches and describes.
     fn contact(
         &self,
-        apart: Option<Apart>,
         state: Option<&mut PairState>,
         closest: impl Fn(&mut Search) -> Result<Closest, DetectError>,
     ) -> Result<FlatContact, DetectError> {
-        if let Some(apart) = apart.filter(|_| !self.settings.solve_separated) {
-            return Ok(FlatContact::apart(&apart));
-        }
         let (particle, pose, settings) = (self.particle, self.pose, self.settings);
         let remembered = state.as_ref().and_then(|state| state.remembered_on_boundary(particle));
         let flags = if remembered.is_some() { Flags::WARM } else { Flags::NONE };
@@ -156,7 +162,7 @@ impl Call<'_> {
             // Where the bulge of a raised regularisation may hide an overlap, the particle as it is decides.
             let flat_regularisation = Settings::default().flat_regularisation;
             let settings = Settings { flat_regularisation, ..*settings };
-            let contact = Call { settings: &settings, ..*self }.contact(None, state, closest)?;
+            let contact = Call { settings: &settings, ..*self }.contact(state, closest)?;
             return Ok(FlatContact { flags: contact.flags.with(Flags::DEFAULT_REGULARISATION), ..contact });
         }
         if scale.is_undecided(settings.raises_regularisation()) {

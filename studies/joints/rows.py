@@ -4,7 +4,7 @@ import math
 
 import potential_particles
 from potential_particles import boundaries, packing, shapes
-from scene import O, add, block_shape, fastest, fresh, kinetic_energy, moving, run, spun, wall
+from scene import O, add, block_shape, fastest, fresh, moving, run, spun, wall
 from yade import Quaternion, Vector3, utils
 
 K = 1e9  # stiffness per area, N/m^3
@@ -59,52 +59,6 @@ def tiles():
             O.step()
             forces[width].append(O.forces.f(cube.id)[2])
     return {"value": max(abs(a / b - 1) for a, b in zip(*forces.values())), "target": 1e-9}
-
-
-def _bounces(make, impacts, step):
-    """Largest change of the energy between impacts, two bodies in a box of walls."""
-    # So stiff that corners stay above the core of the rounding.
-    fresh(gravity=(0, 0, 0), normalStiffness=10 * K, frictionAngle=0.0)
-    for axis in range(3):
-        for sign in (-1, 1):
-            place = [0.0] * 3
-            place[axis] = 1.1 * sign
-            wall(place, axis, -sign)
-    bodies = make()
-    O.dt = step * 5e-5
-    before, worst, done, touching = kinetic_energy(bodies), 0.0, 0, False
-    while done < impacts:
-        O.step()
-        now = any(contact.isReal for contact in O.interactions)
-        if touching and not now:
-            done += 1
-            worst = max(worst, abs(kinetic_energy(bodies) / before - 1))
-        touching = now
-    return worst
-
-
-def _rocks():
-    one, other = (O.bodies[O.bodies.append(potential_particles.body(shapes.random_rock(seed=seed, size=0.8), position=(place, 0.1 * place, 0)))]
-                  for seed, place in ((1, -0.5), (2, 0.5)))
-    one.state.vel, other.state.vel = Vector3(1, 0.4, 0.2), Vector3(-1, 0.2, 0.3)
-    return [one, other]
-
-
-def _cubes():
-    one = add(block_shape((0.6, 0.6, 0.6), r=0.02), (-0.5, 0, 0))
-    other = add(block_shape((0.6, 0.6, 0.6), r=0.02), (0.5, 0.02, 0.01), Quaternion((0, 0, 1), 0.01))
-    one.state.vel, other.state.vel = Vector3(1, 0, 0), Vector3(-1, 0, 0)
-    return [one, other]
-
-
-def rocks(impacts=40):
-    """Drift of the energy of two rocks in a box, elastic."""
-    return {"value": _bounces(_rocks, impacts, 0.5), "target": 1e-4, "impacts": impacts}
-
-
-def cubes(impacts=40):
-    """Drift of the energy of two cubes that meet nearly face on, elastic."""
-    return {"value": _bounces(_cubes, impacts, 0.5), "target": 1e-4, "impacts": impacts}
 
 
 def pile(patch=True, seconds=2.5):
@@ -181,4 +135,4 @@ def step_time(number=2000, falling_steps=60, rest_steps=60):
     return {"value": rest, "target": 1.8, "falling": falling, "falling_target": 4.0, "seconds_at_rest": seconds[True][1]}
 
 
-ROWS = {row.__name__: row for row in (face, spin, tiles, rocks, cubes, pile, lintels, stack, step_time)}
+ROWS = {row.__name__: row for row in (face, spin, tiles, pile, lintels, stack, step_time)}
