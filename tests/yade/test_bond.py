@@ -220,6 +220,14 @@ for dt in (4e-5, 2e-5):
     check.true(all(joint(i, i + 1).bonded for i in range(2)), "bonds last")
 check.true(changes[1] < 5e-3 and changes[1] < 0.6 * changes[0], f"energy of bonded bodies: {changes}")
 
+# Dashpots take it, and count it.
+bodies = column(fixed=False, dt=1e-5, track=True, restitution=0.3)
+set_moving(bodies[1], (0.4, 0.1, -0.3), (1, -2, 0.5))
+begin = total()
+run(1500)
+check.true(O.energy["viscDissip"] > 0.2 * begin, f"dashpots of a bond: {O.energy['viscDissip']} of {begin}")
+check.close(total(), begin, 5e-3 * begin, f"energy with dashpots: {dict(O.energy.items())}")
+
 # Torn apart, brittle and softening: what the bond held is counted.
 for softening in (0.0, 2e-4):
     bodies = column(fixed=False, track=True, tensileStrength=1e5, cohesion=1e5, softening=softening, dt=2e-6)
@@ -285,6 +293,18 @@ for boundary in ("wall", "facets"):
     rims = sum(0.5 * sum(x[i] * x[(i + 3) % len(x)] - x[i + 1] * x[(i + 2) % len(x)] for i in range(0, len(x), 2))
                for x in (one.bondRim for one in bound))
     check.true(abs(rims / AREA - 1) < 1e-4, f"corners of the bonded area enclose it: {rims}")
+
+# A round patch, of two balls: area, corners on a circle, and the moments of a disc.
+scene()
+balls = [O.bodies[add(yade.ConicPotentialParticle(planes=cube_planes(0.9, 0.05), r=0.05, k=1.0, R=0.5), Vector3(0, 0, height), fixed=True)]
+         for height in (0, 0.999)]
+O.step()
+phys = joint()
+corners = [math.hypot(*phys.bondRim[i:i + 2]) for i in range(0, len(phys.bondRim), 2)]
+radius = math.sqrt(0.25 - 0.4995**2)
+check.true(len(corners) >= 24 and max(abs(corner / radius - 1) for corner in corners) < 1e-3, f"corners of a disc of {radius}: {corners}")
+check.true(abs(phys.bondArea / (math.pi * radius**2) - 1) < 1e-3 and abs(phys.bondMoments[0] / (math.pi / 2 * radius**4) - 1) < 1e-3,
+           f"area and polar moment of a disc: {phys.bondArea}, {phys.bondMoments}")
 
 # Across the boundary of a periodic cell.
 scene(periodic=True)

@@ -70,7 +70,7 @@ struct BondStiffness {
     double normal, shear;
 };
 
-// On body 2, about a point that the maker of the wrench names.
+// On body 2, about a point that is said with it.
 struct Wrench {
     yade::Vector3r force, moment;
 };
