@@ -65,12 +65,13 @@ pub(super) fn pieces(
     scratch: &mut PieceScratch,
     nodes: &mut Vec<Node>,
 ) -> Option<Estimate> {
+    nodes.clear();
+    scratch.zones.clear();
+    // Also where there are no pieces: the caller takes a level for that of this patch.
+    scratch.level = None;
     if field.a.sphere_weight > 0.0 || field.b.is_some_and(|b| b.sphere_weight > 0.0) {
         return None;
     }
-    nodes.clear();
-    scratch.zones.clear();
-    scratch.level = None;
     if field.plane_count() <= FEW && field.loaded() < field.radius() {
         field.load(field.radius());
     }

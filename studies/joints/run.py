@@ -10,6 +10,7 @@ from pathlib import Path
 HERE = Path(sys.argv[0]).resolve().parent
 sys.path[:0] = [str(HERE), str(HERE.parent)]
 
+import bonds  # noqa: E402
 import buildings  # noqa: E402
 import impacts  # noqa: E402
 import piles  # noqa: E402
@@ -17,7 +18,7 @@ import rows  # noqa: E402
 from summary import print_table, write_summary  # noqa: E402
 
 
-ROWS = rows.ROWS | impacts.ROWS | piles.ROWS | buildings.ROWS
+ROWS = rows.ROWS | impacts.ROWS | bonds.ROWS | piles.ROWS | buildings.ROWS
 
 
 def targets(name, row):

@@ -16,7 +16,8 @@ Then these classes stand beside YADE's own:
     ScGeomConicPP                the ScGeom that they fill
     ConicInteractionLoop         the contact loop that skips pairs which cannot have met
     ConicJointMat, Ip2_ConicJointMat_ConicJointMat_ConicJointPhys, Law2_ScGeomConicPP_ConicJointPhys
-                                 joints: stiffness per area, friction against slip and twist, restitution
+                                 joints: stiffness per area, friction against slip and twist, restitution, strength,
+                                 bonds (bond_contacts)
     BoundWatch, Bo1_ConicPP_Aabb, Bo1_PP_Aabb_Conic
                                  boxes for verletDist > 0
 
@@ -37,6 +38,7 @@ import functools
 
 from . import builds, window
 from .bodies import body
+from .joints import bond_contacts
 from .measures import extrema, porosity, solid_volume
 from .outside import protect_runs
 from .packing import add_packing, pack
@@ -44,7 +46,7 @@ from .time_step import critical_time_step
 
 __version__ = "0.1.0"
 
-__all__ = ["AbiError", "Mesh", "Recorder", "add_packing", "body", "critical_time_step", "extrema", "library_version", "mesh",
+__all__ = ["AbiError", "Mesh", "Recorder", "add_packing", "body", "bond_contacts", "critical_time_step", "extrema", "library_version", "mesh",
            "pack", "plot", "porosity", "prepare", "protect_runs", "save_mesh", "solid_volume"]
 
 

@@ -8,7 +8,7 @@ stiffness of all contacts is at most twice that of each body alone, held by its 
     omega^2 <= 2 max over bodies of the largest eigenvalue of M_b^-1 sum over its contacts B^T K_c B.
 
 A contact patch holds against turning as well: its stiffness has a part for turns alone, K J across the normal and k_s J about it, J the
-polar moment of the patch.
+polar moment of the patch or, where there is one, of the bond.
 
 Dashpots lower the limit. Those of joints, of the ratio z to the critical one, to dt < 2/omega (sqrt(1 + z^2) - z), which is taken into
 account; for others safety leaves room, below about half of the critical damping.
@@ -99,14 +99,22 @@ def _joint_stiffness(body, radius):
 
 def _of_contact(scene, body, contact):
     """Arm (3,), stiffness against displacement there (3, 3) and against turns alone (3, 3) of a real contact, world axes."""
-    normal, kn, ks = np.array(contact.geom.normal), contact.phys.kn, contact.phys.ks
+    kn, ks = contact.phys.kn, contact.phys.ks
+    bonded = getattr(contact.phys, "bondArea", 0.0) > 0.0
+    if bonded:
+        # The contact of a bond may lie elsewhere: where the bodies overlap now.
+        one = scene.bodies[contact.id1].state
+        normal = np.array(one.ori * contact.phys.bondTurn1 * one.pos.__class__(1, 0, 0))
+        point, polar_moment = one.pos + one.ori * contact.phys.bondPoint1, contact.phys.bondMoments[0]
+    else:
+        normal, point, polar_moment = np.array(contact.geom.normal), contact.geom.contactPoint, getattr(contact.geom, "polarMoment", 0.0)
     along = np.outer(normal, normal)
-    arm = np.array(contact.geom.contactPoint - body.state.pos)
+    arm = np.array(point - body.state.pos)
     if scene.periodic and contact.id2 == body.id:
         arm = arm - np.array(scene.cell.hSize * contact.cellDist)
     turning = np.zeros((3, 3))
     if hasattr(contact.phys, "twistStiffness"):
-        turning = (contact.phys.normalStiffness * contact.geom.polarMoment * (np.eye(3) - along)
+        turning = (contact.phys.normalStiffness * polar_moment * (np.eye(3) - along)
                    + contact.phys.twistStiffness * along)
     return arm, kn * along + ks * (np.eye(3) - along), turning
 

@@ -138,6 +138,8 @@ bool Ig2_ConicPP_ConicPP_ScGeom::go(const boost::shared_ptr<Shape>& cm1, const b
         Pair pair { { state1, state2, shift2, force, interaction, counts, settings, real }, cm1, cm2, body1, body2, known };
         if (areBoundaries(*cm1, *cm2))
             return false;
+        if (pair.isHeldByBond())
+            return leaveApart(pair);
         counts.add(Count::calls);
         pair.findParticles();
         return contact(pair);

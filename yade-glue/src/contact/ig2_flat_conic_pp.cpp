@@ -38,8 +38,10 @@ bool Ig2_Flat_ConicPP::go(const boost::shared_ptr<Shape>& cm1, const boost::shar
         // A wall is a boundary, and two boundaries never touch.
         if (const auto* shape = potentialParticle(*cm2); shape && shape->isBoundary)
             return false;
-        counts.add(Count::calls);
         FlatPair pair { { state1, state2, shift2, force, interaction, counts, settings, real }, *cm1 };
+        if (pair.isHeldByBond())
+            return leaveApart(pair);
+        counts.add(Count::calls);
         pair.particle = particleOf(cm2, pair.keeper);
         return contact(pair);
     } catch (const std::exception& error) {

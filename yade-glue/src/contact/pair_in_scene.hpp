@@ -84,6 +84,9 @@ struct PairInScene {
         return true;
     }
 
+    // Such a pair is not looked for a contact.
+    bool isHeldByBond() { return real && findGeom() && own && own->isHeldByBond(); }
+
     // Ends the step for this pair. The stored normal must still be that of the last step.
     void precompute(const yade::Vector3r& normal, const yade::Scene* scene)
     {

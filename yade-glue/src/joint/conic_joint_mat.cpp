@@ -29,6 +29,14 @@ void ConicJointMat::callPostLoad()
             refuse(name, value, "give a stiffness per area, N/m^3, or 0 to derive it from young");
     if (!(restitution >= leastRestitution && restitution <= 1))
         refuse("restitution", restitution, "it must lie in [0.01, 1]");
+    for (const auto& [name, value] : { std::pair { "cohesion", cohesion }, { "tensileStrength", tensileStrength },
+                                       { "residualCohesion", residualCohesion } })
+        if (!(std::isfinite(value) && value >= 0))
+            refuse(name, value, "give a stress, Pa, or 0 for none");
+    if (!(residualFrictionAngle == -1 || (residualFrictionAngle >= 0 && residualFrictionAngle < 0.5 * M_PI)))
+        refuse("residualFrictionAngle", residualFrictionAngle, "give radians in [0, pi/2), or -1 for frictionAngle");
+    if (!(std::isfinite(softening) && softening >= 0))
+        refuse("softening", softening, "give a length, m, or 0 for a brittle bond");
 }
 
 } // namespace potential_particles

@@ -5,13 +5,14 @@
 
 #include "abi/archive.hpp"
 #include "abi/knksphys.hpp"
+#include "bond.hpp"
 
 #include <boost/serialization/access.hpp>
 
 namespace potential_particles {
 
 // kn and ks of its bases are those of the whole patch, N/m; normalForce and shearForce act on body 2.
-class ConicJointPhys final : public yade::FrictPhys {
+class ConicJointPhys final : public yade::FrictPhys, public Bond {
 public:
     ConicJointPhys();
     ~ConicJointPhys() override;
@@ -27,6 +28,12 @@ public:
     double twistMoment = 0;
     double couple = 0;
     bool isSliding = false;
+    double cohesion = 0;
+    double residualCohesion = 0;
+    double tangensOfResidualFrictionAngle = 0;
+    double tensileStrength = 0;
+    double softening = 0;
+    bool broken = false;
 
     // Of the springs along the joint, with this displacement and turn.
     double springEnergy(const yade::Vector3r& displacement, double turn) const
@@ -47,6 +54,13 @@ public:
         visit("twistMoment", &P::twistMoment, "Moment of friction on body 2 about the normal, N m.");
         visit("couple", &P::couple, "Moment of the pressure on body 2 about the normal, N m.");
         visit("isSliding", &P::isSliding, "Whether friction was at its limit in the last step.");
+        visit("cohesion", &P::cohesion, "Shear strength without pressure, Pa.", 1);
+        visit("residualCohesion", &P::residualCohesion, "The same once the joint has broken, Pa.", 1);
+        visit("tangensOfResidualFrictionAngle", &P::tangensOfResidualFrictionAngle, "Tangent of the friction angle once it has broken.", 1);
+        visit("tensileStrength", &P::tensileStrength, "Tensile strength of the bond, Pa.", 1);
+        visit("softening", &P::softening, "Opening or slip over which the stress in the bond falls to 0, m; 0: brittle.", 1);
+        visit("broken", &P::broken, "Whether the joint has the residual values: it has slipped, opened, or was made later.", 1);
+        Bond::eachAttribute(visit);
     }
 
 private:

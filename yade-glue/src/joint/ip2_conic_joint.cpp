@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "registration/attributes.hpp"
 
+#include "abi/scene.hpp"
 #include "abi/scgeom.hpp"
 #include "conic_joint_mat.hpp"
 #include "conic_joint_phys.hpp"
@@ -31,6 +32,11 @@ namespace {
         return material.shearStiffness > 0 ? material.shearStiffness : material.poisson * normalStiffness(material, radius);
     }
 
+    double residualFrictionAngle(const ConicJointMat& material)
+    {
+        return material.residualFrictionAngle >= 0 ? material.residualFrictionAngle : material.frictionAngle;
+    }
+
 } // namespace
 
 Ip2::~Ip2_ConicJointMat_ConicJointMat_ConicJointPhys() = default;
@@ -53,6 +59,13 @@ void Ip2::go(const boost::shared_ptr<yade::Material>& material1, const boost::sh
     phys->shearStiffness = harmonicMean(shearStiffness(one, radius1), shearStiffness(other, radius2));
     phys->tangensOfFrictionAngle = std::tan(std::min(one.frictionAngle, other.frictionAngle));
     phys->dampingRatio = dampingRatioOf(std::min(one.restitution, other.restitution));
+    phys->cohesion = std::min(one.cohesion, other.cohesion);
+    phys->tensileStrength = std::min(one.tensileStrength, other.tensileStrength);
+    phys->residualCohesion = std::min(one.residualCohesion, other.residualCohesion);
+    phys->tangensOfResidualFrictionAngle = std::tan(std::min(residualFrictionAngle(one), residualFrictionAngle(other)));
+    phys->softening = std::min(one.softening, other.softening);
+    phys->broken = scene && scene->iter >= cohesiveTresholdIteration;
+    phys->bonded = bonds && !phys->broken;
     interaction->phys = phys;
 }
 

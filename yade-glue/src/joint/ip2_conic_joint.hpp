@@ -23,7 +23,16 @@ public:
     void go(const boost::shared_ptr<yade::Material>& material1, const boost::shared_ptr<yade::Material>& material2,
             const boost::shared_ptr<yade::Interaction>& interaction) override;
 
-    template <class Visit> static void eachAttribute(Visit&&) { }
+    bool bonds = false;
+    long cohesiveTresholdIteration = 1;
+
+    template <class Visit> static void eachAttribute(Visit&& visit)
+    {
+        using Ip2 = Ip2_ConicJointMat_ConicJointMat_ConicJointPhys;
+        visit("bonds", &Ip2::bonds, "Whether joints made before cohesiveTresholdIteration are bonded.", 1);
+        visit("cohesiveTresholdIteration", &Ip2::cohesiveTresholdIteration,
+              "Joints made before this step are whole; later ones have the residual values from the start.", 1);
+    }
 
 private:
     friend class boost::serialization::access;

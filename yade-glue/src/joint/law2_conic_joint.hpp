@@ -11,6 +11,8 @@
 
 namespace potential_particles {
 
+struct ContactPatch;
+
 // go() runs in many threads at once.
 class Law2_ScGeomConicPP_ConicJointPhys final : public yade::LawFunctor {
 public:
@@ -36,10 +38,14 @@ private:
     template <class Archive> void serialize(Archive& archive, unsigned);
 
     struct Energies;
+    struct Joint;
+    void open(const Joint& joint, bool broken, Energies& energies) const;
+    bool holdsAsBond(const Joint& joint, Energies& energies) const;
+    void holdAsPatch(const Joint& joint, const ContactPatch& patch, bool broken, Energies& energies) const;
     void track(const Energies& energies);
 
     // Where the scene's tracker keeps them; each thread finds the same.
-    int elasticNumber = -1, frictionNumber = -1, viscousNumber = -1, areaNumber = -1;
+    int elasticNumber = -1, frictionNumber = -1, viscousNumber = -1, areaNumber = -1, breakingNumber = -1;
 };
 
 } // namespace potential_particles

@@ -24,6 +24,10 @@ public:
     {
         return body.state->vel + body.state->angVel.cross(point - position);
     }
+    const yade::Vector3r& centre() const { return position; }
+    const yade::Quaternionr& turn() const { return body.state->se3.orientation; }
+    const boost::shared_ptr<yade::Shape>& shape() const { return body.shape; }
+    const yade::State& state() const { return *body.state; }
     const yade::Vector3r& spin() const { return body.state->angVel; }
 
     // Velocity in that direction of the point for a unit impulse there in that direction, 1/kg: 0 of a body that is held.

@@ -44,7 +44,21 @@ public:
         forgetUnsaved();
     }
 
+    // Whether a bond holds the pair, so that no functor need find its contact. Not saved: the law says so in each step. The contact
+    // after it is a new one, with no memory of those before.
+    bool isHeldByBond() const { return heldByBond; }
+    void setHeldByBond(bool held)
+    {
+        if (heldByBond && !held) {
+            forgetUnsaved();
+            state = {};
+        }
+        heldByBond = held;
+    }
+
 private:
+    bool heldByBond = false;
+
     void forgetUnsaved()
     {
         std::fill(std::begin(state.last_contact), std::end(state.last_contact), 0.0);

@@ -2,6 +2,7 @@
 //
 // Plain attributes of a class in Python and in archives, from one list: the class has
 //     template <class Visit> static void eachAttribute(Visit&& visit); // visit(name, member, docstring) for each
+// and visit(name, member, docstring, since) for one that archives have from that version of the class on.
 #pragma once
 
 #include "definitions.hpp"
@@ -12,7 +13,7 @@ namespace potential_particles {
 template <class Class> bool setAttribute(Class& object, const std::string& key, const py::object& value)
 {
     bool own = false;
-    Class::eachAttribute([&](const char* name, auto member, const char*) {
+    Class::eachAttribute([&](const char* name, auto member, const char*, unsigned = 0) {
         if (key != name)
             return;
         object.*member = py::extract<typename Pointed<decltype(member)>::type>(value)();
@@ -24,13 +25,13 @@ template <class Class> bool setAttribute(Class& object, const std::string& key, 
 template <class Class> py::dict dictOfAttributes(const Class& object)
 {
     py::dict attributes;
-    Class::eachAttribute([&](const char* name, auto member, const char*) { attributes[name] = py::object(object.*member); });
+    Class::eachAttribute([&](const char* name, auto member, const char*, unsigned = 0) { attributes[name] = py::object(object.*member); });
     return attributes;
 }
 
 template <class Class, class Registered> void addAttributes(Registered& registered)
 {
-    Class::eachAttribute([&](const char* name, auto member, const char* text) {
+    Class::eachAttribute([&](const char* name, auto member, const char* text, unsigned = 0) {
         using Value = typename Pointed<decltype(member)>::type;
         registered.add_property(
             name, pythonFunction<Value, const Class&>([member](const Class& object) { return object.*member; }),
@@ -42,9 +43,13 @@ template <class Class, class Registered> void addAttributes(Registered& register
     });
 }
 
-template <class Class, class Archive> void archiveAttributes(Archive& archive, Class& object)
+// `version`: of the class in this archive.
+template <class Class, class Archive> void archiveAttributes(Archive& archive, Class& object, unsigned version)
 {
-    Class::eachAttribute([&](const char* name, auto member, const char*) { archiveAttribute(archive, name, object.*member); });
+    Class::eachAttribute([&](const char* name, auto member, const char*, unsigned since = 0) {
+        if (version >= since)
+            archiveAttribute(archive, name, object.*member);
+    });
 }
 
 } // namespace potential_particles
@@ -76,5 +81,5 @@ template <class Class, class Archive> void archiveAttributes(Archive& archive, C
     {                                                                                              \
         requireReadable<Class>(version);                                                           \
         serializeBase<yade::Base>(archive, *this, #Base);                                          \
-        archiveAttributes(archive, *this);                                                         \
+        archiveAttributes(archive, *this, version);                                                \
     }

@@ -15,6 +15,7 @@
 #include <boost/python/raw_function.hpp>
 #include <boost/python/scope.hpp>
 #include <boost/serialization/nvp.hpp>
+#include <boost/serialization/vector.hpp>
 #include <boost/shared_ptr.hpp>
 
 #include <stdexcept>
@@ -81,6 +82,15 @@ template <class Archive> void archiveAttribute(Archive& archive, const char* nam
     for (int i = 0; i < 3; ++i) {
         const std::string element = base + "_" + "xyz"[i];
         archive& boost::serialization::make_nvp(element.c_str(), value[i]);
+    }
+}
+
+template <class Archive> void archiveAttribute(Archive& archive, const char* name, yade::Quaternionr& value)
+{
+    const std::string base(name);
+    for (int i = 0; i < 4; ++i) {
+        const std::string element = base + "_" + "xyzw"[i];
+        archive& boost::serialization::make_nvp(element.c_str(), value.coeffs()[i]);
     }
 }
 
