@@ -19,7 +19,7 @@ const SPHERICITIES: [f64; 2] = [0.0, 0.02];
 const DEPTHS: [f64; 2] = [0.02, 0.2];
 
 fn patch(case: &Case, tolerance: f64, scratch: &mut PatchScratch) -> Patch {
-    let settings = PatchSettings { tolerance, with_energy: false };
+    let settings = PatchSettings { tolerance, with_energy: false, ..PatchSettings::default() };
     patch_of_contact(&case.a, &case.pose_a, &case.b, &case.pose_b, &case.contact, &settings, scratch, |_| ())
         .expect("a patch of an overlapping contact")
 }

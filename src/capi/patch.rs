@@ -310,7 +310,7 @@ pub(super) fn is_on(flag: u32) -> Result<bool, pp_status> {
 }
 
 pub(super) fn settings(tolerance: f64, with_energy: u32) -> Result<PatchSettings, pp_status> {
-    Ok(PatchSettings { tolerance, with_energy: is_on(with_energy)? })
+    Ok(PatchSettings { tolerance, with_energy: is_on(with_energy)?, ..PatchSettings::default() })
 }
 
 fn patch_status(error: PatchError) -> pp_status {

@@ -5,6 +5,7 @@
 //! | file | holds |
 //! |---|---|
 //! | `rules` | Gauss rules |
+//! | `settings` | what is asked for |
 //! | `patch` | the answer |
 //! | `field` | the potentials in the frame of the patch |
 //! | `cell` | a stretch of a ray on which they are quadratics |
@@ -19,6 +20,7 @@
 //! | `smoothness` | how far off a rule over a sector is |
 //! | `fan` | sectors of rays, refined |
 //! | `scratch` | the buffers |
+//! | `stiffness` | how force and torque change with the pose |
 //! | `integration` | from the potentials to the answer |
 //! | `contact` | the patch of two particles, of a particle and a plane, of a particle and a triangle |
 //! | `planar` | the patch of two particles of the plane |
@@ -40,9 +42,12 @@ mod polygon;
 mod ray;
 mod rules;
 mod scratch;
+mod settings;
 mod smoothness;
+mod stiffness;
 mod zone;
 
-pub use contact::{PatchError, PatchSettings, patch_of_contact, patch_on_plane, patch_on_triangle};
+pub use contact::{patch_of_contact, patch_on_plane, patch_on_triangle};
 pub use patch::{Patch, PatchFlags, PatchPoint};
 pub use scratch::PatchScratch;
+pub use settings::{PatchError, PatchSettings};

@@ -1,6 +1,6 @@
 //! The answer: what a law of contact needs of a patch.
 
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::{Matrix3, Matrix6, Vector3};
 use std::fmt;
 
 /// The contact patch of two bodies, or of a body and a flat boundary, world axes, lengths in the caller's unit.
@@ -40,6 +40,11 @@ pub struct Patch {
     pub largest_depth: f64,
     /// Elastic energy over K, length⁴; NaN unless it was asked for.
     pub energy: f64,
+    /// Change of force and torque on B (rows) with a shift of A and a turn of A about the contact point (columns), over K, while B is held, and with
+    /// it the point of reference and the axes: length² (force by shift) to length⁴ (torque by turn). NaN unless it was asked for.
+    pub stiffness: Matrix6<f64>,
+    /// The farthest point of quadrature from the contact point.
+    pub(super) reach: f64,
     /// Estimated error of the force over its size, of the torque over |force| times the reach of the patch, and of the energy, if asked for,
     /// over itself: the largest.
     pub error: f64,

@@ -33,7 +33,7 @@ fn on_plane(a: &Particle, pose: &Pose, height: f64, tolerance: f64) -> Option<(P
     if contact.kind == Kind::Separated {
         return None;
     }
-    let settings = PatchSettings { tolerance, with_energy: true };
+    let settings = PatchSettings { tolerance, with_energy: true, ..PatchSettings::default() };
     let patch = patch_on_plane(a, pose, &contact, &settings, &mut PatchScratch::new(), |_| ()).unwrap();
     let mut sum = Sum::default();
     sum.add(&patch, &(contact.on_boundary - pose.position()));
@@ -48,7 +48,7 @@ fn on_mesh(a: &Particle, pose: &Pose, triangles: &[[[f64; 3]; 3]], tolerance: f6
         if contact.kind == Kind::Separated {
             continue;
         }
-        let settings = PatchSettings { tolerance, with_energy: true };
+        let settings = PatchSettings { tolerance, with_energy: true, ..PatchSettings::default() };
         let scratch = &mut PatchScratch::new();
         let patch = patch_on_triangle(a, pose, &triangle, true, &contact, &settings, scratch, |_| ()).unwrap();
         sum.add(&patch, &(contact.on_boundary - pose.position()));
