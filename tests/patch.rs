@@ -2,6 +2,10 @@
 
 #[path = "patch/bodies.rs"]
 mod bodies;
+#[path = "patch/boundaries.rs"]
+mod boundaries;
+#[path = "patch/carried.rs"]
+mod carried;
 #[path = "patch/closed_forms.rs"]
 mod closed_forms;
 #[path = "patch/definition.rs"]

@@ -23,6 +23,7 @@
 //! | `stiffness` | how force and torque change with the pose |
 //! | `integration` | from the potentials to the answer |
 //! | `contact` | the patch of two particles, of a particle and a plane, of a particle and a triangle |
+//! | `patch_state` | what a pair keeps of its patch, and how that is carried on |
 //! | `planar` | the patch of two particles of the plane |
 
 mod border;
@@ -36,6 +37,7 @@ mod field;
 mod integration;
 #[allow(clippy::module_inception)]
 mod patch;
+mod patch_state;
 mod pieces;
 pub(crate) mod planar;
 mod polygon;
@@ -49,5 +51,6 @@ mod zone;
 
 pub use contact::{patch_of_contact, patch_on_plane, patch_on_triangle};
 pub use patch::{Patch, PatchFlags, PatchPoint};
+pub use patch_state::PatchState;
 pub use scratch::PatchScratch;
 pub use settings::{PatchError, PatchSettings};

@@ -1,24 +1,18 @@
 //! The stiffness against differences of force and torque, and against the symmetry of second derivatives of an energy.
 
-use crate::bodies::{Chance, FAMILIES, Pair, body, contact, cuboid};
+use crate::bodies::{Chance, FAMILIES, Pair, body, contact};
+use crate::boundaries::{Boundary, resting};
+use crate::carried::moved;
 use crate::difference;
 use crate::gradients::each;
-use nalgebra::{Matrix6, UnitQuaternion, Vector3, Vector6};
+use nalgebra::{Matrix6, Vector3, Vector6};
 use potential_particles::{
-    Contact, Kind, Particle, Patch, PatchFlags, PatchScratch, PatchSettings, Pose, Settings, Triangle, Wall, contact_with_plane,
-    contact_with_triangle, patch_of_contact, patch_on_plane, patch_on_triangle,
+    Contact, Patch, PatchFlags, PatchScratch, PatchSettings, Pose, Triangle, Wall, patch_of_contact,
 };
 
 const FINE: PatchSettings = PatchSettings { tolerance: 1e-9, with_energy: false, with_stiffness: true };
 
-/// A pose after a shift and a turn about a point.
-fn moved(pose: &Pose, about: &Vector3<f64>, shift: &Vector3<f64>, turn: &Vector3<f64>) -> Pose {
-    let turn = UnitQuaternion::from_scaled_axis(*turn).to_rotation_matrix().into_inner();
-    let position = about + shift + turn * (pose.position() - about);
-    Pose::from_rotation(position.into(), &(turn * pose.rotation())).unwrap()
-}
-
-/// A patch, and force and torque about a point that stays; `None` without contact.
+/// Force and torque about a point that stays.
 fn wrench(patch: &Patch, contact_point: &Vector3<f64>, about: &Vector3<f64>) -> Vector6<f64> {
     let torque = patch.torque + (contact_point - about).cross(&patch.force);
     Vector6::from_iterator(patch.force.iter().chain(torque.iter()).copied())
@@ -49,8 +43,8 @@ fn error(stiffness: &Matrix6<f64>, arm: f64, h: f64, at: impl Fn(Vector3<f64>, V
 
 #[test]
 fn the_stiffness_of_pairs_is_that_of_differences() {
-    let mut worst = (0.0, String::new());
     each(31, |pair, chance, name| {
+        // A third of the pairs is enough for the time.
         if chance.uniform() > 0.33 {
             return;
         }
@@ -68,9 +62,67 @@ fn the_stiffness_of_pairs_is_that_of_differences() {
             let there = contact(a, &pose_a, b, pose_b);
             wrench(&patch(&pose_a, &there), &there.point, &found.point)
         });
-        if off > worst.0 { worst = (off, name.to_string()) }
-        println!("{off:.1e} {name}");
+        assert!(off < 1e-6, "{name}: {off:e}");
     });
-    println!("{worst:?}");
-    assert!(worst.0 < 1e-3, "{worst:?}");
+}
+
+/// The motions e_i and e_j one after the other, less the same in reverse order: of turns their axis, of a turn and a shift the shift turned.
+fn commutator(i: usize, j: usize) -> Vector6<f64> {
+    let [(shift, turn), (other_shift, other_turn)] = [i, j].map(|k| {
+        let axis = Vector3::ith(k % 3, 1.0);
+        if k < 3 { (axis, Vector3::zeros()) } else { (Vector3::zeros(), axis) }
+    });
+    let (moved, turned) = (turn.cross(&other_shift) - other_turn.cross(&shift), turn.cross(&other_turn));
+    Vector6::new(moved.x, moved.y, moved.z, turned.x, turned.y, turned.z)
+}
+
+#[test]
+fn the_stiffness_is_that_of_an_energy() {
+    each(32, |pair, _, name| {
+        let Pair { a, pose_a, b, pose_b, contact, .. } = pair;
+        let here = patch_of_contact(a, pose_a, b, pose_b, contact, &FINE, &mut PatchScratch::new(), |_| ()).unwrap();
+        if here.flags.contains(PatchFlags::TOLERANCE_NOT_REACHED) {
+            return;
+        }
+        // Derivatives along motions that do not commute: they differ by that along the commutator.
+        let wrench = wrench(&here, &contact.point, &contact.point);
+        let expected = Matrix6::from_fn(|i, j| wrench.dot(&commutator(i, j)));
+        let arm = here.area.sqrt();
+        let [off, size] =
+            [here.stiffness - here.stiffness.transpose() - expected, here.stiffness].map(|m| scaled(&m, arm).norm());
+        assert!(off < 1e-6 * size, "{name}: {off:e} of {size:e}");
+    });
+}
+
+#[test]
+fn the_stiffness_of_boundaries_is_that_of_differences() {
+    let mut chance = Chance::new(33);
+    for family in FAMILIES {
+        for k in [0.0, 0.02, 0.3] {
+            for r in [1e-3, 0.3] {
+                let a = body(family, r, k, &mut chance);
+                let overlap = 0.1 * if family == "ball" { 0.5 } else { a.rounding_radius() };
+                let pose = resting(&a, &chance.rotation(), overlap);
+                let plane = Boundary::Plane(Wall::new([0.0; 3], [0.0, 0.0, 1.0]).unwrap());
+                let here = plane.patch(&a, &pose, &FINE).unwrap();
+                let (middle, arm) = (here.pressure_centre, here.area.sqrt());
+                // Its border lies across the patch.
+                let corner = |x: f64, y: f64| [middle.x + x * arm, middle.y + y * arm, 0.0];
+                let triangle = Triangle::new([corner(-9.0, -0.1), corner(9.0, -0.2), corner(0.0, 9.0)]).unwrap();
+                for boundary in [plane, Boundary::Triangle(triangle)] {
+                    let here = boundary.patch(&a, &pose, &FINE).unwrap();
+                    if here.flags.contains(PatchFlags::TOLERANCE_NOT_REACHED) {
+                        continue;
+                    }
+                    let about = boundary.contact(&a, &pose).unwrap().on_boundary;
+                    let off = error(&here.stiffness, arm, 3e-3 * overlap, |shift, turn| {
+                        let pose = moved(&pose, &about, &shift, &turn);
+                        let contact = boundary.contact(&a, &pose).unwrap();
+                        wrench(&boundary.patch(&a, &pose, &FINE).unwrap(), &contact.on_boundary, &about)
+                    });
+                    assert!(off < 1e-5, "{family}, k {k}, r {r}, {boundary:?}: {off:e}");
+                }
+            }
+        }
+    }
 }
