@@ -4,7 +4,7 @@ use crate::cases::{Case, kinds};
 use crate::scene::evaluation::Plain;
 use crate::scene::{polyhedra, random};
 use nalgebra::Matrix3;
-use potential_particles::{Patch, PatchScratch, PatchSettings, patch_of_contact};
+use potential_particles::{Patch, PatchFlags, PatchScratch, PatchSettings, PatchState, patch_of_contact};
 use serde_json::{Value, json};
 use std::hint::black_box;
 use std::time::Instant;
@@ -77,6 +77,23 @@ fn measured(kind: &str, case: &Case, unit: f64) -> Value {
         })
         .collect();
     json!({"kind": kind, "s": case.contact.s, "rows": rows})
+}
+
+/// Units of a patch that is carried on: the most of all kinds.
+pub fn carried(unit: f64) -> f64 {
+    let (settings, mut scratch) = (PatchSettings::default(), PatchScratch::new());
+    let of = |case: &Case| {
+        let mut state = PatchState::default();
+        let mut look = || {
+            let Case { a, b, pose_a, pose_b, contact } = black_box(case);
+            let patch = state.patch_of_contact(a, pose_a, b, pose_b, contact, &settings, &mut scratch);
+            patch.expect("a patch of an overlapping contact").flags
+        };
+        let last = [look(), look(), look()][2];
+        assert!(last.contains(PatchFlags::CARRIED), "{last}");
+        time(|| _ = black_box(look())) / unit
+    };
+    kinds(1e-2, 0.0, 2e-4).iter().map(|(_, case)| of(case)).fold(0.0, f64::max)
 }
 
 /// The unit in seconds, and a row for each kind.

@@ -10,8 +10,11 @@ from pathlib import Path
 HERE = Path(sys.argv[0]).resolve().parent
 sys.path[:0] = [str(HERE), str(HERE.parent)]
 
+import cost  # noqa: E402
 from rows import ROWS  # noqa: E402
 from summary import print_table, write_summary  # noqa: E402
+
+ROWS.update(cost.ROWS)
 
 
 def picture(found, path):
