@@ -82,7 +82,7 @@ fn measured(kind: &str, case: &Case, unit: f64) -> Value {
 /// Units of a patch that is carried on: the most of all kinds.
 pub fn carried(unit: f64) -> f64 {
     let (settings, mut scratch) = (PatchSettings::default(), PatchScratch::new());
-    let of = |case: &Case| {
+    let mut of = |case: &Case| {
         let mut state = PatchState::default();
         let mut look = || {
             let Case { a, b, pose_a, pose_b, contact } = black_box(case);

@@ -8,7 +8,7 @@ from yade import Quaternion
 
 NUMBER, SIZE, R = 500, 0.1, 0.005
 STIFFNESS = 5e8  # per area, N/m^3
-FALLING_STEPS, SETTLING_STEPS, REST_STEPS = 60, 1500, 300
+FALLING_STEPS, SETTLING_STEPS, REST_STEPS = 60, 1500, 100
 
 
 def _pyramid():
@@ -18,11 +18,14 @@ def _pyramid():
 
 
 def _cubes(falling):
-    """Five layers, a gap of 1e-3 of the size below each if they fall."""
-    edge, gap = math.ceil(math.sqrt(NUMBER / 5)), 1e-3 * SIZE if falling else 0.0
+    """Five layers: with a gap of 1e-3 of the size below each if they fall, else sunk in about as far as the layers above press."""
+    edge, sinking = math.ceil(math.sqrt(NUMBER / 5)), 4.5e-5 * SIZE
+    drops = [0.0]
+    for layer in range(5):
+        drops.append(drops[-1] + (-1e-3 * SIZE if falling else (5 - layer) * sinking))
     for n in range(NUMBER):
         layer, rest = divmod(n, edge * edge)
-        add(block_shape((SIZE,) * 3, r=R), (1.001 * SIZE * (rest % edge), 1.001 * SIZE * (rest // edge), (SIZE + gap) * layer + 0.5 * SIZE),
+        add(block_shape((SIZE,) * 3, r=R), (1.001 * SIZE * (rest % edge), 1.001 * SIZE * (rest // edge), (layer + 0.5) * SIZE - drops[layer + 1]),
             Quaternion((0, 0, 1), 1e-3 * (n % 7)))
 
 
