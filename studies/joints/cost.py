@@ -26,7 +26,7 @@ def _cubes(falling):
     for n in range(NUMBER):
         layer, rest = divmod(n, edge * edge)
         add(block_shape((SIZE,) * 3, r=R), (1.001 * SIZE * (rest % edge), 1.001 * SIZE * (rest // edge), (layer + 0.5) * SIZE - drops[layer + 1]),
-            Quaternion((0, 0, 1), 1e-3 * (n % 7)))
+            Quaternion((0, 0, 1), 1e-4 * (n % 7)))
 
 
 def _pyramids(falling):
