@@ -123,6 +123,9 @@
 // struct pp_patch_point_2d, for pp_struct_size.
 #define PP_STRUCT_PATCH_POINT_2D 20
 
+// struct pp_patch_state, for pp_struct_size.
+#define PP_STRUCT_PATCH_STATE 21
+
 // The point on the boundary lies on the plane, or inside the triangle.
 #define PP_ON_INTERIOR 0
 
@@ -172,6 +175,10 @@
 
 // No patch was found around the contact point, and force and area are 0: an overlap within rounding.
 #define PP_PATCH_EMPTY 8
+
+// The patch follows from that of an earlier pose by its stiffness (struct pp_patch_state): area and moments
+// are those of that pose.
+#define PP_PATCH_CARRIED 16
 
 // Formulation "midway" (paper eqs 4 and 44): minimise t with s_A <= t and s_B <= t.
 #define PP_MIDWAY 0
@@ -464,6 +471,18 @@ typedef struct pp_placement {
 // context: as given to pp_pack. placements: valid during this call only, and not to be read when count is
 // 0. It may call functions of this library; no exception and no longjmp may leave it.
 typedef int32_t (*pp_placed)(void *context, const struct pp_placement *placements, size_t count);
+
+// What one ordered pair (A, B), or a particle A and a flat boundary, keeps of its patch. While no point of it
+// has moved by more than 0.3 sqrt(tolerance) of the largest depth, the next ones follow from it without an
+// integral.
+//
+// Owned by the caller: set all bytes to 0 to begin with or to forget; copy it freely within a process. One
+// caller at a time. Not to be saved: an answer rests on it. It is used for the particles, tolerance and
+// with_energy alone for which it was written, while they exist.
+typedef struct pp_patch_state {
+    // Library's own; not for reading.
+    double last_patch[112];
+} pp_patch_state;
 
 // The contact patch of two bodies A and B, or of A and a flat boundary B: the surface on which the scales of
 // both are equal and at most 1, with the pressure p = K length (1 - s), K the caller's stiffness per area
@@ -992,7 +1011,9 @@ pp_status pp_particle_depth_length(const struct pp_particle *particle,
 // The patch of an overlapping contact of A with B.
 //
 // contact: an answer of pp_contact_detect for the same particles and poses. tolerance: relative, in
-// [1e-12, 0.1]; 1e-4 is a good choice. with_energy: 0 or 1. points: receives the points of quadrature, if
+// [1e-12, 0.1]; 1e-4 is a good choice. with_energy: 0 or 1. state: may be NULL; else that of the pair, read
+// and updated, by which the patch may be carried on from an earlier one (PP_PATCH_CARRIED); not used if
+// capacity is not 0. points: receives the points of quadrature, if
 // capacity is not 0; may be NULL then. count: receives their number; may be NULL with a capacity of 0.
 // Buffers: the library keeps some 100 kilobytes for each thread that calls this, until the thread ends.
 // Errors: PP_NULL_POINTER, PP_BAD_POSITION, PP_BAD_ORIENTATION, PP_BAD_POINT (the contact was not filled, or is
@@ -1004,6 +1025,7 @@ pp_status pp_patch_of_contact(const struct pp_particle *a,
                               const struct pp_contact *contact,
                               double tolerance,
                               uint32_t with_energy,
+                              struct pp_patch_state *state,
                               struct pp_patch *patch,
                               struct pp_patch_point *points,
                               size_t capacity,
@@ -1019,6 +1041,7 @@ pp_status pp_patch_on_plane(const struct pp_particle *a,
                             const struct pp_flat_contact *contact,
                             double tolerance,
                             uint32_t with_energy,
+                            struct pp_patch_state *state,
                             struct pp_patch *patch,
                             struct pp_patch_point *points,
                             size_t capacity,
@@ -1040,6 +1063,7 @@ pp_status pp_patch_on_triangle(const struct pp_particle *a,
                                const struct pp_flat_contact *contact,
                                double tolerance,
                                uint32_t with_energy,
+                               struct pp_patch_state *state,
                                struct pp_patch *patch,
                                struct pp_patch_point *points,
                                size_t capacity,

@@ -94,8 +94,8 @@ pub use pair::role::Role;
 pub use particle::mass_properties::{MASS_TOLERANCE, MassProperties};
 pub use particle::particle::{MAX_PLANES, Particle, ParticleError, Plane};
 pub use patch::{
-    Patch, PatchError, PatchFlags, PatchPoint, PatchScratch, PatchSettings, patch_of_contact, patch_on_plane,
-    patch_on_triangle,
+    Patch, PatchError, PatchFlags, PatchPoint, PatchScratch, PatchSettings, PatchState, patch_of_contact,
+    patch_on_plane, patch_on_triangle,
 };
 pub use pose::{Pose, PoseError};
 pub use section::Section;

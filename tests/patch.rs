@@ -2,6 +2,10 @@
 
 #[path = "patch/bodies.rs"]
 mod bodies;
+#[path = "patch/boundaries.rs"]
+mod boundaries;
+#[path = "patch/carried.rs"]
+mod carried;
 #[path = "patch/closed_forms.rs"]
 mod closed_forms;
 #[path = "patch/definition.rs"]
@@ -14,6 +18,8 @@ mod gradients;
 mod pieces;
 #[path = "patch/planar.rs"]
 mod planar;
+#[path = "patch/stiffness.rs"]
+mod stiffness;
 #[path = "patch/walks.rs"]
 mod walks;
 #[path = "patch/walls.rs"]
@@ -23,7 +29,7 @@ use bodies::Pair;
 use potential_particles::{Patch, PatchScratch, PatchSettings, patch_of_contact};
 
 fn patch(pair: &Pair, tolerance: f64, with_energy: bool) -> Patch {
-    let settings = PatchSettings { tolerance, with_energy };
+    let settings = PatchSettings { tolerance, with_energy, ..PatchSettings::default() };
     let Pair { a, pose_a, b, pose_b, contact, .. } = pair;
     patch_of_contact(a, pose_a, b, pose_b, contact, &settings, &mut PatchScratch::new(), |_| ()).unwrap()
 }

@@ -10,7 +10,7 @@ use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI, TAU};
 
 fn patch(pair: &Pair, tolerance: f64, with_energy: bool) -> Patch {
     let Pair { a, pose_a, b, pose_b, contact, .. } = pair;
-    let settings = PatchSettings { tolerance, with_energy };
+    let settings = PatchSettings { tolerance, with_energy, ..PatchSettings::default() };
     patch_of_contact(a, pose_a, b, pose_b, contact, &settings, &mut PatchScratch::new(), |_| ())
         .expect("a patch of an overlapping contact")
 }
@@ -139,7 +139,7 @@ pub fn gradients(pairs: usize) -> ([f64; 2], usize) {
 fn on_plane(a: &Particle, pose: &Pose, tolerance: f64) -> Option<(Patch, Vector3<f64>)> {
     let wall = Wall::new([0.0; 3], [0.0, 0.0, 1.0]).expect("a plane");
     let contact = contact_with_plane(a, pose, &wall, &Settings::default(), None).expect("a contact");
-    let settings = PatchSettings { tolerance, with_energy: false };
+    let settings = PatchSettings { tolerance, with_energy: false, ..PatchSettings::default() };
     (contact.kind == Kind::Overlapping).then(|| {
         let found = patch_on_plane(a, pose, &contact, &settings, &mut PatchScratch::new(), |_| ());
         (found.expect("a patch"), contact.on_boundary - pose.position())
@@ -149,7 +149,7 @@ fn on_plane(a: &Particle, pose: &Pose, tolerance: f64) -> Option<(Patch, Vector3
 /// A cube slid over square tiles of two triangles each: largest relative difference of the force to that on one slab, of so many places.
 pub fn tiles(places: usize, tolerance: f64) -> f64 {
     let cube = cuboid([0.5; 3], 0.01, 0.0);
-    let settings = PatchSettings { tolerance, with_energy: false };
+    let settings = PatchSettings { tolerance, with_energy: false, ..PatchSettings::default() };
     let mut most = 0.0_f64;
     for i in 0..places {
         let along = i as f64 / places as f64;

@@ -4,7 +4,7 @@ use crate::cases::{Case, kinds};
 use crate::scene::evaluation::Plain;
 use crate::scene::{polyhedra, random};
 use nalgebra::Matrix3;
-use potential_particles::{Patch, PatchScratch, PatchSettings, patch_of_contact};
+use potential_particles::{Patch, PatchFlags, PatchScratch, PatchSettings, PatchState, patch_of_contact};
 use serde_json::{Value, json};
 use std::hint::black_box;
 use std::time::Instant;
@@ -19,7 +19,7 @@ const SPHERICITIES: [f64; 2] = [0.0, 0.02];
 const DEPTHS: [f64; 2] = [0.02, 0.2];
 
 fn patch(case: &Case, tolerance: f64, scratch: &mut PatchScratch) -> Patch {
-    let settings = PatchSettings { tolerance, with_energy: false };
+    let settings = PatchSettings { tolerance, with_energy: false, ..PatchSettings::default() };
     patch_of_contact(&case.a, &case.pose_a, &case.b, &case.pose_b, &case.contact, &settings, scratch, |_| ())
         .expect("a patch of an overlapping contact")
 }
@@ -77,6 +77,23 @@ fn measured(kind: &str, case: &Case, unit: f64) -> Value {
         })
         .collect();
     json!({"kind": kind, "s": case.contact.s, "rows": rows})
+}
+
+/// Units of a patch that is carried on: the most of all kinds.
+pub fn carried(unit: f64) -> f64 {
+    let (settings, mut scratch) = (PatchSettings::default(), PatchScratch::new());
+    let mut of = |case: &Case| {
+        let mut state = PatchState::default();
+        let mut look = || {
+            let Case { a, b, pose_a, pose_b, contact } = black_box(case);
+            let patch = state.patch_of_contact(a, pose_a, b, pose_b, contact, &settings, &mut scratch);
+            patch.expect("a patch of an overlapping contact").flags
+        };
+        let last = [look(), look(), look()][2];
+        assert!(last.contains(PatchFlags::CARRIED), "{last}");
+        time(|| _ = black_box(look())) / unit
+    };
+    kinds(1e-2, 0.0, 2e-4).iter().map(|(_, case)| of(case)).fold(0.0, f64::max)
 }
 
 /// The unit in seconds, and a row for each kind.

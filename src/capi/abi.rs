@@ -2,7 +2,7 @@
 
 use super::flat::pp_flat_contact;
 use super::packing::{pp_packing, pp_placement};
-use super::patch::{pp_patch, pp_patch_point};
+use super::patch::{pp_patch, pp_patch_point, pp_patch_state};
 use super::planar::{pp_area_properties, pp_closest_2d, pp_contact_2d, pp_patch_2d, pp_patch_point_2d, pp_pose_2d};
 use super::types::{pp_closest, pp_contact, pp_mass_properties, pp_pair_state, pp_pose, pp_settings};
 use std::ffi::{CStr, c_char};
@@ -54,6 +54,8 @@ pub const PP_STRUCT_PATCH_POINT: u32 = 18;
 pub const PP_STRUCT_PATCH_2D: u32 = 19;
 /// struct pp_patch_point_2d, for pp_struct_size.
 pub const PP_STRUCT_PATCH_POINT_2D: u32 = 20;
+/// struct pp_patch_state, for pp_struct_size.
+pub const PP_STRUCT_PATCH_STATE: u32 = 21;
 
 /// Version of the loaded library as "major.minor.patch". Static text: do not free it.
 #[unsafe(no_mangle)]
@@ -93,6 +95,7 @@ pub extern "C" fn pp_struct_size(which: u32) -> usize {
         PP_STRUCT_PATCH_POINT => size_of::<pp_patch_point>(),
         PP_STRUCT_PATCH_2D => size_of::<pp_patch_2d>(),
         PP_STRUCT_PATCH_POINT_2D => size_of::<pp_patch_point_2d>(),
+        PP_STRUCT_PATCH_STATE => size_of::<pp_patch_state>(),
         _ => 0,
     }
 }

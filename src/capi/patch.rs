@@ -7,7 +7,7 @@ use super::particle::pp_particle;
 use super::status::*;
 use super::types::*;
 use crate::contact::contact::{Contact, Kind};
-use crate::{FlatContact, Patch, PatchError, PatchPoint, PatchScratch, PatchSettings, Triangle};
+use crate::{FlatContact, Patch, PatchError, PatchPoint, PatchScratch, PatchSettings, PatchState, Triangle};
 use crate::{patch_of_contact, patch_on_plane, patch_on_triangle};
 use std::cell::RefCell;
 
@@ -20,6 +20,9 @@ pub const PP_PATCH_TOLERANCE_NOT_REACHED: u32 = 2;
 pub const PP_PATCH_DEEP: u32 = 4;
 /// No patch was found around the contact point, and force and area are 0: an overlap within rounding.
 pub const PP_PATCH_EMPTY: u32 = 8;
+/// The patch follows from that of an earlier pose by its stiffness (struct pp_patch_state): area and moments
+/// are those of that pose.
+pub const PP_PATCH_CARRIED: u32 = 16;
 
 /// The contact patch of two bodies A and B, or of A and a flat boundary B: the surface on which the scales of
 /// both are equal and at most 1, with the pressure p = K length (1 - s), K the caller's stiffness per area
@@ -84,6 +87,33 @@ pub struct pp_patch_point {
     pub normal: [f64; 3],
 }
 
+/// What one ordered pair (A, B), or a particle A and a flat boundary, keeps of its patch. While no point of it
+/// has moved by more than 0.3 sqrt(tolerance) of the largest depth, the next ones follow from it without an
+/// integral.
+///
+/// Owned by the caller: set all bytes to 0 to begin with or to forget; copy it freely within a process. One
+/// caller at a time. Not to be saved: an answer rests on it. It is used for the particles, tolerance and
+/// with_energy alone for which it was written, while they exist.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct pp_patch_state {
+    /// Library's own; not for reading.
+    pub last_patch: [f64; 112],
+}
+
+const _: () = assert!(
+    size_of::<PatchState>() <= size_of::<pp_patch_state>() && align_of::<PatchState>() == align_of::<pp_patch_state>()
+);
+
+/// The state to use: none where points are wanted, which a patch that is carried on does not have.
+///
+/// # Safety
+/// `state` is NULL or exclusively ours for the call.
+unsafe fn state_of<'a>(state: *mut pp_patch_state, capacity: usize) -> Option<&'a mut PatchState> {
+    // SAFETY: it holds as many bytes, all of them of numbers of which any value is one.
+    unsafe { state.cast::<PatchState>().as_mut() }.filter(|_| capacity == 0)
+}
+
 thread_local! {
     /// Buffers of the last patch of this thread.
     static SCRATCH: RefCell<PatchScratch> = RefCell::new(PatchScratch::new());
@@ -105,7 +135,9 @@ pub unsafe extern "C" fn pp_particle_depth_length(particle: *const pp_particle, 
 /// The patch of an overlapping contact of A with B.
 ///
 /// contact: an answer of pp_contact_detect for the same particles and poses. tolerance: relative, in
-/// [1e-12, 0.1]; 1e-4 is a good choice. with_energy: 0 or 1. points: receives the points of quadrature, if
+/// [1e-12, 0.1]; 1e-4 is a good choice. with_energy: 0 or 1. state: may be NULL; else that of the pair, read
+/// and updated, by which the patch may be carried on from an earlier one (PP_PATCH_CARRIED); not used if
+/// capacity is not 0. points: receives the points of quadrature, if
 /// capacity is not 0; may be NULL then. count: receives their number; may be NULL with a capacity of 0.
 /// Buffers: the library keeps some 100 kilobytes for each thread that calls this, until the thread ends.
 /// Errors: PP_NULL_POINTER, PP_BAD_POSITION, PP_BAD_ORIENTATION, PP_BAD_POINT (the contact was not filled, or is
@@ -119,6 +151,7 @@ pub unsafe extern "C" fn pp_patch_of_contact(
     contact: *const pp_contact,
     tolerance: f64,
     with_energy: u32,
+    state: *mut pp_patch_state,
     patch: *mut pp_patch,
     points: *mut pp_patch_point,
     capacity: usize,
@@ -139,8 +172,10 @@ pub unsafe extern "C" fn pp_patch_of_contact(
             ..Contact::UNKNOWN
         };
         let out = unsafe { output(patch) }?;
-        let run = |scratch: &mut PatchScratch, visit: &mut dyn FnMut(PatchPoint)| {
-            patch_of_contact(a, &pose_a, b, &pose_b, &contact, &settings, scratch, visit)
+        let state = unsafe { state_of(state, capacity) };
+        let run = |scratch: &mut PatchScratch, visit: &mut dyn FnMut(PatchPoint)| match state {
+            Some(state) => state.patch_of_contact(a, &pose_a, b, &pose_b, &contact, &settings, scratch),
+            None => patch_of_contact(a, &pose_a, b, &pose_b, &contact, &settings, scratch, visit),
         };
         unsafe { answer(run, &out, points, capacity, count) }
     })
@@ -158,6 +193,7 @@ pub unsafe extern "C" fn pp_patch_on_plane(
     contact: *const pp_flat_contact,
     tolerance: f64,
     with_energy: u32,
+    state: *mut pp_patch_state,
     patch: *mut pp_patch,
     points: *mut pp_patch_point,
     capacity: usize,
@@ -168,8 +204,10 @@ pub unsafe extern "C" fn pp_patch_on_plane(
         let contact = flat(unsafe { borrow(contact) }?)?;
         let settings = settings(tolerance, with_energy)?;
         let out = unsafe { output(patch) }?;
-        let run = |scratch: &mut PatchScratch, visit: &mut dyn FnMut(PatchPoint)| {
-            patch_on_plane(a, &pose, &contact, &settings, scratch, visit)
+        let state = unsafe { state_of(state, capacity) };
+        let run = |scratch: &mut PatchScratch, visit: &mut dyn FnMut(PatchPoint)| match state {
+            Some(state) => state.patch_on_plane(a, &pose, &contact, &settings, scratch),
+            None => patch_on_plane(a, &pose, &contact, &settings, scratch, visit),
         };
         unsafe { answer(run, &out, points, capacity, count) }
     })
@@ -193,6 +231,7 @@ pub unsafe extern "C" fn pp_patch_on_triangle(
     contact: *const pp_flat_contact,
     tolerance: f64,
     with_energy: u32,
+    state: *mut pp_patch_state,
     patch: *mut pp_patch,
     points: *mut pp_patch_point,
     capacity: usize,
@@ -206,8 +245,10 @@ pub unsafe extern "C" fn pp_patch_on_triangle(
         let settings = settings(tolerance, with_energy)?;
         let front = is_on(from_front)?;
         let out = unsafe { output(patch) }?;
-        let run = |scratch: &mut PatchScratch, visit: &mut dyn FnMut(PatchPoint)| {
-            patch_on_triangle(a, &pose, &triangle, front, &contact, &settings, scratch, visit)
+        let state = unsafe { state_of(state, capacity) };
+        let run = |scratch: &mut PatchScratch, visit: &mut dyn FnMut(PatchPoint)| match state {
+            Some(state) => state.patch_on_triangle(a, &pose, &triangle, front, &contact, &settings, scratch),
+            None => patch_on_triangle(a, &pose, &triangle, front, &contact, &settings, scratch, visit),
         };
         unsafe { answer(run, &out, points, capacity, count) }
     })
@@ -218,7 +259,7 @@ pub unsafe extern "C" fn pp_patch_on_triangle(
 /// # Safety
 /// As of [`with_points`].
 unsafe fn answer(
-    run: impl Fn(&mut PatchScratch, &mut dyn FnMut(PatchPoint)) -> Result<Patch, PatchError>,
+    run: impl FnOnce(&mut PatchScratch, &mut dyn FnMut(PatchPoint)) -> Result<Patch, PatchError>,
     out: &Output<pp_patch>,
     points: *mut pp_patch_point,
     capacity: usize,
@@ -310,7 +351,7 @@ pub(super) fn is_on(flag: u32) -> Result<bool, pp_status> {
 }
 
 pub(super) fn settings(tolerance: f64, with_energy: u32) -> Result<PatchSettings, pp_status> {
-    Ok(PatchSettings { tolerance, with_energy: is_on(with_energy)? })
+    Ok(PatchSettings { tolerance, with_energy: is_on(with_energy)?, ..PatchSettings::default() })
 }
 
 fn patch_status(error: PatchError) -> pp_status {

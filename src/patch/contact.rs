@@ -4,12 +4,12 @@ use super::field::{FramePlane, Owner, Placed};
 use super::integration::{Task, patch};
 use super::patch::{Patch, PatchFlags, PatchPoint};
 use super::scratch::PatchScratch;
+use super::settings::{PatchError, PatchSettings};
 use crate::boundary::{FlatContact, Triangle};
 use crate::contact::contact::{Contact, Kind};
 use crate::particle::particle::Particle;
 use crate::pose::Pose;
 use nalgebra::{Matrix3, Vector3};
-use thiserror::Error;
 
 /// s below which a contact counts as deep.
 const DEEP: f64 = 1e-3;
@@ -19,36 +19,6 @@ const DEEP_SPHERICITY: f64 = 1e-5;
 
 /// Overlaps within which planes are loaded first.
 pub(super) const NEAR: f64 = 4.0;
-
-/// How a patch is computed.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct PatchSettings {
-    /// Relative error of the force, and of the torque over |force| times the reach of the patch, in [1e-12, 0.1].
-    pub tolerance: f64,
-    /// Whether the elastic energy is computed. The patch is then integrated by rays, which takes many times as long.
-    pub with_energy: bool,
-}
-
-impl Default for PatchSettings {
-    fn default() -> Self {
-        Self { tolerance: 1e-4, with_energy: false }
-    }
-}
-
-/// Why there is no patch.
-#[derive(Clone, Copy, Debug, Error, PartialEq)]
-#[non_exhaustive]
-pub enum PatchError {
-    /// [`PatchSettings::tolerance`] is out of range.
-    #[error("tolerance={0} of a patch must lie in [1e-12, 0.1]")]
-    Tolerance(f64),
-    /// The contact is separated: it has no patch.
-    #[error("the contact is separated: only overlapping contacts have a patch")]
-    Separated,
-    /// The contact has no finite point or normal.
-    #[error("the contact has no finite point and normal: take the answer of a call for the same bodies and poses")]
-    NotFinite,
-}
 
 /// The patch of an overlapping contact of midway (of closest, its point and normal will do) of A with B.
 ///
@@ -92,8 +62,7 @@ pub fn patch_of_contact(
         branches: [contact.branch_a, contact.branch_b],
         position: *pose_a.position(),
         near: NEAR * contact.overlap,
-        tolerance: settings.tolerance,
-        with_energy: settings.with_energy,
+        settings: *settings,
         flags,
     };
     Ok(patch(&task, scratch, visit))
@@ -174,8 +143,7 @@ fn on_boundary(
         branches: [*branch; 2],
         position: *pose.position(),
         near: NEAR * contact.overlap,
-        tolerance: settings.tolerance,
-        with_energy: settings.with_energy,
+        settings: *settings,
         flags: PatchFlags::default(),
     };
     Ok(patch(&task, scratch, visit))

@@ -10,8 +10,10 @@ use super::pieces::{PieceScratch, pieces};
 use super::ray::{Line, Node, Walker};
 use super::rules::order_of;
 use super::scratch::PatchScratch;
+use super::settings::PatchSettings;
 use super::smoothness::norm;
-use nalgebra::{Matrix3, Vector3};
+use super::stiffness::{stiffness, turned};
+use nalgebra::{Matrix3, Matrix6, Vector3};
 
 /// Parts of the patch's reach by which the centre of pressure may lie off the centre of the rays before they start anew.
 const OFF_CENTRE: f64 = 0.25;
@@ -39,8 +41,7 @@ pub(super) struct Task<'a> {
     pub position: Vector3<f64>,
     /// Distance within which planes are loaded first.
     pub near: f64,
-    pub tolerance: f64,
-    pub with_energy: bool,
+    pub settings: PatchSettings,
     pub flags: PatchFlags,
 }
 
@@ -57,20 +58,23 @@ pub(super) fn patch(task: &Task, scratch: &mut PatchScratch, mut visit: impl FnM
         field.restore(state);
         let (order, budget, with_energy) = (2, f64::INFINITY, false);
         let walker = Walker { field: &mut field, planes: ray_planes, nodes, order, with_energy, budget };
-        let mut fan = Fan::new(walker, rays, sectors, stack, [0.0; 3], task.tolerance);
+        let mut fan = Fan::new(walker, rays, sectors, stack, [0.0; 3], task.settings.tolerance);
         spread(task, &mut fan, start, points)
     });
     let mut flags = task.flags;
     let is_empty = points.is_empty() || !outcome.error.is_finite();
     flags.set(PatchFlags::EMPTY, is_empty);
     flags.set(PatchFlags::FOLDED, outcome.is_folded);
-    flags.set(PatchFlags::TOLERANCE_NOT_REACHED, outcome.error > task.tolerance);
+    flags.set(PatchFlags::TOLERANCE_NOT_REACHED, outcome.error > task.settings.tolerance);
     let mut summary = Summary::of(task, points, deepest);
     if !is_empty {
         summary.complete(task, points);
     }
-    if task.with_energy {
+    if task.settings.with_energy {
         summary.patch.energy = task.length * outcome.energy;
+    }
+    if task.settings.with_stiffness && !is_empty {
+        summary.patch.stiffness = task.length * turned(&stiffness(&field, points), &task.frame);
     }
     points.iter().for_each(|node| visit(summary.point(task, node)));
     let error = if is_empty { 0.0 } else { outcome.error };
@@ -98,14 +102,14 @@ fn in_parts(
     scratch: &mut PieceScratch,
     points: &mut Vec<Node>,
 ) -> Option<Outcome> {
-    if task.with_energy || task.tolerance < FINEST_OF_PIECES {
+    if task.settings.with_energy || task.settings.tolerance < FINEST_OF_PIECES {
         return None;
     }
-    let estimate = pieces(field, &start, task.tolerance, scratch, points).or_else(|| {
+    let estimate = pieces(field, &start, task.settings.tolerance, scratch, points).or_else(|| {
         let (level, polygon) = scratch.flat()?;
-        let (order, budget, with_energy) = (order_of(task.tolerance), f64::INFINITY, false);
+        let (order, budget, with_energy) = (order_of(task.settings.tolerance), f64::INFINITY, false);
         let mut walker = Walker { field, planes: ray_planes, nodes, order, with_energy, budget };
-        around(&mut walker, level, polygon, task.tolerance, points)
+        around(&mut walker, level, polygon, task.settings.tolerance, points)
     })?;
     let force = points.iter().map(|node| node.weight * node.pressure * vector(node)).sum::<Vector3<f64>>().norm();
     Some(Outcome {
@@ -119,9 +123,9 @@ fn in_parts(
 /// Integrates by a fan of rays and copies its points.
 fn spread(task: &Task, fan: &mut Fan, start: [f64; 3], points: &mut Vec<Node>) -> Outcome {
     let axis = flattest_axis(fan.walker.field);
-    let order = if task.tolerance >= 1e-3 {
+    let order = if task.settings.tolerance >= 1e-3 {
         3
-    } else if task.tolerance >= 1e-7 {
+    } else if task.settings.tolerance >= 1e-7 {
         5
     } else {
         8
@@ -131,7 +135,7 @@ fn spread(task: &Task, fan: &mut Fan, start: [f64; 3], points: &mut Vec<Node>) -
     fan.centre = centre;
     let mut integral = Integral::default();
     for starts in 0.. {
-        (fan.walker.order, fan.walker.with_energy) = (order, task.with_energy);
+        (fan.walker.order, fan.walker.with_energy) = (order, task.settings.with_energy);
         integral = fan.integrate(axis, rough);
         let force = norm(&integral.sums[..3]);
         if !(force > 0.0) {
@@ -162,7 +166,7 @@ fn spread(task: &Task, fan: &mut Fan, start: [f64; 3], points: &mut Vec<Node>) -
             points.extend(nodes.iter().map(|node| Node { weight: angle * node.weight, ..*node }));
         }
     }
-    let of_energy = if task.with_energy { integral.error[3] / integral.sums[7] } else { 0.0 };
+    let of_energy = if task.settings.with_energy { integral.error[3] / integral.sums[7] } else { 0.0 };
     let error = ((integral.error[0] + integral.radial).max(integral.error[1] / fan.extent) / force).max(of_energy);
     Outcome {
         error,
@@ -217,6 +221,8 @@ impl Summary {
             mean_depth: 0.0,
             largest_depth: task.length * (1.0 - deepest.max(0.0).sqrt()),
             energy: f64::NAN,
+            stiffness: Matrix6::repeat(f64::NAN),
+            reach: 0.0,
             error: 0.0,
             area_error: 0.0,
             flags: PatchFlags::default(),
@@ -244,13 +250,14 @@ impl Summary {
         // The point of the axis that is nearest to the origin, and from there to the height of the patch.
         let foot = force.cross(&torque) / force.norm_squared();
         let pole = foot + axis * axis.dot(&(mean - foot));
-        let (mut second, mut polar, mut lever) = (Matrix3::zeros(), 0.0, 0.0);
+        let (mut second, mut polar, mut lever, mut reach) = (Matrix3::zeros(), 0.0, 0.0, 0.0_f64);
         for node in points {
             let (x, share) = (Vector3::from(node.x), node.weight * vector(node).norm());
             let (y, arm) = (x - centroid, (x - pole).cross(&axis));
             second += share * y * y.transpose();
             polar += share * arm.norm_squared();
             lever += share * node.pressure * arm.norm();
+            reach = reach.max(x.norm_squared());
         }
         let patch = &mut self.patch;
         let branch = frame * pole;
@@ -264,6 +271,7 @@ impl Summary {
         patch.polar_moment = polar;
         patch.twist_lever = lever / load;
         patch.mean_depth = task.length * load / area;
+        patch.reach = reach.sqrt();
     }
 
     #[inline(always)]

@@ -5,6 +5,7 @@
 //! | file | holds |
 //! |---|---|
 //! | `rules` | Gauss rules |
+//! | `settings` | what is asked for |
 //! | `patch` | the answer |
 //! | `field` | the potentials in the frame of the patch |
 //! | `cell` | a stretch of a ray on which they are quadratics |
@@ -19,8 +20,10 @@
 //! | `smoothness` | how far off a rule over a sector is |
 //! | `fan` | sectors of rays, refined |
 //! | `scratch` | the buffers |
+//! | `stiffness` | how force and torque change with the pose |
 //! | `integration` | from the potentials to the answer |
 //! | `contact` | the patch of two particles, of a particle and a plane, of a particle and a triangle |
+//! | `patch_state` | what a pair keeps of its patch, and how that is carried on |
 //! | `planar` | the patch of two particles of the plane |
 
 mod border;
@@ -34,15 +37,20 @@ mod field;
 mod integration;
 #[allow(clippy::module_inception)]
 mod patch;
+mod patch_state;
 mod pieces;
 pub(crate) mod planar;
 mod polygon;
 mod ray;
 mod rules;
 mod scratch;
+mod settings;
 mod smoothness;
+mod stiffness;
 mod zone;
 
-pub use contact::{PatchError, PatchSettings, patch_of_contact, patch_on_plane, patch_on_triangle};
+pub use contact::{patch_of_contact, patch_on_plane, patch_on_triangle};
 pub use patch::{Patch, PatchFlags, PatchPoint};
+pub use patch_state::PatchState;
 pub use scratch::PatchScratch;
+pub use settings::{PatchError, PatchSettings};

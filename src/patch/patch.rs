@@ -1,13 +1,13 @@
 //! The answer: what a law of contact needs of a patch.
 
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::{Matrix3, Matrix6, Vector3};
 use std::fmt;
 
 /// The contact patch of two bodies, or of a body and a flat boundary, world axes, lengths in the caller's unit.
 ///
 /// With the scale s of both bodies, Σ = {s_A = s_B ≤ 1} and the pressure p = K ℓ (1 − s) on it; K is the caller's stiffness per area
 /// (force/length³) and all that is proportional to it is given over K. The normal n of Σ points from A to B.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 #[non_exhaustive]
 pub struct Patch {
     /// ℓ = ℓ_A + ℓ_B, against a boundary ℓ_A ([`crate::Particle::depth_length`]), length.
@@ -40,6 +40,11 @@ pub struct Patch {
     pub largest_depth: f64,
     /// Elastic energy over K, length⁴; NaN unless it was asked for.
     pub energy: f64,
+    /// Change of force and torque on B (rows) with a shift of A and a turn of A about the contact point (columns), over K, while B is held, and with
+    /// it the point of reference and the axes: length² (force by shift) to length⁴ (torque by turn). NaN unless it was asked for and integrated.
+    pub stiffness: Matrix6<f64>,
+    /// The farthest point of quadrature from the contact point.
+    pub(super) reach: f64,
     /// Estimated error of the force over its size, of the torque over |force| times the reach of the patch, and of the energy, if asked for,
     /// over itself: the largest.
     pub error: f64,
@@ -79,12 +84,15 @@ impl PatchFlags {
     pub const DEEP: Self = Self(4);
     /// No patch was found around the contact point, and force and area are 0: an overlap within rounding.
     pub const EMPTY: Self = Self(8);
+    /// It follows from that of an earlier pose by its stiffness ([`crate::PatchState`]): it has no points, and area and moments are those of that pose.
+    pub const CARRIED: Self = Self(16);
 
-    const NAMES: [(Self, &'static str); 4] = [
+    const NAMES: [(Self, &'static str); 5] = [
         (Self::FOLDED, "folded"),
         (Self::TOLERANCE_NOT_REACHED, "tolerance not reached"),
         (Self::DEEP, "deep"),
         (Self::EMPTY, "empty"),
+        (Self::CARRIED, "carried"),
     ];
 
     /// The bits, as in the C interface.

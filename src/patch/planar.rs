@@ -1,12 +1,13 @@
 //! The patch of two particles of the plane: a curve, walked over to both sides of the contact point.
 
 use super::centre::on_patch;
-use super::contact::{NEAR, PatchError, PatchSettings, checked, least_sphericity};
+use super::contact::{NEAR, checked, least_sphericity};
 use super::field::{Field, Placed};
 use super::patch::PatchFlags;
 use super::ray::{Line, Node, Ray, SUMS, Walker};
 use super::rules::order_of;
 use super::scratch::PatchScratch;
+use super::settings::{PatchError, PatchSettings};
 use crate::planar::{Contact, Particle, Pose};
 use nalgebra::{Matrix3, Vector2, Vector3};
 

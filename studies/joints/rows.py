@@ -101,24 +101,4 @@ def stack():
     return {"value": fastest(), "target": 1e-6, "step": O.dt}
 
 
-def step_time(number=2000, falling_steps=60, rest_steps=60):
-    """Seconds of a step of cubes in a grid, patch over point: as they meet, and at rest."""
-    seconds = {}
-    for patch in (True, False):
-        fresh(patch=patch, damping=0.3, young=1e8, poisson=0.3, frictionAngle=0.5, **({"restitution": 0.5} if patch else {}))
-        wall((0, 0, 0), 2, 1)
-        edge, size = math.ceil(math.sqrt(number / 5)), 0.1
-        for n in range(number):
-            layer, rest = divmod(n, edge * edge)
-            add(block_shape((size,) * 3, r=0.005), (0.1001 * (rest % edge), 0.1001 * (rest // edge), size * (layer + 0.5) + 1e-4 * layer),
-                Quaternion((0, 0, 1), 1e-4 * (n % 7)))
-        O.dt = 1e-4
-        run(5 * O.dt)
-        falling = run(falling_steps * O.dt) / falling_steps
-        run(60 * O.dt)
-        seconds[patch] = falling, run(rest_steps * O.dt) / rest_steps
-    falling, rest = (a / b for a, b in zip(seconds[True], seconds[False]))
-    return {"value": rest, "target": 1.8, "falling": falling, "falling_target": 4.0, "seconds_at_rest": seconds[True][1]}
-
-
-ROWS = {row.__name__: row for row in (face, spin, tiles, lintels, stack, step_time)}
+ROWS = {row.__name__: row for row in (face, spin, tiles, lintels, stack)}

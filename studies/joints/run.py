@@ -12,13 +12,15 @@ sys.path[:0] = [str(HERE), str(HERE.parent)]
 
 import bonds  # noqa: E402
 import buildings  # noqa: E402
+import cost  # noqa: E402
 import impacts  # noqa: E402
 import piles  # noqa: E402
 import rows  # noqa: E402
 from summary import print_table, write_summary  # noqa: E402
 
 
-ROWS = rows.ROWS | impacts.ROWS | bonds.ROWS | piles.ROWS | buildings.ROWS
+
+ROWS = rows.ROWS | impacts.ROWS | bonds.ROWS | piles.ROWS | buildings.ROWS | cost.ROWS
 
 
 def targets(name, row):

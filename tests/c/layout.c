@@ -21,8 +21,9 @@ static void sizes_are_those_of_the_library(void) {
     CHECK(pp_struct_size(PP_STRUCT_PATCH_POINT) == sizeof(pp_patch_point));
     CHECK(pp_struct_size(PP_STRUCT_PATCH_2D) == sizeof(pp_patch_2d));
     CHECK(pp_struct_size(PP_STRUCT_PATCH_POINT_2D) == sizeof(pp_patch_point_2d));
+    CHECK(pp_struct_size(PP_STRUCT_PATCH_STATE) == sizeof(pp_patch_state));
     /* 3, 10 and 11 were structs of an older interface. */
-    const uint32_t unknown[] = {0, 3, 10, 11, 21, UINT32_MAX};
+    const uint32_t unknown[] = {0, 3, 10, 11, 22, UINT32_MAX};
     for (int i = 0; i < 6; i++) CHECK(pp_struct_size(unknown[i]) == 0);
 }
 
@@ -114,6 +115,7 @@ void test_layout(void) {
     CHECK(offsetof(pp_patch, mean_depth) == 256);
     CHECK(offsetof(pp_patch, energy) == 272);
     CHECK(sizeof(pp_patch_point) == 64);
+    CHECK(sizeof(pp_patch_state) == 896);
 
     CHECK(sizeof(pp_mass_properties) == 88);
     CHECK(offsetof(pp_mass_properties, volume) == 0);

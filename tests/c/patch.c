@@ -18,7 +18,7 @@ static void spheres(void) {
     static pp_patch_point points[ROOM];
     size_t count = 0;
     CHECK_STATUS(pp_contact_detect(a, &pose_a, b, &pose_b, NULL, NULL, &contact), PP_OK);
-    CHECK_STATUS(pp_patch_of_contact(a, &pose_a, b, &pose_b, &contact, 1e-6, 1, &patch, points, ROOM, &count), PP_OK);
+    CHECK_STATUS(pp_patch_of_contact(a, &pose_a, b, &pose_b, &contact, 1e-6, 1, NULL, &patch, points, ROOM, &count), PP_OK);
     const double reduced = radius_a * radius_b / (radius_a + radius_b), force = PI * reduced * overlap * overlap;
     CHECK_NEAR(patch.force[0], force, 1e-4 * force);
     CHECK_NEAR(patch.energy, force * overlap / 3, 1e-4 * force * overlap);
@@ -44,11 +44,11 @@ static void spheres(void) {
     CHECK_NEAR(load, patch.force[0], 1e-12 * load);
     /* Without points, and with too little room for them. */
     pp_patch same;
-    CHECK_STATUS(pp_patch_of_contact(a, &pose_a, b, &pose_b, &contact, 1e-6, 1, &same, NULL, 0, NULL), PP_OK);
+    CHECK_STATUS(pp_patch_of_contact(a, &pose_a, b, &pose_b, &contact, 1e-6, 1, NULL, &same, NULL, 0, NULL), PP_OK);
     CHECK(same.force[0] == patch.force[0]);
     size_t needed = 0;
     FILL(same);
-    CHECK_STATUS(pp_patch_of_contact(a, &pose_a, b, &pose_b, &contact, 1e-6, 1, &same, points, 1, &needed),
+    CHECK_STATUS(pp_patch_of_contact(a, &pose_a, b, &pose_b, &contact, 1e-6, 1, NULL, &same, points, 1, &needed),
                  PP_BUFFER_TOO_SMALL);
     CHECK(needed == count);
     CHECK_UNTOUCHED(same);
@@ -65,7 +65,7 @@ static void sphere_on_a_floor(void) {
     pp_flat_contact contact;
     pp_patch whole;
     CHECK_STATUS(pp_contact_plane(ball, &pose, point, normal, NULL, NULL, &contact), PP_OK);
-    CHECK_STATUS(pp_patch_on_plane(ball, &pose, &contact, 1e-8, 0, &whole, NULL, 0, NULL), PP_OK);
+    CHECK_STATUS(pp_patch_on_plane(ball, &pose, &contact, 1e-8, 0, NULL, &whole, NULL, 0, NULL), PP_OK);
     const double force = PI * radius * overlap * overlap;
     CHECK_NEAR(whole.force[2], -force, 1e-4 * force);
     CHECK(isnan(whole.energy));
@@ -74,10 +74,49 @@ static void sphere_on_a_floor(void) {
     for (int i = 0; i < 2; i++) {
         pp_patch part;
         CHECK_STATUS(pp_contact_triangle(ball, &pose, halves[i], NULL, NULL, &contact), PP_OK);
-        CHECK_STATUS(pp_patch_on_triangle(ball, &pose, halves[i], 1, &contact, 1e-8, 0, &part, NULL, 0, NULL), PP_OK);
+        CHECK_STATUS(pp_patch_on_triangle(ball, &pose, halves[i], 1, &contact, 1e-8, 0, NULL, &part, NULL, 0, NULL), PP_OK);
         sum += part.force[2];
     }
     CHECK_NEAR(sum, whole.force[2], 1e-7 * force);
+    pp_particle_free(ball);
+}
+
+/* Of a pair and of a floor: the third look at the same pose is carried on, and one a little deeper presses as the two spheres do. */
+static void carried_on(void) {
+    const double radius = 1.0, overlap = 1e-4, deeper = 2e-7;
+    pp_particle *ball = new_sphere(radius);
+    pp_pose here = pose_at(1, 2, 3), there = pose_at(1 + 2 * radius - overlap, 2, 3), above = pose_at(0, 0, radius - overlap);
+    const double point[3] = {0, 0, 0}, normal[3] = {0, 0, 1}, triangle[9] = {-1, -1, 0, 1, -1, 0, 0, 1, 0};
+    pp_patch_state states[3] = {{{0}}};
+    pp_patch patches[3];
+    for (int look = 0; look < 4; look++) {
+        pp_contact pair;
+        pp_flat_contact floor, part;
+        const double depth = overlap + (look == 3 ? deeper : 0);
+        there.position[0] = 1 + 2 * radius - depth;
+        above.position[2] = radius - depth;
+        CHECK_STATUS(pp_contact_detect(ball, &here, ball, &there, NULL, NULL, &pair), PP_OK);
+        CHECK_STATUS(pp_contact_plane(ball, &above, point, normal, NULL, NULL, &floor), PP_OK);
+        CHECK_STATUS(pp_contact_triangle(ball, &above, triangle, NULL, NULL, &part), PP_OK);
+        CHECK_STATUS(pp_patch_of_contact(ball, &here, ball, &there, &pair, 1e-4, 0, &states[0], &patches[0], NULL, 0, NULL), PP_OK);
+        CHECK_STATUS(pp_patch_on_plane(ball, &above, &floor, 1e-4, 0, &states[1], &patches[1], NULL, 0, NULL), PP_OK);
+        CHECK_STATUS(pp_patch_on_triangle(ball, &above, triangle, 1, &part, 1e-4, 0, &states[2], &patches[2], NULL, 0, NULL),
+                     PP_OK);
+        const double load = PI * radius * depth * depth;
+        CHECK_NEAR(patches[0].force[0], 0.5 * load, 3e-4 * load);
+        CHECK_NEAR(patches[1].force[2], -load, 3e-4 * load);
+        CHECK_NEAR(patches[2].force[2], -load, 3e-4 * load);
+        for (int i = 0; i < 3; i++) CHECK((patches[i].flags == PP_PATCH_CARRIED) == (look > 1));
+    }
+    /* Points are of a patch that is integrated, and what was kept stays. */
+    pp_contact pair;
+    pp_patch whole;
+    static pp_patch_point points[ROOM];
+    size_t count = 0;
+    CHECK_STATUS(pp_contact_detect(ball, &here, ball, &there, NULL, NULL, &pair), PP_OK);
+    CHECK_STATUS(pp_patch_of_contact(ball, &here, ball, &there, &pair, 1e-4, 0, &states[0], &whole, points, ROOM, &count), PP_OK);
+    CHECK(whole.flags == 0 && count > 0);
+    CHECK_NEAR(whole.force[0], patches[0].force[0], 2e-4 * whole.force[0]);
     pp_particle_free(ball);
 }
 
@@ -118,29 +157,29 @@ static void what_is_refused(void) {
     pp_patch_point point;
     double length;
     CHECK_STATUS(pp_particle_depth_length(NULL, &length), PP_NULL_POINTER);
-    CHECK_STATUS(pp_patch_of_contact(NULL, &pose_a, sphere, &pose_b, &contact, 1e-4, 0, &patch, NULL, 0, NULL),
+    CHECK_STATUS(pp_patch_of_contact(NULL, &pose_a, sphere, &pose_b, &contact, 1e-4, 0, NULL, &patch, NULL, 0, NULL),
                  PP_NULL_POINTER);
-    CHECK_STATUS(pp_patch_of_contact(sphere, &pose_a, sphere, &pose_b, NULL, 1e-4, 0, &patch, NULL, 0, NULL),
+    CHECK_STATUS(pp_patch_of_contact(sphere, &pose_a, sphere, &pose_b, NULL, 1e-4, 0, NULL, &patch, NULL, 0, NULL),
                  PP_NULL_POINTER);
-    CHECK_STATUS(pp_patch_of_contact(sphere, &pose_a, sphere, &pose_b, &contact, 1e-4, 0, NULL, NULL, 0, NULL),
+    CHECK_STATUS(pp_patch_of_contact(sphere, &pose_a, sphere, &pose_b, &contact, 1e-4, 0, NULL, NULL, NULL, 0, NULL),
                  PP_NULL_POINTER);
-    CHECK_STATUS(pp_patch_of_contact(sphere, &pose_a, sphere, &pose_b, &contact, 1e-4, 0, &patch, NULL, 1, NULL),
+    CHECK_STATUS(pp_patch_of_contact(sphere, &pose_a, sphere, &pose_b, &contact, 1e-4, 0, NULL, &patch, NULL, 1, NULL),
                  PP_NULL_POINTER);
-    CHECK_STATUS(pp_patch_of_contact(sphere, &pose_a, sphere, &pose_b, &contact, 1e-4, 0, &patch, &point, 1, NULL),
+    CHECK_STATUS(pp_patch_of_contact(sphere, &pose_a, sphere, &pose_b, &contact, 1e-4, 0, NULL, &patch, &point, 1, NULL),
                  PP_NULL_POINTER);
-    CHECK_STATUS(pp_patch_of_contact(sphere, &pose_a, sphere, &far, &apart, 1e-4, 0, &patch, NULL, 0, NULL),
+    CHECK_STATUS(pp_patch_of_contact(sphere, &pose_a, sphere, &far, &apart, 1e-4, 0, NULL, &patch, NULL, 0, NULL),
                  PP_BAD_POINT);
     const double bad[] = {NAN, INFINITY, -1e-4, 0.0, 0.99e-12, 0.1001};
     for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
         check_case("tolerance = %g", bad[i]);
-        CHECK_STATUS(pp_patch_of_contact(sphere, &pose_a, sphere, &pose_b, &contact, bad[i], 0, &patch, NULL, 0, NULL),
+        CHECK_STATUS(pp_patch_of_contact(sphere, &pose_a, sphere, &pose_b, &contact, bad[i], 0, NULL, &patch, NULL, 0, NULL),
                      PP_BAD_SETTING);
     }
     check_case(NULL);
-    CHECK_STATUS(pp_patch_of_contact(sphere, &pose_a, sphere, &pose_b, &contact, 1e-4, 2, &patch, NULL, 0, NULL),
+    CHECK_STATUS(pp_patch_of_contact(sphere, &pose_a, sphere, &pose_b, &contact, 1e-4, 2, NULL, &patch, NULL, 0, NULL),
                  PP_BAD_SETTING);
     contact.normal[1] = NAN;
-    CHECK_STATUS(pp_patch_of_contact(sphere, &pose_a, sphere, &pose_b, &contact, 1e-4, 0, &patch, NULL, 0, NULL),
+    CHECK_STATUS(pp_patch_of_contact(sphere, &pose_a, sphere, &pose_b, &contact, 1e-4, 0, NULL, &patch, NULL, 0, NULL),
                  PP_BAD_POINT);
     CHECK_UNTOUCHED(patch);
     pp_particle_free(sphere);
@@ -149,6 +188,7 @@ static void what_is_refused(void) {
 void test_patch(void) {
     spheres();
     sphere_on_a_floor();
+    carried_on();
     squares_of_the_plane();
     what_is_refused();
 }

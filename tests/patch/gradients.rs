@@ -6,7 +6,7 @@ use nalgebra::Vector3;
 use potential_particles::PatchFlags;
 
 /// Pairs of all families, roundings, sphericities and depths; folded ones are left out.
-fn each(seed: u64, mut visit: impl FnMut(&Pair, &mut Chance, &str)) {
+pub fn each(seed: u64, mut visit: impl FnMut(&Pair, &mut Chance, &str)) {
     let mut chance = Chance::new(seed);
     let mut count = 0;
     for family in FAMILIES {

@@ -82,7 +82,8 @@ fn on_floor(tilt: f64, with_energy: bool, in_triangles: bool) -> (Vector3<f64>, 
     let block = cuboid([0.5, 0.4, 0.3], 0.02, 0.0);
     let turn = Rotation3::new(tilt * Vector3::new(1.0, 0.4, 0.0)) * Rotation3::new(0.3 * Vector3::z());
     let pose = Pose::from_rotation([0.1, 0.05, 0.299], &turn.into_inner()).unwrap();
-    let (settings, scratch) = (PatchSettings { tolerance: 1e-5, with_energy }, &mut PatchScratch::new());
+    let (settings, scratch) =
+        (PatchSettings { tolerance: 1e-5, with_energy, ..PatchSettings::default() }, &mut PatchScratch::new());
     let (mut force, mut torque, mut area) = (Vector3::zeros(), Vector3::zeros(), 0.0);
     let mut add = |found: Patch, at: Vector3<f64>| {
         force += found.force;

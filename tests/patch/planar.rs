@@ -8,7 +8,8 @@ use potential_particles::{Kind, PatchFlags, PatchScratch, PatchSettings, Setting
 fn patch(a: &Particle, pose_a: &Pose, b: &Particle, pose_b: &Pose) -> (Patch, Vector2<f64>) {
     let contact = detect(a, pose_a, b, pose_b, &Settings::default(), None).unwrap();
     assert_eq!(contact.kind, Kind::Overlapping);
-    let (settings, scratch) = (PatchSettings { tolerance: 1e-9, with_energy: true }, &mut PatchScratch::new());
+    let (settings, scratch) =
+        (PatchSettings { tolerance: 1e-9, with_energy: true, ..PatchSettings::default() }, &mut PatchScratch::new());
     let found = patch_of_contact(a, pose_a, b, pose_b, &contact, &settings, scratch, |_| ()).unwrap();
     (found, contact.branch_b)
 }

@@ -1,6 +1,7 @@
 //! Patches on planes, triangles and closed meshes.
 
 use crate::bodies::{Chance, FAMILIES, body, cuboid};
+use crate::boundaries::resting;
 use crate::difference;
 use nalgebra::{UnitQuaternion, Vector3};
 use potential_particles::{
@@ -33,7 +34,7 @@ fn on_plane(a: &Particle, pose: &Pose, height: f64, tolerance: f64) -> Option<(P
     if contact.kind == Kind::Separated {
         return None;
     }
-    let settings = PatchSettings { tolerance, with_energy: true };
+    let settings = PatchSettings { tolerance, with_energy: true, ..PatchSettings::default() };
     let patch = patch_on_plane(a, pose, &contact, &settings, &mut PatchScratch::new(), |_| ()).unwrap();
     let mut sum = Sum::default();
     sum.add(&patch, &(contact.on_boundary - pose.position()));
@@ -48,7 +49,7 @@ fn on_mesh(a: &Particle, pose: &Pose, triangles: &[[[f64; 3]; 3]], tolerance: f6
         if contact.kind == Kind::Separated {
             continue;
         }
-        let settings = PatchSettings { tolerance, with_energy: true };
+        let settings = PatchSettings { tolerance, with_energy: true, ..PatchSettings::default() };
         let scratch = &mut PatchScratch::new();
         let patch = patch_on_triangle(a, pose, &triangle, true, &contact, &settings, scratch, |_| ()).unwrap();
         sum.add(&patch, &(contact.on_boundary - pose.position()));
@@ -99,21 +100,9 @@ fn coplanar_triangles_add_up_to_the_plane() {
             for r in [1e-3, 0.2] {
                 let a = body(family, r, k, &mut chance);
                 let turn = chance.rotation();
-                let low = -a.bounding_radius();
                 // As deep as half of its rounding, or so.
                 let overlap = 0.3 * if family == "ball" { 0.1 } else { a.rounding_radius() };
-                let lowest = {
-                    let (mut deep, mut apart) = (0.0, -1.1 * low);
-                    for _ in 0..60 {
-                        let middle = 0.5 * (deep + apart);
-                        let pose = Pose::from_rotation([0.0, 0.0, middle], &turn).unwrap();
-                        let wall = Wall::new([0.0; 3], [0.0, 0.0, 1.0]).unwrap();
-                        let found = contact_with_plane(&a, &pose, &wall, &Settings::default(), None).unwrap();
-                        if found.kind == Kind::Separated { apart = middle } else { deep = middle }
-                    }
-                    deep
-                };
-                let pose = Pose::from_rotation([0.01, 0.02, lowest - overlap], &turn).unwrap();
+                let pose = resting(&a, &turn, overlap);
                 let (patch, whole) = on_plane(&a, &pose, 0.0, tolerance).unwrap();
                 let size = patch.area.sqrt();
                 for pieces in [1, 3] {

@@ -179,6 +179,30 @@ for wanted in (0.9, 0.5, 0.1):
     check.close(body.state.vel[2] / 0.1, wanted, 0.01, "restitution")
     check.close(O.energy["viscDissip"], before - energy([body]), 5e-3 * before, "what the dashpot took")
 
+# --- patches of bodies at rest are carried on ---------------------------------------------------------------------
+
+scene(gravity=(0, 0, -9.81), restitution=0.3, damping=0.3)
+wall()
+sinking = 9.81 * DENSITY / (STIFFNESS * AREA)
+lower, upper = block((0, 0, HALF - 2 * sinking)), block((0.05, 0.02, 3 * HALF - 3 * sinking), turned((0, 0, 1), 0.2))
+O.dt = 2e-5
+run(4000)
+functors = O.engines[2].geomDispatcher.functors
+for functor in functors:
+    functor.resetCounters()
+run(100)
+for functor in functors[:2]:
+    check.equal((functor.patches, functor.doubtfulPatches), (100, 0), f"{functor}: a patch a step")
+    check.true(functor.patchesCarried >= 80, f"{functor}: {functor.patchesCarried} carried on")
+O.step()
+weight = 9.81 * upper.state.mass
+check.close(O.interactions[1, 2].phys.normalForce[2] / weight, 1.0, 2e-4, "the joint carries the upper block")
+check.close(O.interactions[0, 1].phys.normalForce[2] / weight, 2.0, 4e-4, "the floor carries both")
+carried = functors[0].patchesCarried
+O.saveTmp("rest")
+run(1)
+check.equal(functors[0].patchesCarried, carried, "what is kept of patches is not saved, and dropped by a save")
+
 # --- what is refused ---------------------------------------------------------------------------------------------
 
 check.raises(ValueError, lambda: yade.ConicJointMat(restitution=0), "restitution", "restitution = 0: it must lie in [0.01, 1]")

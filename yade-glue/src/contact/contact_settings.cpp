@@ -48,7 +48,7 @@ namespace {
         {
             requireOk(pp_contact_detect(sphere, &left, sphere, &right, nullptr, nullptr, &found));
             pp_patch patch;
-            return pp_patch_of_contact(sphere, &left, sphere, &right, &found, tolerance, 0, &patch, nullptr, 0, nullptr) != PP_BAD_SETTING;
+            return pp_patch_of_contact(sphere, &left, sphere, &right, &found, tolerance, 0, nullptr, &patch, nullptr, 0, nullptr) != PP_BAD_SETTING;
         }
 
     private:

@@ -27,6 +27,7 @@ enum class Count {
     overlapping,
     areas,
     patches,
+    patchesCarried,
     doubtfulPatches,
     patchFallbacks,
     extended,

@@ -246,7 +246,7 @@ void Ig2_ConicPP_ConicPP_ScGeom::fill(Pair& pair, pp_contact& found)
         pp_patch patch;
         const pp_status status
             = pp_patch_of_contact(body1.particle->handle(), &body1.pose, body2.particle->handle(), &body2.pose, &found,
-                                  pair.settings.given.patchTolerance, tracksEnergy(), &patch, nullptr, 0, nullptr);
+                                  pair.settings.given.patchTolerance, tracksEnergy(), pair.lastPatch(), &patch, nullptr, 0, nullptr);
         if (fillPatch(pair, status, patch, Vector3r::Zero(), 1.0)) {
             fillPhysics(pair, body1, body2, found, patch.area);
             return;
@@ -286,7 +286,9 @@ bool Ig2_ConicPP_ConicPP_ScGeom::fillPatch(PairInScene& pair, pp_status status, 
         return false;
     }
     pair.counts.add(Count::patches);
-    if (patch.flags)
+    if (patch.flags & PP_PATCH_CARRIED)
+        pair.counts.add(Count::patchesCarried);
+    if (patch.flags & ~PP_PATCH_CARRIED)
         pair.counts.add(Count::doubtfulPatches);
     ScGeom& geom = *pair.geom;
     geom.contactPoint = origin + Vector3r(patch.pressure_centre);

@@ -108,8 +108,9 @@ void Ig2_ConicPP_ConicPP_ScGeom::pyRegisterClass(py::object scope)
     count("overlapping", Count::overlapping, "Pairs found in contact.");
     count("areas", Count::areas, "Contact areas computed.");
     count("patches", Count::patches, "Contacts that were given by their patch.");
+    count("patchesCarried", Count::patchesCarried, "Those of them that follow from an earlier one by its stiffness.");
     count("doubtfulPatches", Count::doubtfulPatches,
-          "Those of them whose patch was folded, reached into both cores, or missed patchTolerance.");
+          "Patches that were folded, reached into both cores, or missed patchTolerance.");
     count("patchFallbacks", Count::patchFallbacks,
           "Contacts that were given by their point although the patch was asked for: none was found, or the normal is prescribed.");
     count("extended", Count::extended, "Pairs answered in extended precision, because doubles did not settle them.");

@@ -87,7 +87,7 @@ pp_status Ig2_Facet_ConicPP_ScGeom::findPatch(const FlatPair& pair, const Bounda
     const Vector3r towardsParticle = lasts ? pair.lastNormal() : Vector3r(-Vector3r(found.normal));
     const pp_pose turn = pair.turn();
     return pp_patch_on_triangle(pair.particle->handle(), &turn, rowsOf(points).data(), towardsParticle.dot(front) > 0, &found,
-                                pair.settings.given.patchTolerance, tracksEnergy(), &patch, nullptr, 0, nullptr);
+                                pair.settings.given.patchTolerance, tracksEnergy(), pair.lastPatch(), &patch, nullptr, 0, nullptr);
 }
 
 // A contact that appears has no force in its first step with KnKsPhys, whose area is not known before the step after (see

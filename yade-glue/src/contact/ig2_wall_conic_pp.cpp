@@ -48,8 +48,8 @@ pp_status Ig2_Wall_ConicPP_ScGeom::findPatch(const FlatPair& pair, const Boundar
                                              pp_patch& patch) const
 {
     const pp_pose turn = pair.turn();
-    return pp_patch_on_plane(pair.particle->handle(), &turn, &found, pair.settings.given.patchTolerance, tracksEnergy(), &patch, nullptr,
-                             0, nullptr);
+    return pp_patch_on_plane(pair.particle->handle(), &turn, &found, pair.settings.given.patchTolerance, tracksEnergy(), pair.lastPatch(), &patch,
+                             nullptr, 0, nullptr);
 }
 
 } // namespace potential_particles

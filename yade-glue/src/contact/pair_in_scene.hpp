@@ -58,6 +58,8 @@ struct PairInScene {
     // What the library keeps of the pair, if its geometry has a place for that.
     pp_pair_state* state() const { return own ? &own->state : nullptr; }
 
+    pp_patch_state* lastPatch() const { return own ? own->lastPatch() : nullptr; }
+
     // Most pairs are answered without.
     pp_pose pose1() const { return poseOf(state1, yade::Vector3r::Zero()); }
     pp_pose pose2() const { return poseOf(state2, shift2); }

@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <atomic>
 #include <iterator>
+#include <memory>
 
 namespace potential_particles {
 
@@ -33,6 +34,14 @@ public:
     KeptApart apart;
     // Of the last look, if the functor is told to find it; not saved.
     ContactPatch patch;
+
+    // What the library keeps of the patch; not saved. Only pairs that have one take the room for it.
+    pp_patch_state* lastPatch()
+    {
+        if (!keptPatch)
+            keptPatch = std::make_unique<pp_patch_state>();
+        return keptPatch.get();
+    }
 
     // At each look, first: drops what is not saved if the pair was saved since the last, so that a run goes on from a save as
     // one that is loaded from it does. By the thread that looks, since a script may save from another.
@@ -63,8 +72,10 @@ private:
     {
         std::fill(std::begin(state.last_contact), std::end(state.last_contact), 0.0);
         apart.forget();
+        keptPatch.reset();
     }
 
+    std::unique_ptr<pp_patch_state> keptPatch;
     std::atomic<bool> saved { false };
 
     friend class boost::serialization::access;
