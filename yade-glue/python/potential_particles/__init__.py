@@ -39,15 +39,15 @@ import functools
 from . import builds, window
 from .bodies import body
 from .joints import bond_contacts
-from .measures import extrema, porosity, solid_volume
+from .measures import extrema, overlap_ratio, porosity, solid_volume
 from .outside import protect_runs
 from .packing import add_packing, pack
 from .time_step import critical_time_step
 
 __version__ = "0.1.0"
 
-__all__ = ["AbiError", "Mesh", "Recorder", "add_packing", "body", "bond_contacts", "critical_time_step", "extrema", "library_version", "mesh",
-           "pack", "plot", "porosity", "prepare", "protect_runs", "save_mesh", "solid_volume"]
+__all__ = ["AbiError", "Mesh", "Recorder", "add_packing", "body", "bond_contacts", "check", "critical_time_step", "extrema", "library_version", "mesh",
+           "overlap_ratio", "pack", "plot", "porosity", "prepare", "protect_runs", "save_mesh", "solid_volume"]
 
 
 class AbiError(ImportError):
@@ -232,4 +232,5 @@ def _load():
 _glue = _load()
 
 # After the classes that they serve.
+from .check import check  # noqa: E402, F401
 from .output import Mesh, Recorder, mesh, plot, save_mesh  # noqa: E402, F401

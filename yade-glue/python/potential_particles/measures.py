@@ -85,3 +85,24 @@ def _volume(body):
     if isinstance(body.shape, yade.ConicPotentialParticle):
         return body.shape.volume
     raise ValueError(f"body {body.id} is a plain PotentialParticle without mass: its volume is not known")
+
+
+def overlap_ratio():
+    """The largest overlap of a contact of potential particles over its rounding radius, the smaller r of the two; 0 without a contact.
+
+    Of a contact patch it is the largest depth. Results are those of rounded bodies as long as it is below 1.
+    """
+    return largest_overlap()[0]
+
+
+def largest_overlap():
+    """(overlap over rounding radius, contact) of the contact in which that is largest, or (0, None)."""
+    import yade
+    largest = 0.0, None
+    for contact in yade.O.interactions:
+        radii = [shape.r for shape in (yade.O.bodies[contact.id1].shape, yade.O.bodies[contact.id2].shape)
+                 if isinstance(shape, yade.PotentialParticle)] if contact.isReal and hasattr(contact.geom, "penetrationDepth") else []
+        if radii:
+            depth = max(contact.geom.penetrationDepth, getattr(contact.geom, "largestDepth", 0.0))
+            largest = max(largest, (depth / min(radii), contact), key=lambda one: one[0])
+    return largest
