@@ -114,9 +114,9 @@ def _time_step(scene):
         yield Finding(f"O.dt={scene.dt:.3g} s is beyond {limit:.3g} s, up to which contacts are known to act as springs",
                       "O.dt = potential_particles.critical_time_step()")
     for stepper in steppers:
-        if stepper.maxDt > limit and not any(contact.isReal for contact in scene.interactions):
+        if not 0.0 < stepper.defaultDt <= limit and not any(contact.isReal for contact in scene.interactions):
             yield Finding("GlobalStiffnessTimeStepper takes a step of about 1 s as long as there is no contact",
-                          "give it maxDt=potential_particles.critical_time_step()")
+                          "give it defaultDt=potential_particles.critical_time_step()")
 
 
 def _mass(yade, moving):
