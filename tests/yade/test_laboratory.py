@@ -9,6 +9,7 @@ import potential_particles
 import yade
 import yade.wrapper as w
 from mixed import *
+from yade import Matrix3
 
 check = Checks()
 TOP = Path(harness.__file__).resolve().parents[2]
@@ -160,5 +161,45 @@ O.bodies[0].state.pos = Vector3(0, 0, 5)
 O.engines = [*O.engines[:3], w.GlobalStiffnessTimeStepper(), O.engines[3]]
 O.step()
 check.true(O.dt > 0.5, f"without one it is {O.dt}")
+
+
+def pressed(physics=None, number=2, squeeze=1e-3, periodic=False):
+    """number^3 cubes of 1 m pressed together between fixed walls, or in a periodic cell, until they rest; the side of the space that they fill."""
+    side = number * (1.0 - squeeze)
+    mixed_scene(physics=physics, damping=0.5, dt=1e-3, periodic=periodic)
+    if periodic:
+        O.cell.setBox(side, side, side)
+    else:
+        for axis in range(3):
+            for place_ in (0.0, side):
+                O.bodies.append(utils.wall(place_, axis=axis, material=-1))
+    step = 1.0 - squeeze
+    for x in range(number):
+        for y in range(number):
+            for z in range(number):
+                add(cube(k=1e-4, R=0.9), Vector3(x + 0.5, y + 0.5, z + 0.5) * step)
+    run(4000)
+    return side
+
+
+# Eight cubes between six walls: stress is force by area of the walls, and each direction has a third of the contacts.
+for name, physics in ("Cundall", None), ("KnKs", area_physics()), ("Mindlin", ([w.Ip2_FrictMat_FrictMat_MindlinPhys()], [w.Law2_ScGeom_MindlinPhys_Mindlin()])):
+    side = pressed(physics)
+    walls = [O.forces.f(2 * axis)[axis] for axis in range(3)], [O.forces.f(2 * axis + 1)[axis] for axis in range(3)]
+    found = potential_particles.stress(volume=side**3)
+    for axis in range(3):
+        expected = 0.5 * (walls[0][axis] - walls[1][axis]) / side**2
+        check.true(expected < 0 and abs(found[axis, axis] / expected - 1) < 1e-3, f"{name}: stress along {axis} is {found[axis, axis]}, walls {expected}")
+    check.true(abs(found[0, 1]) < 1e-3 * abs(found[0, 0]), f"{name}: no shear")
+    bodies = potential_particles.body_stresses()
+    check.equal(sorted(bodies), list(range(6, 14)), f"{name}: a stress for each cube")
+    # Of equal cubes at rest, each bears the same over its whole cross-section.
+    volume = O.bodies[6].shape.volume
+    for one, value in bodies.items():
+        expected = 0.25 * walls[0][2] * side / 2 / volume
+        check.true(abs(value[2, 2] / -abs(expected) - 1) < 1e-3, f"{name}: stress in body {one} is {value[2, 2]}, {expected}")
+    fabric = potential_particles.fabric_tensor()
+    check.close((fabric - Matrix3.Identity / 3).norm(), 0.0, 1e-9, f"{name}: fabric {fabric}")
+    check.equal(potential_particles.coordination_number(), 6.0, f"{name}: three cubes and three walls")
 
 check.finish()
