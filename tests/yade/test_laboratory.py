@@ -163,7 +163,7 @@ O.step()
 check.true(O.dt > 0.5, f"without one it is {O.dt}")
 
 
-def pressed(physics=None, number=2, squeeze=1e-3, periodic=False):
+def pressed(physics=None, number=2, squeeze=1e-3, periodic=False, steps=4000):
     """number^3 cubes of 1 m pressed together between fixed walls, or in a periodic cell, until they rest; the side of the space that they fill."""
     side = number * (1.0 - squeeze)
     mixed_scene(physics=physics, damping=0.5, dt=1e-3, periodic=periodic)
@@ -178,7 +178,7 @@ def pressed(physics=None, number=2, squeeze=1e-3, periodic=False):
         for y in range(number):
             for z in range(number):
                 add(cube(k=1e-4, R=0.9), Vector3(x + 0.5, y + 0.5, z + 0.5) * step)
-    run(4000)
+    run(steps)
     return side
 
 
@@ -201,5 +201,33 @@ for name, physics in ("Cundall", None), ("KnKs", area_physics()), ("Mindlin", ([
     fabric = potential_particles.fabric_tensor()
     check.close((fabric - Matrix3.Identity / 3).norm(), 0.0, 1e-9, f"{name}: fabric {fabric}")
     check.equal(potential_particles.coordination_number(), 6.0, f"{name}: three cubes and three walls")
+
+
+# In a periodic cell: 27 cubes, each pair of faces with the force F on the area of a cube.
+side = pressed(number=3, periodic=True, steps=2)
+contacts_ = [c for c in O.interactions if c.isReal]
+check.equal(len(contacts_), 81, "three contacts for each cube")
+check.true(any(any(c.cellDist) for c in contacts_), "some across a border")
+found, expected = potential_particles.stress(), -contacts_[0].phys.normalForce.norm() / (side / 3)**2
+check.close((found / expected - Matrix3.Identity).norm(), 0.0, 1e-3, f"stress {found}, {expected}")
+check.close((potential_particles.fabric_tensor() - Matrix3.Identity / 3).norm(), 0.0, 1e-9, "fabric of a cell")
+check.equal((potential_particles.coordination_number(), potential_particles.coordination_number(skip_free=True)), (6.0, 6.0), "contacts of a cube")
+check.close(potential_particles.overlap_ratio(), contacts_[0].geom.penetrationDepth / 0.05, 1e-6, "overlap over r")
+in_cell = utils.getStress()
+check.close((in_cell / expected - Matrix3.Identity).norm(), 0.0, 1e-3, f"YADE's getStress in a cell: {in_cell}")
+
+# A row of three that touch, and a fourth by itself.
+mixed_scene()
+for x in 0.0, 0.999, 1.998, 5.0:
+    add(cube(k=1e-4), Vector3(x, 0, 0))
+check.raises(ValueError, potential_particles.fabric_tensor, "no contact yet", "no contact")
+check.equal((potential_particles.overlap_ratio(), potential_particles.coordination_number()), (0.0, 0.0), "no contact yet")
+check.raises(ValueError, lambda: potential_particles.coordination_number(skip_free=True), "none bears a load", "bears a load")
+check.raises(ValueError, potential_particles.stress, "no volume", "give the volume")
+O.step()
+check.equal(potential_particles.coordination_number(), 1.0, "ends 1, middle 2, free 0")
+check.equal(potential_particles.coordination_number(skip_free=True), 2.0, "the middle one alone bears")
+check.close((potential_particles.fabric_tensor() - Vector3(1, 0, 0).outer(Vector3(1, 0, 0))).norm(), 0.0, 1e-6, "fabric of a row")
+check.close(potential_particles.overlap_ratio(), 0.001 / 0.05, 2e-3, "overlap of a row")
 
 check.finish()
