@@ -2,6 +2,7 @@
 # What YADE's tools do with potential particles (docs/laboratory.md), check(), and the measures that take the place of YADE's.
 import contextlib
 import io
+import re
 from pathlib import Path
 
 import harness
@@ -135,7 +136,7 @@ for name, physics, periodic, material, remedy in [
         ("linear shear", mindlin("HertzWithLinearShear"), False, None, "use Law2_ScGeom_MindlinPhys_Mindlin"),
         ("Deresiewicz", mindlin("MindlinDeresiewitz"), False, None, "use Law2_ScGeom_MindlinPhys_Mindlin"),
         ("linear shear in a cell", mindlin("HertzWithLinearShear"), True, None, "use Law2_ScGeom_FrictPhys_CundallStrack(sphericalBodies=False)"),
-        ("KnKs", area, False, None, None),
+        ("KnKs, Law2_SCG_KnKsPhys_KnKsLaw", area, False, None, None),
         ("KnKs in a cell", area, True, None, "use Law2_ScGeom_FrictPhys_CundallStrack(sphericalBodies=False)"),
         ("JCFpm", bonds, False, frict_mat("JCFpmMat"), "ConicJointMat")]:
     error = torque_error(*physics, periodic, material)
@@ -229,5 +230,27 @@ check.equal(potential_particles.coordination_number(), 1.0, "ends 1, middle 2, f
 check.equal(potential_particles.coordination_number(skip_free=True), 2.0, "the middle one alone bears")
 check.close((potential_particles.fabric_tensor() - Vector3(1, 0, 0).outer(Vector3(1, 0, 0))).norm(), 0.0, 1e-6, "fabric of a row")
 check.close(potential_particles.overlap_ratio(), 0.001 / 0.05, 2e-3, "overlap of a row")
+
+
+# YADE's own functions: as docs/laboratory.md says.
+isnan = lambda value: value != value
+side = pressed(steps=1000)
+truth, of_body = potential_particles.stress(side**3)[0, 0], potential_particles.body_stresses()[6][0, 0]
+check.true(isnan(utils.getStress()[0, 0]), "getStress() without a volume")
+check.close(utils.getStress(side**3)[0, 0] / truth, 1.0, 1e-3, "getStress with a volume")
+check.true(isnan(utils.fabricTensor()[0][0, 0]), "fabricTensor()")
+box = [Vector3(-1, -1, -1), Vector3(3, 3, 3)]
+check.close((utils.fabricTensor(extrema=box)[0] - potential_particles.fabric_tensor()).norm(), 0.0, 1e-9, "fabricTensor(extrema=...)")
+check.close(utils.avgNumInteractions(), 6 * 12 / 14, 1e-9, "avgNumInteractions counts the six walls as particles")
+check.true(isnan(utils.avgNumInteractions(skipFree=True)), "avgNumInteractions(skipFree=True)")
+check.true(0.2 < utils.bodyStressTensors()[6][0, 0] / of_body < 0.6, "bodyStressTensors divides by the volume of a bounding sphere")
+check.true(utils.maxOverlapRatio() <= 0 < potential_particles.overlap_ratio(), "maxOverlapRatio")
+
+# Each tool of the page's tables is measured above, each law in torque_error.
+page, tested = (TOP / "docs/laboratory.md").read_text(), Path(TOP / "tests/yade/test_laboratory.py").read_text()
+tools = [name for row in page.splitlines() if row.startswith("| `") for name in re.findall(r"`(\w+)", row.split("|")[1])]
+check.true(len(tools) >= 12, f"tools in the tables: {tools}")
+for name in tools:
+    check.true(name.removeprefix("Law2_ScGeom_MindlinPhys_") in tested, f"{name} is measured here")
 
 check.finish()
