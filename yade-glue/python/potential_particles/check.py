@@ -127,7 +127,8 @@ def _mass(yade, moving):
             continue
         key = (tuple(shape.planes), shape.r, shape.k, shape.R)
         if key not in volumes:
-            volumes[key] = shape.volume
+            # Ten times as fast as shape.volume, and more exact than what is compared.
+            volumes[key] = shape.massProperties(0.1 * _MASS_TOLERANCE)[0]
         if not math.isclose(body.state.mass, volumes[key] * density, rel_tol=_MASS_TOLERANCE):
             wrong.append((body, volumes[key] * density))
     if wrong:
