@@ -56,7 +56,7 @@ def stress(volume=None):
         sigma = 1/volume sum over particles, sum over their contacts  f (x_c - x)^T
 
     f: force on the particle at the contact point x_c, x: its centre of mass (of its clump), so that a contact of two particles counts with
-    the vector between their centres and one with a wall from centre to wall. Where all is at rest, without gravity, this is force by area of the walls. volume:
+    the vector between their centres and one with a wall from centre to wall. Where all is at rest, without gravity, this is force by area of smooth walls. volume:
     length^3; default: that of the periodic cell. ValueError where there is none. Forces are those of normalForce and shearForce of
     the contact's physics: dashpots that a law does not write there are left out.
     """
