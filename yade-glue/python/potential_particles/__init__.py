@@ -39,15 +39,16 @@ import functools
 from . import builds, window
 from .bodies import body
 from .joints import bond_contacts
-from .measures import extrema, porosity, solid_volume
+from .measures import body_stresses, coordination_number, extrema, fabric_tensor, overlap_ratio, porosity, solid_volume, stress
 from .outside import protect_runs
 from .packing import add_packing, pack
 from .time_step import critical_time_step
 
 __version__ = "0.1.0"
 
-__all__ = ["AbiError", "Mesh", "Recorder", "add_packing", "body", "bond_contacts", "critical_time_step", "extrema", "library_version", "mesh",
-           "pack", "plot", "porosity", "prepare", "protect_runs", "save_mesh", "solid_volume"]
+__all__ = ["AbiError", "Mesh", "Recorder", "add_packing", "body", "body_stresses", "bond_contacts", "check", "coordination_number",
+           "critical_time_step", "extrema", "fabric_tensor", "library_version", "mesh", "overlap_ratio", "pack", "plot", "porosity",
+           "prepare", "protect_runs", "save_mesh", "solid_volume", "stress"]
 
 
 class AbiError(ImportError):
@@ -232,4 +233,5 @@ def _load():
 _glue = _load()
 
 # After the classes that they serve.
+from .check import check  # noqa: E402, F401
 from .output import Mesh, Recorder, mesh, plot, save_mesh  # noqa: E402, F401

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Extrema, volume and porosity of scenes with potential particles.
+"""Extrema, volume, porosity, contacts and stress of scenes with potential particles.
 
 YADE's own count spheres alone: utils.aabbExtrema() and porosity() are NaN for these bodies, porosity(volume) and voxelPorosity() 1,
 getSpheresVolume() 0 and RayleighWaveTimeStep() infinite. kineticEnergy(), momentum(), angularMomentum() and unbalancedForce() are right (the last is
@@ -50,6 +50,81 @@ def porosity(lower=None, upper=None, bodies=None):
     return 1.0 - solid_volume(ids) / volume
 
 
+def stress(volume=None):
+    """Mean stress (Love-Weber) of potential particles and spheres, a Matrix3 in Pa, negative in compression as that of YADE's getStress():
+
+        sigma = 1/volume sum over particles, sum over their contacts  f (x_c - x)^T
+
+    f: force on the particle at the contact point x_c, x: its centre of mass (of its clump), so that a contact of two particles counts with
+    the vector between their centres and one with a wall from centre to wall. Where all is at rest, without gravity, this is force by area of smooth walls. volume:
+    length^3; default: that of the periodic cell. ValueError where there is none. Forces are those of normalForce and shearForce of
+    the contact's physics: dashpots that a law does not write there are left out.
+    """
+    import yade
+    if volume is None and not yade.O.periodic:
+        raise ValueError("there is no periodic cell: give the volume in which the particles are, as stress(volume=...)")
+    return _sum_of_moments(_sides(), yade) / (yade.O.cell.volume if volume is None else positive(volume, "volume"))
+
+
+def body_stresses():
+    """Mean stress within each potential particle and sphere that moves (of clumps, each member by itself): {id: Matrix3}, Pa, as stress() with
+    the volume of the body."""
+    import yade
+    of_body = {body.id: [] for body in _counted(None) if _is_grain(body)}
+    for side in _sides():
+        of_body[side[0].id].append(side)
+    return {one: _sum_of_moments(sides, yade) / _volume(yade.O.bodies[one]) for one, sides in of_body.items()}
+
+
+def fabric_tensor():
+    """1/N sum of n n^T over the N contacts of particles, those with walls included: a Matrix3 of trace 1, n the contact normal.
+
+    ValueError where there is no contact.
+    """
+    import yade
+    normals = list({(contact.id1, contact.id2): contact.geom.normal for _, contact, _, _ in _sides()}.values())
+    if not normals:
+        raise ValueError("there is no contact, and so no fabric tensor")
+    return sum((normal.outer(normal) for normal in normals), yade.Matrix3.Zero) / len(normals)
+
+
+def coordination_number(skip_free=False):
+    """Mean number of contacts of a particle, those with walls included.
+
+    skip_free: without particles that bear nothing, of no contact or of one, and without their contacts: (2 C - N_1) / (N - N_0 - N_1).
+    ValueError where no particle is left.
+    """
+    count = {body.id: 0 for body in _counted(None) if _is_grain(body)}
+    for body, _, _, _ in _sides():
+        count[body.id] += 1
+    numbers = list(count.values())
+    left = sum(number > 1 for number in numbers) if skip_free else len(numbers)
+    if not left:
+        raise ValueError("there is no particle that bears a load" if skip_free else "there is no particle")
+    return (sum(numbers) - (numbers.count(1) if skip_free else 0)) / left
+
+
+def _sides():
+    """(body, contact, force on the body, arm from its centre of mass) of each particle that moves in each contact that touches or is bonded."""
+    import yade
+    scene, found = yade.O, []
+    for contact in scene.interactions:
+        touches = contact.isReal and (getattr(contact.geom, "penetrationDepth", 0.0) > 0.0 or getattr(contact.phys, "bonded", False))
+        for number, sign in ((contact.id1, -1.0), (contact.id2, 1.0)) if touches else ():
+            body = scene.bodies[number]
+            if isinstance(body.shape, (yade.PotentialParticle, yade.Sphere)) and _is_grain(body):
+                centre = scene.bodies[body.clumpId].state.pos if body.isClumpMember else body.state.pos
+                if scene.periodic and sign > 0.0:
+                    centre = centre + scene.cell.hSize * contact.cellDist
+                force = sign * (contact.phys.normalForce + contact.phys.shearForce)
+                found.append((body, contact, force, contact.geom.contactPoint - centre))
+    return found
+
+
+def _sum_of_moments(sides, yade):
+    return sum((force.outer(arm) for _, _, force, arm in sides), yade.Matrix3.Zero)
+
+
 def _counted(bodies):
     import yade
     chosen = yade.O.bodies if bodies is None else [yade.O.bodies[int(one)] for one in bodies]
@@ -85,3 +160,24 @@ def _volume(body):
     if isinstance(body.shape, yade.ConicPotentialParticle):
         return body.shape.volume
     raise ValueError(f"body {body.id} is a plain PotentialParticle without mass: its volume is not known")
+
+
+def overlap_ratio():
+    """The largest overlap of a contact of potential particles over its rounding radius, the smaller r of the two; 0 without a contact.
+
+    Of a contact patch it is the largest depth. Results are those of rounded bodies as long as it is below 1.
+    """
+    return largest_overlap()[0]
+
+
+def largest_overlap():
+    """(overlap over rounding radius, contact) of the contact in which that is largest, or (0, None)."""
+    import yade
+    largest = 0.0, None
+    for contact in yade.O.interactions:
+        radii = [shape.r for shape in (yade.O.bodies[contact.id1].shape, yade.O.bodies[contact.id2].shape)
+                 if isinstance(shape, yade.PotentialParticle)] if contact.isReal and hasattr(contact.geom, "penetrationDepth") else []
+        if radii:
+            depth = max(contact.geom.penetrationDepth, getattr(contact.geom, "largestDepth", 0.0))
+            largest = max(largest, (depth / min(radii), contact), key=lambda one: one[0])
+    return largest

@@ -37,12 +37,12 @@ def critical_time_step(stiffness=None, bodies=None, contacts=3, safety=0.5):
     chosen = [body for body in _chosen(scene, bodies) if _moves(body)]
     if not chosen:
         raise ValueError("no body with a shape and a mass is free to move: there is no time step to find")
-    rule = _rule(scene, stiffness)
+    rule = stiffness_rule(scene, stiffness)
     largest, damping = 0.0, 0.0
     for body in chosen:
         damping = max(damping, _damping_ratio(getattr(body.mat, "restitution", 1.0)))
         present = _eigenvalue(body, [_of_contact(scene, body, one) for one in body.intrs() if one.isReal])
-        mass, inertia, radius = body.state.mass, min(body.state.inertia), _radius(body)
+        mass, inertia, radius = body.state.mass, min(body.state.inertia), bounding_radius(body)
         assumed = contacts * rule(body, radius) * (1.0 / mass + radius**2 / inertia)
         largest = max(largest, present, assumed)
     return safety * 2.0 / math.sqrt(2.0 * largest) * (math.hypot(1.0, damping) - damping)
@@ -62,7 +62,7 @@ def _moves(body):
             and set(body.state.blockedDOFs) != set("xyzXYZ"))
 
 
-def _radius(body):
+def bounding_radius(body):
     shape = body.shape
     for name in ("boundingRadius", "radius"):
         if hasattr(shape, name):
@@ -73,7 +73,7 @@ def _radius(body):
     raise ValueError(f"body {body.id} is a {type(shape).__name__} of unknown extent: use ConicPotentialParticle, or name other bodies")
 
 
-def _rule(scene, stiffness):
+def stiffness_rule(scene, stiffness=None):
     """Stiffness of a new contact of a body, N/m, as a function of body and bounding radius."""
     if stiffness is not None:
         return lambda body, radius: stiffness

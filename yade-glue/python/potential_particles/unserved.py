@@ -35,15 +35,16 @@ class _Group:
         self.moves = self.moves or body.dynamic
 
 
-def _groups(bodies):
-    groups = {}
+def groups(bodies):
+    """Bodies by their class of shape, without those that have none."""
+    found = {}
     for body in bodies:
         kind = type(body.shape)
         if body.shape is not None and not body.isClump and kind.__name__ not in _IMMATERIAL:
-            if kind not in groups:
-                groups[kind] = _Group(body.shape)
-            groups[kind].add(body)
-    return list(groups.values())
+            if kind not in found:
+                found[kind] = _Group(body.shape)
+            found[kind].add(body)
+    return list(found.values())
 
 
 def _remedy(other):
@@ -52,19 +53,24 @@ def _remedy(other):
     return f"add {REMEDIES[other.name]}()" if other.name in REMEDIES else "there is no functor for them"
 
 
-def sentence(bodies, dispatchers):
-    """What is to be said of these bodies and the dispatchers of geometry, or None."""
-    groups = _groups(bodies)
-    parts = []
-    for i, later in enumerate(groups):
-        for earlier in groups[:i + 1]:
+def pairs(bodies, dispatchers):
+    """Pairs of shapes that may touch and that no dispatcher of geometry serves, with the numbers of their bodies: (pair, remedy)."""
+    found, present = [], groups(bodies)
+    for i, later in enumerate(present):
+        for earlier in present[:i + 1]:
             # The particles first, if only one of the two groups has them.
             one, other = sorted((earlier, later), key=lambda group: not isinstance(group.shape, PotentialParticle))
             may_touch = one.mask & other.mask and (one.moves or other.moves) and (one is not other or one.count > 1)
             if not isinstance(one.shape, PotentialParticle) or not may_touch:
                 continue
             if not any(dispatcher.dispFunctor(one.shape, other.shape) for dispatcher in dispatchers):
-                parts.append(f"{one.name} ({one.count}) and {other.name} ({other.count}): {_remedy(other)}")
+                found.append((f"{one.name} ({one.count}) and {other.name} ({other.count})", _remedy(other)))
+    return found
+
+
+def sentence(bodies, dispatchers):
+    """What is to be said of these bodies and the dispatchers of geometry, or None."""
+    parts = [f"{pair}: {remedy}" for pair, remedy in pairs(bodies, dispatchers)]
     if not parts:
         return None
     return ("bodies pass through each other because the contact loop has no functor for their shapes (number of bodies): "

@@ -1,0 +1,256 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# What YADE's tools do with potential particles (docs/laboratory.md), check(), and the measures that take the place of YADE's.
+import contextlib
+import io
+import re
+from pathlib import Path
+
+import harness
+import potential_particles
+import yade
+import yade.wrapper as w
+from mixed import *
+from yade import Matrix3
+
+check = Checks()
+TOP = Path(harness.__file__).resolve().parents[2]
+
+
+def findings():
+    """Those of check(), each as one text, and that it prints a line for each."""
+    printed = io.StringIO()
+    with contextlib.redirect_stdout(printed):
+        found = potential_particles.check()
+    check.equal(printed.getvalue().splitlines(), [f"potential_particles: {one.what}: {one.remedy}" for one in found], "a line for each finding")
+    return [str(one) for one in found]
+
+
+def finds(number, *parts):
+    """That check() finds so many things, one of which holds all parts."""
+    found = findings()
+    check.true(len(found) == number and any(all(part in one for part in parts) for one in found), f"{parts} in {found}")
+
+
+def right_scene(**keywords):
+    """Two cubes, one on the other, over a facet, with all that they need."""
+    mixed_scene(gravity=(0, 0, -9.81), **keywords)
+    add(cube(k=1e-4), Vector3(0, 0, 0.4999))
+    add(pyramid(), Vector3(0, 0, 2))
+    facets([((-2, -2, 0), (2, -2, 0), (0, 3, 0))])
+    O.dt = potential_particles.critical_time_step()
+
+
+# A scene without potential particles, and right ones, before and after contacts.
+O.reset()
+check.equal(findings(), [], "an empty scene")
+right_scene()
+check.equal(findings(), [], "a right scene")
+run(5)
+check.true(any(c.isReal for c in O.interactions), "it has a contact")
+check.equal(findings(), [], "a right scene with contacts")
+script = (TOP / "examples/first_pile.py").read_text()
+O.reset()
+exec(compile(script.split("O.run(")[0], "first_pile.py", "exec"), vars(yade) | vars(w) | {"O": O})
+check.equal((len(O.bodies) > 50, findings()), (True, []), "the first pile at its start")
+run(int(0.5 / O.dt))
+check.true(sum(c.isReal for c in O.interactions) > 20, "the pile has contacts")
+check.equal(findings(), [], "the first pile after a fall")
+
+# Boxes and contact functors.
+right_scene()
+O.engines[1].boundDispatcher.functors = [yade.PotentialParticle2AABB()]
+finds(1, "no boxes for Facet (1)", "Bo1_Facet_Aabb()")
+O.engines[1].boundDispatcher.functors = [yade.Bo1_Facet_Aabb()]
+finds(1, "no boxes for ConicPotentialParticle (2)", "PotentialParticle2AABB()")
+right_scene(functors=[yade.Ig2_ConicPP_ConicPP_ScGeom()])
+finds(1, "no functor for ConicPotentialParticle (2) and Facet (1)", "Ig2_Facet_ConicPP_ScGeom()")
+right_scene(functors=[yade.Ig2_Facet_ConicPP_ScGeom()])
+finds(1, "no functor for ConicPotentialParticle (2) and ConicPotentialParticle (2)")
+
+# Overlaps, time step, mass, weight, rotation: each alone.
+right_scene()
+O.bodies[0].state.pos = Vector3(0, 0, 0.43)
+O.step()
+check.true(potential_particles.overlap_ratio() > 1, "an overlap beyond r")
+finds(1, "overlap by 1.4 of the rounding radius")
+right_scene()
+O.dt = 2.1 * potential_particles.critical_time_step()
+finds(1, "O.dt=", "critical_time_step")
+O.dt = 1.9 * potential_particles.critical_time_step()
+check.equal(findings(), [], "a step within the proved limit")
+right_scene()
+O.bodies[0].state.mass *= 1.02
+finds(1, "body 0: the mass is not volume times density")
+O.bodies[0].state.mass /= 1.015
+check.equal(findings(), [], "a mass within 1 %")
+right_scene(young=1e4)
+finds(1, "the weight alone makes overlaps beyond the rounding radius")
+right_scene()
+O.engines[-1].exactAsphericalRot = False
+finds(1, "exactAsphericalRot=True")
+right_scene()
+O.bodies[0].aspherical = False
+check.equal(findings(), [], "the moments of inertia of a cube are equal")
+O.bodies[1].aspherical = False
+finds(1, "body 1", "aspherical=True")
+
+
+
+def torque_error(make_physics, make_law, periodic=False, make_material=None):
+    """Largest error of the torques of a contact, (torque - arm x force) / |arm||force|, of a corner on a face or, if periodic, across a border."""
+    mixed_scene(functors=[yade.Ig2_ConicPP_ConicPP_ScGeom()], physics=([make_physics()], [make_law()]), dt=1e-6, friction=0.5, periodic=periodic)
+    if make_material:
+        O.materials.append(make_material())
+    offset = Vector3.Zero
+    if periodic:
+        O.cell.setBox(4, 4, 4)
+        offset = Vector3(0, 0, 3.7)
+    add(cube(k=1e-4), Vector3(0.2, 0.3, 0.1) + offset)
+    add(cube(k=1e-4), Vector3(0.55, 0.2, 1.15 - (4 if periodic else 0)) + offset, turned((1, -1.5, 0), 0.25))
+    for body in O.bodies:
+        body.mat = O.materials[-1]
+    O.bodies[1].state.vel = Vector3(0, 5, 0)
+    run(200)
+    contact = next(c for c in O.interactions if c.isReal)
+    errors = []
+    for one, sign in (contact.id1, 0), (contact.id2, 1):
+        arm = contact.geom.contactPoint - O.bodies[one].state.pos - sign * (O.cell.hSize * contact.cellDist if periodic else Vector3.Zero)
+        force = O.forces.f(one)
+        errors.append((O.forces.t(one) - arm.cross(force)).norm() / (arm.norm() * force.norm()))
+    return max(errors)
+
+
+# Laws: wrong torques are found and named, right ones are not. Bodies have moved on by one step of 5e-6 m since.
+frict_mat = lambda kind: lambda: getattr(w, kind)(young=1e7, poisson=0.3, frictionAngle=0.5, density=2000.0)
+cundall = lambda **keywords: (w.Ip2_FrictMat_FrictMat_FrictPhys, lambda: w.Law2_ScGeom_FrictPhys_CundallStrack(**keywords))
+mindlin = lambda name: (w.Ip2_FrictMat_FrictMat_MindlinPhys, getattr(w, f"Law2_ScGeom_MindlinPhys_{name}"))
+area = lambda: area_physics()[0][0], lambda: area_physics()[1][0]
+bonds = w.Ip2_JCFpmMat_JCFpmMat_JCFpmPhys, w.Law2_ScGeom_JCFpmPhys_JointedCohesiveFrictionalPM
+for name, physics, periodic, material, remedy in [
+        ("Cundall", cundall(), False, None, "sphericalBodies=False"),
+        ("Cundall in a cell", cundall(), True, None, "sphericalBodies=False"),
+        ("Cundall without spheres", cundall(sphericalBodies=False), False, None, None),
+        ("Cundall without spheres in a cell", cundall(sphericalBodies=False), True, None, None),
+        ("Mindlin", mindlin("Mindlin"), False, None, None),
+        ("Mindlin in a cell", mindlin("Mindlin"), True, None, "use Law2_ScGeom_FrictPhys_CundallStrack(sphericalBodies=False)"),
+        ("linear shear", mindlin("HertzWithLinearShear"), False, None, "use Law2_ScGeom_MindlinPhys_Mindlin"),
+        ("Deresiewicz", mindlin("MindlinDeresiewitz"), False, None, "use Law2_ScGeom_MindlinPhys_Mindlin"),
+        ("linear shear in a cell", mindlin("HertzWithLinearShear"), True, None, "use Law2_ScGeom_FrictPhys_CundallStrack(sphericalBodies=False)"),
+        ("KnKs, Law2_SCG_KnKsPhys_KnKsLaw", area, False, None, None),
+        ("KnKs in a cell", area, True, None, "use Law2_ScGeom_FrictPhys_CundallStrack(sphericalBodies=False)"),
+        ("JCFpm", bonds, False, frict_mat("JCFpmMat"), "ConicJointMat")]:
+    error = torque_error(*physics, periodic, material)
+    check.true(error > 0.3 if remedy else error < 1e-4, f"{name}: torques off by {error:.2g}")
+    found = [one for one in findings() if one.startswith("Law2")]
+    check.true(len(found) == 1 and remedy in found[0] if remedy else not found, f"{name}: {found}")
+# A law that serves spheres alone, beside the right one.
+right_scene()
+O.engines[2].lawDispatcher.functors = [*O.engines[2].lawDispatcher.functors, w.Law2_ScGeom_MindlinPhys_HertzWithLinearShear()]
+check.equal(findings(), [], "a law that these bodies do not meet")
+
+# YADE's stepper takes a step of about a second without contacts; the remedy that is named holds.
+right_scene()
+O.bodies[0].state.pos = Vector3(0, 0, 5)
+O.engines = [*O.engines[:3], w.GlobalStiffnessTimeStepper(), O.engines[3]]
+finds(1, "GlobalStiffnessTimeStepper", "defaultDt=potential_particles.critical_time_step()")
+O.engines[3].defaultDt = potential_particles.critical_time_step()
+check.equal(findings(), [], "a stepper with a step to begin with")
+O.step()
+check.true(O.dt <= 1.0001 * O.engines[3].defaultDt, f"whose step is {O.dt}")
+right_scene()
+O.bodies[0].state.pos = Vector3(0, 0, 5)
+O.engines = [*O.engines[:3], w.GlobalStiffnessTimeStepper(), O.engines[3]]
+O.step()
+check.true(O.dt > 0.5, f"without one it is {O.dt}")
+
+
+def pressed(physics=None, number=2, squeeze=1e-3, periodic=False, steps=4000):
+    """number^3 cubes of 1 m pressed together between fixed walls, or in a periodic cell, until they rest; the side of the space that they fill."""
+    side = number * (1.0 - squeeze)
+    mixed_scene(physics=physics, damping=0.5, dt=1e-3, periodic=periodic)
+    if periodic:
+        O.cell.setBox(side, side, side)
+    else:
+        for axis in range(3):
+            for place_ in (0.0, side):
+                O.bodies.append(utils.wall(place_, axis=axis, material=-1))
+    step = 1.0 - squeeze
+    for x in range(number):
+        for y in range(number):
+            for z in range(number):
+                add(cube(k=1e-4, R=0.9), Vector3(x + 0.5, y + 0.5, z + 0.5) * step)
+    run(steps)
+    return side
+
+
+# Eight cubes between six walls: stress is force by area of the walls, and each direction has a third of the contacts.
+for name, physics in ("Cundall", None), ("KnKs", area_physics()), ("Mindlin", ([w.Ip2_FrictMat_FrictMat_MindlinPhys()], [w.Law2_ScGeom_MindlinPhys_Mindlin()])):
+    side = pressed(physics)
+    walls = [O.forces.f(2 * axis)[axis] for axis in range(3)], [O.forces.f(2 * axis + 1)[axis] for axis in range(3)]
+    found = potential_particles.stress(volume=side**3)
+    for axis in range(3):
+        expected = 0.5 * (walls[0][axis] - walls[1][axis]) / side**2
+        check.true(expected < 0 and abs(found[axis, axis] / expected - 1) < 1e-3, f"{name}: stress along {axis} is {found[axis, axis]}, walls {expected}")
+    check.true(abs(found[0, 1]) < 1e-3 * abs(found[0, 0]), f"{name}: no shear")
+    bodies = potential_particles.body_stresses()
+    check.equal(sorted(bodies), list(range(6, 14)), f"{name}: a stress for each cube")
+    # Of equal cubes at rest, each bears the same over its whole cross-section.
+    volume = O.bodies[6].shape.volume
+    for one, value in bodies.items():
+        expected = 0.25 * walls[0][2] * side / 2 / volume
+        check.true(abs(value[2, 2] / -abs(expected) - 1) < 1e-3, f"{name}: stress in body {one} is {value[2, 2]}, {expected}")
+    fabric = potential_particles.fabric_tensor()
+    check.close((fabric - Matrix3.Identity / 3).norm(), 0.0, 1e-9, f"{name}: fabric {fabric}")
+    check.equal(potential_particles.coordination_number(), 6.0, f"{name}: three cubes and three walls")
+
+
+# In a periodic cell: 27 cubes, each pair of faces with the force F on the area of a cube.
+side = pressed(number=3, periodic=True, steps=2)
+contacts_ = [c for c in O.interactions if c.isReal]
+check.equal(len(contacts_), 81, "three contacts for each cube")
+check.true(any(any(c.cellDist) for c in contacts_), "some across a border")
+found, expected = potential_particles.stress(), -contacts_[0].phys.normalForce.norm() / (side / 3)**2
+check.close((found / expected - Matrix3.Identity).norm(), 0.0, 1e-3, f"stress {found}, {expected}")
+check.close((potential_particles.fabric_tensor() - Matrix3.Identity / 3).norm(), 0.0, 1e-9, "fabric of a cell")
+check.equal((potential_particles.coordination_number(), potential_particles.coordination_number(skip_free=True)), (6.0, 6.0), "contacts of a cube")
+check.close(potential_particles.overlap_ratio(), contacts_[0].geom.penetrationDepth / 0.05, 1e-6, "overlap over r")
+in_cell = utils.getStress()
+check.close((in_cell / expected - Matrix3.Identity).norm(), 0.0, 1e-3, f"YADE's getStress in a cell: {in_cell}")
+
+# A row of three that touch, and a fourth by itself.
+mixed_scene()
+for x in 0.0, 0.999, 1.998, 5.0:
+    add(cube(k=1e-4), Vector3(x, 0, 0))
+check.raises(ValueError, potential_particles.fabric_tensor, "no contact yet", "no contact")
+check.equal((potential_particles.overlap_ratio(), potential_particles.coordination_number()), (0.0, 0.0), "no contact yet")
+check.raises(ValueError, lambda: potential_particles.coordination_number(skip_free=True), "none bears a load", "bears a load")
+check.raises(ValueError, potential_particles.stress, "no volume", "give the volume")
+O.step()
+check.equal(potential_particles.coordination_number(), 1.0, "ends 1, middle 2, free 0")
+check.equal(potential_particles.coordination_number(skip_free=True), 2.0, "the middle one alone bears")
+check.close((potential_particles.fabric_tensor() - Vector3(1, 0, 0).outer(Vector3(1, 0, 0))).norm(), 0.0, 1e-6, "fabric of a row")
+check.close(potential_particles.overlap_ratio(), 0.001 / 0.05, 2e-3, "overlap of a row")
+
+
+# YADE's own functions: as docs/laboratory.md says.
+isnan = lambda value: value != value
+side = pressed(steps=1000)
+truth, of_body = potential_particles.stress(side**3)[0, 0], potential_particles.body_stresses()[6][0, 0]
+check.true(isnan(utils.getStress()[0, 0]), "getStress() without a volume")
+check.close(utils.getStress(side**3)[0, 0] / truth, 1.0, 1e-3, "getStress with a volume")
+check.true(isnan(utils.fabricTensor()[0][0, 0]), "fabricTensor()")
+box = [Vector3(-1, -1, -1), Vector3(3, 3, 3)]
+check.close((utils.fabricTensor(extrema=box)[0] - potential_particles.fabric_tensor()).norm(), 0.0, 1e-9, "fabricTensor(extrema=...)")
+check.close(utils.avgNumInteractions(), 6 * 12 / 14, 1e-9, "avgNumInteractions counts the six walls as particles")
+check.true(isnan(utils.avgNumInteractions(skipFree=True)), "avgNumInteractions(skipFree=True)")
+check.true(0.2 < utils.bodyStressTensors()[6][0, 0] / of_body < 0.6, "bodyStressTensors divides by the volume of a bounding sphere")
+check.true(utils.maxOverlapRatio() <= 0 < potential_particles.overlap_ratio(), "maxOverlapRatio")
+
+# Each tool of the page's tables is measured above, each law in torque_error.
+page, tested = (TOP / "docs/laboratory.md").read_text(), Path(TOP / "tests/yade/test_laboratory.py").read_text()
+tools = [name for row in page.splitlines() if row.startswith("| `") for name in re.findall(r"`(\w+)", row.split("|")[1])]
+check.true(len(tools) >= 12, f"tools in the tables: {tools}")
+for name in tools:
+    check.true(name.removeprefix("Law2_ScGeom_MindlinPhys_") in tested, f"{name} is measured here")
+
+check.finish()

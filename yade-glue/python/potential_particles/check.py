@@ -1,0 +1,161 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What YADE does without a word although it is wrong for potential particles, looked for in the scene as it stands."""
+import math
+from typing import NamedTuple
+
+from . import time_step, unserved
+from .measures import largest_overlap
+
+# Lever arms of spheres: for bodies of any other shape the torque is wrong.
+_SPHERES_ONLY = {"Law2_ScGeom_MindlinPhys_HertzWithLinearShear": "Law2_ScGeom_MindlinPhys_Mindlin",
+                 "Law2_ScGeom_MindlinPhys_MindlinDeresiewitz": "Law2_ScGeom_MindlinPhys_Mindlin",
+                 "Law2_ScGeom_JCFpmPhys_JointedCohesiveFrictionalPM": "ConicJointMat with its physics and law, which has bonds"}
+# Right in a box, wrong where a pair lies across a border of the cell.
+_NOT_PERIODIC = ("Law2_ScGeom_MindlinPhys_Mindlin", "Law2_SCG_KnKsPhys_KnKsLaw")
+_PERIODIC = "Law2_ScGeom_FrictPhys_CundallStrack(sphericalBodies=False)"
+# Relative; masses of bodies made by hand are rarely better, and moments of inertia that agree as well integrate as those of a sphere.
+_MASS_TOLERANCE = _INERTIA_TOLERANCE = 0.01
+
+
+class Finding(NamedTuple):
+    """Something in the scene that is wrong, and what to do."""
+
+    what: str
+    remedy: str
+
+    def __str__(self):
+        return f"{self.what}: {self.remedy}"
+
+
+def check():
+    """Looks for mistakes of which YADE says nothing; prints a line for each, and returns them as a list of (what, remedy).
+
+    Shapes without a box or without a contact functor; laws with the lever arms of spheres; overlaps beyond the rounding radius; O.dt beyond
+    critical_time_step(safety=1), or left to a stepper that knows no contact yet; masses that are not volume times density (1 %); weights
+    that the stiffness cannot bear within r; rotation integrated as that of spheres. The list is empty where none is found, and in
+    scenes without potential particles. Call it when bodies, engines and O.dt are set, and again after some steps, when there are contacts.
+    """
+    import yade
+    from . import _dispatchers, _prepare_ours
+    scene = yade.O
+    ours = [body for body in scene.bodies if isinstance(body.shape, yade.PotentialParticle)]
+    found = []
+    if ours:
+        if not scene.running:
+            _prepare_ours(yade)
+        bounds, geometry, physics = _dispatchers(yade)
+        moving = [body for body in ours if set(body.state.blockedDOFs) != set("xyzXYZ")]
+        found = [*_bounds(scene, bounds), *_contacts(scene, geometry), *_laws(scene, ours, physics), *_overlap(), *_time_step(scene),
+                 *_mass(yade, moving), *_weight(scene, moving), *_rotation(scene, moving)]
+    for one in found:
+        print(f"potential_particles: {one}")
+    return found
+
+
+def _bodies(ids):
+    """A few of the ids, and how many there are."""
+    few = ", ".join(map(str, ids[:3])) + (", ..." if len(ids) > 3 else "")
+    return f"body {few}" if len(ids) == 1 else f"{len(ids)} bodies ({few})"
+
+
+def _engines(scene, name):
+    return [engine for engine in scene.engines if type(engine).__name__ == name and not engine.dead]
+
+
+def _bounds(scene, dispatchers):
+    import yade
+    for group in unserved.groups(scene.bodies):
+        known = isinstance(group.shape, yade.PotentialParticle) or group.name in unserved.REMEDIES
+        if known and not any(dispatcher.dispFunctor(group.shape) for dispatcher in dispatchers):
+            name = "PotentialParticle2AABB" if isinstance(group.shape, yade.PotentialParticle) else f"Bo1_{group.name}_Aabb"
+            yield Finding(f"the collider makes no boxes for {group.name} ({group.count}), so that these bodies touch nothing",
+                          f"add {name}() to the collider")
+
+
+def _contacts(scene, dispatchers):
+    for pair, remedy in unserved.pairs(scene.bodies, dispatchers):
+        yield Finding(f"bodies pass through each other because the contact loop has no functor for {pair}", remedy)
+
+
+def _laws(scene, ours, dispatchers):
+    import yade
+    # Beside ours there may be spheres with a material and a law of their own.
+    materials = list({type(body.mat): body.mat for body in ours if body.mat}.values())
+    others = list({type(body.mat): body.mat for body in scene.bodies if body.mat}.values())
+    made = {type(functor).__name__ for dispatcher in dispatchers for one in materials for other in others
+            for functor in [dispatcher.dispFunctor(one, other)] if functor}
+    for law in [law for engine in scene.engines for law in getattr(getattr(engine, "lawDispatcher", None), "functors", ())]:
+        name, (geometry, physics) = type(law).__name__, law.bases
+        if geometry != "ScGeom" and name != "Law2_SCG_KnKsPhys_KnKsLaw" or not any(one.endswith("_" + physics) for one in made):
+            continue
+        if isinstance(law, yade.Law2_ScGeom_FrictPhys_CundallStrack) and law.sphericalBodies:
+            yield Finding(f"{name} takes the lever arms of spheres, and its torques are wrong", "give it sphericalBodies=False")
+        elif name in _SPHERES_ONLY:
+            instead = _PERIODIC if scene.periodic and _SPHERES_ONLY[name] in _NOT_PERIODIC else _SPHERES_ONLY[name]
+            yield Finding(f"{name} takes the lever arms of spheres, and its torques are wrong", f"use {instead}")
+        elif scene.periodic and name in _NOT_PERIODIC:
+            yield Finding(f"{name} has wrong torques where a pair lies across a border of the periodic cell", f"use {_PERIODIC}")
+
+
+def _overlap():
+    ratio, contact = largest_overlap()
+    if ratio > 1.0:
+        yield Finding(f"bodies {contact.id1} and {contact.id2} overlap by {ratio:.3g} of the rounding radius r",
+                      "start them apart (pack), take a stiffer contact, or a larger r")
+
+
+def _time_step(scene):
+    try:
+        limit = time_step.critical_time_step(safety=1.0)
+    except ValueError:
+        return
+    steppers = [one for one in _engines(scene, "GlobalStiffnessTimeStepper") if one.active]
+    if not steppers and scene.dt > limit:
+        yield Finding(f"O.dt={scene.dt:.3g} s is beyond {limit:.3g} s, up to which contacts are known to act as springs",
+                      "O.dt = potential_particles.critical_time_step()")
+    for stepper in steppers:
+        if not 0.0 < stepper.defaultDt <= limit and not any(contact.isReal for contact in scene.interactions):
+            yield Finding("GlobalStiffnessTimeStepper takes a step of about 1 s as long as there is no contact",
+                          "give it defaultDt=potential_particles.critical_time_step()")
+
+
+def _mass(yade, moving):
+    wrong, volumes = [], {}
+    for body in moving:
+        shape, density = body.shape, body.mat.density if body.mat else 0.0
+        if not isinstance(shape, yade.ConicPotentialParticle) or not shape.planes or density <= 0.0:
+            continue
+        key = (tuple(shape.planes), shape.r, shape.k, shape.R)
+        if key not in volumes:
+            # Ten times as fast as shape.volume, and more exact than what is compared.
+            volumes[key] = shape.massProperties(0.1 * _MASS_TOLERANCE)[0]
+        if not math.isclose(body.state.mass, volumes[key] * density, rel_tol=_MASS_TOLERANCE):
+            wrong.append((body, volumes[key] * density))
+    if wrong:
+        body, expected = wrong[0]
+        yield Finding(f"{_bodies([one.id for one, _ in wrong])}: the mass is not volume times density (body {body.id}: "
+                      f"{body.state.mass:.4g}, and {expected:.4g} by its shape and material)",
+                      "set state.mass and state.inertia (potential_particles.body does)")
+
+
+def _weight(scene, moving):
+    gravity = max((one.gravity.norm() for one in _engines(scene, "NewtonIntegrator")), default=0.0)
+    try:
+        stiffness = time_step.stiffness_rule(scene)
+        depths = {body.id: body.state.mass * gravity / stiffness(body, time_step.bounding_radius(body)) / body.shape.r for body in moving}
+    except ValueError:
+        return
+    deep = [one for one in depths if depths[one] > 1.0]
+    if deep:
+        yield Finding(f"{_bodies(deep)}: the weight alone makes overlaps beyond the rounding radius r (body {deep[0]}: {depths[deep[0]]:.3g} r)",
+                      "raise the stiffness, or check the units of lengths and of density")
+
+
+def _rotation(scene, moving):
+    turning = [body for body in moving if not set("XYZ") <= set(body.state.blockedDOFs) and not body.isClumpMember
+               and max(body.state.inertia) > (1.0 + _INERTIA_TOLERANCE) * min(body.state.inertia)]
+    if turning and any(not one.exactAsphericalRot for one in _engines(scene, "NewtonIntegrator")):
+        yield Finding("NewtonIntegrator turns bodies as if their moments of inertia were equal", "give it exactAsphericalRot=True")
+    spheres = [body.id for body in turning if not body.aspherical]
+    if spheres:
+        yield Finding(f"{_bodies(spheres)}: turned as if the moments of inertia were equal", "set aspherical=True of the body")
