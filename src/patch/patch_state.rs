@@ -231,6 +231,7 @@ impl PatchState {
             change: arm * change[0].max(change[1]) / depth,
         }
     }
+
     /// The patch after a small motion of A. Area and moments go along with B as they are, within the error of the area.
     fn carried(&self, now: &Now, motion: &Motion) -> Patch {
         let Self { patch, point, .. } = self;

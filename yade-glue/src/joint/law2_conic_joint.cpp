@@ -164,10 +164,16 @@ bool Law::holdsAsBond(const Joint& joint, Energies& energies) const
     return true;
 }
 
+// The springs along the joint: how far they are drawn, and turned about the normal.
+struct Law::Springs {
+    Vector3r shear;
+    double twist;
+};
+
 // broken: the bond has in this step; its springs along the joint are now those of the patch.
 void Law::holdAsPatch(const Joint& joint, const ContactPatch& patch, bool broken, Energies& energies) const
 {
-    yade::ScGeom& geom = joint.geom;
+    const yade::ScGeom& geom = joint.geom;
     ConicJointPhys& phys = joint.phys;
     const MovingBody &one = joint.one, &other = joint.other;
     const Vector3r& n = geom.normal;
@@ -176,75 +182,24 @@ void Law::holdAsPatch(const Joint& joint, const ContactPatch& patch, bool broken
     if (phys.dampingRatio > 0)
         damping = dashpot(phys, geom, patch, one, other);
     const double pressing = phys.normalStiffness * patch.force + damping.force.dot(n), pressure = phys.normalStiffness * patch.energy;
-
-    // The springs of the joint take along what they hold; where the patch grows or shrinks, springs join and leave.
-    const double formerEnergy = phys.springEnergy(phys.shearDisplacement, phys.twist);
-    Vector3r shear = phys.shearDisplacement;
-    double twist = phys.twist;
-    if (const double length = shear.norm(); length > 0) {
-        if (!broken)
-            geom.rotate(shear);
-        shear -= shear.dot(n) * n;
-        if (const double left = shear.norm(); left > 0)
-            shear *= length / left;
-    }
-    phys.kn = phys.normalStiffness * patch.area;
-    phys.ks = phys.shearStiffness * patch.area;
-    phys.twistStiffness = phys.shearStiffness * patch.polarMoment;
-    const double energyWithArea = phys.springEnergy(shear, twist);
-    const double spin = (other.spin() - one.spin()).dot(n);
-    if (broken) {
-        energies.breaking -= pressure + energyWithArea;
-    } else {
-        energies.area = formerEnergy - energyWithArea;
-        shear += geom.shearInc;
-        twist += spin * scene->dt;
-    }
-
-    const FrictionForce trial { phys.ks * shear.norm(), phys.twistStiffness * std::abs(twist) };
-    const double trialEnergy = phys.springEnergy(shear, twist);
-    FrictionForce limit = limitOf(phys, patch, pressing), held = returned(trial, limit, phys.ks, phys.twistStiffness);
-    phys.isSliding = held.shear < trial.shear || held.twist < trial.twist;
-    const bool breaks = phys.isSliding && !phys.broken;
-    if (breaks) {
-        phys.broken = true;
-        limit = limitOf(phys, patch, pressing);
-        held = returned(trial, limit, phys.ks, phys.twistStiffness);
-    }
-    if (phys.isSliding) {
-        const double shearLeft = trial.shear > 0 ? held.shear / trial.shear : 0, twistLeft = trial.twist > 0 ? held.twist / trial.twist : 0;
-        energies.friction = held.shear * (1 - shearLeft) * shear.norm() + held.twist * (1 - twistLeft) * std::abs(twist);
-        shear *= shearLeft;
-        twist *= twistLeft;
-    }
-    phys.shearDisplacement = shear;
-    phys.twist = twist;
+    if (broken)
+        energies.breaking -= pressure;
+    Springs springs = springsAlong(joint, patch, broken, energies);
+    const FrictionForce limit = slip(phys, patch, pressing, springs, energies);
+    phys.shearDisplacement = springs.shear;
+    phys.twist = springs.twist;
     phys.normalForce = pressing * n;
-    phys.shearForce = -phys.ks * shear;
-    phys.twistMoment = -phys.twistStiffness * twist;
+    phys.shearForce = -phys.ks * springs.shear;
+    phys.twistMoment = -phys.twistStiffness * springs.twist;
     phys.couple = phys.normalStiffness * patch.couple;
-    energies.elastic = pressure + phys.springEnergy(shear, twist);
-    // What the strength was above the residual one is lost at once; friction does work over the slip.
-    if (breaks)
-        energies.breaking += trialEnergy - phys.springEnergy(shear, twist) - energies.friction;
+    energies.elastic = pressure + phys.springEnergy(springs.shear, springs.twist);
     const Wrench ofSprings { phys.normalStiffness * patch.force * n + phys.shearForce, (phys.couple + phys.twistMoment) * n };
 
-    // While it sticks, the joint is damped along its plane as it is across it.
     if (phys.dampingRatio > 0) {
         energies.viscous = -scene->dt * (damping.force.dot(other.velocityAt(geom.contactPoint) - one.velocityAt(geom.contactPoint))
                                          + damping.moment.dot(other.spin() - one.spin()));
-        if (!phys.isSliding) {
-            const Vector3r direction = geom.shearInc.norm() > 0 ? Vector3r(geom.shearInc.normalized()) : n.unitOrthogonal();
-            const double mobility = one.mobility(geom.contactPoint, direction) + other.mobility(geom.contactPoint, direction);
-            const double perArea = dashpotPerArea(phys, phys.shearStiffness, mobility, patch.area);
-            Vector3r total = phys.shearForce - perArea * patch.area / scene->dt * geom.shearInc;
-            if (total.norm() > limit.shear)
-                total *= limit.shear / total.norm();
-            const double moment = -perArea * patch.polarMoment * spin;
-            energies.viscous -= (total - phys.shearForce).dot(geom.shearInc) + moment * spin * scene->dt;
-            phys.shearForce = total;
-            phys.twistMoment += moment;
-        }
+        if (!phys.isSliding)
+            dampAlong(joint, patch, limit.shear, energies);
     }
 
     const Vector3r force = phys.normalForce + phys.shearForce;
@@ -261,6 +216,82 @@ void Law::holdAsPatch(const Joint& joint, const ContactPatch& patch, bool broken
         energies.area += energies.elastic - energy;
         energies.elastic = energy;
     }
+}
+
+// The springs of the joint take along what they hold, and are drawn by the motion of this step; where the patch grows or shrinks, springs
+// join and leave.
+Law::Springs Law::springsAlong(const Joint& joint, const ContactPatch& patch, bool broken, Energies& energies) const
+{
+    yade::ScGeom& geom = joint.geom;
+    ConicJointPhys& phys = joint.phys;
+    const Vector3r& n = geom.normal;
+    const double formerEnergy = phys.springEnergy(phys.shearDisplacement, phys.twist);
+    Springs springs { phys.shearDisplacement, phys.twist };
+    if (const double length = springs.shear.norm(); length > 0) {
+        if (!broken)
+            geom.rotate(springs.shear);
+        springs.shear -= springs.shear.dot(n) * n;
+        if (const double left = springs.shear.norm(); left > 0)
+            springs.shear *= length / left;
+    }
+    phys.kn = phys.normalStiffness * patch.area;
+    phys.ks = phys.shearStiffness * patch.area;
+    phys.twistStiffness = phys.shearStiffness * patch.polarMoment;
+    const double energyWithArea = phys.springEnergy(springs.shear, springs.twist);
+    if (broken) {
+        energies.breaking -= energyWithArea;
+    } else {
+        energies.area = formerEnergy - energyWithArea;
+        springs.shear += geom.shearInc;
+        springs.twist += (joint.other.spin() - joint.one.spin()).dot(n) * scene->dt;
+    }
+    return springs;
+}
+
+// Lets the springs slip where they hold more than friction and cohesion can; a joint that slips for the first time breaks. Returns what
+// these can hold after that.
+FrictionForce Law::slip(ConicJointPhys& phys, const ContactPatch& patch, double pressing, Springs& springs, Energies& energies)
+{
+    auto& [shear, twist] = springs;
+    const FrictionForce trial { phys.ks * shear.norm(), phys.twistStiffness * std::abs(twist) };
+    const double trialEnergy = phys.springEnergy(shear, twist);
+    FrictionForce limit = limitOf(phys, patch, pressing), held = returned(trial, limit, phys.ks, phys.twistStiffness);
+    phys.isSliding = held.shear < trial.shear || held.twist < trial.twist;
+    if (!phys.isSliding)
+        return limit;
+    const bool breaks = !phys.broken;
+    if (breaks) {
+        phys.broken = true;
+        limit = limitOf(phys, patch, pressing);
+        held = returned(trial, limit, phys.ks, phys.twistStiffness);
+    }
+    const double shearLeft = trial.shear > 0 ? held.shear / trial.shear : 0, twistLeft = trial.twist > 0 ? held.twist / trial.twist : 0;
+    energies.friction = held.shear * (1 - shearLeft) * shear.norm() + held.twist * (1 - twistLeft) * std::abs(twist);
+    shear *= shearLeft;
+    twist *= twistLeft;
+    // What the strength was above the residual one is lost at once; friction does work over the slip.
+    if (breaks)
+        energies.breaking += trialEnergy - phys.springEnergy(shear, twist) - energies.friction;
+    return limit;
+}
+
+// While it sticks, the joint is damped along its plane as it is across it; spring and dashpot together hold no more than the limit.
+void Law::dampAlong(const Joint& joint, const ContactPatch& patch, double limit, Energies& energies) const
+{
+    const yade::ScGeom& geom = joint.geom;
+    ConicJointPhys& phys = joint.phys;
+    const MovingBody &one = joint.one, &other = joint.other;
+    const double spin = (other.spin() - one.spin()).dot(geom.normal);
+    const Vector3r direction = geom.shearInc.norm() > 0 ? Vector3r(geom.shearInc.normalized()) : geom.normal.unitOrthogonal();
+    const double mobility = one.mobility(geom.contactPoint, direction) + other.mobility(geom.contactPoint, direction);
+    const double perArea = dashpotPerArea(phys, phys.shearStiffness, mobility, patch.area);
+    Vector3r total = phys.shearForce - perArea * patch.area / scene->dt * geom.shearInc;
+    if (total.norm() > limit)
+        total *= limit / total.norm();
+    const double moment = -perArea * patch.polarMoment * spin;
+    energies.viscous -= (total - phys.shearForce).dot(geom.shearInc) + moment * spin * scene->dt;
+    phys.shearForce = total;
+    phys.twistMoment += moment;
 }
 
 void Law::track(const Energies& energies)

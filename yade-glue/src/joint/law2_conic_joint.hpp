@@ -11,6 +11,8 @@
 
 namespace potential_particles {
 
+struct FrictionForce;
+
 struct ContactPatch;
 
 // go() runs in many threads at once.
@@ -39,9 +41,13 @@ private:
 
     struct Energies;
     struct Joint;
+    struct Springs;
     void open(const Joint& joint, bool broken, Energies& energies) const;
     bool holdsAsBond(const Joint& joint, Energies& energies) const;
     void holdAsPatch(const Joint& joint, const ContactPatch& patch, bool broken, Energies& energies) const;
+    Springs springsAlong(const Joint& joint, const ContactPatch& patch, bool broken, Energies& energies) const;
+    static FrictionForce slip(ConicJointPhys& phys, const ContactPatch& patch, double pressing, Springs& springs, Energies& energies);
+    void dampAlong(const Joint& joint, const ContactPatch& patch, double limit, Energies& energies) const;
     void track(const Energies& energies);
 
     // Where the scene's tracker keeps them; each thread finds the same.
