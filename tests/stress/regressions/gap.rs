@@ -29,6 +29,12 @@ fn a_kissing_pair_is_on_its_side_of_contact_beyond_the_gap() {
     judged("kissing", &[WrongSide, BoundOfS]);
 }
 
+/// Midway proves an overlap of 2e-16; closest, whose gap leaves it open, answered apart.
+#[test]
+fn closest_is_on_the_side_of_contact_that_midway_proves() {
+    judged("proved_by_midway_alone", &[WrongSide]);
+}
+
 /// With default settings s is said to be a lower bound; it was an estimate, above the optimum by 1e-13.
 #[test]
 fn a_separation_proved_on_the_way_gives_a_lower_bound() {
