@@ -65,11 +65,11 @@ class Drift:
         return abs(self.last - 1 - self.by_impacts)
 
 
-def drift(make, step=1.0, patch=True, tolerance=1e-4, impacts=IMPACTS):
+def drift(make, step=1.0, tolerance=1e-4, impacts=IMPACTS):
     """Largest sum of what impacts changed the energy of two bodies in a box of walls by, relative; and what free flight did. `step` is a share of
     the default one."""
     global watch
-    fresh(patch=patch, tolerance=tolerance, gravity=(0, 0, 0), normalStiffness=K, frictionAngle=0.0)
+    fresh(tolerance=tolerance, gravity=(0, 0, 0), normalStiffness=K, frictionAngle=0.0)
     for axis in range(3):
         for sign in (-1, 1):
             place = [0.0] * 3

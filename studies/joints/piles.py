@@ -9,9 +9,9 @@ SIZE = 0.15
 STEP = 5e-5
 
 
-def _rest(shape, number, height, patch=True, seconds=2.5):
+def _rest(shape, number, height, seconds=2.5):
     """Bodies that fall into a box from where they are loosely packed: not from high above, for a corner that hits at speed goes in deep."""
-    fresh(patch=patch, damping=0.3, young=1e9, poisson=0.3, frictionAngle=0.5, **({"restitution": 0.5} if patch else {}))
+    fresh(damping=0.3, young=1e9, poisson=0.3, frictionAngle=0.5, restitution=0.5)
     low, high = (-0.5, -0.5, 0), (0.5, 0.5, height)
     for place in potential_particles.pack(packing.Box(low, high), [shape], number=number):
         potential_particles.add_packing([place])

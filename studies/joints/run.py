@@ -18,8 +18,6 @@ import piles  # noqa: E402
 import rows  # noqa: E402
 from summary import print_table, write_summary  # noqa: E402
 
-
-
 ROWS = rows.ROWS | impacts.ROWS | bonds.ROWS | piles.ROWS | buildings.ROWS | cost.ROWS
 
 

@@ -115,6 +115,22 @@ def fresh_scene(functor, physics=None, law=None, dt=1e-5, damping=0.0, gravity=(
     O.dt = dt
 
 
+def joint_scene(loop, material, damping, gravity, track, dt, **physics):
+    """Engines of the law of joints; physics: attributes of its Ip2 functor."""
+    O.materials.append(material)
+    O.engines = [
+        yade.ForceResetter(),
+        yade.InsertionSortCollider([yade.PotentialParticle2AABB(), yade.Bo1_Wall_Aabb(), yade.Bo1_Facet_Aabb()], verletDist=0.01),
+        loop([yade.Ig2_ConicPP_ConicPP_ScGeom(patch=True), yade.Ig2_Wall_ConicPP_ScGeom(patch=True),
+              yade.Ig2_Facet_ConicPP_ScGeom(patch=True)],
+             [yade.Ip2_ConicJointMat_ConicJointMat_ConicJointPhys(**physics)],
+             [yade.Law2_ScGeomConicPP_ConicJointPhys()]),
+        yade.NewtonIntegrator(damping=damping, exactAsphericalRot=True, gravity=gravity),
+    ]
+    O.trackEnergy = track
+    O.dt = dt
+
+
 def run(steps):
     """So many steps. O.run(steps, True) would look only every 40 ms whether they are done."""
     stop = O.iter + steps

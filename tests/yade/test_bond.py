@@ -21,18 +21,7 @@ def scene(gravity=(0, 0, 0), loop=yade.InteractionLoop, bonds=True, dt=1e-5, tra
     O.reset()
     O.periodic = periodic
     given = dict(normalStiffness=NORMAL, shearStiffness=SHEAR, frictionAngle=0.5, density=2000.0, cohesion=STRONG, tensileStrength=STRONG)
-    O.materials.append(yade.ConicJointMat(**{**given, **material}))
-    O.engines = [
-        yade.ForceResetter(),
-        yade.InsertionSortCollider([yade.PotentialParticle2AABB(), yade.Bo1_Wall_Aabb(), yade.Bo1_Facet_Aabb()], verletDist=0.01),
-        loop([yade.Ig2_ConicPP_ConicPP_ScGeom(patch=True), yade.Ig2_Wall_ConicPP_ScGeom(patch=True),
-              yade.Ig2_Facet_ConicPP_ScGeom(patch=True)],
-             [yade.Ip2_ConicJointMat_ConicJointMat_ConicJointPhys(bonds=bonds)],
-             [yade.Law2_ScGeomConicPP_ConicJointPhys()]),
-        yade.NewtonIntegrator(damping=0.0, exactAsphericalRot=True, gravity=gravity),
-    ]
-    O.trackEnergy = track
-    O.dt = dt
+    joint_scene(loop, yade.ConicJointMat(**{**given, **material}), 0.0, gravity, track, dt, bonds=bonds)
 
 
 def block(position, orientation=Quaternion.Identity, fixed=False, r=RADIUS, **more):

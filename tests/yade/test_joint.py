@@ -16,18 +16,7 @@ AREA = (2 * (HALF - RADIUS))**2  # of the flat part of a face
 def scene(gravity=(0, 0, 0), damping=0.0, track=False, loop=yade.InteractionLoop, **material):
     O.reset()
     given = dict(normalStiffness=STIFFNESS, shearStiffness=STIFFNESS / 2, frictionAngle=math.atan(0.5), density=DENSITY)
-    O.materials.append(yade.ConicJointMat(**{**given, **material}))
-    O.engines = [
-        yade.ForceResetter(),
-        yade.InsertionSortCollider([yade.PotentialParticle2AABB(), yade.Bo1_Wall_Aabb(), yade.Bo1_Facet_Aabb()], verletDist=0.01),
-        loop([yade.Ig2_ConicPP_ConicPP_ScGeom(patch=True), yade.Ig2_Wall_ConicPP_ScGeom(patch=True),
-              yade.Ig2_Facet_ConicPP_ScGeom(patch=True)],
-             [yade.Ip2_ConicJointMat_ConicJointMat_ConicJointPhys()],
-             [yade.Law2_ScGeomConicPP_ConicJointPhys()]),
-        yade.NewtonIntegrator(damping=damping, exactAsphericalRot=True, gravity=gravity),
-    ]
-    O.trackEnergy = track
-    O.dt = 1e-5
+    joint_scene(loop, yade.ConicJointMat(**{**given, **material}), damping, gravity, track, 1e-5)
 
 
 def block(position, orientation=Quaternion.Identity, fixed=False, half=HALF, r=RADIUS, k=0.0):

@@ -110,7 +110,9 @@ def _sides():
     scene, found = yade.O, []
     for contact in scene.interactions:
         touches = contact.isReal and (getattr(contact.geom, "penetrationDepth", 0.0) > 0.0 or getattr(contact.phys, "bonded", False))
-        for number, sign in ((contact.id1, -1.0), (contact.id2, 1.0)) if touches else ():
+        if not touches:
+            continue
+        for number, sign in ((contact.id1, -1.0), (contact.id2, 1.0)):
             body = scene.bodies[number]
             if isinstance(body.shape, (yade.PotentialParticle, yade.Sphere)) and _is_grain(body):
                 centre = scene.bodies[body.clumpId].state.pos if body.isClumpMember else body.state.pos
@@ -175,8 +177,10 @@ def largest_overlap():
     import yade
     largest = 0.0, None
     for contact in yade.O.interactions:
-        radii = [shape.r for shape in (yade.O.bodies[contact.id1].shape, yade.O.bodies[contact.id2].shape)
-                 if isinstance(shape, yade.PotentialParticle)] if contact.isReal and hasattr(contact.geom, "penetrationDepth") else []
+        if not contact.isReal or not hasattr(contact.geom, "penetrationDepth"):
+            continue
+        shapes = (yade.O.bodies[contact.id1].shape, yade.O.bodies[contact.id2].shape)
+        radii = [shape.r for shape in shapes if isinstance(shape, yade.PotentialParticle)]
         if radii:
             depth = max(contact.geom.penetrationDepth, getattr(contact.geom, "largestDepth", 0.0))
             largest = max(largest, (depth / min(radii), contact), key=lambda one: one[0])

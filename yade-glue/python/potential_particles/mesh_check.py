@@ -16,7 +16,7 @@ def refuse_misstated(file, kind):
     """ValueError where a file of this kind (.stl, .obj) states what it does not hold."""
     try:
         {".stl": _stl, ".obj": _obj}[kind](file)
-    except (ValueError, UnicodeDecodeError) as error:
+    except ValueError as error:
         raise ValueError(f"{file} cannot be read as {kind}: {error}") from None
 
 
@@ -73,6 +73,7 @@ def _in_range(number, count, so_far, what):
 
 
 def numbers(words, kind, count, what):
+    """So many words as numbers of a kind, int or float; ValueError that names what they should be."""
     try:
         found = [kind(word) for word in words]
     except ValueError:

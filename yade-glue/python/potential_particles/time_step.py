@@ -63,6 +63,7 @@ def _moves(body):
 
 
 def bounding_radius(body):
+    """Radius about the centre within which all of the body lies."""
     shape = body.shape
     for name in ("boundingRadius", "radius"):
         if hasattr(shape, name):
@@ -104,7 +105,7 @@ def _of_contact(scene, body, contact):
     if bonded:
         # The contact of a bond may lie elsewhere: where the bodies overlap now.
         one = scene.bodies[contact.id1].state
-        normal = np.array(one.ori * contact.phys.bondTurn1 * one.pos.__class__(1, 0, 0))
+        normal = np.array((one.ori * contact.phys.bondTurn1).toRotationMatrix().col(0))
         point, polar_moment = one.pos + one.ori * contact.phys.bondPoint1, contact.phys.bondMoments[0]
     else:
         normal, point, polar_moment = np.array(contact.geom.normal), contact.geom.contactPoint, getattr(contact.geom, "polarMoment", 0.0)

@@ -69,6 +69,8 @@ struct PairInScene {
     // Finds or makes the geometry. False when another functor left one that is no ScGeom.
     bool findGeom()
     {
+        if (geom)
+            return true;
         geom = castTo<ScGeomConicPP, yade::ScGeom>(interaction->geom.get());
         if (geom && typeid(*geom) == typeid(ScGeomConicPP)) {
             own = static_cast<ScGeomConicPP*>(geom);

@@ -11,9 +11,8 @@
 
 namespace potential_particles {
 
-struct FrictionForce;
-
 struct ContactPatch;
+struct FrictionForce;
 
 // go() runs in many threads at once.
 class Law2_ScGeomConicPP_ConicJointPhys final : public yade::LawFunctor {
