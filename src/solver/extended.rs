@@ -160,10 +160,15 @@ impl Extended<'_> {
             return accepted;
         }
         let (mut bracket, mut lambda) = (SafeguardedBracket::new(), first);
-        for _ in 0..MOST_WEIGHTS {
+        for round in 0..MOST_WEIGHTS {
             let mut delta = found.delta;
-            // Where the minimum is not found, the last one bounds the optimum.
-            let Some((last, v)) = self.minimise(&mut delta, lambda) else { break };
+            let Some((last, v)) = self.minimise(&mut delta, lambda) else {
+                // Where the minimum is not found, the one before bounds the optimum, and of the first λ the point that was reached.
+                if round == 0 {
+                    found.delta = delta;
+                }
+                break;
+            };
             found = Found { delta: delta + v, lambda, optimum: None };
             // The quadratics are those of the last step, but about another point.
             let model = self.model(&found.delta, last.undecided, lambda);

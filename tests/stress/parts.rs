@@ -31,6 +31,14 @@ fn random_contacts_with_planes_and_triangles() {
     check("walls", &ledger(20_000, |index, ledger| walls::one(1, index, walls::solve, ledger)), 1e-2);
 }
 
+/// Planes that come on and go off in turn within the rounding of their depths: the minimum was not found, and the point that was reached was not used.
+#[test]
+fn where_the_minimum_is_not_found_the_point_that_was_reached_is_the_answer() {
+    let mut ledger = Ledger::default();
+    walls::one(3_082_772_855, 1_397_418, walls::solve, &mut ledger);
+    check("walls", &ledger, 0.0);
+}
+
 #[test]
 fn triangles_that_share_an_edge_or_a_vertex_agree_on_it() {
     check("seams", &ledger(5_000, |index, ledger| seams::one(1, index, ledger)), 0.0);
