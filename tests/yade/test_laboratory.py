@@ -3,6 +3,7 @@
 import contextlib
 import io
 import re
+import warnings
 from pathlib import Path
 
 import harness
@@ -23,6 +24,14 @@ def findings():
         found = potential_particles.check()
     check.equal(printed.getvalue().splitlines(), [f"potential_particles: {one.what}: {one.remedy}" for one in found], "a line for each finding")
     return [str(one) for one in found]
+
+
+def told(action):
+    """What an action warns with."""
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        action()
+    return [str(one.message) for one in caught if one.category is potential_particles.SceneWarning]
 
 
 def finds(number, *parts):
@@ -96,6 +105,57 @@ finds(1, "body 1", "aspherical=True")
 
 
 
+# All of it is told by the first step, once, whether or not check() was asked; overlaps by the end of it, when they are known.
+def small_step():
+    O.dt *= 1e-3
+
+
+def told_once(change, *parts):
+    right_scene()
+    change()
+    small_step()
+    lines = told(O.step)
+    check.true(len(lines) == 1 and all(part in lines[0] for part in parts) and "\n" not in lines[0], f"{parts} told in {lines}")
+    check.equal(told(lambda: (O.step(), run(3))), [], f"{parts} told once")
+
+
+told_once(lambda: setattr(O.engines[1].boundDispatcher, "functors", [yade.PotentialParticle2AABB()]), "Facet (1)", "Bo1_Facet_Aabb()")
+told_once(lambda: setattr(O.engines[2].geomDispatcher, "functors", [yade.Ig2_ConicPP_ConicPP_ScGeom()]), "Ig2_Facet_ConicPP_ScGeom()")
+told_once(lambda: setattr(O.engines[2].lawDispatcher.functors[0], "sphericalBodies", True), "sphericalBodies=False")
+told_once(lambda: setattr(O.bodies[0].state, "pos", Vector3(0, 0, 0.43)), "overlap by 1.4 of the rounding radius")
+told_once(lambda: setattr(O, "dt", 2.1e3 * potential_particles.critical_time_step()), "O.dt=", "critical_time_step()")
+told_once(lambda: setattr(O.bodies[0].state, "mass", 1.02 * O.bodies[0].state.mass), "the mass is not volume times density")
+told_once(lambda: setattr(O.engines[-1], "exactAsphericalRot", False), "exactAsphericalRot=True")
+
+
+def apart_with_a_stepper(**keywords):
+    O.bodies[0].state.pos = Vector3(0, 0, 5)
+    O.engines = [*O.engines[:3], w.GlobalStiffnessTimeStepper(**keywords), O.engines[3]]
+
+
+right_scene()
+apart_with_a_stepper()
+check.true(any("defaultDt=potential_particles.critical_time_step()" in one for one in told(O.step)), "a stepper without a contact")
+# Right scenes say nothing: at the start, with the first contacts, when bodies come; nor do scenes without these bodies.
+right_scene()
+check.equal(told(lambda: (O.step(), run(20), O.step())), [], "a right scene is stepped in silence")
+check.true(any(c.isReal for c in O.interactions), "it has contacts")
+add(cube(), Vector3(0, 0, 9))
+check.equal(told(lambda: (run(3), O.step())), [], "a body more")
+add(cube(), Vector3(0, 0, 12), density=1900.0)
+check.equal(len(told(lambda: run(3))), 1, "one of a wrong mass")
+right_scene()
+check.equal(told(lambda: O.run(20, True)), [], "a run that is waited for")
+right_scene()
+O.bodies[0].state.pos = Vector3(0, 0, 0.43)
+small_step()
+check.equal(len(told(lambda: O.run(5, True))), 1, "an overlap is told when a run has ended")
+O.reset()
+O.bodies.append(utils.sphere((0, 0, 0), 1))
+O.engines = [yade.ForceResetter(), yade.InsertionSortCollider([yade.Bo1_Sphere_Aabb()]), yade.NewtonIntegrator()]
+check.equal(told(O.step), [], "spheres alone")
+
+
 def torque_error(make_physics, make_law, periodic=False, make_material=None):
     """Largest error of the torques of a contact, (torque - arm x force) / |arm||force|, of a corner on a face or, if periodic, across a border."""
     mixed_scene(functors=[yade.Ig2_ConicPP_ConicPP_ScGeom()], physics=([make_physics()], [make_law()]), dt=1e-6, friction=0.5, periodic=periodic)
@@ -150,16 +210,14 @@ check.equal(findings(), [], "a law that these bodies do not meet")
 
 # YADE's stepper takes a step of about a second without contacts; the remedy that is named holds.
 right_scene()
-O.bodies[0].state.pos = Vector3(0, 0, 5)
-O.engines = [*O.engines[:3], w.GlobalStiffnessTimeStepper(), O.engines[3]]
+apart_with_a_stepper()
 finds(1, "GlobalStiffnessTimeStepper", "defaultDt=potential_particles.critical_time_step()")
 O.engines[3].defaultDt = potential_particles.critical_time_step()
 check.equal(findings(), [], "a stepper with a step to begin with")
 O.step()
 check.true(O.dt <= 1.0001 * O.engines[3].defaultDt, f"whose step is {O.dt}")
 right_scene()
-O.bodies[0].state.pos = Vector3(0, 0, 5)
-O.engines = [*O.engines[:3], w.GlobalStiffnessTimeStepper(), O.engines[3]]
+apart_with_a_stepper()
 O.step()
 check.true(O.dt > 0.5, f"without one it is {O.dt}")
 

@@ -1,10 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What YADE does without a word although it is wrong for potential particles, looked for in the scene as it stands."""
 import math
+import warnings
 from typing import NamedTuple
 
 from . import time_step, unserved
 from .measures import largest_overlap
+from .shape import definition, volumes
 
 # Lever arms of spheres: for bodies of any other shape the torque is wrong.
 _SPHERES_ONLY = {"Law2_ScGeom_MindlinPhys_HertzWithLinearShear": "Law2_ScGeom_MindlinPhys_Mindlin",
@@ -15,6 +17,12 @@ _NOT_PERIODIC = ("Law2_ScGeom_MindlinPhys_Mindlin", "Law2_SCG_KnKsPhys_KnKsLaw")
 _PERIODIC = "Law2_ScGeom_FrictPhys_CundallStrack(sphericalBodies=False)"
 # Relative; masses of bodies made by hand are rarely better, and moments of inertia that agree as well integrate as those of a sphere.
 _MASS_TOLERANCE = _INERTIA_TOLERANCE = 0.01
+# Shapes made by hand whose volume is measured before the first step, at 10 ms each; check() measures all.
+_MEASURED_AT_FIRST = 50
+
+
+class SceneWarning(UserWarning):
+    """Something in a scene that YADE passes over in silence and that is wrong for its potential particles."""
 
 
 class Finding(NamedTuple):
@@ -36,20 +44,50 @@ def check():
     scenes without potential particles. Call it when bodies, engines and O.dt are set, and again after some steps, when there are contacts.
     """
     import yade
-    from . import _dispatchers, _prepare_ours
-    scene = yade.O
-    ours = [body for body in scene.bodies if isinstance(body.shape, yade.PotentialParticle)]
-    found = []
-    if ours:
-        if not scene.running:
-            _prepare_ours(yade)
-        bounds, geometry, physics = _dispatchers(yade)
-        moving = [body for body in ours if set(body.state.blockedDOFs) != set("xyzXYZ")]
-        found = [*_bounds(scene, bounds), *_contacts(scene, geometry), *_laws(scene, ours, physics), *_overlap(), *_time_step(scene),
-                 *_mass(yade, moving), *_weight(scene, moving), *_rotation(scene, moving)]
+    from . import _prepare_ours
+    if not yade.O.running:
+        _prepare_ours(yade)
+    found = findings(yade.O, math.inf)
     for one in found:
         print(f"potential_particles: {one}")
     return found
+
+
+def findings(scene, measured=_MEASURED_AT_FIRST):
+    """What check() returns; the functors of the scene have been looked up. measured: at most so many volumes are."""
+    import yade
+    from . import _dispatchers
+    ours = [body for body in scene.bodies if isinstance(body.shape, yade.PotentialParticle)]
+    if not ours:
+        return []
+    bounds, geometry, physics = _dispatchers(yade)
+    moving = [body for body in ours if set(body.state.blockedDOFs) != set("xyzXYZ")]
+    return [*_bounds(scene, bounds), *_contacts(scene, geometry), *_laws(scene, ours, physics), *_overlap(), *_time_step(scene),
+            *_mass(yade, moving, measured), *_weight(scene, moving), *_rotation(scene, moving)]
+
+
+class Watch:
+    """Warns of what check() finds, of each thing once in a scene: before it is stepped first, when it has its first contacts, and when its
+    bodies or engines have become others."""
+
+    def __init__(self):
+        self.seen, self.told = None, set()
+
+    def look(self, scene):
+        if scene.iter == 0:
+            self.told = set()
+        functors = [type(functor).__name__ for engine in scene.engines for part in ("geomDispatcher", "lawDispatcher")
+                    for functor in getattr(getattr(engine, part, None), "functors", ())]
+        # A scene without a contact loop is not complete, or has its contacts elsewhere.
+        now = (len(scene.bodies), functors, scene.interactions.countReal() > 0)
+        if not functors or (scene.iter > 0 and now == self.seen):
+            return
+        self.seen = now
+        for one in findings(scene):
+            if one.remedy not in self.told:
+                self.told.add(one.remedy)
+                # Without a place in a source file: the line is about the scene, and stays one line.
+                warnings.warn_explicit(f"potential_particles: {one}", SceneWarning, "potential_particles", 0)
 
 
 def _bodies(ids):
@@ -119,18 +157,21 @@ def _time_step(scene):
                           "give it defaultDt=potential_particles.critical_time_step()")
 
 
-def _mass(yade, moving):
-    wrong, volumes = [], {}
+def _mass(yade, moving, measured):
+    wrong, made_by_hand = [], {}
     for body in moving:
         shape, density = body.shape, body.mat.density if body.mat else 0.0
         if not isinstance(shape, yade.ConicPotentialParticle) or not shape.planes or density <= 0.0:
             continue
-        key = (tuple(shape.planes), shape.r, shape.k, shape.R)
-        if key not in volumes:
+        key = definition(shape)
+        if key not in volumes and key not in made_by_hand:
+            if len(made_by_hand) >= measured:
+                continue
             # Ten times as fast as shape.volume, and more exact than what is compared.
-            volumes[key] = shape.massProperties(0.1 * _MASS_TOLERANCE)[0]
-        if not math.isclose(body.state.mass, volumes[key] * density, rel_tol=_MASS_TOLERANCE):
-            wrong.append((body, volumes[key] * density))
+            made_by_hand[key] = shape.massProperties(0.1 * _MASS_TOLERANCE)[0]
+        expected = density * (volumes[key] if key in volumes else made_by_hand[key])
+        if not math.isclose(body.state.mass, expected, rel_tol=_MASS_TOLERANCE):
+            wrong.append((body, expected))
     if wrong:
         body, expected = wrong[0]
         yield Finding(f"{_bodies([one.id for one, _ in wrong])}: the mass is not volume times density (body {body.id}: "
