@@ -4,7 +4,11 @@ import math
 import warnings
 from typing import NamedTuple
 
+import numpy as np
+
 from . import time_step, unserved
+from .arguments import array_of
+from .clumps import union
 from .measures import largest_overlap
 from .shape import definition, volumes
 
@@ -17,7 +21,7 @@ _NOT_PERIODIC = ("Law2_ScGeom_MindlinPhys_Mindlin", "Law2_SCG_KnKsPhys_KnKsLaw")
 _PERIODIC = "Law2_ScGeom_FrictPhys_CundallStrack(sphericalBodies=False)"
 # Relative; masses of bodies made by hand are rarely better, and moments of inertia that agree as well integrate as those of a sphere.
 _MASS_TOLERANCE = _INERTIA_TOLERANCE = 0.01
-# Shapes made by hand whose volume is measured before the first step, at 10 ms each; check() measures all.
+# Shapes made by hand whose volume, and clumps whose union is measured before the first step, at 10 ms each; check() measures all.
 _MEASURED_AT_FIRST = 50
 
 
@@ -39,7 +43,7 @@ def check():
     """Looks for mistakes of which YADE says nothing; prints a line for each, and returns them as a list of (what, remedy).
 
     Shapes without a box or without a contact functor; laws with the lever arms of spheres; overlaps beyond the rounding radius; O.dt beyond
-    critical_time_step(safety=1), or left to a stepper that knows no contact yet; masses that are not volume times density (1 %); weights
+    critical_time_step(safety=1), or left to a stepper that knows no contact yet; masses that are not volume times density (1 %), clumps that are not the union of their members; weights
     that the stiffness cannot bear within r; rotation integrated as that of spheres. The list is empty where none is found, and in
     scenes without potential particles. Call it when bodies, engines and O.dt are set, and again after some steps, when there are contacts.
     """
@@ -63,7 +67,8 @@ def findings(scene, measured=_MEASURED_AT_FIRST):
     bounds, geometry, physics = _dispatchers(yade)
     moving = [body for body in ours if set(body.state.blockedDOFs) != set("xyzXYZ")]
     return [*_bounds(scene, bounds), *_contacts(scene, geometry), *_laws(scene, ours, physics), *_overlap(), *_time_step(scene),
-            *_mass(yade, moving, measured), *_weight(scene, moving), *_rotation(scene, moving)]
+            *_mass(yade, moving, measured), *_clumps(scene, measured), *_weight(scene, moving),
+            *_rotation(scene, moving)]
 
 
 class Watch:
@@ -83,7 +88,11 @@ class Watch:
         if not functors or (scene.iter > 0 and now == self.seen):
             return
         self.seen = now
-        for one in findings(scene):
+        try:
+            found = findings(scene)
+        except Exception as error:  # A look at a scene must not end its run.
+            found = [Finding(f"the scene could not be looked at ({error!r})", "please report it")]
+        for one in found:
             if one.remedy not in self.told:
                 self.told.add(one.remedy)
                 # Without a place in a source file: the line is about the scene, and stays one line.
@@ -148,13 +157,14 @@ def _time_step(scene):
     except ValueError:
         return
     steppers = [one for one in _engines(scene, "GlobalStiffnessTimeStepper") if one.active]
-    if not steppers and scene.dt > limit:
+    ours = any("time_step.follow" in one.command for one in _engines(scene, "PyRunner"))
+    if not steppers and not ours and scene.dt > limit:
         yield Finding(f"O.dt={scene.dt:.3g} s is beyond {limit:.3g} s, up to which contacts are known to act as springs",
-                      "O.dt = potential_particles.critical_time_step()")
+                      "O.dt = potential_particles.critical_time_step(), or the engine potential_particles.time_stepper()")
     for stepper in steppers:
         if not 0.0 < stepper.defaultDt <= limit and not any(contact.isReal for contact in scene.interactions):
             yield Finding("GlobalStiffnessTimeStepper takes a step of about 1 s as long as there is no contact",
-                          "give it defaultDt=potential_particles.critical_time_step()")
+                          "use potential_particles.time_stepper(), or give it defaultDt=potential_particles.critical_time_step()")
 
 
 def _mass(yade, moving, measured):
@@ -179,16 +189,37 @@ def _mass(yade, moving, measured):
                       "set state.mass and state.inertia (potential_particles.body does)")
 
 
+def _clumps(scene, measured):
+    wrong = []
+    clumps = [body for body in scene.bodies if body.isClump and set(body.state.blockedDOFs) != set("xyzXYZ")]
+    for body in clumps[:int(min(measured, len(clumps)))]:
+        try:
+            mass, _, inertia, _ = union([scene.bodies[one] for one in body.shape.members], lines=2000)
+        except ValueError:  # members of other shapes, or of several densities
+            continue
+        turn = array_of(body.state.ori.toRotationMatrix())
+        found = turn @ np.diag(tuple(body.state.inertia)) @ turn.T
+        if (not math.isclose(body.state.mass, mass, rel_tol=_MASS_TOLERANCE)
+                or np.abs(found - inertia).max() > _INERTIA_TOLERANCE * np.abs(inertia).max()):
+            wrong.append((body, mass))
+    if wrong:
+        body, mass = wrong[0]
+        yield Finding(f"{_bodies([one.id for one, _ in wrong])}: mass or inertia are not those of the union of the clump's members (body {body.id}: "
+                      f"{body.state.mass:.4g}, and {mass:.4g} where overlaps count once)", "make it by potential_particles.clump")
+
+
 def _weight(scene, moving):
     gravity = max((one.gravity.norm() for one in _engines(scene, "NewtonIntegrator")), default=0.0)
     try:
         stiffness = time_step.stiffness_rule(scene)
-        depths = {body.id: body.state.mass * gravity / stiffness(body, time_step.bounding_radius(body)) / body.shape.r for body in moving}
+        # Force of the weight, and of an overlap r.
+        weights = {body.id: (body.state.mass * gravity, stiffness(body, time_step.bounding_radius(body)) * body.shape.r) for body in moving}
     except ValueError:
         return
-    deep = [one for one in depths if depths[one] > 1.0]
+    deep = [one for one, (weight, most) in weights.items() if weight > most > 0.0]
     if deep:
-        yield Finding(f"{_bodies(deep)}: the weight alone makes overlaps beyond the rounding radius r (body {deep[0]}: {depths[deep[0]]:.3g} r)",
+        weight, most = weights[deep[0]]
+        yield Finding(f"{_bodies(deep)}: the weight alone makes overlaps beyond the rounding radius r (body {deep[0]}: {weight / most:.3g} r)",
                       "raise the stiffness, or check the units of lengths and of density")
 
 

@@ -10,8 +10,8 @@ volumes = {}
 
 
 def definition(particle):
-    """What a ConicPotentialParticle is, to be compared with that of others."""
-    return tuple(particle.planes), particle.r, particle.k, particle.R
+    """A number of 64 bits by which the definition of a ConicPotentialParticle is known; the definitions themselves would fill the memory."""
+    return hash((tuple(particle.planes), particle.r, particle.k, particle.R))
 
 
 @dataclasses.dataclass(frozen=True)
