@@ -150,6 +150,33 @@ right_scene()
 O.bodies[0].state.pos = Vector3(0, 0, 0.43)
 small_step()
 check.equal(len(told(lambda: O.run(5, True))), 1, "an overlap is told when a run has ended")
+# A body that gets another shape keeps its mass, which is told; not so where mass and inertia follow.
+def larger_shape():
+    O.bodies[0].shape = cube(k=1e-4, half=0.6)
+
+
+def larger_planes():
+    O.bodies[0].shape.updateAttrs({"planes": cube_planes(0.6), "R": 1.1})
+
+
+def larger_rounding():
+    O.bodies[0].shape.planes = cube_planes(0.6)
+
+
+for change in larger_shape, larger_planes, larger_rounding:
+    right_scene()
+    small_step()
+    check.equal(told(O.step), [], "before the change")
+    change()
+    lines = told(lambda: O.step())
+    check.true(any("body 0: the mass is not volume times density" in one for one in lines), f"{change.__name__}: {lines}")
+    right_scene()
+    small_step()
+    O.step()
+    change()
+    volume, _, inertia = O.bodies[0].shape.massProperties(1e-4)[:3]
+    O.bodies[0].state.mass, O.bodies[0].state.inertia = 2000 * volume, 2000 * O.bodies[0].shape.inertia.diagonal()
+    check.true(not any("mass" in one for one in told(O.step)), f"{change.__name__} with its mass")
 O.reset()
 O.bodies.append(utils.sphere((0, 0, 0), 1))
 O.engines = [yade.ForceResetter(), yade.InsertionSortCollider([yade.Bo1_Sphere_Aabb()]), yade.NewtonIntegrator()]

@@ -28,8 +28,8 @@ Before they are registered, the classes of the YADE that runs are compared with 
 differs is refused with AbiError, which lists the differences, and nothing is registered; one that fits
 and was never tested is taken, with a warning of one line.
 
-Of YADE's own classes the import replaces three functions, which do as before: O.run and O.step look our functors up
-(prepare) and warn of what check() finds, and O.load says what to do about a
+Of YADE's own classes the import replaces four functions, which do as before: O.run and O.step look our functors up
+(prepare) and warn of what check() finds, for which Body.shape notices a change, and O.load says what to do about a
 scene of another YADE. The lists of PotentialParticle are set under a lock, and YADE's 3-D window draws that class by our
 functor (window). protect_runs() replaces more, for those who ask for it.
 """
@@ -193,8 +193,9 @@ def _prepare_ours(yade):
 def _prepare_before_steps(yade):
     """O.run and O.step, as they are, but for what is looked at before them."""
     from . import joints
-    from .check import Watch
+    from .check import Watch, notice_shapes
     watch = Watch()
+    notice_shapes(yade, watch)
 
     def preparing(method):
         @functools.wraps(method)

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What YADE does without a word although it is wrong for potential particles, looked for in the scene as it stands."""
+import functools
 import math
 import warnings
 from typing import NamedTuple
@@ -73,9 +74,12 @@ def findings(scene, measured=_MEASURED_AT_FIRST):
 
 class Watch:
     """Warns of what check() finds, of each thing once in a scene: before it is stepped first, when it has its first contacts, and when its
-    bodies or engines have become others."""
+    bodies or engines have become others; once more after a body has got another shape, whose mass YADE leaves as it was."""
 
     def __init__(self):
+        self.seen, self.told = None, set()
+
+    def shape_has_changed(self):
         self.seen, self.told = None, set()
 
     def look(self, scene):
@@ -97,6 +101,24 @@ class Watch:
                 self.told.add(one.remedy)
                 # Without a place in a source file: the line is about the scene, and stays one line.
                 warnings.warn_explicit(f"potential_particles: {one}", SceneWarning, "potential_particles", 0)
+
+
+def notice_shapes(yade, watch):
+    """Lets the watch know when a script gives a body in the scene another shape, or a shape another definition."""
+    def noticing(setter, counts):
+        @functools.wraps(setter)
+        def set_and_notice(owner, value):
+            setter(owner, value)
+            if counts(owner, value):
+                watch.shape_has_changed()
+        return set_and_notice
+
+    conic, body = yade.wrapper.ConicPotentialParticle, yade.wrapper.Body
+    for name in ("planes", "r", "k", "R"):
+        given = getattr(conic, name)
+        setattr(conic, name, property(given.fget, noticing(given.fset, lambda *_: True), doc=given.__doc__))
+    conic.updateAttrs = noticing(conic.updateAttrs, lambda _, attributes: not {"planes", "r", "k", "R"}.isdisjoint(attributes))
+    body.shape = property(body.shape.fget, noticing(body.shape.fset, lambda owner, _: owner.id >= 0), doc=body.shape.__doc__)
 
 
 def _bodies(ids):
