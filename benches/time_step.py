@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Where scenes break, and the steps that critical_time_step() and YADE's stepper give there.
 
-    scripts/yade.sh -j1 benches/time_step.py        # a few minutes; SCENES=rods,plates for some; results in out/time_step
+    scripts/yade.sh -j1 benches/time_step.py        # a few minutes; SCENES="rods;plates" for some; results in out/time_step
 
 A pile at rest, undamped, breaks with a step beyond its limit: its kinetic energy grows to four times what it is with a fifth of our step, and beyond that
 of a fall by a tenth of the rounding. The largest step with which it does not is found by bisection to 3 %. Before contacts, bodies fall on a wall, and the largest step is that with which the first impact brings no energy.

@@ -331,6 +331,83 @@ check.true(isnan(utils.avgNumInteractions(skipFree=True)), "avgNumInteractions(s
 check.true(0.2 < utils.bodyStressTensors()[6][0, 0] / of_body < 0.6, "bodyStressTensors divides by the volume of a bounding sphere")
 check.true(utils.maxOverlapRatio() <= 0 < potential_particles.overlap_ratio(), "maxOverlapRatio")
 
+check.true(isnan(utils.porosity()) and utils.porosity(side**3) == 1.0, "porosity() of YADE")
+check.true(utils.voxelPorosity(50, Vector3(0, 0, 0), Vector3(side, side, side)) > 0.3, "voxelPorosity, mostly 1")
+check.true(potential_particles.sampled_porosity((0, 0, 0), (side,) * 3)[0] < 0.05, "where cubes fill the box")
+check.true(not utils.psd(bins=3), "psd")
+check.equal(utils.getSpheresVolume(), 0.0, "getSpheresVolume")
+check.true(isnan(utils.aabbExtrema()[0][0]), "aabbExtrema")
+before = O.bodies[6].shape.planes, O.bodies[6].state.mass
+utils.growParticles(1.1)
+check.equal((O.bodies[6].shape.planes, O.bodies[6].state.mass), before, "growParticles")
+check.equal(utils.PWaveTimeStep(), 1.0, "PWaveTimeStep")
+
+
+# Eight cubes between boxes, and 27 in a cell, under YADE's controllers.
+def loaded(controller, periodic=False, thickness=0.1):
+    number = 3 if periodic else 2
+    side = 0.999 * number
+    mixed_scene(damping=0.3, periodic=periodic)
+    if periodic:
+        O.cell.setBox(side, side, side)
+    else:
+        O.bodies.append(utils.aabbWalls([Vector3(0, 0, 0), Vector3(side, side, side)], thickness=thickness, material=-1))
+    for x in range(number):
+        for y in range(number):
+            for z in range(number):
+                add(cube(k=1e-3), Vector3(x + 0.5, y + 0.5, z + 0.5) * 0.999)
+    O.engines = [*O.engines[:3], controller, O.engines[3]]
+    O.dt = potential_particles.critical_time_step()
+    return controller
+
+
+goals = dict(stressMask=7, goal1=-1e4, goal2=-1e4, goal3=-1e4, max_vel=0.1, thickness=0.1)
+press = loaded(w.TriaxialStressController(internalCompaction=False, **goals))
+check.equal(told(lambda: run(4000)), [], "TriaxialStressController with walls that move is right")
+inner = potential_particles.stress(press.width * press.height * press.depth)
+for axis, goal in enumerate((-1e4, -1e4, -1e4)):
+    check.close(press.stress(2 * axis)[axis] / goal, 1.0, 1e-3, f"stress of the walls along {axis}")
+    check.close(inner[axis, axis] / goal, 1.0, 1e-3, f"stress of the contacts along {axis}")
+check.true(press.porosity > 0.99 and utils.voxelPorosityTriaxial(press, 50) > 0.3, f"its porosity, {press.porosity}, and voxelPorosityTriaxial")
+press = loaded(w.TriaxialStressController(internalCompaction=True, **goals))
+check.true(any("internalCompaction=False" in one for one in told(lambda: run(2000))), "internalCompaction is told")
+check.true(abs(press.stress(2)[1] / -1e4 - 1) > 0.1, "and does nothing")
+loaded(w.TriaxialStressController(internalCompaction=False, **goals), thickness=0)
+check.true(any("6 bodies (0, 1, 2, ...): a Box without thickness" in one for one in told(O.step)), "aabbWalls() without thickness")
+press = loaded(w.PeriTriaxController(goal=(-1e4, -2e4, -1e4), stressMask=7, dynCell=True, mass=2e4, maxStrainRate=(0.1, 0.1, 0.1), globUpdate=5), periodic=True)
+check.equal(told(lambda: run(4000)), [], "PeriTriaxController is right")
+inner = potential_particles.stress()
+for axis, goal in enumerate((-1e4, -2e4, -1e4)):
+    check.close(press.stress[axis] / goal, 1.0, 1e-3, f"stress of the controller along {axis}")
+    check.close(inner[axis, axis] / goal, 1.0, 1e-3, f"stress of the contacts in the cell along {axis}")
+
+# O.bodies.clump, and O.save, of which test_clumps.py and test_saving.py have more.
+check.true("O.bodies.clump(" in (TOP / "tests/yade/test_clumps.py").read_text() and "O.save(" in (TOP / "tests/yade/test_saving.py").read_text(), "measured there")
+
+# An engine that follows stiffness and masses before and after contacts exist, and through a file.
+right_scene()
+O.engines = [*O.engines[:3], potential_particles.time_stepper(period=5), O.engines[3]]
+O.dt = 1.0
+check.equal(told(O.step), [], "a scene with our stepper is right, whatever O.dt is at first")
+first = O.dt
+check.close(first / potential_particles.critical_time_step(), 1.0, 0.05, "it sets O.dt in the first step")
+for one in O.bodies[0].state, O.bodies[1].state:
+    one.mass, one.inertia = 0.25 * one.mass, 0.25 * one.inertia
+run(6)
+check.true(0.4 * first < O.dt < 0.6 * first, f"lighter bodies: {O.dt} after {first}")
+O.saveTmp("stepper")
+O.loadTmp("stepper")
+O.materials[0].young = 1e5
+O.interactions.clear()
+run(6)
+check.true(O.dt > 4 * first, f"softer ones, after a file was loaded: {O.dt} after {first}")
+O.bodies[0].dynamic = O.bodies[1].dynamic = False
+last = O.dt
+run(6)
+check.equal(O.dt, last, "nothing moves: it stays")
+check.raises(ValueError, lambda: potential_particles.time_stepper(period=0), "no period", "period")
+check.raises(ValueError, lambda: potential_particles.time_stepper(safety=2), "beyond the limit", "safety=2")
+
 # Each tool of the page's tables is measured above, each law in torque_error.
 page, tested = (TOP / "docs/laboratory.md").read_text(), Path(TOP / "tests/yade/test_laboratory.py").read_text()
 tools = [name for row in page.splitlines() if row.startswith("| `") for name in re.findall(r"`(\w+)", row.split("|")[1])]

@@ -43,7 +43,7 @@ class Finding(NamedTuple):
 def check():
     """Looks for mistakes of which YADE says nothing; prints a line for each, and returns them as a list of (what, remedy).
 
-    Shapes without a box or without a contact functor; laws with the lever arms of spheres; overlaps beyond the rounding radius; O.dt beyond
+    Shapes without a box or without a contact functor, boxes without thickness; compaction by growing spheres; laws with the lever arms of spheres; overlaps beyond the rounding radius; O.dt beyond
     critical_time_step(safety=1), or left to a stepper that knows no contact yet; masses that are not volume times density (1 %), clumps that are not the union of their members; weights
     that the stiffness cannot bear within r; rotation integrated as that of spheres. The list is empty where none is found, and in
     scenes without potential particles. Call it when bodies, engines and O.dt are set, and again after some steps, when there are contacts.
@@ -67,7 +67,8 @@ def findings(scene, measured=_MEASURED_AT_FIRST):
         return []
     bounds, geometry, physics = _dispatchers(yade)
     moving = [body for body in ours if set(body.state.blockedDOFs) != set("xyzXYZ")]
-    return [*_bounds(scene, bounds), *_contacts(scene, geometry), *_laws(scene, ours, physics), *_overlap(), *_time_step(scene),
+    return [*_bounds(scene, bounds), *_contacts(scene, geometry), *_flat_boxes(yade, scene), *_controllers(scene),
+            *_laws(scene, ours, physics), *_overlap(), *_time_step(scene),
             *_mass(yade, moving, measured), *_clumps(scene, measured), *_weight(scene, moving),
             *_rotation(scene, moving)]
 
@@ -144,6 +145,18 @@ def _bounds(scene, dispatchers):
 def _contacts(scene, dispatchers):
     for pair, remedy in unserved.pairs(scene.bodies, dispatchers):
         yield Finding(f"bodies pass through each other because the contact loop has no functor for {pair}", remedy)
+
+
+def _flat_boxes(yade, scene):
+    flat = [body.id for body in scene.bodies if isinstance(body.shape, yade.Box) and not min(body.shape.extents) > 0.0]
+    if flat:
+        yield Finding(f"{_bodies(flat)}: a Box without thickness is no particle, and bodies pass through it",
+                      "give it a thickness, as by aabbWalls(thickness=...), or take Wall or Facet")
+
+
+def _controllers(scene):
+    if any(one.internalCompaction for one in _engines(scene, "TriaxialStressController")):
+        yield Finding("TriaxialStressController(internalCompaction=True) lets spheres grow, and does nothing here", "give it internalCompaction=False")
 
 
 def _laws(scene, ours, dispatchers):
