@@ -14,7 +14,7 @@ def definition(particle):
     return hash((tuple(particle.planes), particle.r, particle.k, particle.R))
 
 
-@dataclasses.dataclass(frozen=True)
+@dataclasses.dataclass(frozen=True, repr=False)
 class Shape:
     """One particle, validated by the library. Immutable; one shape serves any number of bodies.
 
@@ -35,6 +35,11 @@ class Shape:
     orientation: typing.Tuple[float, float, float, float]  #: w, x, y, z, from the principal to the builder's frame
     bounding_radius: float  #: of a ball about the centroid that holds the particle, length
     name: str = "particle"
+
+    def __repr__(self):
+        """One line; the planes and the rest are attributes."""
+        return (f"<Shape {self.name}: {len(self.planes)} planes, r={self.r:.3g}, k={self.k:.3g}, R={self.R:.3g}, volume {self.volume:.4g}, "
+                f"bounding radius {self.bounding_radius:.3g}>")
 
     @property
     def equivalent_diameter(self):
