@@ -10,16 +10,18 @@ trap 'rm -rf "$folder"' EXIT
 BODIES=40 STEPS=5000 OUTPUT=$folder/rocks scripts/yade.sh -j1 examples/rocks.py
 BODIES=60 STEPS=7000 OUTPUT=$folder/hopper scripts/yade.sh -j1 examples/hopper.py
 BODIES=20 STEPS=3500 OUTPUT=$folder/pyramids scripts/yade.sh -j1 examples/pyramids.py | tee "$folder/pyramids.txt"
+BODIES=60 STRAIN=0.02 OUTPUT=$folder/triaxial scripts/yade.sh -j1 examples/triaxial.py 2>&1 | tee "$folder/triaxial.txt"
+BODIES=20 STRESS=5e4 OUTPUT=$folder/oedometer scripts/yade.sh -j1 examples/oedometer.py
 scripts/yade.sh -j1 examples/wedge.py | tee "$folder/wedge.txt"
 BODIES=60 STEPS=1500 OUTPUT=$folder/mpi scripts/yade_mpi.sh 3 -j1 examples/mpi_pile.py 2>&1 | tee "$folder/mpi.txt"
 
 /usr/bin/python3 - "$folder" <<'PYTHON'
 import json, pathlib, re, sys
 folder = pathlib.Path(sys.argv[1])
-rocks, hopper = (json.loads((folder / name / "summary.json").read_text()) for name in ("rocks", "hopper"))
-said = {name: (folder / f"{name}.txt").read_text() for name in ("pyramids", "wedge", "mpi")}
+rocks, hopper, triaxial, oedometer = (json.loads((folder / name / "summary.json").read_text()) for name in ("rocks", "hopper", "triaxial", "oedometer"))
+said = {name: (folder / f"{name}.txt").read_text() for name in ("pyramids", "wedge", "mpi", "triaxial")}
 wedge = [float(number) for number in re.findall(r"slides below (\S+) degrees; closed form (\S+),", said["wedge"])[0]]
-pictures = [folder / "first_pile.png", folder / "rocks" / "rocks.png", folder / "hopper" / "hopper.png",
+pictures = [folder / "first_pile.png", folder / "rocks" / "rocks.png", folder / "hopper" / "hopper.png", folder / "triaxial" / "triaxial.png", folder / "oedometer" / "oedometer.png",
             *(folder / "pyramids" / f"pyramids_{i}.png" for i in range(3))]
 checks = {
     "pictures": all(picture.stat().st_size > 10_000 for picture in pictures),
@@ -35,11 +37,18 @@ checks = {
     "rocks on 3 ranks: no failure, no warning": "60 rocks on 3 ranks" in said["mpi"] and "failures: none" in said["mpi"]
         and "Warning" not in said["mpi"] and "pass through" not in said["mpi"],
     "rocks on 3 ranks: saved": (folder / "mpi" / "rocks.yade.gz").stat().st_size > 1000,
+    "triaxial: walls and contacts have the same deviator, to the unrest of so few": abs(triaxial["contacts_against_walls"]) < 0.02,
+    "triaxial: a friction angle of rocks": 25 < triaxial["friction_angle_end"] < 50,
+    "triaxial: as dense as rocks can be": 0.3 < triaxial["porosity"][0] < 0.45,
+    "triaxial: contacts turn towards the axis": triaxial["fabric_end"] > 0,
+    "triaxial: no warning": "SceneWarning" not in said["triaxial"],
+    "oedometer: work is energy, to what overlaps add or lose": abs(oedometer["energy_over_work"]) < 0.05,
+    "oedometer: pressed rocks are stiff": oedometer["modulus_of_loading_Pa"] > 1e5 and 0 < oedometer["overlap_over_r"] < 1,
     "hopper: rocks flow out": 0 < hopper["mass_out_kg"] <= hopper["mass_kg"] * (1 + 1e-9),
 }
 for name, good in checks.items():
     if not good:
-        print(f"short examples: {name}: does not hold; summaries: {rocks} {hopper}")
+        print(f"short examples: {name}: does not hold; summaries: {rocks} {hopper} {triaxial} {oedometer}")
 print(f"{sum(checks.values())} passed, {sum(not good for good in checks.values())} failed")
 sys.exit(not all(checks.values()))
 PYTHON

@@ -3,6 +3,7 @@
 import contextlib
 import io
 import re
+import warnings
 from pathlib import Path
 
 import harness
@@ -23,6 +24,14 @@ def findings():
         found = potential_particles.check()
     check.equal(printed.getvalue().splitlines(), [f"potential_particles: {one.what}: {one.remedy}" for one in found], "a line for each finding")
     return [str(one) for one in found]
+
+
+def told(action):
+    """What an action warns with."""
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        action()
+    return [str(one.message) for one in caught if one.category is potential_particles.SceneWarning]
 
 
 def finds(number, *parts):
@@ -96,6 +105,84 @@ finds(1, "body 1", "aspherical=True")
 
 
 
+# All of it is told by the first step, once, whether or not check() was asked; overlaps by the end of it, when they are known.
+def small_step():
+    O.dt *= 1e-3
+
+
+def told_once(change, *parts):
+    right_scene()
+    change()
+    small_step()
+    lines = told(O.step)
+    check.true(len(lines) == 1 and all(part in lines[0] for part in parts) and "\n" not in lines[0], f"{parts} told in {lines}")
+    check.equal(told(lambda: (O.step(), run(3))), [], f"{parts} told once")
+
+
+told_once(lambda: setattr(O.engines[1].boundDispatcher, "functors", [yade.PotentialParticle2AABB()]), "Facet (1)", "Bo1_Facet_Aabb()")
+told_once(lambda: setattr(O.engines[2].geomDispatcher, "functors", [yade.Ig2_ConicPP_ConicPP_ScGeom()]), "Ig2_Facet_ConicPP_ScGeom()")
+told_once(lambda: setattr(O.engines[2].lawDispatcher.functors[0], "sphericalBodies", True), "sphericalBodies=False")
+told_once(lambda: setattr(O.bodies[0].state, "pos", Vector3(0, 0, 0.43)), "overlap by 1.4 of the rounding radius")
+told_once(lambda: setattr(O, "dt", 2.1e3 * potential_particles.critical_time_step()), "O.dt=", "critical_time_step()")
+told_once(lambda: setattr(O.bodies[0].state, "mass", 1.02 * O.bodies[0].state.mass), "the mass is not volume times density")
+told_once(lambda: setattr(O.engines[-1], "exactAsphericalRot", False), "exactAsphericalRot=True")
+
+
+def apart_with_a_stepper(**keywords):
+    O.bodies[0].state.pos = Vector3(0, 0, 5)
+    O.engines = [*O.engines[:3], w.GlobalStiffnessTimeStepper(**keywords), O.engines[3]]
+
+
+right_scene()
+apart_with_a_stepper()
+check.true(any("defaultDt=potential_particles.critical_time_step()" in one for one in told(O.step)), "a stepper without a contact")
+# Right scenes say nothing: at the start, with the first contacts, when bodies come; nor do scenes without these bodies.
+right_scene()
+check.equal(told(lambda: (O.step(), run(20), O.step())), [], "a right scene is stepped in silence")
+check.true(any(c.isReal for c in O.interactions), "it has contacts")
+add(cube(), Vector3(0, 0, 9))
+check.equal(told(lambda: (run(3), O.step())), [], "a body more")
+add(cube(), Vector3(0, 0, 12), density=1900.0)
+check.equal(len(told(lambda: run(3))), 1, "one of a wrong mass")
+right_scene()
+check.equal(told(lambda: O.run(20, True)), [], "a run that is waited for")
+right_scene()
+O.bodies[0].state.pos = Vector3(0, 0, 0.43)
+small_step()
+check.equal(len(told(lambda: O.run(5, True))), 1, "an overlap is told when a run has ended")
+# A body that gets another shape keeps its mass, which is told; not so where mass and inertia follow.
+def larger_shape():
+    O.bodies[0].shape = cube(k=1e-4, half=0.6)
+
+
+def larger_planes():
+    O.bodies[0].shape.updateAttrs({"planes": cube_planes(0.6), "R": 1.1})
+
+
+def larger_rounding():
+    O.bodies[0].shape.planes = cube_planes(0.6)
+
+
+for change in larger_shape, larger_planes, larger_rounding:
+    right_scene()
+    small_step()
+    check.equal(told(O.step), [], "before the change")
+    change()
+    lines = told(lambda: O.step())
+    check.true(any("body 0: the mass is not volume times density" in one for one in lines), f"{change.__name__}: {lines}")
+    right_scene()
+    small_step()
+    O.step()
+    change()
+    volume, _, inertia = O.bodies[0].shape.massProperties(1e-4)[:3]
+    O.bodies[0].state.mass, O.bodies[0].state.inertia = 2000 * volume, 2000 * O.bodies[0].shape.inertia.diagonal()
+    check.true(not any("mass" in one for one in told(O.step)), f"{change.__name__} with its mass")
+O.reset()
+O.bodies.append(utils.sphere((0, 0, 0), 1))
+O.engines = [yade.ForceResetter(), yade.InsertionSortCollider([yade.Bo1_Sphere_Aabb()]), yade.NewtonIntegrator()]
+check.equal(told(O.step), [], "spheres alone")
+
+
 def torque_error(make_physics, make_law, periodic=False, make_material=None):
     """Largest error of the torques of a contact, (torque - arm x force) / |arm||force|, of a corner on a face or, if periodic, across a border."""
     mixed_scene(functors=[yade.Ig2_ConicPP_ConicPP_ScGeom()], physics=([make_physics()], [make_law()]), dt=1e-6, friction=0.5, periodic=periodic)
@@ -150,16 +237,14 @@ check.equal(findings(), [], "a law that these bodies do not meet")
 
 # YADE's stepper takes a step of about a second without contacts; the remedy that is named holds.
 right_scene()
-O.bodies[0].state.pos = Vector3(0, 0, 5)
-O.engines = [*O.engines[:3], w.GlobalStiffnessTimeStepper(), O.engines[3]]
+apart_with_a_stepper()
 finds(1, "GlobalStiffnessTimeStepper", "defaultDt=potential_particles.critical_time_step()")
 O.engines[3].defaultDt = potential_particles.critical_time_step()
 check.equal(findings(), [], "a stepper with a step to begin with")
 O.step()
 check.true(O.dt <= 1.0001 * O.engines[3].defaultDt, f"whose step is {O.dt}")
 right_scene()
-O.bodies[0].state.pos = Vector3(0, 0, 5)
-O.engines = [*O.engines[:3], w.GlobalStiffnessTimeStepper(), O.engines[3]]
+apart_with_a_stepper()
 O.step()
 check.true(O.dt > 0.5, f"without one it is {O.dt}")
 
@@ -245,6 +330,83 @@ check.close(utils.avgNumInteractions(), 6 * 12 / 14, 1e-9, "avgNumInteractions c
 check.true(isnan(utils.avgNumInteractions(skipFree=True)), "avgNumInteractions(skipFree=True)")
 check.true(0.2 < utils.bodyStressTensors()[6][0, 0] / of_body < 0.6, "bodyStressTensors divides by the volume of a bounding sphere")
 check.true(utils.maxOverlapRatio() <= 0 < potential_particles.overlap_ratio(), "maxOverlapRatio")
+
+check.true(isnan(utils.porosity()) and utils.porosity(side**3) == 1.0, "porosity() of YADE")
+check.true(utils.voxelPorosity(50, Vector3(0, 0, 0), Vector3(side, side, side)) > 0.3, "voxelPorosity, mostly 1")
+check.true(potential_particles.sampled_porosity((0, 0, 0), (side,) * 3)[0] < 0.05, "where cubes fill the box")
+check.true(not utils.psd(bins=3), "psd")
+check.equal(utils.getSpheresVolume(), 0.0, "getSpheresVolume")
+check.true(isnan(utils.aabbExtrema()[0][0]), "aabbExtrema")
+before = O.bodies[6].shape.planes, O.bodies[6].state.mass
+utils.growParticles(1.1)
+check.equal((O.bodies[6].shape.planes, O.bodies[6].state.mass), before, "growParticles")
+check.equal(utils.PWaveTimeStep(), 1.0, "PWaveTimeStep")
+
+
+# Eight cubes between boxes, and 27 in a cell, under YADE's controllers.
+def loaded(controller, periodic=False, thickness=0.1):
+    number = 3 if periodic else 2
+    side = 0.999 * number
+    mixed_scene(damping=0.3, periodic=periodic)
+    if periodic:
+        O.cell.setBox(side, side, side)
+    else:
+        O.bodies.append(utils.aabbWalls([Vector3(0, 0, 0), Vector3(side, side, side)], thickness=thickness, material=-1))
+    for x in range(number):
+        for y in range(number):
+            for z in range(number):
+                add(cube(k=1e-3), Vector3(x + 0.5, y + 0.5, z + 0.5) * 0.999)
+    O.engines = [*O.engines[:3], controller, O.engines[3]]
+    O.dt = potential_particles.critical_time_step()
+    return controller
+
+
+goals = dict(stressMask=7, goal1=-1e4, goal2=-1e4, goal3=-1e4, max_vel=0.1, thickness=0.1)
+press = loaded(w.TriaxialStressController(internalCompaction=False, **goals))
+check.equal(told(lambda: run(4000)), [], "TriaxialStressController with walls that move is right")
+inner = potential_particles.stress(press.width * press.height * press.depth)
+for axis, goal in enumerate((-1e4, -1e4, -1e4)):
+    check.close(press.stress(2 * axis)[axis] / goal, 1.0, 1e-3, f"stress of the walls along {axis}")
+    check.close(inner[axis, axis] / goal, 1.0, 1e-3, f"stress of the contacts along {axis}")
+check.true(press.porosity > 0.99 and utils.voxelPorosityTriaxial(press, 50) > 0.3, f"its porosity, {press.porosity}, and voxelPorosityTriaxial")
+press = loaded(w.TriaxialStressController(internalCompaction=True, **goals))
+check.true(any("internalCompaction=False" in one for one in told(lambda: run(2000))), "internalCompaction is told")
+check.true(abs(press.stress(2)[1] / -1e4 - 1) > 0.1, "and does nothing")
+loaded(w.TriaxialStressController(internalCompaction=False, **goals), thickness=0)
+check.true(any("6 bodies (0, 1, 2, ...): a Box without thickness" in one for one in told(O.step)), "aabbWalls() without thickness")
+press = loaded(w.PeriTriaxController(goal=(-1e4, -2e4, -1e4), stressMask=7, dynCell=True, mass=2e4, maxStrainRate=(0.1, 0.1, 0.1), globUpdate=5), periodic=True)
+check.equal(told(lambda: run(4000)), [], "PeriTriaxController is right")
+inner = potential_particles.stress()
+for axis, goal in enumerate((-1e4, -2e4, -1e4)):
+    check.close(press.stress[axis] / goal, 1.0, 1e-3, f"stress of the controller along {axis}")
+    check.close(inner[axis, axis] / goal, 1.0, 1e-3, f"stress of the contacts in the cell along {axis}")
+
+# O.bodies.clump, and O.save, of which test_clumps.py and test_saving.py have more.
+check.true("O.bodies.clump(" in (TOP / "tests/yade/test_clumps.py").read_text() and "O.save(" in (TOP / "tests/yade/test_saving.py").read_text(), "measured there")
+
+# An engine that follows stiffness and masses before and after contacts exist, and through a file.
+right_scene()
+O.engines = [*O.engines[:3], potential_particles.time_stepper(period=5), O.engines[3]]
+O.dt = 1.0
+check.equal(told(O.step), [], "a scene with our stepper is right, whatever O.dt is at first")
+first = O.dt
+check.close(first / potential_particles.critical_time_step(), 1.0, 0.05, "it sets O.dt in the first step")
+for one in O.bodies[0].state, O.bodies[1].state:
+    one.mass, one.inertia = 0.25 * one.mass, 0.25 * one.inertia
+run(6)
+check.true(0.4 * first < O.dt < 0.6 * first, f"lighter bodies: {O.dt} after {first}")
+O.saveTmp("stepper")
+O.loadTmp("stepper")
+O.materials[0].young = 1e5
+O.interactions.clear()
+run(6)
+check.true(O.dt > 4 * first, f"softer ones, after a file was loaded: {O.dt} after {first}")
+O.bodies[0].dynamic = O.bodies[1].dynamic = False
+last = O.dt
+run(6)
+check.equal(O.dt, last, "nothing moves: it stays")
+check.raises(ValueError, lambda: potential_particles.time_stepper(period=0), "no period", "period")
+check.raises(ValueError, lambda: potential_particles.time_stepper(safety=2), "beyond the limit", "safety=2")
 
 # Each tool of the page's tables is measured above, each law in torque_error.
 page, tested = (TOP / "docs/laboratory.md").read_text(), Path(TOP / "tests/yade/test_laboratory.py").read_text()

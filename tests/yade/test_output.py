@@ -298,6 +298,11 @@ def test_recorder():
         check.true(np.allclose(contacts[name][0], value, rtol=1e-6, atol=1e-12), f"its {name}")
     check.true(np.linalg.norm(contacts["normal_force"][0]) > 0, "and it pushes")
     check.equal((contacts["id1"][0], contacts["id2"][0]), (contact.id1, contact.id2), "its bodies")
+    chains = vtk_files.read(path("frames/run.chains.0000002.vtp"))
+    # Recorded after the step: its contact point and force, the centres as they have moved on.
+    check.true(np.allclose(chains["points"], [O.bodies[i].state.pos for i in (contact.id1, contact.id2)]), "a line between the centres")
+    check.close(chains["push"][0], contact.phys.normalForce.norm(), 1e-6 * contact.phys.normalForce.norm(), "with the force by which they push")
+    check.equal((chains["id1"][0], chains["id2"][0]), (contact.id1, contact.id2), "of its bodies")
     index = open(path("frames/run.bodies.pvd")).read()
     check.equal(index.count("<DataSet"), 2, "frames of the series")
     check.true(not [name for name in os.listdir(path("frames")) if name.endswith(".part")], "no unfinished file stays")

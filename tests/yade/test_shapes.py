@@ -157,4 +157,10 @@ for action, words in [
         (lambda: ball.scaled(0), "factor=0")]:
     check.raises(ValueError, action, f"bad input: {words}", words)
 check.equal(len(O.bodies), 0, "nothing was put into the scene")
+# Printed, a shape is a line, and so is a place in a packing.
+rock = shapes.random_rock(1, size=0.1)
+check.true("\n" not in repr(rock) and len(repr(rock)) < 140 and "24 planes" in repr(rock) and rock.name in repr(rock), f"printed: {rock}")
+place = potential_particles.pack(potential_particles.packing.Box((0, 0, 0), (1, 1, 1)), rock, number=1, progress=False)[0]
+check.true(len(repr(place)) < 400 and repr(rock) in repr(place), f"printed: {place}")
+
 check.finish()

@@ -28,8 +28,8 @@ Before they are registered, the classes of the YADE that runs are compared with 
 differs is refused with AbiError, which lists the differences, and nothing is registered; one that fits
 and was never tested is taken, with a warning of one line.
 
-Of YADE's own classes the import replaces three functions, which do as before: O.run and O.step look our functors up
-(prepare) and warn of shapes that no functor serves, and O.load says what to do about a
+Of YADE's own classes the import replaces four functions, which do as before: O.run and O.step look our functors up
+(prepare) and warn of what check() finds, for which Body.shape notices a change, and O.load says what to do about a
 scene of another YADE. The lists of PotentialParticle are set under a lock, and YADE's 3-D window draws that class by our
 functor (window). protect_runs() replaces more, for those who ask for it.
 """
@@ -38,17 +38,19 @@ import functools
 
 from . import builds, window
 from .bodies import body
+from .clumps import clump
 from .joints import bond_contacts
 from .measures import body_stresses, coordination_number, extrema, fabric_tensor, overlap_ratio, porosity, solid_volume, stress
 from .outside import protect_runs
 from .packing import add_packing, pack
-from .time_step import critical_time_step
+from .specimen import grading_curve, sampled_porosity
+from .time_step import critical_time_step, time_stepper
 
 __version__ = "0.1.0"
 
-__all__ = ["AbiError", "Mesh", "Recorder", "add_packing", "body", "body_stresses", "bond_contacts", "check", "coordination_number",
-           "critical_time_step", "extrema", "fabric_tensor", "library_version", "mesh", "overlap_ratio", "pack", "plot", "porosity",
-           "prepare", "protect_runs", "save_mesh", "solid_volume", "stress"]
+__all__ = ["AbiError", "Mesh", "Recorder", "SceneWarning", "add_packing", "body", "body_stresses", "bond_contacts", "check", "clump", "coordination_number",
+           "critical_time_step", "extrema", "fabric_tensor", "grading_curve", "library_version", "mesh", "overlap_ratio", "pack", "plot", "porosity",
+           "prepare", "protect_runs", "sampled_porosity", "save_mesh", "solid_volume", "stress", "time_stepper"]
 
 
 class AbiError(ImportError):
@@ -190,8 +192,10 @@ def _prepare_ours(yade):
 
 def _prepare_before_steps(yade):
     """O.run and O.step, as they are, but for what is looked at before them."""
-    from . import joints, unserved
-    watch = unserved.Watch()
+    from . import joints
+    from .check import Watch, notice_shapes
+    watch = Watch()
+    notice_shapes(yade, watch)
 
     def preparing(method):
         @functools.wraps(method)
@@ -199,8 +203,11 @@ def _prepare_before_steps(yade):
             if not self.running:
                 _prepare_ours(yade)
                 joints.require_patches(self.engines)
-                watch.look(self, _dispatchers(yade)[1])
-            return method(self, *arguments, **keywords)
+                watch.look(self)
+            done = method(self, *arguments, **keywords)
+            if not self.running:
+                watch.look(self)
+            return done
         return prepared
 
     omega = yade.wrapper.Omega
@@ -233,5 +240,5 @@ def _load():
 _glue = _load()
 
 # After the classes that they serve.
-from .check import check  # noqa: E402, F401
+from .check import SceneWarning, check  # noqa: E402, F401
 from .output import Mesh, Recorder, mesh, plot, save_mesh  # noqa: E402, F401

@@ -1,10 +1,17 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What YADE does without a word although it is wrong for potential particles, looked for in the scene as it stands."""
+import functools
 import math
+import warnings
 from typing import NamedTuple
 
+import numpy as np
+
 from . import time_step, unserved
+from .arguments import array_of
+from .clumps import union
 from .measures import largest_overlap
+from .shape import definition, volumes
 
 # Lever arms of spheres: for bodies of any other shape the torque is wrong.
 _SPHERES_ONLY = {"Law2_ScGeom_MindlinPhys_HertzWithLinearShear": "Law2_ScGeom_MindlinPhys_Mindlin",
@@ -15,6 +22,12 @@ _NOT_PERIODIC = ("Law2_ScGeom_MindlinPhys_Mindlin", "Law2_SCG_KnKsPhys_KnKsLaw")
 _PERIODIC = "Law2_ScGeom_FrictPhys_CundallStrack(sphericalBodies=False)"
 # Relative; masses of bodies made by hand are rarely better, and moments of inertia that agree as well integrate as those of a sphere.
 _MASS_TOLERANCE = _INERTIA_TOLERANCE = 0.01
+# Shapes made by hand whose volume, and clumps whose union is measured before the first step, at 10 ms each; check() measures all.
+_MEASURED_AT_FIRST = 50
+
+
+class SceneWarning(UserWarning):
+    """Something in a scene that YADE passes over in silence and that is wrong for its potential particles."""
 
 
 class Finding(NamedTuple):
@@ -30,26 +43,83 @@ class Finding(NamedTuple):
 def check():
     """Looks for mistakes of which YADE says nothing; prints a line for each, and returns them as a list of (what, remedy).
 
-    Shapes without a box or without a contact functor; laws with the lever arms of spheres; overlaps beyond the rounding radius; O.dt beyond
-    critical_time_step(safety=1), or left to a stepper that knows no contact yet; masses that are not volume times density (1 %); weights
+    Shapes without a box or without a contact functor, boxes without thickness; compaction by growing spheres; laws with the lever arms of spheres; overlaps beyond the rounding radius; O.dt beyond
+    critical_time_step(safety=1), or left to a stepper that knows no contact yet; masses that are not volume times density (1 %), clumps that are not the union of their members; weights
     that the stiffness cannot bear within r; rotation integrated as that of spheres. The list is empty where none is found, and in
     scenes without potential particles. Call it when bodies, engines and O.dt are set, and again after some steps, when there are contacts.
     """
     import yade
-    from . import _dispatchers, _prepare_ours
-    scene = yade.O
-    ours = [body for body in scene.bodies if isinstance(body.shape, yade.PotentialParticle)]
-    found = []
-    if ours:
-        if not scene.running:
-            _prepare_ours(yade)
-        bounds, geometry, physics = _dispatchers(yade)
-        moving = [body for body in ours if set(body.state.blockedDOFs) != set("xyzXYZ")]
-        found = [*_bounds(scene, bounds), *_contacts(scene, geometry), *_laws(scene, ours, physics), *_overlap(), *_time_step(scene),
-                 *_mass(yade, moving), *_weight(scene, moving), *_rotation(scene, moving)]
+    from . import _prepare_ours
+    if not yade.O.running:
+        _prepare_ours(yade)
+    found = findings(yade.O, math.inf)
     for one in found:
         print(f"potential_particles: {one}")
     return found
+
+
+def findings(scene, measured=_MEASURED_AT_FIRST):
+    """What check() returns; the functors of the scene have been looked up. measured: at most so many volumes are."""
+    import yade
+    from . import _dispatchers
+    ours = [body for body in scene.bodies if isinstance(body.shape, yade.PotentialParticle)]
+    if not ours:
+        return []
+    bounds, geometry, physics = _dispatchers(yade)
+    moving = [body for body in ours if set(body.state.blockedDOFs) != set("xyzXYZ")]
+    return [*_bounds(scene, bounds), *_contacts(scene, geometry), *_flat_boxes(yade, scene), *_controllers(scene),
+            *_laws(scene, ours, physics), *_overlap(), *_time_step(scene),
+            *_mass(yade, moving, measured), *_clumps(scene, measured), *_weight(scene, moving),
+            *_rotation(scene, moving)]
+
+
+class Watch:
+    """Warns of what check() finds, of each thing once in a scene: before it is stepped first, when it has its first contacts, and when its
+    bodies or engines have become others; once more after a body has got another shape, whose mass YADE leaves as it was."""
+
+    def __init__(self):
+        self.seen, self.told = None, set()
+
+    def shape_has_changed(self):
+        self.seen, self.told = None, set()
+
+    def look(self, scene):
+        if scene.iter == 0:
+            self.told = set()
+        functors = [type(functor).__name__ for engine in scene.engines for part in ("geomDispatcher", "lawDispatcher")
+                    for functor in getattr(getattr(engine, part, None), "functors", ())]
+        # A scene without a contact loop is not complete, or has its contacts elsewhere.
+        now = (len(scene.bodies), functors, scene.interactions.countReal() > 0)
+        if not functors or (scene.iter > 0 and now == self.seen):
+            return
+        self.seen = now
+        try:
+            found = findings(scene)
+        except Exception as error:  # A look at a scene must not end its run.
+            found = [Finding(f"the scene could not be looked at ({error!r})", "please report it")]
+        for one in found:
+            if one.remedy not in self.told:
+                self.told.add(one.remedy)
+                # Without a place in a source file: the line is about the scene, and stays one line.
+                warnings.warn_explicit(f"potential_particles: {one}", SceneWarning, "potential_particles", 0)
+
+
+def notice_shapes(yade, watch):
+    """Lets the watch know when a script gives a body in the scene another shape, or a shape another definition."""
+    def noticing(setter, counts):
+        @functools.wraps(setter)
+        def set_and_notice(owner, value):
+            setter(owner, value)
+            if counts(owner, value):
+                watch.shape_has_changed()
+        return set_and_notice
+
+    conic, body = yade.wrapper.ConicPotentialParticle, yade.wrapper.Body
+    for name in ("planes", "r", "k", "R"):
+        given = getattr(conic, name)
+        setattr(conic, name, property(given.fget, noticing(given.fset, lambda *_: True), doc=given.__doc__))
+    conic.updateAttrs = noticing(conic.updateAttrs, lambda _, attributes: not {"planes", "r", "k", "R"}.isdisjoint(attributes))
+    body.shape = property(body.shape.fget, noticing(body.shape.fset, lambda owner, _: owner.id >= 0), doc=body.shape.__doc__)
 
 
 def _bodies(ids):
@@ -75,6 +145,18 @@ def _bounds(scene, dispatchers):
 def _contacts(scene, dispatchers):
     for pair, remedy in unserved.pairs(scene.bodies, dispatchers):
         yield Finding(f"bodies pass through each other because the contact loop has no functor for {pair}", remedy)
+
+
+def _flat_boxes(yade, scene):
+    flat = [body.id for body in scene.bodies if isinstance(body.shape, yade.Box) and not min(body.shape.extents) > 0.0]
+    if flat:
+        yield Finding(f"{_bodies(flat)}: a Box without thickness is no particle, and bodies pass through it",
+                      "give it a thickness, as by aabbWalls(thickness=...), or take Wall or Facet")
+
+
+def _controllers(scene):
+    if any(one.internalCompaction for one in _engines(scene, "TriaxialStressController")):
+        yield Finding("TriaxialStressController(internalCompaction=True) lets spheres grow, and does nothing here", "give it internalCompaction=False")
 
 
 def _laws(scene, ours, dispatchers):
@@ -110,27 +192,31 @@ def _time_step(scene):
     except ValueError:
         return
     steppers = [one for one in _engines(scene, "GlobalStiffnessTimeStepper") if one.active]
-    if not steppers and scene.dt > limit:
+    ours = any("time_step.follow" in one.command for one in _engines(scene, "PyRunner"))
+    if not steppers and not ours and scene.dt > limit:
         yield Finding(f"O.dt={scene.dt:.3g} s is beyond {limit:.3g} s, up to which contacts are known to act as springs",
-                      "O.dt = potential_particles.critical_time_step()")
+                      "O.dt = potential_particles.critical_time_step(), or the engine potential_particles.time_stepper()")
     for stepper in steppers:
         if not 0.0 < stepper.defaultDt <= limit and not any(contact.isReal for contact in scene.interactions):
             yield Finding("GlobalStiffnessTimeStepper takes a step of about 1 s as long as there is no contact",
-                          "give it defaultDt=potential_particles.critical_time_step()")
+                          "use potential_particles.time_stepper(), or give it defaultDt=potential_particles.critical_time_step()")
 
 
-def _mass(yade, moving):
-    wrong, volumes = [], {}
+def _mass(yade, moving, measured):
+    wrong, made_by_hand = [], {}
     for body in moving:
         shape, density = body.shape, body.mat.density if body.mat else 0.0
         if not isinstance(shape, yade.ConicPotentialParticle) or not shape.planes or density <= 0.0:
             continue
-        key = (tuple(shape.planes), shape.r, shape.k, shape.R)
-        if key not in volumes:
+        key = definition(shape)
+        if key not in volumes and key not in made_by_hand:
+            if len(made_by_hand) >= measured:
+                continue
             # Ten times as fast as shape.volume, and more exact than what is compared.
-            volumes[key] = shape.massProperties(0.1 * _MASS_TOLERANCE)[0]
-        if not math.isclose(body.state.mass, volumes[key] * density, rel_tol=_MASS_TOLERANCE):
-            wrong.append((body, volumes[key] * density))
+            made_by_hand[key] = shape.massProperties(0.1 * _MASS_TOLERANCE)[0]
+        expected = density * (volumes[key] if key in volumes else made_by_hand[key])
+        if not math.isclose(body.state.mass, expected, rel_tol=_MASS_TOLERANCE):
+            wrong.append((body, expected))
     if wrong:
         body, expected = wrong[0]
         yield Finding(f"{_bodies([one.id for one, _ in wrong])}: the mass is not volume times density (body {body.id}: "
@@ -138,16 +224,37 @@ def _mass(yade, moving):
                       "set state.mass and state.inertia (potential_particles.body does)")
 
 
+def _clumps(scene, measured):
+    wrong = []
+    clumps = [body for body in scene.bodies if body.isClump and set(body.state.blockedDOFs) != set("xyzXYZ")]
+    for body in clumps[:int(min(measured, len(clumps)))]:
+        try:
+            mass, _, inertia, _ = union([scene.bodies[one] for one in body.shape.members], lines=2000)
+        except ValueError:  # members of other shapes, or of several densities
+            continue
+        turn = array_of(body.state.ori.toRotationMatrix())
+        found = turn @ np.diag(tuple(body.state.inertia)) @ turn.T
+        if (not math.isclose(body.state.mass, mass, rel_tol=_MASS_TOLERANCE)
+                or np.abs(found - inertia).max() > _INERTIA_TOLERANCE * np.abs(inertia).max()):
+            wrong.append((body, mass))
+    if wrong:
+        body, mass = wrong[0]
+        yield Finding(f"{_bodies([one.id for one, _ in wrong])}: mass or inertia are not those of the union of the clump's members (body {body.id}: "
+                      f"{body.state.mass:.4g}, and {mass:.4g} where overlaps count once)", "make it by potential_particles.clump")
+
+
 def _weight(scene, moving):
     gravity = max((one.gravity.norm() for one in _engines(scene, "NewtonIntegrator")), default=0.0)
     try:
         stiffness = time_step.stiffness_rule(scene)
-        depths = {body.id: body.state.mass * gravity / stiffness(body, time_step.bounding_radius(body)) / body.shape.r for body in moving}
+        # Force of the weight, and of an overlap r.
+        weights = {body.id: (body.state.mass * gravity, stiffness(body, time_step.bounding_radius(body)) * body.shape.r) for body in moving}
     except ValueError:
         return
-    deep = [one for one in depths if depths[one] > 1.0]
+    deep = [one for one, (weight, most) in weights.items() if weight > most > 0.0]
     if deep:
-        yield Finding(f"{_bodies(deep)}: the weight alone makes overlaps beyond the rounding radius r (body {deep[0]}: {depths[deep[0]]:.3g} r)",
+        weight, most = weights[deep[0]]
+        yield Finding(f"{_bodies(deep)}: the weight alone makes overlaps beyond the rounding radius r (body {deep[0]}: {weight / most:.3g} r)",
                       "raise the stiffness, or check the units of lengths and of density")
 
 

@@ -17,7 +17,7 @@ def extrema(bodies=None):
     """
     import yade
     lower, upper = [math.inf] * 3, [-math.inf] * 3
-    for body in _counted(bodies):
+    for body in counted(bodies):
         for axis, (low, high) in enumerate(_extent(body)):
             lower[axis], upper[axis] = min(lower[axis], low), max(upper[axis], high)
     if not all(low <= high for low, high in zip(lower, upper)):
@@ -26,8 +26,22 @@ def extrema(bodies=None):
 
 
 def solid_volume(bodies=None):
-    """Volume of all potential particles and spheres that are no boundaries and not fixed, or of those with these ids, length^3."""
-    return sum(_volume(body) for body in _counted(bodies) if bodies is not None or _is_grain(body))
+    """Volume of all potential particles and spheres that are no boundaries and not fixed, or of those with these ids, length^3; of a clump
+    that of its mass, once."""
+    return sum(volumes_of_grains(bodies).values())
+
+
+def volumes_of_grains(bodies=None):
+    """{id: volume} of what moves as one: bodies, and clumps by their own id."""
+    import yade
+    found = {}
+    for body in counted(bodies):
+        if body.isClumpMember:
+            one = yade.O.bodies[body.clumpId]
+            found[one.id] = one.state.mass / body.mat.density
+        elif bodies is not None or is_grain(body):
+            found[body.id] = volume_of(body)
+    return found
 
 
 def porosity(lower=None, upper=None, bodies=None):
@@ -36,7 +50,7 @@ def porosity(lower=None, upper=None, bodies=None):
     All of a body counts, whether or not it lies within the box; overlaps count twice.
     """
     import yade
-    ids = [body.id for body in _counted(bodies) if bodies is not None or _is_grain(body)]
+    ids = [body.id for body in counted(bodies) if bodies is not None or is_grain(body)]
     if not ids:
         raise ValueError("there is no potential particle and no sphere that moves, and so no porosity")
     if lower is not None or upper is not None:
@@ -70,10 +84,10 @@ def body_stresses():
     """Mean stress within each potential particle and sphere that moves (of clumps, each member by itself): {id: Matrix3}, Pa, as stress() with
     the volume of the body."""
     import yade
-    of_body = {body.id: [] for body in _counted(None) if _is_grain(body)}
+    of_body = {body.id: [] for body in counted(None) if is_grain(body)}
     for side in _sides():
         of_body[side[0].id].append(side)
-    return {one: _sum_of_moments(sides, yade) / _volume(yade.O.bodies[one]) for one, sides in of_body.items()}
+    return {one: _sum_of_moments(sides, yade) / volume_of(yade.O.bodies[one]) for one, sides in of_body.items()}
 
 
 def fabric_tensor():
@@ -94,7 +108,7 @@ def coordination_number(skip_free=False):
     skip_free: without particles that bear nothing, of no contact or of one, and without their contacts: (2 C - N_1) / (N - N_0 - N_1).
     ValueError where no particle is left.
     """
-    count = {body.id: 0 for body in _counted(None) if _is_grain(body)}
+    count = {body.id: 0 for body in counted(None) if is_grain(body)}
     for body, _, _, _ in _sides():
         count[body.id] += 1
     numbers = list(count.values())
@@ -114,7 +128,7 @@ def _sides():
             continue
         for number, sign in ((contact.id1, -1.0), (contact.id2, 1.0)):
             body = scene.bodies[number]
-            if isinstance(body.shape, (yade.PotentialParticle, yade.Sphere)) and _is_grain(body):
+            if isinstance(body.shape, (yade.PotentialParticle, yade.Sphere)) and is_grain(body):
                 centre = scene.bodies[body.clumpId].state.pos if body.isClumpMember else body.state.pos
                 if scene.periodic and sign > 0.0:
                     centre = centre + scene.cell.hSize * contact.cellDist
@@ -127,13 +141,13 @@ def _sum_of_moments(sides, yade):
     return sum((force.outer(arm) for _, _, force, arm in sides), yade.Matrix3.Zero)
 
 
-def _counted(bodies):
+def counted(bodies):
     import yade
     chosen = yade.O.bodies if bodies is None else [yade.O.bodies[int(one)] for one in bodies]
     return [body for body in chosen if isinstance(body.shape, (yade.PotentialParticle, yade.Sphere))]
 
 
-def _is_grain(body):
+def is_grain(body):
     return set(body.state.blockedDOFs) != set("xyzXYZ") and not getattr(body.shape, "isBoundary", False)
 
 
@@ -151,7 +165,7 @@ def _extent(body):
     return [(place[axis] + max(min(along[axis]), -radius), place[axis] + min(max(along[axis]), radius)) for axis in range(3)]
 
 
-def _volume(body):
+def volume_of(body):
     import yade
     if isinstance(body.shape, yade.Sphere):
         return 4.0 / 3.0 * math.pi * body.shape.radius**3

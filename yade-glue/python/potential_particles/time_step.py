@@ -7,45 +7,78 @@ stiffness of all contacts is at most twice that of each body alone, held by its 
 
     omega^2 <= 2 max over bodies of the largest eigenvalue of M_b^-1 sum over its contacts B^T K_c B.
 
-A contact patch holds against turning as well: its stiffness has a part for turns alone, K J across the normal and k_s J about it, J the
+A new contact at the point x holds against the turn that moves x most: of B^T B the eigenvalue 1/m + l, l the larger root of l^2 - t l + p = 0,
+
+    t = sum (|x|^2 - x_i^2) / I_i,    p = |x|^2 sum x_i^2 I_i / (I_1 I_2 I_3)    (principal axes),
+
+which is largest at a corner of the box of the body, since it is convex in x, and at most |x|^2 / min I. A contact patch holds against turning as well: its stiffness has a part for turns alone, K J across the normal and k_s J about it, J the
 polar moment of the patch or, where there is one, of the bond.
 
 Dashpots lower the limit. Those of joints, of the ratio z to the critical one, to dt < 2/omega (sqrt(1 + z^2) - z), which is taken into
 account; for others safety leaves room, below about half of the critical damping.
 """
+import itertools
 import math
 
 import numpy as np
 
-from .arguments import number, positive, whole
+from .arguments import array_of, number, positive, whole
+
+
+_CORNERS = np.array(list(itertools.product((False, True), repeat=3)))
 
 
 def critical_time_step(stiffness=None, bodies=None, contacts=3, safety=0.5):
-    """A time step, s, safe for the contacts that there are, and for `contacts` new ones at the farthest point of each body.
+    """A time step, s, safe for the contacts that there are, and for `contacts` new ones at the worst corner of the box of each body.
 
     stiffness: of a contact, N/m; None: from the scene's physics functor. For KnKsPhys that is Knormal, times the area of the body's largest
     circle where the contact functor computes areas (calContactArea); for laws with springs from E and radii (FrictPhys), young times
-    the bounding radius; for ConicJointMat its stiffness per area times the area of the largest circle. bodies: ids, default all. safety: share of the proved limit that is used, 0 to 1.
+    the bounding radius; for ConicJointMat its stiffness per area times the area of the largest circle. bodies: ids, default all; clumps move as
+    one body, with the contacts of their members. safety: share of the proved limit that is used, 0 to 1.
     ValueError where nothing moves or no stiffness is known.
     """
     import yade
     scene = yade.O
-    contacts, safety = whole(contacts, 1, "contacts"), positive(safety, "safety")
-    if safety > 1.0:
-        raise ValueError(f"safety={safety:g} is a share of the limit and must lie between 0 and 1")
+    contacts, safety = whole(contacts, 1, "contacts"), _share(safety)
     stiffness = None if stiffness is None else positive(stiffness, "stiffness")
-    chosen = [body for body in _chosen(scene, bodies) if _moves(body)]
-    if not chosen:
+    movers = _movers(scene, bodies)
+    if not movers:
         raise ValueError("no body with a shape and a mass is free to move: there is no time step to find")
     rule = stiffness_rule(scene, stiffness)
-    largest, damping = 0.0, 0.0
-    for body in chosen:
-        damping = max(damping, _damping_ratio(getattr(body.mat, "restitution", 1.0)))
-        present = _eigenvalue(body, [_of_contact(scene, body, one) for one in body.intrs() if one.isReal])
-        mass, inertia, radius = body.state.mass, min(body.state.inertia), bounding_radius(body)
-        assumed = contacts * rule(body, radius) * (1.0 / mass + radius**2 / inertia)
-        largest = max(largest, present, assumed)
+    largest, damping = max(_eigenvalues(scene, movers), default=0.0), 0.0
+    for body, parts in movers:
+        mass = body.state.mass
+        for part in parts:
+            damping = max(damping, _damping_ratio(getattr(part.mat, "restitution", 1.0)))
+            radius = bounding_radius(part)
+            largest = max(largest, contacts * rule(part, radius) * (1.0 / mass + _largest_lever(body, part, radius)))
     return safety * 2.0 / math.sqrt(2.0 * largest) * (math.hypot(1.0, damping) - damping)
+
+
+def time_stepper(period=200, contacts=3, safety=0.5):
+    """An engine that sets O.dt to critical_time_step(contacts=contacts, safety=safety) in the first step and then every `period` steps.
+
+    It is a PyRunner, to stand between the contact loop and NewtonIntegrator, and follows what a script changes: bodies, masses, stiffness, laws. While
+    nothing is free to move O.dt stays. Saved with the scene; a script that loads it imports potential_particles. A call takes about 0.1 ms for each
+    contact.
+    """
+    import yade
+    period, contacts = whole(period, 1, "period"), whole(contacts, 1, "contacts")
+    return yade.PyRunner(command=f"import potential_particles; potential_particles.time_step.follow(contacts={contacts}, safety={_share(safety)!r})",
+                         iterPeriod=period, initRun=True)
+
+
+def follow(contacts, safety):
+    """What time_stepper() does when it runs."""
+    import yade
+    if _movers(yade.O, None):
+        yade.O.dt = critical_time_step(contacts=contacts, safety=safety)
+
+
+def _share(safety):
+    if positive(safety, "safety") > 1.0:
+        raise ValueError(f"safety={safety:g} is a share of the limit and must lie between 0 and 1")
+    return float(safety)
 
 
 def _damping_ratio(restitution):
@@ -53,13 +86,36 @@ def _damping_ratio(restitution):
     return 0.0 if restitution >= 1.0 else max(-0.5 * math.log(restitution), math.sqrt(0.5 / restitution) if restitution < 0.14 else 0.0)
 
 
-def _chosen(scene, bodies):
-    return scene.bodies if bodies is None else [scene.bodies[int(one)] for one in bodies]
+def _largest_lever(body, part, radius):
+    """The largest l of a point of a body, or of a member of a clump, 1/kg: what a force of 1 N there moves it by the turn, against 1/m by the shift."""
+    principal = np.array(list(body.state.inertia))
+    turn, place = np.eye(3), np.zeros(3)
+    if part is not body:
+        back = body.state.ori.conjugate()
+        turn, place = array_of((back * part.state.ori).toRotationMatrix()), np.array(back * (part.state.pos - body.state.pos))
+    most = (radius + np.linalg.norm(place)) ** 2 / principal.min()
+    if not hasattr(part.shape, "boundingRadius"):
+        return most
+    # Distances from the centre of the body, along its axes.
+    lower, upper = -np.array(part.shape.minAabb), np.array(part.shape.maxAabb)
+    corners = np.where(_CORNERS, upper, lower) @ turn.T + place
+    squares = corners**2
+    distance = squares.sum(1)
+    trace = (distance[:, None] - squares) @ (1.0 / principal)
+    product = distance * (squares @ principal) / principal.prod()
+    return min(most, float((0.5 * (trace + np.sqrt(np.maximum(trace**2 - 4.0 * product, 0.0)))).max()))
 
 
-def _moves(body):
-    return (body is not None and body.shape is not None and body.state.mass > 0.0 and min(body.state.inertia) > 0.0
-            and set(body.state.blockedDOFs) != set("xyzXYZ"))
+def _movers(scene, bodies):
+    """(body, its parts) of each that forces move: a clump with its members, any other body with itself."""
+    chosen = scene.bodies if bodies is None else [scene.bodies[int(one)] for one in bodies]
+    numbers = {body.clumpId if body.isClumpMember else body.id for body in chosen}
+    found = []
+    for body in (scene.bodies[one] for one in sorted(numbers)):
+        if (body.shape is not None and body.state.mass > 0.0 and min(body.state.inertia) > 0.0
+                and set(body.state.blockedDOFs) != set("xyzXYZ")):
+            found.append((body, [scene.bodies[one] for one in body.shape.members] if body.isClump else [body]))
+    return found
 
 
 def bounding_radius(body):
@@ -98,39 +154,59 @@ def _joint_stiffness(body, radius):
                   or positive(material.young, f"young of the material of body {body.id}") / (2.0 * radius))
 
 
-def _of_contact(scene, body, contact):
-    """Arm (3,), stiffness against displacement there (3, 3) and against turns alone (3, 3) of a real contact, world axes."""
-    kn, ks = contact.phys.kn, contact.phys.ks
-    bonded = getattr(contact.phys, "bondArea", 0.0) > 0.0
-    if bonded:
+def _of_contact(scene, contact):
+    """(normal, point, kn, ks, stiffness against turns across the normal, about it) of a real contact, world axes."""
+    geometry, physics = contact.geom, contact.phys
+    # Only physics of joints hold against turns.
+    if not hasattr(physics, "twistStiffness"):
+        return geometry.normal, geometry.contactPoint, physics.kn, physics.ks, 0.0, 0.0
+    normal, point, polar_moment = geometry.normal, geometry.contactPoint, geometry.polarMoment
+    if physics.bondArea > 0.0:
         # The contact of a bond may lie elsewhere: where the bodies overlap now.
         one = scene.bodies[contact.id1].state
-        normal = np.array((one.ori * contact.phys.bondTurn1).toRotationMatrix().col(0))
-        point, polar_moment = one.pos + one.ori * contact.phys.bondPoint1, contact.phys.bondMoments[0]
-    else:
-        normal, point, polar_moment = np.array(contact.geom.normal), contact.geom.contactPoint, getattr(contact.geom, "polarMoment", 0.0)
-    along = np.outer(normal, normal)
-    arm = np.array(point - body.state.pos)
-    if scene.periodic and contact.id2 == body.id:
-        arm = arm - np.array(scene.cell.hSize * contact.cellDist)
-    turning = np.zeros((3, 3))
-    if hasattr(contact.phys, "twistStiffness"):
-        turning = (contact.phys.normalStiffness * polar_moment * (np.eye(3) - along)
-                   + contact.phys.twistStiffness * along)
-    return arm, kn * along + ks * (np.eye(3) - along), turning
+        normal = (one.ori * physics.bondTurn1).toRotationMatrix().col(0)
+        point, polar_moment = one.pos + one.ori * physics.bondPoint1, physics.bondMoments[0]
+    return normal, point, physics.kn, physics.ks, physics.normalStiffness * polar_moment, physics.twistStiffness
 
 
-def _eigenvalue(body, contacts):
-    """Largest eigenvalue of M^-1 sum B^T K B, 1/s^2, about the centre of the body in its principal axes."""
-    if not contacts:
-        return 0.0
-    turn = body.state.ori.toRotationMatrix()
-    turn = np.array([[turn[i, j] for j in range(3)] for i in range(3)])
-    whole_stiffness = np.zeros((6, 6))
-    for arm, stiffness, turning in contacts:
-        x, y, z = turn.T @ arm
-        moved = np.hstack([np.eye(3), [[0, z, -y], [-z, 0, x], [y, -x, 0]]])
-        whole_stiffness += moved.T @ (turn.T @ stiffness @ turn) @ moved
-        whole_stiffness[3:, 3:] += turn.T @ turning @ turn
-    scale = 1.0 / np.sqrt([body.state.mass] * 3 + list(body.state.inertia))
-    return float(np.linalg.eigvalsh(scale[:, None] * whole_stiffness * scale)[-1])
+def _eigenvalues(scene, movers):
+    """Largest eigenvalue of M^-1 sum B^T K B of each body with a contact, 1/s^2."""
+    bodies = [body for body, _ in movers]
+    row_of = {part.id: row for row, (_, parts) in enumerate(movers) for part in parts}
+    centres = [body.state.pos for body in bodies]
+    rows, arms, numbers = [], [], []
+    for contact in scene.interactions:
+        if not contact.isReal or contact.id1 not in row_of and contact.id2 not in row_of:
+            continue
+        normal, point, *rest = _of_contact(scene, contact)
+        for number in (contact.id1, contact.id2):
+            if number in row_of:
+                row = row_of[number]
+                arm = point - centres[row]
+                if scene.periodic and number == contact.id2:
+                    arm -= scene.cell.hSize * contact.cellDist
+                rows.append(row)
+                arms.append(tuple(arm))
+                numbers.append((*normal, *rest))
+    if not rows:
+        return []
+    arms, numbers = np.array(arms), np.array(numbers)
+    along = numbers[:, :3, None] * numbers[:, None, :3]
+    across = np.eye(3) - along
+    kn, ks, bending, twist = numbers[:, 3:, None, None].swapaxes(0, 1)
+    # B = [1, -arm cross].
+    moved = np.zeros((len(rows), 3, 6))
+    moved[:, range(3), range(3)] = 1.0
+    for i, j, k in ((0, 1, 2), (1, 2, 0), (2, 0, 1)):
+        moved[:, i, 3 + j], moved[:, j, 3 + i] = arms[:, k], -arms[:, k]
+    parts = moved.swapaxes(1, 2) @ (kn * along + ks * across) @ moved
+    parts[:, 3:, 3:] += bending * across + twist * along
+    sums = np.zeros((len(bodies), 6, 6))
+    np.add.at(sums, rows, parts)
+    roots = np.zeros_like(sums)
+    for row in set(rows):
+        state = bodies[row].state
+        turn = array_of(state.ori.toRotationMatrix())
+        roots[row, :3, :3] = np.eye(3) / math.sqrt(state.mass)
+        roots[row, 3:, 3:] = turn @ np.diag(1.0 / np.sqrt(list(state.inertia))) @ turn.T
+    return np.linalg.eigvalsh(roots @ sums @ roots)[:, -1].tolist()

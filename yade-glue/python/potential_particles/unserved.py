@@ -1,11 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""One warning, at the first step, where potential particles would pass through other bodies in silence.
+"""Shapes that would pass through potential particles in silence.
 
 YADE leaves alone a pair of bodies for whose shapes its contact loop has no functor. That is right for two facets, and
 mostly a mistake for a particle and its floor.
 """
-import warnings
-
 from yade.wrapper import PotentialParticle
 
 from . import _glue
@@ -14,10 +12,6 @@ from . import _glue
 REMEDIES = {first: name for name, (first, second) in _glue.served_pairs.items() if second == "PotentialParticle" != first}
 # Of bodies that stand for a part of the scene, as on several ranks.
 _IMMATERIAL = ("Subdomain", "FluidDomainBbox")
-
-
-class UnservedShapes(UserWarning):
-    """The scene has bodies that no functor of its contact loop lets touch the potential particles."""
 
 
 class _Group:
@@ -66,29 +60,3 @@ def pairs(bodies, dispatchers):
             if not any(dispatcher.dispFunctor(one.shape, other.shape) for dispatcher in dispatchers):
                 found.append((f"{one.name} ({one.count}) and {other.name} ({other.count})", _remedy(other)))
     return found
-
-
-def sentence(bodies, dispatchers):
-    """What is to be said of these bodies and the dispatchers of geometry, or None."""
-    parts = [f"{pair}: {remedy}" for pair, remedy in pairs(bodies, dispatchers)]
-    if not parts:
-        return None
-    return ("bodies pass through each other because the contact loop has no functor for their shapes (number of bodies): "
-            + "; ".join(parts))
-
-
-class Watch:
-    """Looks at a scene when it begins, and when its bodies or functors have become others."""
-
-    def __init__(self):
-        self.seen = None
-
-    def look(self, scene, dispatchers):
-        now = (len(scene.bodies), [type(functor).__name__ for dispatcher in dispatchers for functor in dispatcher.functors])
-        if not dispatchers or (scene.iter > 0 and now == self.seen):
-            return
-        self.seen = now
-        text = sentence(scene.bodies, dispatchers)
-        if text is not None:
-            # Without a place in a source file: the line is about the scene, and stays one line.
-            warnings.warn_explicit("potential_particles: " + text, UnservedShapes, "potential_particles", 0)

@@ -6,11 +6,12 @@ import sys
 import numpy as np
 import yade
 
-from . import vtk_files
+from . import chains, vtk_files
 from .drawn import ShapeMeshes, Triangles, drawn
 
 _BODY = {"id": 1, "material": 1, "mask": 1, "rank": 1, "velocity": 3, "angular_velocity": 3}
-_CONTACT = {"point": 3, "normal": 3, "overlap": 1, "normal_force": 3, "shear_force": 3, "id1": 1, "id2": 1}
+_CONTACT = {"point": 3, "normal": 3, "overlap": 1, "normal_force": 3, "shear_force": 3, "id1": 1, "id2": 1,
+            "begin": 3, "end": 3}
 _WHOLE = {"id", "material", "mask", "rank", "id1", "id2"}
 
 
@@ -26,6 +27,8 @@ class Recorder:
     Bodies are triangles, with id, material (its id, or -1), mask, rank, velocity and angular_velocity (world axes) of their body.
     Contacts are the points of real interactions, with normal (from body id1 to id2), overlap, normal_force and shear_force
     (world axes, on body id2), id1 and id2; forces are 0 for physics without them.
+    <name>.chains.<step>.vtp has the same contacts as lines between the centres of their bodies, from wall to centre at walls: force chains (in ParaView: Tube, by `push`,
+    the normal force, above 0 where bodies push).
     tolerance: of the meshes of particles (see `mesh`). ids: of the bodies that are wanted; without them, all.
     On several ranks (potential_particles.mpi) it is to be called by all of them, between two calls of mpi.run; rank 0 writes.
     """
@@ -33,7 +36,7 @@ class Recorder:
     def __init__(self, name, tolerance=0.02, ids=None):
         self.name, self.ids = os.fspath(name), ids
         self.meshes = ShapeMeshes(tolerance)
-        self.frames = {"bodies": [], "contacts": []}
+        self.frames = {"bodies": [], "contacts": [], "chains": []}
         os.makedirs(os.path.dirname(self.name) or ".", exist_ok=True)
 
     def __call__(self):
@@ -49,6 +52,8 @@ class Recorder:
         of_bodies, of_contacts = (np.concatenate([part[i] for part in parts]) for i in (1, 2))
         self._write("bodies", self._bodies(triangles, _columns(of_bodies, _BODY)))
         columns = _columns(of_contacts, _CONTACT)
+        self._write("chains", chains.lines(columns))
+        del columns["begin"], columns["end"]
         self._write("contacts", vtk_files.vertices(columns.pop("point"), columns))
 
     @staticmethod
@@ -87,8 +92,10 @@ def _body(body, rank):
 
 def _contact(contact, rank):
     geometry, physics = contact.geom, contact.phys
+    begin, end = chains.branch(contact)
     forces = [getattr(physics, name, (0.0, 0.0, 0.0)) for name in ("normalForce", "shearForce")]
-    return (*geometry.contactPoint, *geometry.normal, geometry.penetrationDepth, *forces[0], *forces[1], contact.id1, contact.id2)
+    return (*geometry.contactPoint, *geometry.normal, geometry.penetrationDepth, *forces[0], *forces[1], contact.id1, contact.id2,
+            *begin, *end)
 
 
 def _rows(things, rank, row, layout):
