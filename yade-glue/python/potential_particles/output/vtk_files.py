@@ -39,6 +39,14 @@ def vertices(points, point_data):
     return data
 
 
+def lines(segments):
+    """VTK's lines from segments (n, 2, 3)."""
+    data, cells = _with_points(segments.reshape(-1, 3)), _vtk()[1].vtkCellArray()
+    cells.SetData(_array(2 * np.arange(len(segments) + 1)), _array(np.arange(2 * len(segments))))
+    data.SetLines(cells)
+    return data
+
+
 def write(file, data):
     """Writes polygons as .stl or .vtp, or points as .vtp."""
     _, _, geometry, xml, _ = _vtk()
