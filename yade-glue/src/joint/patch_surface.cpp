@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace py = boost::python;
 
@@ -19,6 +20,24 @@ namespace {
     // Rings of the fan about the centroid, over its rim. Pressure falls to 0 within the rounding of an edge: the last but one is about
     // where the flat part ends.
     constexpr std::array<double, 5> rings { 0.4, 0.7, 0.9, 0.98, 1.0 };
+
+    // A side longer than this part of the rim is divided: the pressure along it need not be linear.
+    constexpr double longestSide = 1.0 / 16;
+
+    std::vector<Eigen::Vector2d> divided(const std::vector<Eigen::Vector2d>& rim)
+    {
+        const auto side = [&](std::size_t i) { return Eigen::Vector2d(rim[(i + 1) % rim.size()] - rim[i]); };
+        double whole = 0;
+        for (std::size_t i = 0; i < rim.size(); ++i)
+            whole += side(i).norm();
+        std::vector<Eigen::Vector2d> points;
+        for (std::size_t i = 0; i < rim.size(); ++i) {
+            const int parts = std::max(1, static_cast<int>(std::ceil(side(i).norm() / (longestSide * whole))));
+            for (int part = 0; part < parts; ++part)
+                points.push_back(rim[i] + side(i) * part / parts);
+        }
+        return points;
+    }
 
     struct Node {
         Vector3r at;
@@ -35,7 +54,7 @@ py::tuple patchSurface(const yade::ScGeom& geometry, const boost::shared_ptr<yad
     if (own && own->patch.area > 0 && !(geometry.penetrationDepth < 0)) {
         const PosedShape one(shape1, state1, Vector3r::Zero()), other(shape2, state2, shift2);
         const PatchFrame frame(own->patch, { geometry.contactPoint, geometry.normal });
-        const std::vector<Eigen::Vector2d> rim = rimOf(own->patch, frame, one, other);
+        const std::vector<Eigen::Vector2d> rim = divided(rimOf(own->patch, frame, one, other));
         const auto node = [&](double part, std::size_t i) {
             const Vector3r at = frame.at(part * rim[i % rim.size()]);
             return Node { at, std::max(0.0, one.depth(at) + other.depth(at)) };

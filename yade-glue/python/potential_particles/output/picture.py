@@ -100,6 +100,9 @@ def _render(window, of_bodies, of_boundaries, view, width, height, within):
         if inner:
             inner.GetProperty().LightingOff()
             inner.GetProperty().BackfaceCullingOff()
+            # Before a boundary that it lies on.
+            inner.GetMapper().SetResolveCoincidentTopologyToPolygonOffset()
+            inner.GetMapper().SetRelativeCoincidentTopologyPolygonOffsetParameters(-4.0, -4.0)
             renderer.AddActor(inner)
     if behind:
         light.light(behind, shadows, view, fading=True)
