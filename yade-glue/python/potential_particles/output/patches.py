@@ -21,7 +21,7 @@ class Patches:
 
     @classmethod
     def together(cls, parts):
-        """Of many one, `parts` each with the contacts numbered from 0."""
+        """Of many one; none makes an empty one."""
         if not parts:
             return cls(np.zeros((0, 3, 3)), np.zeros((0, 3)), np.zeros(0, int))
         return cls(*(np.concatenate([getattr(part, name) for part in parts]) for name in ("corners", "pressure", "contacts")))

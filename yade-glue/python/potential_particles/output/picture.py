@@ -46,10 +46,10 @@ def plot(file, towards=(0.46, -0.84, 0.42), size=(1000, 800), tolerance=None, bo
     chosen = {body.id for body in scene}
     shown = patches_of([contact for contact in yade.O.interactions if contact.isReal and {contact.id1, contact.id2} <= chosen])
     view = framing(of_bodies, of_boundaries, towards, (width - BAR) / height)
-    scale, unit = _pressure_scale(shown.pressure)
-    coloured = Triangles(shown.corners, np.broadcast_to(0.0, shown.corners.shape), scale.to_rgba(shown.pressure / unit[0])[..., :3],
+    scale, pascals, unit = _pressure_scale(shown.pressure)
+    coloured = Triangles(shown.corners, np.zeros_like(shown.corners), scale.to_rgba(shown.pressure / pascals)[..., :3],
                          np.zeros(len(shown.corners), int))
-    imsave(file, _with_scale(render(of_bodies, of_boundaries, view, width - BAR, height, coloured), scale, unit[1]))
+    imsave(file, _with_scale(render(of_bodies, of_boundaries, view, width - BAR, height, coloured), scale, unit))
 
 
 def fitting_tolerance(count, size):
@@ -156,11 +156,12 @@ def _lines(segments, middle, radius):
 
 
 def _pressure_scale(pressure):
-    """Colours for pressures, and their unit as (pascals, name)."""
+    """Colours for pressures in a unit, that unit in pascals, and its name."""
     from matplotlib import cm, colors
     largest = np.abs(pressure).max(initial=0.0)
-    unit = next(((size, name) for size, name in ((1e9, "GPa"), (1e6, "MPa"), (1e3, "kPa")) if largest >= size), (1.0, "Pa"))
-    return cm.ScalarMappable(colors.Normalize(pressure.min(initial=0.0) / unit[0], (largest or 1.0) / unit[0]), PRESSURE_MAP), unit
+    pascals, unit = next(((size, name) for size, name in ((1e9, "GPa"), (1e6, "MPa"), (1e3, "kPa")) if largest >= size), (1.0, "Pa"))
+    span = colors.Normalize(pressure.min(initial=0.0) / pascals, (pressure.max(initial=0.0) or largest or 1.0) / pascals)
+    return cm.ScalarMappable(span, PRESSURE_MAP), pascals, unit
 
 
 def _with_scale(image, scale, unit):
