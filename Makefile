@@ -47,6 +47,7 @@ Variables, as in "make demo STEPS=1000 BODIES=50":
   STARTS=500        long: how often a tiny scene is started
   KILLS=10          long: how often a run is killed and loaded
   FUNCTOR=library   demo: who finds the contacts: library, or builtin for YADE's own functor
+  LAW=point         wedge, classics: point, or joint: contact patches with the law of joints
   CASES=all         wedge, classics: all, or short for a few of them; classics: names, as in CASES=arch,rocking
   OUTPUT=DIR        demo, wedge, classics, mpi, side-by-side, long: where the results go (out/pyramids, ...)
   THREADS=1         demo, mpi: threads of YADE (of each process)
@@ -116,6 +117,7 @@ demo: glue
 	$(call heading,Falling pyramids)
 	@scripts/yade.sh -j$(THREADS) studies/pyramids.py
 
+wedge classics: export LAW := $(LAW)
 wedge: export CASES := $(CASES)
 wedge: export OUTPUT := $(OUTPUT)
 wedge: glue

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""Fifty particles fall into a box, and a picture of it. Run it inside YADE: yade -x -n -j1 examples/first_pile.py"""
+"""Fifty particles fall into a box, and a picture of it. Run it inside YADE: yade -x -n -j1 examples/first_pile.py (LAW=joint: with contact patches)"""
+import os
+
 import potential_particles
 from potential_particles import boundaries, packing, shapes
 
@@ -16,6 +18,8 @@ O.engines = [
                     [Law2_ScGeom_FrictPhys_CundallStrack(sphericalBodies=False)]),
     NewtonIntegrator(damping=0.3, gravity=(0, 0, -9.81), exactAsphericalRot=True),
 ]
+if os.environ.get("LAW") == "joint":
+    potential_particles.use_joints(restitution=0.5)
 O.dt = potential_particles.critical_time_step()
 O.run(int(1.0 / O.dt), wait=True)
 potential_particles.plot("first_pile.png")

@@ -3,7 +3,7 @@
 
     yade -x -n -j2 examples/hopper.py
 
-Environment: BODIES (500), STEPS (25000), OUTPUT (out/hopper), ROCK and HOPPER (.stl files: a closed convex rock of any size; a
+Environment: BODIES (500), STEPS (25000), OUTPUT (out/hopper), LAW (point, or joint: contact patches), ROCK and HOPPER (.stl files: a closed convex rock of any size; a
 hopper in m whose axis is z and whose outlet lies at z = 0). Writes hopper.png (rocks half way, mass and rate of flow against
 time), flow.csv and summary.json. SI units; z up.
 """
@@ -51,6 +51,8 @@ O.engines = [
     NewtonIntegrator(damping=0.1, gravity=(0, 0, -9.81), exactAsphericalRot=True),
 ]
 mass = O.bodies[next(iter(ids))].state.mass
+if os.environ.get("LAW") == "joint":
+    potential_particles.use_joints(restitution=0.5)
 O.dt = potential_particles.critical_time_step()
 
 flow, through, beside, stepping = [], 0, 0, 0.0

@@ -3,7 +3,7 @@
 
     yade -x -n -j1 examples/pyramids.py
 
-Environment: BODIES (200), STEPS (14000), OUTPUT (out/pyramids_short). Writes three pictures and, for ParaView, pyramids.*.pvd.
+Environment: BODIES (200), STEPS (14000), OUTPUT (out/pyramids_short), LAW (point, or joint: contact patches). Writes three pictures and, for ParaView, pyramids.*.pvd.
 SI units; z up. studies/pyramids.py is the same with energies, a summary and YADE's own contact functor for comparison.
 """
 import os
@@ -34,6 +34,8 @@ O.engines = [
     ConicInteractionLoop(contacts, [Ip2_FrictMat_FrictMat_FrictPhys()], [Law2_ScGeom_FrictPhys_CundallStrack(sphericalBodies=False)]),
     NewtonIntegrator(damping=0.2, gravity=(0, 0, -9.81), exactAsphericalRot=True),
 ]
+if os.environ.get("LAW") == "joint":
+    potential_particles.use_joints(restitution=0.5)
 O.dt = potential_particles.critical_time_step()
 
 record = potential_particles.Recorder(os.path.join(OUT, "pyramids"), ids=ids)

@@ -3,7 +3,7 @@
 
     yade -x -n -j2 examples/rocks.py
 
-Environment: BODIES (500), STEPS (30000), OUTPUT (out/rocks). Writes rocks.png, rocks.bodies.pvd and rocks.contacts.pvd with
+Environment: BODIES (500), STEPS (30000), OUTPUT (out/rocks), LAW (point, or joint: contact patches). Writes rocks.png, rocks.bodies.pvd and rocks.contacts.pvd with
 their frames for ParaView, and summary.json. SI units; z up.
 """
 import json
@@ -39,6 +39,8 @@ O.engines = [
     InteractionLoop(contacts, [Ip2_FrictMat_FrictMat_FrictPhys()], [Law2_ScGeom_FrictPhys_CundallStrack(sphericalBodies=False)]),
     NewtonIntegrator(damping=0.3, gravity=(0, 0, -9.81), exactAsphericalRot=True),
 ]
+if os.environ.get("LAW") == "joint":
+    potential_particles.use_joints(restitution=0.5)
 O.dt = potential_particles.critical_time_step()
 record = potential_particles.Recorder(os.path.join(OUT, "rocks"))
 for _ in range(5):

@@ -1,12 +1,14 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
 """At which friction angle does a wedge slide on two joints? Simulation B of Boon, Houlsby & Utili. Run it inside YADE:
 
-    yade -x -n -j1 examples/wedge.py
+    yade -x -n -j1 examples/wedge.py          (LAW=joint in the environment: with contact patches)
 
 The wedge slides at two friction angles below the critical one. Its acceleration is linear in tan(friction angle), so that the
 line through both tells where it is zero. studies/wedge.py lowers friction under a resting wedge instead, for 19 wedges.
 SI units, angles in degrees; x east, y north, z up; the toe of the wedge is the origin.
 """
+import os
+
 import numpy as np
 import potential_particles
 from potential_particles import shapes
@@ -15,6 +17,7 @@ from yade import *
 JOINT_A, JOINT_B, FACE = (40, 130), (60, 220), (70, 185)  # dip and dip direction
 ANGLES = (27.0, 30.0)  # friction, at which it slides; far lower and it would tip forwards, too
 GRAVITY = 9.81
+JOINTS = os.environ.get("LAW") == "joint"
 
 
 def normal(plane):
@@ -56,6 +59,9 @@ def acceleration(friction_angle):
                         [Law2_ScGeom_FrictPhys_CundallStrack(sphericalBodies=False)]),
         NewtonIntegrator(damping=0.3, gravity=(0, 0, -GRAVITY), exactAsphericalRot=True),
     ]
+    if JOINTS:
+        # The weight makes that overlap on a square metre.
+        potential_particles.use_joints(normalStiffness=state.mass * GRAVITY / 1e-4, shearStiffness=state.mass * GRAVITY / 1e-4, restitution=0.5)
     O.dt = 1e-4
     looks = []
     begin = np.array(state.pos)

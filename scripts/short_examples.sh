@@ -6,10 +6,11 @@ cd "$(dirname "$0")/.."
 root=$PWD
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
-(cd "$folder" && "$root"/scripts/yade.sh -j1 "$root"/examples/first_pile.py)
+(cd "$folder" && "$root"/scripts/yade.sh -j1 "$root"/examples/first_pile.py && "$root"/scripts/yade.sh -j1 "$root"/examples/arch.py | tee arch.txt)
 BODIES=40 STEPS=5000 OUTPUT=$folder/rocks scripts/yade.sh -j1 examples/rocks.py
 BODIES=60 STEPS=7000 OUTPUT=$folder/hopper scripts/yade.sh -j1 examples/hopper.py
 BODIES=20 STEPS=3500 OUTPUT=$folder/pyramids scripts/yade.sh -j1 examples/pyramids.py | tee "$folder/pyramids.txt"
+LAW=joint BODIES=10 STEPS=9000 OUTPUT=$folder/joints scripts/yade.sh -j1 examples/pyramids.py | tee "$folder/joints.txt"
 BODIES=60 STRAIN=0.02 OUTPUT=$folder/triaxial scripts/yade.sh -j1 examples/triaxial.py 2>&1 | tee "$folder/triaxial.txt"
 BODIES=20 STRESS=5e4 OUTPUT=$folder/oedometer scripts/yade.sh -j1 examples/oedometer.py
 scripts/yade.sh -j1 examples/wedge.py | tee "$folder/wedge.txt"
@@ -19,9 +20,10 @@ BODIES=60 STEPS=1500 OUTPUT=$folder/mpi scripts/yade_mpi.sh 3 -j1 examples/mpi_p
 import json, pathlib, re, sys
 folder = pathlib.Path(sys.argv[1])
 rocks, hopper, triaxial, oedometer = (json.loads((folder / name / "summary.json").read_text()) for name in ("rocks", "hopper", "triaxial", "oedometer"))
-said = {name: (folder / f"{name}.txt").read_text() for name in ("pyramids", "wedge", "mpi", "triaxial")}
+said = {name: (folder / f"{name}.txt").read_text() for name in ("pyramids", "joints", "arch", "wedge", "mpi", "triaxial")}
 wedge = [float(number) for number in re.findall(r"slides below (\S+) degrees; closed form (\S+),", said["wedge"])[0]]
-pictures = [folder / "first_pile.png", folder / "rocks" / "rocks.png", folder / "hopper" / "hopper.png", folder / "triaxial" / "triaxial.png", folder / "oedometer" / "oedometer.png",
+pictures = [folder / "first_pile.png", folder / "arch.png", folder / "rocks" / "rocks.png", folder / "hopper" / "hopper.png", folder / "triaxial" / "triaxial.png",
+            folder / "oedometer" / "oedometer.png",
             *(folder / "pyramids" / f"pyramids_{i}.png" for i in range(3))]
 checks = {
     "pictures": all(picture.stat().st_size > 10_000 for picture in pictures),
@@ -33,6 +35,8 @@ checks = {
     "hopper: no failure": hopper["failures"] == 0,
     "hopper: nobody goes through the wall": hopper["rocks_beside_the_hopper"] == 0,
     "pyramids: all are there, none failed": "20 pyramids" in said["pyramids"] and " 0 lost, 0 failures" in said["pyramids"],
+    "pyramids with joints: all are there, none failed": "10 pyramids" in said["joints"] and " 0 lost, 0 failures" in said["joints"],
+    "arch: its stones rest": float(re.findall(r"fastest stone (\S+) m/s", said["arch"])[0]) < 1e-4,
     "wedge: slides where the closed form has it": abs(wedge[0] - wedge[1]) < 0.01,
     "rocks on 3 ranks: no failure, no warning": "60 rocks on 3 ranks" in said["mpi"] and "failures: none" in said["mpi"]
         and "Warning" not in said["mpi"] and "pass through" not in said["mpi"],

@@ -5,7 +5,7 @@ Simulation B of Boon, Houlsby & Utili, against the closed form. Run it inside YA
 
     yade -x -n -j1 studies/wedge.py
 
-Environment: CASES (all, or short), OUTPUT (out/wedge). Results: a table on the terminal; wedge.png, study.png,
+Environment: CASES (all, or short), OUTPUT (out/wedge), LAW (point, or joint: contact patches, without what is shown of points). Results: a table on the terminal; wedge.png, study.png,
 wedge.bodies.pvd and wedge.contacts.pvd with their .vtp files for ParaView, trials.csv with each friction angle that was tried, and
 summary.json. SI units, angles in degrees; world frame with x east, y north, z up.
 """
@@ -44,7 +44,7 @@ from wedge_cases import (
     WIDEST_BRACKET,
 )
 from wedge_figures import save_overview, save_study
-from wedge_scene import WedgeScene
+from wedge_scene import JOINTS, WedgeScene
 from wedge_studies import ROUGH, UNREGULARISED, not_run_in, points_at_rest, slide_out
 
 CHOICES = {"all": ALL, "short": [PAPER, NEAR_POLYHEDRAL]}
@@ -88,7 +88,7 @@ class Run:
         result = reduction.run()
         self.rows.append(_row(case, scene, reduction, result, time.perf_counter() - started))
         self.failed_contacts += scene.failed_contacts()
-        if case is PAPER:
+        if case is PAPER and not JOINTS:
             self._look_closer(scene, result)
         if case is PAPER and self.closer:
             scene = WedgeScene(case, self.blocks[case.name], ContactFunctor(LIBRARY))
@@ -161,7 +161,7 @@ def main():
     chosen = settings.choice("CASES", "all", tuple(CHOICES), "set of cases")
     out = settings.folder("OUTPUT", HERE.parent / "out" / "wedge")
     clear(out)
-    run = Run(CHOICES[chosen], out, closer=chosen == "all")
+    run = Run(CHOICES[chosen], out, closer=chosen == "all" and not JOINTS)
     print(f"{len(run.cases)} wedges, friction lowered until they slide", flush=True)
     interrupted = run.go()
     if interrupted:
@@ -225,7 +225,7 @@ def _row(case, scene, reduction, result, seconds):
         "weight_N": scene.weight,
         "normal_stiffness_N_per_m": scene.stiffness,
         "shear_over_normal_stiffness": case.shear_ratio,
-        "overlap_over_size": case.overlap,
+        "overlap_over_size": scene.overlap / case.size,
         "time_step_s": O.dt,
         "closed_form_degrees": limit.friction_angle,
         "slides_at_degrees": result.slides_at,

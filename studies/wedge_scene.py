@@ -15,9 +15,15 @@ import numpy as np
 import yade
 from yade import O, Vector3
 
-from potential_particles import body, shapes
+from potential_particles import body, shapes, use_joints
 
+import settings
 from stepping import advance
+
+# With LAW=joint in the environment contacts are patches with the law of joints, which gives way to tilting: with OVERLAP_OF_JOINTS of the overlap
+# of points, on a square of the size.
+JOINTS = settings.choice("LAW", "point", ("point", "joint"), "law") == "joint"
+OVERLAP_OF_JOINTS = 0.1
 
 GRAVITY = 9.81  # m/s^2
 WEDGE, BLOCK_A, BLOCK_B, BASE = range(4)  # ids
@@ -59,12 +65,15 @@ class WedgeScene:
             radii.append(block.shape.boundingRadius)
         state = O.bodies[WEDGE].state
         self.weight = state.mass * GRAVITY
-        self.overlap = case.overlap * case.size
+        self.overlap = case.overlap * case.size * (OVERLAP_OF_JOINTS if JOINTS else 1.0)
         self.stiffness = self.weight / self.overlap
         regularisation = REGULARISED_BULGE * self.overlap / self.rounding if regularise else 0.0
-        if regularise and case.sphericity == 0.0:
+        if regularise and case.sphericity == 0.0 and not JOINTS:
             contact.functor.flatRegularisation = regularisation
         O.engines = self._engines()
+        if JOINTS:
+            per_area = self.stiffness / case.size**2
+            use_joints(normalStiffness=per_area, shearStiffness=case.shear_ratio * per_area, restitution=1.0)
         contact.prepare()
         O.dt = self._time_step(state, radii, regularisation)
 
@@ -103,8 +112,12 @@ class WedgeScene:
 
         Where two faces of rounding r touch, a tilt moves the point by tilt / (r (k_A/R_A^2 + k_B/R_B^2)).
         """
-        springs = np.sqrt(self.stiffness / state.mass)
         least_inertia = min(state.inertia)
+        if JOINTS:
+            # Of a patch as large as a section of the ball about the wedge.
+            stiffness = self.stiffness * np.pi * (radii[WEDGE] / self.case.size) ** 2
+            return SPRING_STEP / np.sqrt(stiffness * max(1.0 / state.mass, 0.5 * radii[WEDGE] ** 2 / least_inertia))
+        springs = np.sqrt(self.stiffness / state.mass)
         curvature = min(
             self.rounding * self._curving(radius, regularisation)
             + self.rounding * self._curving(radii[WEDGE], regularisation)
@@ -145,6 +158,8 @@ class WedgeScene:
         for interaction in O.interactions:
             if interaction.isReal:
                 interaction.phys.tangensOfFrictionAngle = np.tan(radians)
+                if JOINTS:
+                    interaction.phys.tangensOfResidualFrictionAngle = np.tan(radians)
 
     def joints(self):
         """(Joint A, Joint B); SystemExit if the wedge lost one or met the base."""

@@ -4,7 +4,7 @@
 
     make classics            (or: studies/classics/run.py)
 
-Environment: CASES (all, short for a little of each, or names, separated by commas), OUTPUT (out/classics). Results: a table on the
+Environment: CASES (all, short for a little of each, or names, separated by commas), OUTPUT (out/classics), LAW (point, or joint: contact patches). Results: a table on the
 terminal and in table.md; classics.png; summary.json. docs/classics.md explains them. Ctrl-C keeps what is done.
 """
 

@@ -8,6 +8,9 @@ Every length below is relative to the size of the scene, the diameter of the lar
 - Faces are flat (k = 0). Their contact point is chosen as if they bulged by BULGE of that overlap, so that it moves smoothly with
   the tilt: it crosses a face while the block tilts by some 1e-6 rad (docs/wedge.md).
 - The time step follows from the stiffest motion, springs or tilting.
+- With LAW=joint in the environment, contacts are patches with the law of joints: the load on a square of the size makes an overlap of
+  OVERLAP_OF_JOINTS, less than of points, since a face that tilts on its edge gives way (docs/classics.md), and of OVERLAP_OF_MOVING_JOINTS where it
+  lands; nothing else need be chosen, but RESTITUTION in motion.
 - What is looked for at rest has YADE's local damping, which vanishes at rest and delays all motion of a block alike. What is looked for
   in motion (`moving`) has none, but dashpots beside the normal springs, so that what lands does not bounce. (Dashpots in shear would
   add to the friction of YADE's law, which limits the spring alone.)
@@ -15,11 +18,14 @@ Every length below is relative to the size of the scene, the diameter of the lar
 
 import numpy as np
 import yade
-from potential_particles import body, shapes
+from potential_particles import body, shapes, use_joints
 from potential_particles.polyhedron import Polyhedron
 from yade import O, Vector3
 
+import settings
 from stepping import advance
+
+JOINTS = settings.choice("LAW", "point", ("point", "joint"), "law") == "joint"
 
 GRAVITY = 9.81  # m/s^2
 DENSITY = 2600.0  # kg/m^3; no result depends on it
@@ -29,6 +35,8 @@ BULGE = 0.1
 SHEAR = 0.5  # of the normal stiffness
 DAMPING = 0.5  # YADE's local one
 DASHPOT = 2.0  # over sqrt(k m), m the mass of the load
+OVERLAP_OF_JOINTS, OVERLAP_OF_MOVING_JOINTS = 1e-6, 1e-7
+RESTITUTION = 0.01  # of joints in motion
 # Of the time in which the springs, and tilting, turn one radian.
 SPRING_STEP, TILT_STEP = 0.2, 0.4
 QUIET = 1e-5  # of the speed that belongs to the overlap
@@ -49,11 +57,14 @@ class Scene:
         self.moving = moving
         self.size, self.rounding, self.sphericity = size, rounding * size, sphericity
         self.load = load * DENSITY * GRAVITY
-        self.overlap = size * max(OVERLAP, min(OVERLAP_OVER_BULGE * sphericity, MOST_OVERLAP) * rounding)
+        self.overlap = size * max(self._least_overlap(), min(OVERLAP_OVER_BULGE * sphericity, MOST_OVERLAP) * rounding)
         self.stiffness = self.load / self.overlap
         self.friction = 0.0
         self.functor = None
         self.material = O.materials[O.materials.append(self._material())]
+
+    def _least_overlap(self):
+        return OVERLAP if not JOINTS else OVERLAP_OF_MOVING_JOINTS if self.moving else OVERLAP_OF_JOINTS
 
     def _material(self):
         if not self.moving:
@@ -99,7 +110,10 @@ class Scene:
             yade.ConicInteractionLoop([self.functor], [physics], [law]),
             yade.NewtonIntegrator(damping=0.0 if self.moving else DAMPING, gravity=gravity, exactAsphericalRot=True),
         ]
-        O.dt = self._time_step(max(bulge, self.sphericity))
+        if JOINTS:
+            use_joints(normalStiffness=self.stiffness / self.size**2, shearStiffness=SHEAR * self.stiffness / self.size**2,
+                       restitution=RESTITUTION if self.moving else 1.0)
+        O.dt = self._time_step_of_joints() if JOINTS else self._time_step(max(bulge, self.sphericity))
         self.set_friction(friction)
 
     def _laws(self):
@@ -123,6 +137,16 @@ class Scene:
             least = min(least, SPRING_STEP / springs, TILT_STEP / tilting)
         return least
 
+    def _time_step_of_joints(self):
+        """s, from the springs of a patch as large as any section of the ball about a block: at least twice its own, so that dashpots have room."""
+        least = np.inf
+        for one in self.free():
+            radius = one.shape.boundingRadius
+            area = np.pi * radius**2
+            springs = self.stiffness * area / self.size**2 * max(1.0 / one.state.mass, 0.5 * radius**2 / min(one.state.inertia))
+            least = min(least, SPRING_STEP / np.sqrt(springs))
+        return least
+
     @property
     def motion(self):
         """The integrator."""
@@ -140,6 +164,8 @@ class Scene:
         for interaction in O.interactions:
             if interaction.isReal:
                 interaction.phys.tangensOfFrictionAngle = np.tan(np.radians(angle))
+                if JOINTS:
+                    interaction.phys.tangensOfResidualFrictionAngle = np.tan(np.radians(angle))
 
     def set_gravity(self, vector):
         """m/s^2; a tilted gravity stands for a tilted plane."""

@@ -88,8 +88,26 @@ def equal_runs(folder):
 
 def saved_scenes(folder):
     for ranks, of in ((1, 3), (3, 1)):
-        sound(ranks, "resumed", folder, of)
-        same(folder, "whole1", f"resumed{ranks}_of_{of}")
+        sound(ranks, "resumed", folder, of, "whole")
+        same(folder, "whole1", f"whole_resumed{ranks}_of_{of}")
+
+
+def joints(folder):
+    for ranks in (1, 2, 3):
+        sound(ranks, "joints", folder)
+    serial = report(folder, "joints1")
+    first, last = serial["bonds"][0], serial["bonds"][-1]
+    check(first[0] > 20 and 0 < last[0] < first[0], f"bonds and broken joints as it goes: {serial['bonds']}")
+    for ranks in (2, 3):
+        same(folder, "joints1", f"joints{ranks}")
+        found = report(folder, f"joints{ranks}")
+        check(found["bonds"] == serial["bonds"], f"bonds on {ranks} ranks: {found['bonds']}, on one {serial['bonds']}")
+        check(found["failures"] == [], f"joints on {ranks} ranks: failures {found['failures']}")
+    check(found["across"] > 20, f"too few joints across borders for a test of them: {found['across']}")
+    for ranks, of in ((1, 3), (3, 1)):
+        sound(ranks, "resumed", folder, of, "joints")
+        same(folder, "joints1", f"joints_resumed{ranks}_of_{of}")
+        check(report(folder, f"joints_resumed{ranks}_of_{of}")["bonds"] == last, f"bonds after a save on {of} ranks")
 
 
 def lonely_workers(folder):
@@ -180,7 +198,7 @@ def pile(folder):
 def main():
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
-        for part in (equal_runs, saved_scenes, lonely_workers, recorders, failures, killed_rank, asked_to_stop, pile):
+        for part in (equal_runs, saved_scenes, joints, lonely_workers, recorders, failures, killed_rank, asked_to_stop, pile):
             begin = time.monotonic()
             part(folder)
             print(f"{part.__name__}: {time.monotonic() - begin:.1f} s", flush=True)

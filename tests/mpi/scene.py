@@ -14,7 +14,7 @@ from pathlib import Path
 import numpy as np
 import potential_particles  # noqa: F401 (a saved scene holds its classes)
 import yade
-from harness import add, cube, engine_of, fresh_scene, turned
+from harness import add, cube, engine_of, fresh_scene, joint_scene, turned
 from potential_particles import mpi
 from potential_particles.mpi import stepping
 from yade import O, Vector3
@@ -42,6 +42,24 @@ def build(gap=0.0, wall=False):
                 turn = turned(Vector3(*draw.normal(size=3)), 0.03)
                 number = add(cube(), place, turn)
                 O.bodies[number].state.vel = Vector3(0.5 * (y - 1.0) - 0.5 * place[0], 0.0, 0.0)
+                ids.append(number)
+    return ids
+
+
+def build_joints():
+    """4 x 3 x 3 cubes on a fixed row of others, bonded where they touch, that are pulled apart along x and pressed down: some bonds break."""
+    O.reset()
+    material = yade.ConicJointMat(normalStiffness=1e7, shearStiffness=5e6, frictionAngle=0.5, restitution=0.5, density=2000.0, cohesion=4e4,
+                                  tensileStrength=3e4, softening=2e-3)
+    joint_scene(yade.InteractionLoop, material, 0.0, (0, 0, -9.81), False, 5e-4, bonds=True)
+    shape, edge = dict(r=0.02, k=0.0), SIZE - 1e-4
+    add(floor(), (0, 0, -0.5), fixed=True)
+    ids = []
+    for x in range(4):
+        for y in range(3):
+            for z in range(3):
+                number = add(cube(**shape), Vector3((x - 1.5) * edge, (y - 1.0) * edge, (z + 0.5) * edge))
+                O.bodies[number].state.vel = Vector3(0.17 * (x - 1.5) * (1 + 0.3 * z), 0.1 * (y - 1), 0.0)
                 ids.append(number)
     return ids
 
@@ -74,7 +92,19 @@ def start(**more):
     mpi.run(0, reallocate=1)
 
 
-def whole():
+def joints():
+    """The same of bonds and joints."""
+    whole(build_joints, "joints")
+
+
+def bonds():
+    """How many there are, of all ranks, and how many joints have broken."""
+    mine = [contact.phys for contact in mpi.owned_contacts() if isinstance(contact.phys, yade.ConicJointPhys)]
+    parts = mpi.gather([sum(phys.bonded for phys in mine), sum(phys.broken for phys in mine)])
+    return [sum(part[i] for part in parts or []) for i in (0, 1)]
+
+
+def whole(build=build, name="whole"):
     """All steps, with a save in the middle, after which the run goes on. The last worker begins with too many cubes."""
     if mpi.rank() == 0:
         mine = build()
@@ -82,13 +112,14 @@ def whole():
         mpi.divide(mine)
         for number in mine[9:18] if mpi.ranks() > 2 else []:
             O.bodies[number].subdomain = mpi.ranks() - 1
-    across = 0
+    across, bonded = 0, []
     for look in range(4):
         mpi.run(STEPS // 4, reallocate=1)
         across += contacts_across()
+        bonded.append(bonds())
         if look == 1:
-            mpi.save(FOLDER / f"half{mpi.ranks()}.yade.gz")
-    result(f"whole{mpi.ranks()}", across=across)
+            mpi.save(FOLDER / f"{name}_half{mpi.ranks()}.yade.gz")
+    result(f"{name}{mpi.ranks()}", across=across, bonds=bonded)
 
 
 def contacts_across():
@@ -98,12 +129,12 @@ def contacts_across():
 
 
 def resumed():
-    """The second half, from the file that a run with as many ranks as the third argument says has saved."""
+    """The second half, from the file that a run of the case `whole` or `joints` (fourth argument) with as many ranks as the third says has saved."""
     if mpi.rank() == 0:
-        mpi.load(FOLDER / f"half{sys.argv[3]}.yade.gz")
+        mpi.load(FOLDER / f"{sys.argv[4]}_half{sys.argv[3]}.yade.gz")
         mpi.divide(ids())
     mpi.run(STEPS - STEPS // 2)
-    result(f"resumed{mpi.ranks()}_of_{sys.argv[3]}")
+    result(f"{sys.argv[4]}_resumed{mpi.ranks()}_of_{sys.argv[3]}", bonds=bonds())
 
 
 def apart():

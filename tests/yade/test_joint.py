@@ -225,4 +225,22 @@ check.equal(falling(yade.ConicInteractionLoop), plain_loop, "ConicInteractionLoo
 check.equal(falling(yade.ConicInteractionLoop, saved=True), falling(yade.ConicInteractionLoop, saved=True), "saved runs repeat")
 check.true(max(abs(a - b) for a, b in zip(falling(yade.ConicInteractionLoop, saved=True), plain_loop)) < 1e-6, "a saved run goes on")
 
+# --- in the place of another law --------------------------------------------------------------------------------------
+
+fresh_scene(yade.Ig2_ConicPP_ConicPP_ScGeom(), yade.Ip2_FrictMat_FrictMat_FrictPhys(), yade.Law2_ScGeom_FrictPhys_CundallStrack(sphericalBodies=False), dt=1e-6)
+lower, upper = (O.bodies[add(cube(r=1e-3, k=0.0), Vector3(0, 0, height), fixed=True)] for height in (0, 1 - 1e-5))
+potential_particles.use_joints(normalStiffness=1e9, restitution=0.5)
+O.step()
+found = O.interactions[0, 1]
+check.true(isinstance(found.phys, yade.ConicJointPhys) and isinstance(lower.mat, yade.ConicJointMat), "use_joints gives bodies and contacts joints")
+check.close(found.phys.normalForce[2], 1e9 * 0.998**2 * 1e-5, 10, "with the stiffness that it is given")
+check.equal((lower.mat.density, lower.mat.young, lower.mat.frictionAngle, lower.mat.restitution), (2000.0, 1e7, 0.0, 0.5), "and what the material had")
+check.raises(ValueError, potential_particles.use_joints, "contacts of another law", "before the first step")
+O.reset()
+check.raises(ValueError, potential_particles.use_joints, "no engines", "set O.engines first")
+fresh_scene(yade.Ig2_ConicPP_ConicPP_ScGeom())
+O.materials.append(yade.ElastMat())
+O.bodies.append(utils.sphere((0, 0, 0), 1, material=O.materials[1]))
+check.raises(ValueError, potential_particles.use_joints, "another material", "ElastMat")
+
 check.finish()

@@ -9,10 +9,11 @@ from yade import Body, FrictMat, Vector3, utils
 
 import potential_particles
 from potential_particles import shapes
-from harness import Checks, O, cube, plain, pyramid, pyramid_planes, turned
+from harness import Checks, O, cube, joint_scene, plain, pyramid, pyramid_planes, run, turned
 from potential_particles.output import vtk_files
 from potential_particles.output import picture
-from potential_particles.output.drawn import ShapeMeshes, drawn
+from potential_particles.output.drawn import ShapeMeshes, drawn, edges
+from potential_particles.output.patches import patches
 
 import yade
 
@@ -308,6 +309,116 @@ def test_recorder():
     check.true(not [name for name in os.listdir(path("frames")) if name.endswith(".part")], "no unfinished file stays")
 
 
+def summed(made):
+    """Area of patches, force of their pressure, and its centre."""
+    a, b, c = made.corners[:, 0], made.corners[:, 1], made.corners[:, 2]
+    area = 0.5 * np.linalg.norm(np.cross(b - a, c - a), axis=1)
+    force = area * made.pressure.mean(1)
+    # Of a pressure that is linear on each triangle.
+    weights = (made.pressure[:, :, None] * (made.corners + made.corners.sum(1)[:, None])).sum(1) / 12
+    return area.sum(), force.sum(), (area[:, None] * weights).sum(0) / force.sum()
+
+
+def joined(bonds=False, periodic=False):
+    O.reset()
+    O.periodic = periodic
+    material = yade.ConicJointMat(normalStiffness=1e9, shearStiffness=5e8, frictionAngle=0.5, density=2000.0, cohesion=1e30, tensileStrength=1e30)
+    joint_scene(yade.ConicInteractionLoop, material, 0.0, (0, 0, 0), False, 1e-6, bonds=bonds)
+    if periodic:
+        O.cell.setBox(4, 4, 4)
+        O.engines[1].allowBiggerThanPeriod = True
+
+
+def block(position, **more):
+    return O.bodies[add(cube(r=1e-3, k=0.0), position, (1, 1, 1), **more)]
+
+
+def test_patches():
+    depth = 1e-5
+    # Under even and under one-sided pressure, on a wall, on two facets, on another cube, and across a periodic cell.
+    for under in ("wall", "facets", "cube", "cell"):
+        for tilt in (0.0, 3 * depth):
+            joined(periodic=under == "cell")
+            if under == "wall":
+                O.bodies.append(utils.wall((0, 0, 0), axis=2, sense=1))
+            elif under == "facets":
+                O.bodies.append([utils.facet([Vector3(*corner) for corner in corners])
+                                 for corners in (((-9, -9, 0), (9, -9, 0), (9, 9, 0)), ((-9, -9, 0), (9, 9, 0), (-9, 9, 0)))])
+            else:
+                block((0, 0, 3.5 if under == "cell" else -0.5))
+            upper = block((0, 0, 0.5 - depth), ori=turned((0, 1, 0), tilt))
+            for body in O.bodies:
+                body.dynamic = False
+            O.step()
+            contacts = [contact for contact in O.interactions if contact.isReal]
+            made = patches(contacts)
+            area, force, centre = summed(made)
+            expected = sum(contact.geom.contactArea for contact in contacts)
+            pressed = sum(contact.phys.normalForce.norm() for contact in contacts)
+            middle = sum((contact.phys.normalForce.norm() / pressed * contact.geom.contactPoint for contact in contacts), Vector3.Zero)
+            case = f"{under}, tilt {tilt:g}"
+            check.true(len(contacts) == (2 if under == "facets" else 1), f"{case}: contacts")
+            check.true(abs(area / expected - 1) < 1e-3, f"{case}: area of the patch {area}, expected {expected}")
+            check.true(abs(force / pressed - 1) < 0.03, f"{case}: its pressure adds up to {force}, expected {pressed}")
+            check.true(np.linalg.norm(centre - middle) < 5e-3, f"{case}: about {centre}, expected {middle}")
+            largest = max(contact.geom.largestDepth for contact in contacts) * 1e9
+            check.true(0.9 < made.pressure.max() / largest < 1 + 1e-6, f"{case}: largest pressure {made.pressure.max()}, expected {largest}")
+    # Laws that know areas, and a round patch in its plane.
+    joined()
+    for height in (0.0, 0.999):
+        O.bodies[add(yade.ConicPotentialParticle(k=1, R=0.5), (0, 0, height), (1, 1, 1))].dynamic = False
+    O.engines[2] = yade.InteractionLoop([yade.Ig2_ConicPP_ConicPP_ScGeom(patch=True)],
+                                        [yade.Ip2_FrictMat_FrictMat_KnKsPhys(kn_i=1e9, ks_i=1e9, Knormal=1e9, Kshear=1e9)],
+                                        [yade.Law2_SCG_KnKsPhys_KnKsLaw()])
+    run(2)
+    contact = O.interactions[0, 1]
+    area, force, _ = summed(patches([contact]))
+    check.true(abs(area / contact.geom.contactArea - 1) < 0.01, f"a round patch: {area}, expected {contact.geom.contactArea}")
+    check.true(abs(force / contact.phys.normalForce.norm() - 1) < 0.03, f"its force: {force}, expected {contact.phys.normalForce}")
+    # A bond that is bent and pulled: N/A + M c/I at its edges.
+    joined(bonds=True)
+    lower, upper = block((0, 0, -0.5)), block((0, 0, 0.5 - 1e-9))
+    lower.dynamic = upper.dynamic = False
+    O.step()
+    upper.state.ori, upper.state.pos = turned((0, 1, 0), 2e-5), Vector3(1e-5, 0, 0.5 + 1e-5)
+    O.step()
+    made = patches([O.interactions[0, 1]])
+    # The edge at +x opens by less: a turn about y lowers what lies at x > 0.
+    for x in (-0.5, 0.5):
+        at = np.abs(made.corners[..., 0] - x) < 2e-3
+        expected = -1e9 * (1e-5 - 2e-5 * x)
+        check.true(at.any() and np.allclose(made.pressure[at], expected, atol=0.01 * 1e9 * 1e-5), f"stress of a bond at x = {x}: {made.pressure[at]}, {expected}")
+    record = potential_particles.Recorder(path("patches/run"))
+    record()
+    found = vtk_files.read(path(f"patches/run.patches.{O.iter:07d}.vtp"))
+    check.true(np.allclose(found["pressure"].reshape(-1, 3), made.pressure) and len(found["triangles"]) == len(made.corners), "a frame has the patches")
+    check.equal((set(found["id1"]), set(found["id2"])), ({0}, {1}), "and their bodies")
+    check.equal(open(path("patches/run.patches.pvd")).read().count("<DataSet"), 1, "and a series")
+
+
+def test_picture_of_patches():
+    from matplotlib.image import imread
+    joined()
+    lower, upper = block((0, 0, -0.5)), block((0, 0, 0.5 - 1e-4))
+    lower.dynamic = upper.dynamic = False
+    O.step()
+    triangles = drawn(list(O.bodies), ShapeMeshes(0.01))[0]
+    lengths = np.linalg.norm(np.diff(edges(triangles), axis=1), axis=2)
+    check.true((lengths > 0.99).sum() >= 24, f"edges of two cubes: {np.sort(lengths.ravel())}")
+    check.true(len(edges(drawn([O.bodies[O.bodies.append(utils.sphere((9, 9, 9), 1))]], ShapeMeshes(0.01))[0])) == 0, "a sphere has none")
+    O.bodies.erase(2)
+    potential_particles.plot(path("patch.png"), size=(400, 300), patches=True)
+    image = imread(path("patch.png"))
+    check.equal(image.shape[:2], (300, 400), "size of a picture with its scale")
+    # Yellow is the largest pressure: the patch lies in the middle, the scale on the right.
+    yellow = (image[..., 0] - image[..., 2] > 0.3) & (image[..., 1] > 0.5)
+    check.true(yellow[:, :290].sum() > 500 and yellow[:, 290:].sum() > 20, f"the patch is seen through the cubes: {yellow[:, :290].sum()}")
+    rows = np.nonzero(yellow[:, :290])[0]
+    check.true(100 < rows.mean() < 200, f"between them: {rows.mean()}")
+
+
+test_patches()
+test_picture_of_patches()
 test_mesh()
 test_mesh_files()
 test_outline()

@@ -17,7 +17,7 @@ Then these classes stand beside YADE's own:
     ConicInteractionLoop         the contact loop that skips pairs which cannot have met
     ConicJointMat, Ip2_ConicJointMat_ConicJointMat_ConicJointPhys, Law2_ScGeomConicPP_ConicJointPhys
                                  joints: stiffness per area, friction against slip and twist, restitution, strength,
-                                 bonds (bond_contacts)
+                                 bonds (bond_contacts); use_joints gives them to a scene with another law
     BoundWatch, Bo1_ConicPP_Aabb, Bo1_PP_Aabb_Conic
                                  boxes for verletDist > 0
 
@@ -39,7 +39,7 @@ import functools
 from . import builds, window
 from .bodies import body
 from .clumps import clump
-from .joints import bond_contacts
+from .joints import bond_contacts, use_joints
 from .measures import body_stresses, coordination_number, extrema, fabric_tensor, overlap_ratio, porosity, solid_volume, stress
 from .outside import protect_runs
 from .packing import add_packing, pack
@@ -50,7 +50,7 @@ __version__ = "0.1.0"
 
 __all__ = ["AbiError", "Mesh", "Recorder", "SceneWarning", "add_packing", "body", "body_stresses", "bond_contacts", "check", "clump", "coordination_number",
            "critical_time_step", "extrema", "fabric_tensor", "grading_curve", "library_version", "mesh", "overlap_ratio", "pack", "plot", "porosity",
-           "prepare", "protect_runs", "sampled_porosity", "save_mesh", "solid_volume", "stress", "time_stepper"]
+           "prepare", "protect_runs", "sampled_porosity", "save_mesh", "solid_volume", "stress", "time_stepper", "use_joints"]
 
 
 class AbiError(ImportError):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Bonds of joints, and what the law of joints needs before a scene steps."""
+"""The law of joints in the place of another, bonds of joints, and what the law needs before a scene steps."""
 
 LAW = "Law2_ScGeomConicPP_ConicJointPhys"
 
@@ -15,6 +15,36 @@ def require_patches(engines):
         # Beside another law a functor may serve that one.
         if without and (len(laws) == 1 or len(without) == len(ours)):
             raise ValueError(f"{LAW} needs the contact patch: give {', '.join(without)} the keyword patch=True")
+
+
+def use_joints(**material):
+    """Gives a scene that is set up, and has not stepped, the law of joints (docs/joints.md) in the place of the law of its contact loop.
+
+    Each FrictMat of a body becomes a ConicJointMat of the same density, Young's modulus, Poisson's ratio and friction angle; `material`: further
+    attributes of all of them, or in the place of those. The contact functors of this package get patch=True, and the physics functors and laws of the
+    contact loop give way to those of joints. ValueError where there is no contact loop or already a contact, or a body has another material.
+    """
+    import yade
+    scene = yade.O
+    loops = [engine for engine in scene.engines if hasattr(engine, "lawDispatcher")]
+    if not loops:
+        raise ValueError("the scene has no contact loop yet: set O.engines first")
+    if any(contact.isReal for contact in scene.interactions):
+        raise ValueError("there are contacts already, with physics of another law: call use_joints before the first step")
+    joints = {}
+    for body in [body for body in scene.bodies if body.mat is not None]:
+        if not isinstance(body.mat, yade.FrictMat):
+            raise ValueError(f"body {body.id} has a {type(body.mat).__name__}: use_joints takes FrictMat and what is derived from it")
+        if body.mat.id not in joints:
+            given = {name: getattr(body.mat, name) for name in ("density", "young", "poisson", "frictionAngle")}
+            joints[body.mat.id] = scene.materials[scene.materials.append(yade.ConicJointMat(**{**given, **material}))]
+        body.mat = joints[body.mat.id]
+    for loop in loops:
+        for functor in loop.geomDispatcher.functors:
+            if hasattr(functor, "patch"):
+                functor.patch = True
+        loop.physDispatcher.functors = [yade.Ip2_ConicJointMat_ConicJointMat_ConicJointPhys()]
+        loop.lawDispatcher.functors = [yade.Law2_ScGeomConicPP_ConicJointPhys()]
 
 
 def bond_contacts(bodies=None):

@@ -302,8 +302,13 @@ bool Ig2_ConicPP_ConicPP_ScGeom::fillPatch(PairInScene& pair, pp_status status, 
 double Ig2_ConicPP_ConicPP_ScGeom::areaAtPoint(const PairInScene& pair, const Posed& body1, const Posed& body2, const pp_contact& found)
 {
     double area;
-    requireOk(pp_contact_area(body1.particle->handle(), &body1.pose, body2.particle->handle(), &body2.pose, &found,
-                              pair.settings.given.areaTolerance, &area));
+    const pp_status status = pp_contact_area(body1.particle->handle(), &body1.pose, body2.particle->handle(), &body2.pose, &found,
+                                             pair.settings.given.areaTolerance, &area);
+    // Bodies that overlap by nothing but rounding: no point lies in both, and no force comes from such a contact.
+    if (status == PP_BAD_POINT)
+        area = 0;
+    else
+        requireOk(status);
     pair.counts.add(Count::areas);
     return area;
 }

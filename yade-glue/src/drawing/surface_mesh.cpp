@@ -1,23 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "surface_mesh.hpp"
 
-#include <boost/python/handle.hpp>
-#include <boost/python/object.hpp>
+#include "registration/python_bytes.hpp"
 
 namespace py = boost::python;
 
 namespace potential_particles {
-
-namespace {
-
-    // numpy reads it without a copy.
-    template <class Value> py::object bytes(const std::vector<Value>& values)
-    {
-        const auto size = static_cast<Py_ssize_t>(values.size() * sizeof(Value));
-        return py::object(py::handle<>(PyBytes_FromStringAndSize(reinterpret_cast<const char*>(values.data()), size)));
-    }
-
-} // namespace
 
 SurfaceMesh SurfaceMesh::of(const Particle& particle, double tolerance)
 {

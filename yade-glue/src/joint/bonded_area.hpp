@@ -5,15 +5,9 @@
 
 #include "conic_joint_phys.hpp"
 #include "moving_body.hpp"
-#include "pair/contact_patch.hpp"
+#include "patch_rim.hpp"
 
 namespace potential_particles {
-
-// Where a patch lies: the centre of its pressure, and its normal.
-struct PatchPlace {
-    const yade::Vector3r& point;
-    const yade::Vector3r& normal;
-};
 
 // Bonds the patch as it is. held: what the springs of the joint hold now, on body 2 about the centre of pressure; those of the bond begin
 // with the same.

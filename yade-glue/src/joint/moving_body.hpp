@@ -5,6 +5,7 @@
 
 #include "abi/scene.hpp"
 #include "abi/state.hpp"
+#include "patch_rim.hpp"
 
 namespace potential_particles {
 
@@ -26,8 +27,7 @@ public:
     }
     const yade::Vector3r& centre() const { return position; }
     const yade::Quaternionr& turn() const { return body.state->se3.orientation; }
-    const boost::shared_ptr<yade::Shape>& shape() const { return body.shape; }
-    const yade::State& state() const { return *body.state; }
+    PosedShape posed() const { return { body.shape, *body.state, shift }; }
     const yade::Vector3r& spin() const { return body.state->angVel; }
 
     // Velocity in that direction of the point for a unit impulse there in that direction, 1/kg: 0 of a body that is held.

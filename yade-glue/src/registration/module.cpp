@@ -4,6 +4,7 @@
 #include "abi/base.hpp"
 
 #include "check/load_check.hpp"
+#include "joint/patch_surface.hpp"
 #include "packing/packing.hpp"
 #include "particle/particle_store.hpp"
 #include "shape/plane_lists.hpp"
@@ -70,6 +71,7 @@ BOOST_PYTHON_MODULE(_glue)
     py::def("retired_count", &pp::retiredCount);
     py::def("set_list", &setListOf);
     py::def("surface_mesh", &pp::surfaceMesh);
+    py::def("patch_surface", &pp::patchSurface);
     py::def("pack", &pp::packContainer);
     py::def("window_dispatcher", &pp::windowDispatcher);
     py::scope().attr("packing_choices") = pp::packingChoices();

@@ -4,6 +4,7 @@
     mesh.py        a closed mesh of a shape, and its file .stl or .vtp
     vtk_files.py   files for ParaView, through VTK's Python modules
     drawn.py       YADE's bodies as triangles
+    patches.py     contact patches as triangles with their pressure
     view.py        a pinhole camera
     graphics.py    OpenGL without a display
     light.py       sun and sky

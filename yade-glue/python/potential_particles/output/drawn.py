@@ -96,6 +96,23 @@ def copies(local, positions, rotations, colours, bodies):
                      np.repeat(bodies, count))
 
 
+def edges(triangles):
+    """Edges of bodies, (n, 2, 3): sides between two triangles of a body that meet at more than EDGE_ANGLE."""
+    points, normals = triangles.corners.reshape(-1, 3), _flat(triangles.corners)[1][:, 0]
+    if not len(points):
+        return np.zeros((0, 2, 3))
+    # What is equal to 1e-6 of the scene is one point of a body.
+    keys = np.column_stack([np.repeat(triangles.bodies, 3), np.round((points - points.min(0)) / (1e-6 * np.ptp(points, axis=0).max()))])
+    first, number = np.unique(keys, axis=0, return_index=True, return_inverse=True)[1:]
+    number = number.reshape(-1, 3)
+    sides = np.sort(np.concatenate([number[:, [0, 1]], number[:, [1, 2]], number[:, [2, 0]]]), axis=1)
+    order = np.lexsort(sides.T)
+    sides, normals = sides[order], np.tile(normals, (3, 1))[order]
+    pairs = np.flatnonzero((sides[1:] == sides[:-1]).all(1))
+    sharp = pairs[(normals[pairs] * normals[pairs + 1]).sum(1) < np.cos(EDGE_ANGLE)]
+    return points[first[sides[sharp]]]
+
+
 def floor(height, half_width, middle=(0.0, 0.0)):
     """A square floor at this height as a boundary."""
     corners, normals = _flat(half_width * _cube()[:2] + (*middle, height - half_width))

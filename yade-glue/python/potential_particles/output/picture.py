@@ -4,7 +4,8 @@ import numpy as np
 import yade
 
 from . import vtk_files
-from .drawn import ShapeMeshes, Triangles, drawn
+from .drawn import ShapeMeshes, Triangles, drawn, edges
+from .patches import patches as patches_of
 from .view import View, framing_view
 
 VIEW_ANGLE = 0.42  # full height, radians
@@ -15,14 +16,19 @@ GLASS = 0.12  # opacity of the boundaries between the eye and the bodies
 SKY_SHARE = 0.6  # of the light; the rest is the sun's
 GAP = 0.1  # how far apart surfaces may be that darken each other, in radii of the scene
 ROUGH = 0.01  # nearer than this, VTK's half-precision places cannot tell a gap from a surface
+VEIL = 0.22  # opacity of bodies whose patches are shown
+EDGE_COLOUR, EDGE_PIXELS = (0.35, 0.36, 0.38), 1.2
+PRESSURE_MAP = "plasma"
+BAR = 110  # pixels beside the picture for the scale of the pressure
 NEAR = 1.1  # boundaries that far from the middle, in radii of the scene, are held by the view
 
 
-def plot(file, towards=(0.46, -0.84, 0.42), size=(1000, 800), tolerance=None, bodies=None):
+def plot(file, towards=(0.46, -0.84, 0.42), size=(1000, 800), tolerance=None, bodies=None, patches=False):
     """Draws the present scene to a PNG: particles, spheres, boxes, facets and walls, each in the colour of its shape.
 
     towards: direction from the scene to the eye, world axes. size: width and height in pixels. tolerance: of the meshes of
-    particles (see `mesh`); without one it follows from the size of the bodies on the picture. bodies: ids; without them, all.
+    particles (see `mesh`); without one it follows from the size of the bodies on the picture. bodies: ids; without them, all. patches: bodies become
+    transparent, and contact patches between them (functors with patch=True, bonds) show their pressure, with a scale in pascals.
     The camera stands so that all bodies are seen, through those boundaries (Box, Facet, Wall, shapes with isBoundary) that would
     hide them. Needs no display. ValueError for a scene that has nothing to draw; RuntimeError with the packages to install
     where there is no OpenGL.
@@ -33,8 +39,17 @@ def plot(file, towards=(0.46, -0.84, 0.42), size=(1000, 800), tolerance=None, bo
     if tolerance is None:
         tolerance = fitting_tolerance(sum(not body.isClump for body in scene), size)
     of_bodies, of_boundaries = drawn(scene, ShapeMeshes(tolerance))
-    view = framing(of_bodies, of_boundaries, towards, width / height)
-    imsave(file, render(of_bodies, of_boundaries, view, width, height))
+    if not patches:
+        view = framing(of_bodies, of_boundaries, towards, width / height)
+        imsave(file, render(of_bodies, of_boundaries, view, width, height))
+        return
+    chosen = {body.id for body in scene}
+    shown = patches_of([contact for contact in yade.O.interactions if contact.isReal and {contact.id1, contact.id2} <= chosen])
+    view = framing(of_bodies, of_boundaries, towards, (width - BAR) / height)
+    scale, pascals, unit = _pressure_scale(shown.pressure)
+    coloured = Triangles(shown.corners, np.zeros_like(shown.corners), scale.to_rgba(shown.pressure / pascals)[..., :3],
+                         np.zeros(len(shown.corners), int))
+    imsave(file, _with_scale(render(of_bodies, of_boundaries, view, width - BAR, height, coloured), scale, unit))
 
 
 def fitting_tolerance(count, size):
@@ -56,13 +71,16 @@ def framing(of_bodies, of_boundaries, towards, aspect):
     return framing_view(points, towards, VIEW_ANGLE, aspect)
 
 
-def render(of_bodies, of_boundaries, view, width, height):
-    """An RGB image (height, width, 3), 0 to 1, of triangles (drawn.Triangles) as the view sees them."""
+def render(of_bodies, of_boundaries, view, width, height, within=None):
+    """An RGB image (height, width, 3), 0 to 1, of triangles (drawn.Triangles) as the view sees them.
+
+    within: triangles with a colour at each corner, (n, 3, 3), that are seen through the bodies.
+    """
     from .graphics import with_graphics
-    return with_graphics(_render, of_bodies, of_boundaries, view, width, height)
+    return with_graphics(_render, of_bodies, of_boundaries, view, width, height, within)
 
 
-def _render(window, of_bodies, of_boundaries, view, width, height):
+def _render(window, of_bodies, of_boundaries, view, width, height, within):
     from vtkmodules.util.numpy_support import vtk_to_numpy
     from . import light
     # In VTK's single precision, whatever the place and the size of the scene.
@@ -72,9 +90,20 @@ def _render(window, of_bodies, of_boundaries, view, width, height):
     parts = _sides(of_boundaries, view, middle, radius) if bodies else (of_boundaries, Triangles.together([]))
     behind, before = (_actor(part, middle, radius, BOUNDARY_COLOUR) for part in parts)
     shadows = light.sun_map(window, bodies) if bodies else None
-    renderer = _renderer(view)
+    renderer = _renderer(view, occlusion=within is None)
     if bodies:
-        light.light(bodies, shadows, view, fading=False)
+        light.light(bodies, shadows if within is None else None, view, fading=False)
+    if bodies and within is not None:
+        bodies.GetProperty().SetOpacity(VEIL)
+        renderer.AddActor(_lines(edges(of_bodies), middle, radius))
+        inner = _actor(within, middle, radius)
+        if inner:
+            inner.GetProperty().LightingOff()
+            inner.GetProperty().BackfaceCullingOff()
+            # Before a boundary that it lies on.
+            inner.GetMapper().SetResolveCoincidentTopologyToPolygonOffset()
+            inner.GetMapper().SetRelativeCoincidentTopologyPolygonOffsetParameters(-4.0, -4.0)
+            renderer.AddActor(inner)
     if behind:
         light.light(behind, shadows, view, fading=True)
     if before:
@@ -92,14 +121,15 @@ def _render(window, of_bodies, of_boundaries, view, width, height):
 
 
 def _actor(triangles, middle, radius, colour=None):
-    """Triangles as an actor of VTK, None without any; each in its own colour where there is not one for all."""
+    """Triangles as an actor of VTK, None without any; each, or each of its corners, in its own colour where there is not one for all."""
     from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper
     if not len(triangles.corners):
         return None
     points = ((triangles.corners.reshape(-1, 3) - middle) / radius).astype(np.float32)
     data = {"normal": triangles.normals.reshape(-1, 3).astype(np.float32)}
     if colour is None:
-        data["colour"] = np.repeat(np.round(255.0 * triangles.colours).astype(np.uint8), 3, axis=0)
+        colours = np.round(255.0 * triangles.colours).astype(np.uint8)
+        data["colour"] = colours.reshape(-1, 3) if colours.ndim == 3 else np.repeat(colours, 3, axis=0)
     mapper, actor = vtkPolyDataMapper(), vtkActor()
     mapper.SetInputData(vtk_files.triangles(points, np.arange(len(points)).reshape(-1, 3), data, normals="normal"))
     mapper.SetScalarModeToUsePointFieldData()
@@ -113,8 +143,41 @@ def _actor(triangles, middle, radius, colour=None):
     return actor
 
 
-def _renderer(view):
-    """A renderer with a camera, the sun, and gaps and contacts that are darker than what the sky reaches."""
+def _lines(segments, middle, radius):
+    """Segments (n, 2, 3) as an actor of VTK."""
+    from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper
+    mapper, actor = vtkPolyDataMapper(), vtkActor()
+    mapper.SetInputData(vtk_files.lines(((segments - middle) / radius).astype(np.float32)))
+    actor.SetMapper(mapper)
+    actor.GetProperty().SetColor(EDGE_COLOUR)
+    actor.GetProperty().LightingOff()
+    actor.GetProperty().SetLineWidth(SAMPLES * EDGE_PIXELS)
+    return actor
+
+
+def _pressure_scale(pressure):
+    """Colours for pressures in a unit, that unit in pascals, and its name."""
+    from matplotlib import cm, colors
+    largest = np.abs(pressure).max(initial=0.0)
+    pascals, unit = next(((size, name) for size, name in ((1e9, "GPa"), (1e6, "MPa"), (1e3, "kPa")) if largest >= size), (1.0, "Pa"))
+    span = colors.Normalize(pressure.min(initial=0.0) / pascals, (pressure.max(initial=0.0) or largest or 1.0) / pascals)
+    return cm.ScalarMappable(span, PRESSURE_MAP), pascals, unit
+
+
+def _with_scale(image, scale, unit):
+    """An image with the scale of the pressure on its right."""
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.figure import Figure
+    height, dots = len(image), 100
+    figure = Figure(figsize=(BAR / dots, height / dots), dpi=dots, facecolor="white")
+    canvas = FigureCanvasAgg(figure)
+    figure.colorbar(scale, cax=figure.add_axes([0.05, 0.2, 0.2, 0.6]), label=f"pressure, {unit}")
+    canvas.draw()
+    return np.concatenate([image, np.asarray(canvas.buffer_rgba())[:height, :, :3] / np.float32(255.0)], axis=1)
+
+
+def _renderer(view, occlusion=True):
+    """A renderer with a camera, the sun, and gaps and contacts that are darker than what the sky reaches, if `occlusion` is wanted."""
     from vtkmodules.vtkRenderingCore import vtkLight, vtkRenderer
     from vtkmodules.vtkRenderingOpenGL2 import vtkRenderStepsPass, vtkSSAOPass
     from .light import FADE, SUN
@@ -131,12 +194,13 @@ def _renderer(view):
     camera.SetViewUp(view.axes()[1])
     camera.SetViewAngle(np.degrees(view.angle))
     camera.SetClippingRange(max(distance - FADE[1], 0.01 * distance), distance + FADE[1])
-    occlusion = vtkSSAOPass()
-    occlusion.SetDelegatePass(vtkRenderStepsPass())
-    occlusion.SetRadius(GAP)
-    occlusion.SetBias(ROUGH)
-    occlusion.BlurOn()
-    renderer.SetPass(occlusion)
+    if occlusion:
+        darkened = vtkSSAOPass()
+        darkened.SetDelegatePass(vtkRenderStepsPass())
+        darkened.SetRadius(GAP)
+        darkened.SetBias(ROUGH)
+        darkened.BlurOn()
+        renderer.SetPass(darkened)
     return renderer
 
 

@@ -8,6 +8,7 @@ import yade
 
 from . import chains, vtk_files
 from .drawn import ShapeMeshes, Triangles, drawn
+from .patches import Patches, patches
 
 _BODY = {"id": 1, "material": 1, "mask": 1, "rank": 1, "velocity": 3, "angular_velocity": 3}
 _CONTACT = {"point": 3, "normal": 3, "overlap": 1, "normal_force": 3, "shear_force": 3, "id1": 1, "id2": 1,
@@ -26,9 +27,11 @@ class Recorder:
     name when it is whole, so that a run may be interrupted at any time.
     Bodies are triangles, with id, material (its id, or -1), mask, rank, velocity and angular_velocity (world axes) of their body.
     Contacts are the points of real interactions, with normal (from body id1 to id2), overlap, normal_force and shear_force
-    (world axes, on body id2), id1 and id2; forces are 0 for physics without them.
+    (world axes, on body id2), id1 and id2; forces are 0 for physics without them. With patch=True the point is the centre of pressure.
     <name>.chains.<step>.vtp has the same contacts as lines between the centres of their bodies, from wall to centre at walls: force chains (in ParaView: Tube, by `push`,
     the normal force, above 0 where bodies push).
+    Where a contact functor has patch=True there is <name>.patches.<step>.vtp, too, with its series: the contact patches and bonds as triangles
+    with pressure (Pa, at their corners), id1 and id2.
     tolerance: of the meshes of particles (see `mesh`). ids: of the bodies that are wanted; without them, all.
     On several ranks (potential_particles.mpi) it is to be called by all of them, between two calls of mpi.run; rank 0 writes.
     """
@@ -36,16 +39,17 @@ class Recorder:
     def __init__(self, name, tolerance=0.02, ids=None):
         self.name, self.ids = os.fspath(name), ids
         self.meshes = ShapeMeshes(tolerance)
-        self.frames = {"bodies": [], "contacts": [], "chains": []}
+        self.frames = {"bodies": [], "contacts": [], "chains": [], "patches": []}
         os.makedirs(os.path.dirname(self.name) or ".", exist_ok=True)
 
     def __call__(self):
         rank, bodies, contacts, gather = _here()
         if self.ids is not None:
-            wanted = set(self.ids)
-            bodies = [body for body in bodies if body.id in wanted]
+            chosen = set(self.ids)
+            bodies = [body for body in bodies if body.id in chosen]
+        wanted = _with_patches()
         parts = gather((Triangles.together(drawn(bodies, self.meshes)), _rows(bodies, rank, _body, _BODY),
-                        _rows(contacts, rank, _contact, _CONTACT)))
+                        _rows(contacts, rank, _contact, _CONTACT), patches(contacts if wanted else [])))
         if rank:
             return
         triangles = Triangles.together([part[0] for part in parts])
@@ -53,6 +57,10 @@ class Recorder:
         self._write("bodies", self._bodies(triangles, _columns(of_bodies, _BODY)))
         columns = _columns(of_contacts, _CONTACT)
         self._write("chains", chains.lines(columns))
+        if wanted:
+            first = np.cumsum([0] + [len(part[2]) for part in parts])
+            self._write("patches", self._patches([Patches(part[3].corners, part[3].pressure, part[3].contacts + begin)
+                                                  for part, begin in zip(parts, first)], columns))
         del columns["begin"], columns["end"]
         self._write("contacts", vtk_files.vertices(columns.pop("point"), columns))
 
@@ -65,6 +73,13 @@ class Recorder:
         normals = triangles.normals.reshape(-1, 3).astype(np.float32)
         cells = {name: column[row] for name, column in columns.items()}
         return vtk_files.triangles(points, np.arange(3 * count).reshape(-1, 3), {"normal": normals}, cells, normals="normal")
+
+    @staticmethod
+    def _patches(parts, columns):
+        made = Patches.together(parts)
+        count = len(made.corners)
+        return vtk_files.triangles(made.corners.reshape(-1, 3), np.arange(3 * count).reshape(-1, 3), {"pressure": made.pressure.ravel()},
+                                   {name: columns[name][made.contacts] for name in ("id1", "id2")})
 
     def _write(self, kind, data):
         step = yade.O.iter
@@ -83,6 +98,12 @@ def _here():
         return mpi.rank(), mpi.owned_bodies(), mpi.owned_contacts(), mpi.gather
     contacts = [contact for contact in yade.O.interactions if contact.isReal]
     return 0, [body for body in yade.O.bodies if body is not None], contacts, lambda value: [value]
+
+
+def _with_patches():
+    """Whether a contact functor of the scene finds patches."""
+    return any(getattr(functor, "patch", False) for engine in yade.O.engines if hasattr(engine, "geomDispatcher")
+               for functor in engine.geomDispatcher.functors)
 
 
 def _body(body, rank):
