@@ -225,6 +225,22 @@ check.equal(falling(yade.ConicInteractionLoop), plain_loop, "ConicInteractionLoo
 check.equal(falling(yade.ConicInteractionLoop, saved=True), falling(yade.ConicInteractionLoop, saved=True), "saved runs repeat")
 check.true(max(abs(a - b) for a, b in zip(falling(yade.ConicInteractionLoop, saved=True), plain_loop)) < 1e-6, "a saved run goes on")
 
+# --- bodies that touch, and overlap by nothing but rounding -----------------------------------------------------------
+
+for patch, physics, law in ((True, yade.Ip2_ConicJointMat_ConicJointMat_ConicJointPhys(), yade.Law2_ScGeomConicPP_ConicJointPhys()),
+                            (False, yade.Ip2_FrictMat_FrictMat_KnKsPhys(kn_i=1e9, ks_i=1e9, Knormal=1e9, Kshear=1e9), yade.Law2_SCG_KnKsPhys_KnKsLaw())):
+    touching = yade.Ig2_ConicPP_ConicPP_ScGeom(patch=patch, calContactArea=True)
+    fresh_scene(touching, physics, law, dt=1e-6)
+    if patch:
+        O.materials.append(yade.ConicJointMat(normalStiffness=1e9, density=2000.0))
+    wide = [(*normal, (20 if normal[0] else 2 if normal[1] else 0.5) - 1e-3) for normal in
+            ((1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0), (0, 0, 1), (0, 0, -1))]
+    add(yade.ConicPotentialParticle(planes=wide, r=1e-3, k=0.0, R=25.0), Vector3(0, 0, -0.5), fixed=True)
+    add(cube(r=1e-3, k=0.0), Vector3(0, 0, 0.5), fixed=True)
+    run(3)
+    check.equal(touching.failures, 0, f"no failure where bodies just touch, patch={patch}: {touching.failureReport}")
+    check.close(O.forces.f(1), Vector3.Zero, 1e-6, "and no force")
+
 # --- in the place of another law --------------------------------------------------------------------------------------
 
 fresh_scene(yade.Ig2_ConicPP_ConicPP_ScGeom(), yade.Ip2_FrictMat_FrictMat_FrictPhys(), yade.Law2_ScGeom_FrictPhys_CundallStrack(sphericalBodies=False), dt=1e-6)
