@@ -22,7 +22,7 @@ from harness import *
 check = Checks()
 ours = potential_particles._glue.class_names
 replaced = {name for name, value in attributes().items() if before.get(name) is not value and name[0] not in ours}
-check.equal(replaced, {("Omega", name) for name in ("run", "step", "load")}
+check.equal(replaced, {("Body", "shape")} | {("Omega", name) for name in ("run", "step", "load")}
             | {("PotentialParticle", name) for name in ("a", "b", "c", "d", "vertices", "updateAttrs")}, "what the import replaces or adds")
 
 # Spheres that fall on each other, while the prompt makes bodies that it does not add.
