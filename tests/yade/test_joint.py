@@ -4,6 +4,7 @@ import math
 
 from harness import *
 import potential_particles
+from potential_particles import shapes
 import yade
 
 check = Checks()
@@ -229,14 +230,13 @@ check.true(max(abs(a - b) for a, b in zip(falling(yade.ConicInteractionLoop, sav
 
 for patch, physics, law in ((True, yade.Ip2_ConicJointMat_ConicJointMat_ConicJointPhys(), yade.Law2_ScGeomConicPP_ConicJointPhys()),
                             (False, yade.Ip2_FrictMat_FrictMat_KnKsPhys(kn_i=1e9, ks_i=1e9, Knormal=1e9, Kshear=1e9), yade.Law2_SCG_KnKsPhys_KnKsLaw())):
-    touching = yade.Ig2_ConicPP_ConicPP_ScGeom(patch=patch, calContactArea=True)
+    touching = yade.Ig2_ConicPP_ConicPP_ScGeom(patch=patch, calContactArea=True, flatRegularisation=1e-3)
     fresh_scene(touching, physics, law, dt=1e-6)
     if patch:
         O.materials.append(yade.ConicJointMat(normalStiffness=1e9, density=2000.0))
-    wide = [(*normal, (20 if normal[0] else 2 if normal[1] else 0.5) - 1e-3) for normal in
-            ((1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0), (0, 0, 1), (0, 0, -1))]
-    add(yade.ConicPotentialParticle(planes=wide, r=1e-3, k=0.0, R=25.0), Vector3(0, 0, -0.5), fixed=True)
-    add(cube(r=1e-3, k=0.0), Vector3(0, 0, 0.5), fixed=True)
+    for size, height in (((40, 4, 1), -0.5), ((1, 1, 1), 0.5)):
+        corners = [(0.5 * x * size[0], 0.5 * y * size[1], 0.5 * z * size[2]) for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)]
+        O.bodies.append(potential_particles.body(shapes.from_vertices(corners, r=1e-3, k=0.0), position=(0, 0, height), fixed=True))
     run(3)
     check.equal(touching.failures, 0, f"no failure where bodies just touch, patch={patch}: {touching.failureReport}")
     check.close(O.forces.f(1), Vector3.Zero, 1e-6, "and no force")
