@@ -29,6 +29,7 @@ Contact detection between potential particles.
   make bench    run time, each target beside what was measured, and run time against error; results in out/bench
   make side-by-side  YADE's own contact functor and this one on the same scenes; results in out/side_by_side
   make patch    contact patches: closed forms, the gradient of their energy, time by kind; results in out/patch
+  make rock     a rock mass cut into blocks: time, closure of volume, a slope as a picture; results in out/rock
   make patch-yade   joints in YADE: closed forms, energy, rest, time; results in out/patch-yade
   make peers    the codes one would pick instead, on the same pairs and piles; installs them; results in out/peers
   make roofline after make peers: what limits a call from memory, and a step of a pile; results in out/roofline
@@ -84,7 +85,7 @@ export PATH := $(PATH):$(HOME)/.cargo/bin
 
 heading = @printf '== %s\n' '$(1)'
 
-.PHONY: check sanitize guide deb packages-test install help demo wedge classics mpi scale mpi-scale test test-debian13 side-by-side patch patch-yade peers roofline setup build library glue header lint bench stress fuzz long clean
+.PHONY: check sanitize guide deb packages-test install help demo wedge classics mpi scale mpi-scale test test-debian13 side-by-side patch rock patch-yade peers roofline setup build library glue header lint bench stress fuzz long clean
 .DEFAULT_GOAL := help
 # The steps of one goal build on each other in the order in which they are named.
 .NOTPARALLEL:
@@ -199,6 +200,11 @@ patch:
 	$(call heading,Contact patches)
 	@cargo bench --bench patch $(if $(QUICK),-- quick)
 	@/usr/bin/python3 benches/patch/plot.py
+
+rock:
+	$(call heading,Rock masses)
+	@cargo bench --bench rock $(if $(QUICK),-- quick)
+	@/usr/bin/python3 benches/rock/plot.py
 
 patch-yade: export CASES := $(CASES)
 patch-yade: export OUTPUT := $(OUTPUT)

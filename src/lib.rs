@@ -25,6 +25,7 @@
 //! | `patch` | the contact patch: pressure, force, torque, area, energy |
 //! | `surface` | a closed mesh of triangles on the surface |
 //! | [`packing`] | bodies placed in a container without overlap, as a start for a simulation |
+//! | [`rock`] | a rock mass cut into blocks by its joints |
 //! | [`planar`] | the same for particles of the plane |
 //! | `serialisation` | what can be written down and read back with serde (feature `serde`) |
 //! | `capi` | the C interface, the only place with `unsafe` (feature `capi`) |
@@ -71,11 +72,13 @@ mod particle;
 mod patch;
 pub mod planar;
 mod pose;
+mod random;
 #[cfg(feature = "cone-program")]
 mod reference;
 #[cfg(not(feature = "cone-program"))]
 #[path = "reference_left_out.rs"]
 mod reference;
+pub mod rock;
 mod section;
 #[cfg(feature = "serde")]
 mod serialisation;
@@ -119,3 +122,7 @@ struct Readme;
 #[cfg(doctest)]
 #[doc = include_str!("../docs/rust.md")]
 struct Guide;
+
+#[cfg(doctest)]
+#[doc = include_str!("../docs/rock.md")]
+struct RockGuide;

@@ -1,9 +1,9 @@
 //! A box or an upright cylinder, and whether it holds a particle.
 
 use crate::packing::error::PackError;
-use crate::packing::random::Random;
 use crate::particle::particle::Particle;
 use crate::pose::Pose;
+use crate::random::Random;
 use nalgebra::Vector3;
 use std::f64::consts::{PI, TAU};
 

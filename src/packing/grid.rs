@@ -69,7 +69,7 @@ impl Grid {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::packing::random::Random;
+    use crate::random::Random;
 
     #[test]
     fn cells_are_few_in_regions_of_any_shape() {

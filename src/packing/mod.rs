@@ -7,7 +7,6 @@
 //! | file | holds |
 //! |---|---|
 //! | `error` | why nothing can be packed |
-//! | `random` | the random numbers of one body |
 //! | `container` | a box or an upright cylinder, and whether it holds a particle |
 //! | `sizes` | distributions of size, by number, by mass or as a grading curve |
 //! | `grid` | which boxes are near a box |
@@ -22,7 +21,6 @@ mod error;
 mod grid;
 mod pack;
 mod pile;
-mod random;
 mod scattered;
 mod settled;
 mod sizes;

@@ -8,12 +8,12 @@ use crate::contact::batch::{CHUNK, in_parallel};
 use crate::packing::container::Container;
 use crate::packing::error::PackError;
 use crate::packing::pile::{Pile, Trial};
-use crate::packing::random::Random;
 use crate::packing::sizes::Sizes;
 use crate::packing::supply::{Supply, Wanted};
 use crate::packing::{scattered, settled};
 use crate::particle::particle::Particle;
 use crate::pose::Pose;
+use crate::random::Random;
 
 /// Where places are sought.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,9 +1,9 @@
 //! A place anywhere in the container: random sequential addition.
 
 use crate::packing::pile::{Pile, Trial};
-use crate::packing::random::Random;
 use crate::particle::particle::Particle;
 use crate::pose::Pose;
+use crate::random::Random;
 use nalgebra::{UnitQuaternion, Vector3};
 
 /// Poses that are tried. At the densities at which most of them fail, ten times as many would place few bodies more.

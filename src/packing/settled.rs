@@ -6,10 +6,10 @@
 //! other on the way does not matter, but for where they come to rest.
 
 use crate::packing::pile::{Pile, Trial};
-use crate::packing::random::Random;
 use crate::packing::scattered::placed;
 use crate::particle::particle::Particle;
 use crate::pose::Pose;
+use crate::random::Random;
 use nalgebra::{UnitQuaternion, Vector3};
 
 /// Falls of one body, of which the lowest place counts.

@@ -1,10 +1,10 @@
 //! The bodies that are to be placed, one after the other.
 
 use crate::packing::error::PackError;
-use crate::packing::random::Random;
 use crate::packing::sizes::Sizes;
 use crate::particle::mass_properties::MASS_TOLERANCE;
 use crate::particle::particle::Particle;
+use crate::random::Random;
 use std::f64::consts::PI;
 
 /// A body that looks for its place.

@@ -63,12 +63,13 @@ impl Polyhedron {
         Self { corners: (0..8).map(corner).collect(), least_cut, start: 0, searches: 0 }
     }
 
-    /// Cuts off what lies beyond n·x = `height`, with n of unit length; the new face is `number`.
-    pub fn cut(&mut self, number: usize, n: &Vector3<f64>, height: f64) {
+    /// Cuts off what lies beyond n·x = `height`, with n of unit length; the new face is `number`. Whether it did: not where that is less
+    /// than the least cut, or where rounding leaves no closed surface.
+    pub fn cut(&mut self, number: usize, n: &Vector3<f64>, height: f64) -> bool {
         let excess = |corner: &Corner| n.dot(&corner.at) - height;
         let highest = self.highest(n);
         if !(excess(&self.corners[highest]) > self.least_cut) {
-            return;
+            return false;
         }
         // All corners beyond the plane, and the edges that lead out of them: from corner, its edge, to corner.
         let mut removed = vec![highest];
@@ -96,7 +97,7 @@ impl Polyhedron {
         }
         let Some(following) = around(edges.iter().map(|&(.., left, right)| (left, right))) else {
             removed.iter().for_each(|&i| self.corners[i].state = State::Kept(0));
-            return;
+            return false;
         };
         let first = self.corners.len();
         let mut preceding = vec![0; following.len()];
@@ -110,6 +111,44 @@ impl Polyhedron {
             self.corners[kept].next[side] = first + i;
         }
         self.start = first;
+        true
+    }
+
+    /// Whether it reaches farther than the least cut on both sides of n·x = `height`.
+    pub fn is_crossed(&self, n: &Vector3<f64>, height: f64) -> bool {
+        let excess = self.corners().map(|at| n.dot(at) - height);
+        let (low, high) = excess.fold((0.0_f64, 0.0_f64), |(low, high), excess| (low.min(excess), high.max(excess)));
+        low < -self.least_cut && high > self.least_cut
+    }
+
+    /// The parts below and beyond n·x = `height`, both with the new face `number`; `None` where it is not crossed, or rounding leaves no
+    /// closed surface.
+    pub fn split(&self, number: usize, n: &Vector3<f64>, height: f64) -> Option<[Self; 2]> {
+        let (mut below, mut beyond) = (self.clone(), self.clone());
+        let is_cut = below.cut(number, n, height) && beyond.cut(number, &-n, -height);
+        is_cut.then(|| [below.compacted(), beyond.compacted()])
+    }
+
+    /// The same without the corners that were taken away.
+    fn compacted(mut self) -> Self {
+        let mut place = vec![usize::MAX; self.corners.len()];
+        let is_left = |corner: &Corner| corner.state != State::Removed;
+        let left = (0..self.corners.len()).filter(|&i| is_left(&self.corners[i]));
+        left.enumerate().for_each(|(new, old)| place[old] = new);
+        self.corners.retain(is_left);
+        self.corners.iter_mut().for_each(|corner| corner.next = corner.next.map(|next| place[next]));
+        self.start = 0;
+        self
+    }
+
+    /// Least depth of a cut, length.
+    pub fn least_cut(&self) -> f64 {
+        self.least_cut
+    }
+
+    /// All corners.
+    pub fn corners(&self) -> impl Iterator<Item = &Vector3<f64>> {
+        self.corners.iter().filter(|corner| corner.state != State::Removed).map(|corner| &corner.at)
     }
 
     /// The corner that lies farthest along n: uphill from corner to corner, also between those that are level but for `least_cut`.

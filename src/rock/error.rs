@@ -1,0 +1,43 @@
+//! Why a rock mass cannot be cut.
+
+use thiserror::Error;
+
+/// Why a rock mass cannot be cut.
+#[derive(Clone, Debug, Error, PartialEq)]
+pub enum RockError {
+    /// A number is not finite or outside its range.
+    #[error("{name} = {value} must be {range}")]
+    OutOfRange {
+        /// Which number.
+        name: &'static str,
+        /// What was given.
+        value: f64,
+        /// What it has to be.
+        range: &'static str,
+    },
+    /// A plane of the domain has a normal of length 0, or numbers that are not finite.
+    #[error("plane {0} of the domain is none: its normal must have a length, and its numbers must be finite")]
+    NoPlane(usize),
+    /// A joint has a normal of length 0, or numbers that are not finite.
+    #[error("joint {0} is none: its normal must have a length, and its numbers must be finite")]
+    NoJoint(usize),
+    /// The planes of the domain enclose no volume.
+    #[error("the domain is empty: no point lies inside of all its planes; normals have to point outwards")]
+    Empty,
+    /// The planes of the domain leave a side open.
+    #[error("the domain is open: its planes leave a direction in which it never ends")]
+    Open,
+    /// More blocks than were allowed.
+    #[error("joint {joint} makes more than {most} blocks: fewer joints, a larger least_volume or a larger most_blocks")]
+    TooManyBlocks {
+        /// Index of the joint.
+        joint: usize,
+        /// The limit.
+        most: usize,
+    },
+}
+
+/// The number, if it is in its range.
+pub(super) fn within(value: f64, is_inside: bool, name: &'static str, range: &'static str) -> Result<f64, RockError> {
+    if value.is_finite() && is_inside { Ok(value) } else { Err(RockError::OutOfRange { name, value, range }) }
+}

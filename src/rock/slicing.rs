@@ -1,0 +1,343 @@
+//! A domain, cut by one joint after the other.
+
+use crate::particle::plane::Plane;
+use crate::particle::polyhedron::{OF_CUBE, Polyhedron};
+use crate::rock::block::{Block, FaceOf};
+use crate::rock::error::RockError;
+use crate::rock::joint::Joint;
+use nalgebra::Vector3;
+
+/// Least depth of a cut over the size of the domain: some rounding of corners.
+const LEAST_CUT: f64 = 1e-13;
+
+/// Half of the cube in which a domain is looked for, over the largest distance of its planes from the origin.
+const FAR: f64 = 1e4;
+
+/// Limits of a rock mass.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SliceSettings {
+    /// A joint leaves a block whole if one of its parts would have less than this volume.
+    pub least_volume: f64,
+    /// More blocks than this are an error.
+    pub most_blocks: usize,
+}
+
+impl Default for SliceSettings {
+    fn default() -> Self {
+        Self { least_volume: 0.0, most_blocks: 1_000_000 }
+    }
+}
+
+/// What a domain was cut into.
+#[derive(Clone, Debug)]
+pub struct RockMass {
+    /// The blocks, whose volumes sum to that of the domain.
+    pub blocks: Vec<Block>,
+    /// Joints that cut no block.
+    pub missing: Vec<usize>,
+    /// How many cuts were left out because of `least_volume`, or as a part would have been no thicker than the rounding of its corners.
+    pub too_small: usize,
+    /// How many blocks were left whole where the parts of a cut would not have closed, by rounding.
+    pub unclosed: usize,
+}
+
+/// A ball that holds a block: what a joint misses is told by it alone.
+struct Ball {
+    middle: Vector3<f64>,
+    radius: f64,
+}
+
+impl Ball {
+    fn of(polyhedron: &Polyhedron) -> Self {
+        let count = polyhedron.corners().count() as f64;
+        let middle = polyhedron.corners().sum::<Vector3<f64>>() / count;
+        let radius = polyhedron.corners().map(|at| (at - middle).norm()).fold(0.0, f64::max);
+        Self { middle, radius }
+    }
+}
+
+/// Cuts a convex domain {x : n_i·x ≤ d_i for all planes} by joints, in their order. A joint cuts each block that it meets in two; a disc
+/// cuts all of a block that it reaches, as in the paper.
+///
+/// # Errors
+/// A domain that is empty or open, a plane or joint without a normal or whose numbers are not finite, more blocks than allowed.
+pub fn slice(domain: &[Plane], joints: &[Joint], settings: &SliceSettings) -> Result<RockMass, RockError> {
+    let outer = unit_planes(domain)?;
+    let (origin, polyhedron) = enclosed(&outer)?;
+    let of_domain = outer.iter().enumerate().map(|(i, (n, d))| Ok((FaceOf::Domain(i), *n, d - n.dot(&origin))));
+    let of_joints = joints.iter().enumerate().map(|(i, joint)| {
+        let n = joint.normal.normalize();
+        let height = n.dot(&(joint.point - origin));
+        let is_plane = height.is_finite() && joint.radius > 0.0;
+        is_plane.then_some((FaceOf::Joint(i), n, height)).ok_or(RockError::NoJoint(i))
+    });
+    let planes = of_domain.chain(of_joints).collect::<Result<Vec<_>, _>>()?;
+    let block = |part: &Polyhedron| Block::of(part, &origin, |number| planes[number - OF_CUBE]);
+    // Also where rounding says more of the volume than the corners do.
+    let thinnest = polyhedron.least_cut();
+    let is_too_small = |part: &Polyhedron| {
+        let Block { volume, faces, .. } = block(part);
+        !(volume > settings.least_volume && volume > thinnest * faces.iter().map(|face| face.area).sum::<f64>())
+    };
+    let (mut balls, mut parts) = (vec![Ball::of(&polyhedron)], vec![polyhedron]);
+    let mut mass = RockMass { blocks: Vec::new(), missing: Vec::new(), too_small: 0, unclosed: 0 };
+    for (i, joint) in joints.iter().enumerate() {
+        let number = OF_CUBE + domain.len() + i;
+        let (_, n, height) = planes[domain.len() + i];
+        let local = Joint { point: joint.point - origin, normal: n, ..*joint };
+        let whole = parts.len();
+        for place in 0..whole {
+            let Ball { middle, radius } = &balls[place];
+            if (n.dot(middle) - height).abs() >= *radius || !parts[place].is_crossed(&n, height) {
+                continue;
+            }
+            let Some([below, beyond]) = parts[place].split(number, &n, height) else {
+                mass.unclosed += 1;
+                continue;
+            };
+            if !reaches(&local, &below, number) {
+                continue;
+            }
+            if is_too_small(&below) || is_too_small(&beyond) {
+                mass.too_small += 1;
+                continue;
+            }
+            if parts.len() == settings.most_blocks {
+                return Err(RockError::TooManyBlocks { joint: i, most: settings.most_blocks });
+            }
+            balls[place] = Ball::of(&below);
+            balls.push(Ball::of(&beyond));
+            parts[place] = below;
+            parts.push(beyond);
+        }
+        if parts.len() == whole {
+            mass.missing.push(i);
+        }
+    }
+    mass.blocks = parts.iter().map(block).collect();
+    Ok(mass)
+}
+
+/// Whether a joint reaches the face that it made of a part.
+fn reaches(joint: &Joint, part: &Polyhedron, number: usize) -> bool {
+    joint.radius == f64::INFINITY
+        || part.faces().into_iter().filter(|face| face.number == number).any(|face| {
+            let corners: Vec<_> = face.corners.iter().map(|corner| corner.0).collect();
+            joint.meets(&corners)
+        })
+}
+
+/// Unit normals and distances from the origin.
+fn unit_planes(domain: &[Plane]) -> Result<Vec<(Vector3<f64>, f64)>, RockError> {
+    let unit = |(i, plane): (usize, &Plane)| {
+        let length = plane.normal.norm();
+        let is_plane = length > 0.0 && length.is_finite() && plane.offset.is_finite();
+        is_plane.then(|| (plane.normal / length, plane.offset / length)).ok_or(RockError::NoPlane(i))
+    };
+    domain.iter().enumerate().map(unit).collect()
+}
+
+/// What planes enclose, about an origin in its middle: twice, as corners that are cut from a cube far away are known less well.
+fn enclosed(planes: &[(Vector3<f64>, f64)]) -> Result<(Vector3<f64>, Polyhedron), RockError> {
+    let farthest = planes.iter().map(|(_, d)| d.abs()).fold(0.0, f64::max);
+    let (mut origin, mut half) = (Vector3::zeros(), FAR * farthest);
+    for _ in 0..3 {
+        let mut polyhedron = Polyhedron::cube(half, LEAST_CUT * half);
+        for (i, (n, d)) in planes.iter().enumerate() {
+            let height = d - n.dot(&origin);
+            let lowest = polyhedron.corners().map(|at| n.dot(at)).fold(f64::INFINITY, f64::min);
+            if !(lowest < height - LEAST_CUT * half) {
+                return Err(RockError::Empty);
+            }
+            polyhedron.cut(OF_CUBE + i, n, height);
+        }
+        let is_open = polyhedron.faces().iter().any(|face| face.number < OF_CUBE);
+        if is_open {
+            return Err(RockError::Open);
+        }
+        let [low, high] = [f64::min, f64::max].map(|of| polyhedron.corners().copied().reduce(|a, b| a.zip_map(&b, of)));
+        let (low, high) = low.zip(high).ok_or(RockError::Empty)?;
+        let extent = 0.5 * (high - low).max();
+        if half <= 4.0 * extent {
+            return Ok((origin, polyhedron));
+        }
+        origin += 0.5 * (low + high);
+        half = 2.0 * extent;
+    }
+    Err(RockError::Empty)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::random::Random;
+    use std::collections::HashMap;
+
+    fn cuboid(sides: [f64; 3], at: [f64; 3]) -> Vec<Plane> {
+        let face = |axis: usize, sign: f64| {
+            let normal = Vector3::ith(axis, sign);
+            Plane { normal, offset: 0.5 * sides[axis] + sign * at[axis] }
+        };
+        (0..3).flat_map(|axis| [face(axis, 1.0), face(axis, -1.0)]).collect()
+    }
+
+    fn random_joints(seed: u64, count: usize, at: [f64; 3], reach: f64) -> Vec<Joint> {
+        let mut random = Random::new(seed, 0);
+        let joint = |_| {
+            let point = Vector3::from(at) + Vector3::from_fn(|_, _| random.between(-reach, reach));
+            Joint { point, normal: random.direction(), radius: f64::INFINITY }
+        };
+        (0..count).map(joint).collect()
+    }
+
+    fn volume(mass: &RockMass) -> f64 {
+        mass.blocks.iter().map(|block| block.volume).sum()
+    }
+
+    /// Planes, lines of two of them and points of three inside of a convex domain, by the corners of these alone.
+    fn regions(domain: &[Plane], joints: &[Joint]) -> usize {
+        let inside = |x: &Vector3<f64>| domain.iter().all(|plane| plane.normal.dot(x) < plane.offset);
+        let height = |i: usize| joints[i].normal.dot(&joints[i].point);
+        let count = joints.len();
+        let crosses = |line: (Vector3<f64>, Vector3<f64>)| {
+            let (mut from, mut to) = (f64::NEG_INFINITY, f64::INFINITY);
+            for plane in domain {
+                let (slope, left) = (plane.normal.dot(&line.1), plane.offset - plane.normal.dot(&line.0));
+                if slope > 0.0 { to = to.min(left / slope) } else { from = from.max(left / slope) }
+            }
+            from < to
+        };
+        let mut regions = 1;
+        for i in 0..count {
+            // A plane crosses a convex body if it does so on an edge of the box.
+            let sides = (0..8).map(|k| {
+                Vector3::from_fn(|axis, _| {
+                    let [high, low] = [domain[2 * axis].offset, -domain[2 * axis + 1].offset];
+                    if k >> axis & 1 == 0 { high } else { low }
+                })
+            });
+            let above = sides.filter(|x| joints[i].normal.dot(x) > height(i)).count();
+            regions += usize::from(above > 0 && above < 8);
+            for j in 0..i {
+                let along = joints[i].normal.cross(&joints[j].normal);
+                let solve = |n: Vector3<f64>, d: f64| {
+                    let [a, b] = [joints[i].normal, joints[j].normal];
+                    (height(i) * b.cross(&n) + height(j) * n.cross(&a) + d * a.cross(&b)) / a.dot(&b.cross(&n))
+                };
+                regions += usize::from(crosses((solve(along, 0.0), along)));
+                regions += (0..j).filter(|&k| inside(&solve(joints[k].normal, height(k)))).count();
+            }
+        }
+        regions
+    }
+
+    #[test]
+    fn planes_in_general_position_make_as_many_blocks_as_they_must() {
+        for (seed, at) in [(1, [0.0; 3]), (2, [1e3, -2e3, 5e2]), (3, [0.3, 0.1, -7.0])] {
+            let (sides, count) = ([2.0, 1.5, 1.0], 25);
+            let (domain, joints) = (cuboid(sides, at), random_joints(seed, count, at, 0.6));
+            let mass = slice(&domain, &joints, &SliceSettings::default()).unwrap();
+            assert_eq!((mass.blocks.len(), mass.unclosed), (regions(&domain, &joints), 0), "seed {seed}");
+            assert!((volume(&mass) / 3.0 - 1.0).abs() < 1e-12, "{:e}", volume(&mass) / 3.0 - 1.0);
+            let first: Vector3<f64> = mass.blocks.iter().map(|b| b.volume * (b.centroid - Vector3::from(at))).sum();
+            assert!(first.norm() < 1e-11, "{first}");
+        }
+    }
+
+    /// Both sides of each joint have the same area, every block lies within its own planes, and its particle is as large but for its edges.
+    #[test]
+    fn faces_agree_with_their_partners_and_blocks_with_their_planes() {
+        let domain = cuboid([3.0, 3.0, 3.0], [0.0; 3]);
+        let mass = slice(&domain, &random_joints(9, 12, [0.0; 3], 1.0), &SliceSettings::default()).unwrap();
+        let mut areas = HashMap::new();
+        for block in &mass.blocks {
+            for face in &block.faces {
+                if let FaceOf::Joint(i) = face.of {
+                    let x = face.plane.normal;
+                    *areas.entry(i).or_insert(0.0) += face.area * if x.z > 0.0 { 1.0 } else { -1.0 };
+                }
+                for corner in block.faces.iter().flat_map(|other| &other.corners) {
+                    assert!(face.plane.normal.dot(corner) <= face.plane.offset + 1e-12);
+                }
+            }
+        }
+        assert!(areas.len() == 12 && areas.values().all(|sum: &f64| sum.abs() < 1e-12), "{areas:?}");
+        let largest = mass.blocks.iter().max_by(|a, b| a.volume.total_cmp(&b.volume)).unwrap();
+        let r = 1e-4 * largest.volume.cbrt();
+        let of_particle = largest.particle(r).unwrap().mass_properties(1e-6).volume;
+        assert!(of_particle <= largest.volume * (1.0 + 1e-6) && of_particle > (1.0 - 1e-3) * largest.volume);
+    }
+
+    /// Three sets of equal spacings: as many blocks as there are cells, whatever planes coincide with sides of the domain.
+    #[test]
+    fn sets_through_lines_and_corners_make_a_grid() {
+        let domain = cuboid([2.0, 2.0, 2.0], [0.0; 3]);
+        let joint = |axis: usize, place: f64| Joint {
+            point: Vector3::ith(axis, place),
+            normal: Vector3::ith(axis, 1.0),
+            radius: f64::INFINITY,
+        };
+        let joints: Vec<_> = (0..3).flat_map(|axis| (-4..=4).map(move |i| joint(axis, 0.25 * f64::from(i)))).collect();
+        let mass = slice(&domain, &joints, &SliceSettings::default()).unwrap();
+        assert_eq!((mass.blocks.len(), mass.missing.len()), (512, 6));
+        assert!(mass.blocks.iter().all(|block| (block.volume - 0.015625).abs() < 1e-15 && block.faces.len() == 6));
+        // All planes through the long diagonal: wedges.
+        let diagonal = Vector3::new(1.0, 1.0, 1.0).normalize();
+        let u = diagonal.cross(&Vector3::x()).normalize();
+        let fan = (0..10).map(|i| {
+            let (sin, cos) = (0.3 * f64::from(i) + 0.1).sin_cos();
+            Joint { point: Vector3::zeros(), normal: cos * u + sin * diagonal.cross(&u), radius: f64::INFINITY }
+        });
+        let mass = slice(&domain, &fan.collect::<Vec<_>>(), &SliceSettings::default()).unwrap();
+        assert!(mass.blocks.len() == 20 && (volume(&mass) - 8.0).abs() < 1e-12, "{}", mass.blocks.len());
+    }
+
+    /// Planes through one point, and copies of them that are off by less and less: no block is of no volume, and together they are the domain.
+    #[test]
+    fn planes_that_all_but_coincide_lose_no_volume() {
+        for seed in 0..30 {
+            let at = [[0.0; 3], [4e5, -3e5, 1e3]][seed as usize % 2];
+            let mut random = Random::new(seed, 1);
+            let mut joints = random_joints(seed, 8, at, 0.0);
+            for off in [1e-3, 1e-6, 1e-9, 1e-12, 1e-15] {
+                let Joint { point, normal, .. } = joints[random.below(8)];
+                let normal = (normal + off * random.direction()).normalize();
+                joints.push(Joint { point: point + off * random.direction(), normal, radius: f64::INFINITY });
+            }
+            let mass = slice(&cuboid([1.0, 2.0, 3.0], at), &joints, &SliceSettings::default()).unwrap();
+            assert!((volume(&mass) / 6.0 - 1.0).abs() < 1e-12, "seed {seed}: {:e}", volume(&mass) / 6.0 - 1.0);
+            assert!(mass.blocks.iter().all(|block| block.volume > 0.0), "seed {seed}");
+            assert!(mass.unclosed <= 2, "seed {seed}: {}", mass.unclosed);
+        }
+    }
+
+    #[test]
+    fn discs_cut_what_they_reach_and_small_parts_are_left_out() {
+        let domain = cuboid([4.0, 1.0, 1.0], [0.0; 3]);
+        let across = Joint { point: Vector3::zeros(), normal: Vector3::x(), radius: f64::INFINITY };
+        // In the left half only.
+        let disc = Joint { point: Vector3::new(-1.0, 0.0, 0.1), normal: Vector3::z(), radius: 0.9 };
+        let mass = slice(&domain, &[across, disc], &SliceSettings::default()).unwrap();
+        assert_eq!(mass.blocks.len(), 3);
+        let least = SliceSettings { least_volume: 0.9, ..SliceSettings::default() };
+        let mass = slice(&domain, &[across, disc], &least).unwrap();
+        assert_eq!((mass.blocks.len(), mass.too_small, mass.missing), (2, 1, vec![1]));
+    }
+
+    #[test]
+    fn bad_domains_are_told() {
+        let (domain, none) = (cuboid([1.0, 1.0, 1.0], [0.0; 3]), SliceSettings::default());
+        let error =
+            |planes: &[Plane], joints: &[Joint], settings: &SliceSettings| slice(planes, joints, settings).unwrap_err();
+        assert_eq!(error(&domain[..5], &[], &none), RockError::Open);
+        assert_eq!(error(&[], &[], &none), RockError::Open);
+        let mut turned = domain.clone();
+        turned[0].offset = -3.0;
+        assert_eq!(error(&turned, &[], &none), RockError::Empty);
+        turned[0].normal = Vector3::zeros();
+        assert_eq!(error(&turned, &[], &none), RockError::NoPlane(0));
+        let most = SliceSettings { most_blocks: 5, ..none };
+        let joints = random_joints(4, 9, [0.0; 3], 0.2);
+        assert!(matches!(error(&domain, &joints, &most), RockError::TooManyBlocks { most: 5, .. }));
+    }
+}
