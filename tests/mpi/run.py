@@ -160,9 +160,9 @@ def killed_rank(folder):
     text, _ = process.communicate(timeout=SECONDS)
     check(process.returncode == 137, f"a run with a killed rank ends with {process.returncode}:\n{text}")
     check("rank 2" in text and "ended by signal 9" in text, f"what is said of a killed rank:\n{text}")
-    (folder / "killed.yade.gz").rename(folder / "half4.yade.gz")
-    sound(3, "resumed", folder, 4)
-    check(report(folder, "resumed3_of_4")["step"] == 20 + 200, "the saved scene is that of step 20")
+    (folder / "killed.yade.gz").rename(folder / "killed_half4.yade.gz")
+    sound(3, "resumed", folder, 4, "killed")
+    check(report(folder, "killed_resumed3_of_4")["step"] == 20 + 200, "the saved scene is that of step 20")
 
 
 def asked_to_stop(folder):

@@ -129,7 +129,7 @@ def contacts_across():
 
 
 def resumed():
-    """The second half, from the file that a run of the case `whole` or `joints` (fourth argument) with as many ranks as the third says has saved."""
+    """The second half, from the file that a run of the case `whole`, `joints` or `killed` (fourth argument) with as many ranks as the third says has saved."""
     if mpi.rank() == 0:
         mpi.load(FOLDER / f"{sys.argv[4]}_half{sys.argv[3]}.yade.gz")
         mpi.divide(ids())
