@@ -8,14 +8,11 @@ mod cases;
 #[path = "../scene/mod.rs"]
 mod scene;
 mod speed;
+#[path = "../target/mod.rs"]
+mod target;
 
 use serde_json::{Value, json};
-
-fn at_most(name: &str, target: f64, measured: f64) -> Value {
-    let met = measured <= target;
-    println!("{} {name}: {measured:.3e} (at most {target:e})", if met { "met   " } else { "MISSED" });
-    json!({"name": name, "sense": "at most", "target": target, "measured": measured, "met": met})
-}
+use target::at_most;
 
 /// The most units of a kind at a tolerance.
 fn units(kinds: &[Value], tolerance: f64, is_meant: impl Fn(&str) -> bool) -> f64 {

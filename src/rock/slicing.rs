@@ -41,7 +41,7 @@ pub struct RockMass {
     pub unclosed: usize,
 }
 
-/// A ball that holds a block: what a joint misses is told by it alone.
+/// A ball around a block: a joint that misses it misses the block.
 struct Ball {
     middle: Vector3<f64>,
     radius: f64,
@@ -73,7 +73,7 @@ pub fn slice(domain: &[Plane], joints: &[Joint], settings: &SliceSettings) -> Re
     });
     let planes = of_domain.chain(of_joints).collect::<Result<Vec<_>, _>>()?;
     let block = |part: &Polyhedron| Block::of(part, &origin, |number| planes[number - OF_CUBE]);
-    // Also where rounding says more of the volume than the corners do.
+    // The volume of a part no thicker than the rounding of its corners is rounding, too.
     let thinnest = polyhedron.least_cut();
     let is_too_small = |part: &Polyhedron| {
         let Block { volume, faces, .. } = block(part);

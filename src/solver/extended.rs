@@ -163,7 +163,7 @@ impl Extended<'_> {
         for round in 0..MOST_WEIGHTS {
             let mut delta = found.delta;
             let Some((last, v)) = self.minimise(&mut delta, lambda) else {
-                // Where the minimum is not found, the one before bounds the optimum, and of the first λ the point that was reached.
+                // The minimum of the λ before bounds the optimum; of the first λ there is none, and the point that the steps reached does.
                 if round == 0 {
                     found.delta = delta;
                 }

@@ -39,6 +39,7 @@ check.true(potential_particles.porosity((-1, -1, -1), (1, 1, 1)) < 1 - balls / 8
 start()
 O.bodies.append(utils.sphere((0, 0, 0), R, material=0))
 holds(sampled_porosity((0, 0, 0), (0.5, 0.5, 0.5)), 1 - math.pi / 6 * R**3 / 0.125, "an eighth of a ball", 6e-3)
+check.equal(sampled_porosity((7, 7, 7), (8, 8, 8)), (1.0, 0.0), "a box in which nothing lies")
 # The volumes of particles, turned anyhow, ours and plain, of k = 0.02 and of 1.
 for shape in shapes.cuboid((0.5, 0.4, 0.3)), shapes.random_rock(3, size=0.6), shapes.sphere(0.3):
     start()

@@ -68,8 +68,3 @@ def unit_quaternion(value, name):
     if not 1e-100 < length < 1e100:
         raise ValueError(f"{name}={tuple(found)} has no direction: a quaternion must not be zero")
     return found / length
-
-
-def array_of(matrix):
-    """A Matrix3 as an array (3, 3)."""
-    return np.array([tuple(matrix.row(i)) for i in range(3)])

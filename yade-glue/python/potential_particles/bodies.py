@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""YADE bodies made of shapes."""
+"""YADE bodies made of shapes; whether forces move a body, and where its periodic image is."""
 from .arguments import number, unit_quaternion, vector
 
 
@@ -44,6 +44,17 @@ def body(shape, material=None, position=(0.0, 0.0, 0.0), orientation=(1.0, 0.0, 
     if fixed:
         made.state.blockedDOFs = "xyzXYZ"
     return made
+
+
+def is_free(body):
+    """Whether forces move a body in any of its degrees of freedom."""
+    return set(body.state.blockedDOFs) != set("xyzXYZ")
+
+
+def image_shift(contact):
+    """From body id2 of a contact to its periodic image that touches body id1, world axes, length."""
+    import yade
+    return yade.O.cell.hSize * contact.cellDist if yade.O.periodic else yade.Vector3.Zero
 
 
 def _material(material):

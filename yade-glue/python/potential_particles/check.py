@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from . import time_step, unserved
-from .arguments import array_of
+from .bodies import is_free
 from .clumps import union
 from .measures import largest_overlap
 from .shape import definition, volumes
@@ -43,8 +43,9 @@ class Finding(NamedTuple):
 def check():
     """Looks for mistakes of which YADE says nothing; prints a line for each, and returns them as a list of (what, remedy).
 
-    Shapes without a box or without a contact functor, boxes without thickness; compaction by growing spheres; laws with the lever arms of spheres; overlaps beyond the rounding radius; O.dt beyond
-    critical_time_step(safety=1), or left to a stepper that knows no contact yet; masses that are not volume times density (1 %), clumps that are not the union of their members; weights
+    Shapes without a box or without a contact functor; boxes without thickness; compaction by growing spheres; laws with the lever arms of
+    spheres; overlaps beyond the rounding radius; O.dt beyond critical_time_step(safety=1), or left to a stepper that knows no contact yet;
+    masses that are not volume times density (1 %); clumps that are not the union of their members; weights
     that the stiffness cannot bear within r; rotation integrated as that of spheres. The list is empty where none is found, and in
     scenes without potential particles. Call it when bodies, engines and O.dt are set, and again after some steps, when there are contacts.
     """
@@ -66,7 +67,7 @@ def findings(scene, measured=_MEASURED_AT_FIRST):
     if not ours:
         return []
     bounds, geometry, physics = _dispatchers(yade)
-    moving = [body for body in ours if set(body.state.blockedDOFs) != set("xyzXYZ")]
+    moving = [body for body in ours if is_free(body)]
     return [*_bounds(scene, bounds), *_contacts(scene, geometry), *_flat_boxes(yade, scene), *_controllers(scene),
             *_laws(scene, ours, physics), *_overlap(), *_time_step(scene),
             *_mass(yade, moving, measured), *_clumps(scene, measured), *_weight(scene, moving),
@@ -226,13 +227,13 @@ def _mass(yade, moving, measured):
 
 def _clumps(scene, measured):
     wrong = []
-    clumps = [body for body in scene.bodies if body.isClump and set(body.state.blockedDOFs) != set("xyzXYZ")]
+    clumps = [body for body in scene.bodies if body.isClump and is_free(body)]
     for body in clumps[:int(min(measured, len(clumps)))]:
         try:
             mass, _, inertia, _ = union([scene.bodies[one] for one in body.shape.members], lines=2000)
         except ValueError:  # members of other shapes, or of several densities
             continue
-        turn = array_of(body.state.ori.toRotationMatrix())
+        turn = np.array(body.state.ori.toRotationMatrix())
         found = turn @ np.diag(tuple(body.state.inertia)) @ turn.T
         if (not math.isclose(body.state.mass, mass, rel_tol=_MASS_TOLERANCE)
                 or np.abs(found - inertia).max() > _INERTIA_TOLERANCE * np.abs(inertia).max()):

@@ -9,6 +9,8 @@ import math
 
 import numpy as np
 
+from .arguments import whole
+
 # Grids that are shifted against each other, whose scatter is the error; 95 % of Student's distribution with one degree less.
 GRIDS, _STUDENT = 8, 2.36
 _NEWTON_STEPS, _CONVERGED = 60, 1e-13
@@ -60,8 +62,19 @@ def _first_root(shape, points, along, start):
     return t
 
 
-def united(begins, ends):
-    """Disjoint intervals (begin, end), each (n,), of intervals in any order that may overlap."""
+def united(lines, begins, ends):
+    """(line, begin, end), each (n,): the disjoint intervals of intervals on the lines of these numbers, in any order, that may overlap."""
+    if not len(begins):
+        return lines, begins, ends
+    # Each line has a stretch of its own, so that all are united at once.
+    stretch = 4.0 * max(np.abs(begins).max(), np.abs(ends).max())
+    begins, ends = _united(begins + stretch * lines, ends + stretch * lines)
+    lines = np.rint(begins / stretch).astype(int)
+    return lines, begins - stretch * lines, ends - stretch * lines
+
+
+def _united(begins, ends):
+    """The same of intervals on one line."""
     order = np.argsort(begins)
     begins, reached = begins[order], np.maximum.accumulate(ends[order])
     first = np.append(True, begins[1:] > reached[:-1])
@@ -74,7 +87,14 @@ def scatter(values):
     return values.mean(0), _STUDENT * values.std(0, ddof=1) / math.sqrt(len(values))
 
 
-def grid(side, random):
+def grids(lines, seed):
+    """(places (GRIDS n, 2) in the unit square of about `lines` lines, n): GRIDS lattices of n points, one after the other, shifted at random by `seed`."""
+    side = max(2, round(math.sqrt(whole(lines, 1, "lines") / GRIDS)))
+    random = np.random.default_rng(whole(seed, 0, "seed"))
+    return np.concatenate([_grid(side, random) for _ in range(GRIDS)]), side**2
+
+
+def _grid(side, random):
     """side^2 points of the unit square in a lattice that is shifted at random."""
     places = np.arange(side) / side
     u, v = np.meshgrid(places, places, indexing="ij")

@@ -4,12 +4,9 @@
 O.bodies.clump() adds up the members, and counts twice where they overlap. Here the moments of the members, which are known, are added up and what
 overlaps is taken off: the moments of chords less those of their union, along parallel lines. Where nothing overlaps the sum is that of YADE.
 """
-import math
-
 import numpy as np
 
 from . import chords
-from .arguments import array_of, whole
 from .time_step import bounding_radius
 
 _DIRECTION = (0.4123, 0.6181, 0.6692)  # of the lines: along no face of a body whose faces lie along the axes
@@ -67,7 +64,7 @@ def _sum_of_members(members, origin):
     """Mass, first and second moments (13,) about the origin."""
     total = np.zeros(13)
     for one in members:
-        turn = array_of(one.state.ori.toRotationMatrix())
+        turn = np.array(one.state.ori.toRotationMatrix())
         inertia = np.array(list(one.state.inertia))
         place, mass = np.array(one.state.pos) - origin, one.state.mass
         second = turn @ np.diag(0.5 * inertia.sum() - inertia) @ turn.T + mass * np.outer(place, place)
@@ -77,32 +74,25 @@ def _sum_of_members(members, origin):
 
 def _overlaps(members, origin, lines, seed):
     """For each grid of lines, volume and moments (13,) of the members less those of their union."""
-    side = max(2, round(math.sqrt(whole(lines, 1, "lines") / chords.GRIDS)))
-    random = np.random.default_rng(whole(seed, 0, "seed"))
     along = np.array(_DIRECTION) / np.linalg.norm(_DIRECTION)
     across = np.linalg.svd(along[None])[2][1:]
     places = [np.array(one.state.pos) - origin for one in members]
     radii = [bounding_radius(one) for one in members]
     lower = np.min([across @ place - radius for place, radius in zip(places, radii)], axis=0)
     upper = np.max([across @ place + radius for place, radius in zip(places, radii)], axis=0)
-    feet = np.concatenate([chords.grid(side, random) for _ in range(chords.GRIDS)]) * (upper - lower) + lower
-    feet = feet @ across
-    span = max(np.linalg.norm(place) + radius for place, radius in zip(places, radii))
+    feet, count = chords.grids(lines, seed)
+    feet = (feet * (upper - lower) + lower) @ across
     number, begin, end = [], [], []
     for one, place, radius in zip(members, places, radii):
-        back = array_of(one.state.ori.conjugate().toRotationMatrix())
+        back = np.array(one.state.ori.conjugate().toRotationMatrix())
         enter, leave = chords.chords(one.shape, (feet - place) @ back.T, back @ along, radius)
         hit = np.flatnonzero(leave > enter)
         number.append(hit)
         begin.append(enter[hit])
         end.append(leave[hit])
     number, begin, end = map(np.concatenate, (number, begin, end))
-    # Each line has a stretch of its own, so that all are united at once.
-    stretch = 4.0 * span
-    joined = chords.united(begin + stretch * number, end + stretch * number)
-    line = np.rint(joined[0] / stretch).astype(int)
-    area = np.prod(upper - lower) / side**2
-    difference = _moments(feet, along, number, begin, end) - _moments(feet, along, line, *(one - stretch * line for one in joined))
+    area = np.prod(upper - lower) / count
+    difference = _moments(feet, along, number, begin, end) - _moments(feet, along, *chords.united(number, begin, end))
     return area * difference.reshape(chords.GRIDS, -1, 13).sum(1)
 
 

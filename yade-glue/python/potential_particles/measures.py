@@ -8,6 +8,7 @@ NaN as long as there is no contact).
 import math
 
 from .arguments import positive, vector
+from .bodies import image_shift, is_free
 
 
 def extrema(bodies=None):
@@ -130,8 +131,8 @@ def _sides():
             body = scene.bodies[number]
             if isinstance(body.shape, (yade.PotentialParticle, yade.Sphere)) and is_grain(body):
                 centre = scene.bodies[body.clumpId].state.pos if body.isClumpMember else body.state.pos
-                if scene.periodic and sign > 0.0:
-                    centre = centre + scene.cell.hSize * contact.cellDist
+                if sign > 0.0:
+                    centre = centre + image_shift(contact)
                 force = sign * (contact.phys.normalForce + contact.phys.shearForce)
                 found.append((body, contact, force, contact.geom.contactPoint - centre))
     return found
@@ -148,7 +149,7 @@ def counted(bodies):
 
 
 def is_grain(body):
-    return set(body.state.blockedDOFs) != set("xyzXYZ") and not getattr(body.shape, "isBoundary", False)
+    return is_free(body) and not getattr(body.shape, "isBoundary", False)
 
 
 def _extent(body):

@@ -6,7 +6,7 @@ import math
 import numpy as np
 
 from . import chords
-from .arguments import array_of, positive, vector, whole
+from .arguments import positive, vector
 from .measures import counted, is_grain, volumes_of_grains
 from .time_step import bounding_radius
 
@@ -23,13 +23,10 @@ def sampled_porosity(lower=None, upper=None, lines=20_000, seed=0):
     grains = [body for body in counted(None) if is_grain(body)]
     if not grains:
         raise ValueError("there is no potential particle and no sphere that moves, and so no porosity")
-    side = max(2, round(math.sqrt(whole(lines, 1, "lines") / chords.GRIDS)))
-    random = np.random.default_rng(whole(seed, 0, "seed"))
-    places = np.concatenate([chords.grid(side, random) for _ in range(chords.GRIDS)])
-    begins, ends = zip(*(of_body for body in grains for of_body in _within(body, origin, axes, periodic, places)))
-    # Each line has a stretch of its own, so that all are united at once.
-    begins, ends = chords.united(np.concatenate(begins), np.concatenate(ends))
-    lengths = np.bincount((begins // 2.0).astype(int), ends - begins, len(places))
+    places, _ = chords.grids(lines, seed)
+    parts = zip(*(of_body for body in grains for of_body in _within(body, origin, axes, periodic, places)))
+    number, begins, ends = chords.united(*map(np.concatenate, parts))
+    lengths = np.bincount(number, ends - begins, len(places))
     filled, error = chords.scatter(lengths.reshape(chords.GRIDS, -1).mean(1))
     return 1.0 - float(filled), float(error)
 
@@ -42,15 +39,15 @@ def _space(scene, lower, upper):
         return vector(lower, "lower"), np.diag(sides), False
     if not scene.periodic:
         raise ValueError("there is no periodic cell: give the box, as sampled_porosity(lower, upper)")
-    return np.zeros(3), array_of(scene.cell.hSize), True
+    return np.zeros(3), np.array(scene.cell.hSize), True
 
 
 def _within(body, origin, axes, periodic, places):
-    """Begins and ends of the chords of a body and its images, cut at the space; those of line number n lie in [2 n, 2 n + 1]."""
+    """Of a body and its images: numbers of the lines, and begins and ends of the chords on them, cut at the space, 0 to 1."""
     inverse, radius = np.linalg.inv(axes), bounding_radius(body)
     position = np.array(body.state.pos) - origin
     centre, reach = inverse @ position, radius * np.linalg.norm(inverse, axis=1)
-    back = array_of(body.state.ori.conjugate().toRotationMatrix())
+    back = np.array(body.state.ori.conjugate().toRotationMatrix())
     images = [range(math.ceil(-c - r), math.floor(1.0 - c + r) + 1) if periodic else (0,) for c, r in zip(centre, reach)]
     for image in itertools.product(*images):
         near = np.flatnonzero((np.abs(places - centre[:2] - image[:2]) <= reach[:2]).all(1))
@@ -59,7 +56,7 @@ def _within(body, origin, axes, periodic, places):
         with np.errstate(invalid="ignore"):
             begin, end = np.maximum(begin, 0.0), np.minimum(end, 1.0)
             inside = end > begin
-        yield 2.0 * near[inside] + begin[inside], 2.0 * near[inside] + end[inside]
+        yield near[inside], begin[inside], end[inside]
 
 
 def grading_curve(bodies=None):

@@ -11,8 +11,9 @@ A new contact at the point x holds against the turn that moves x most: of B^T B 
 
     t = sum (|x|^2 - x_i^2) / I_i,    p = |x|^2 sum x_i^2 I_i / (I_1 I_2 I_3)    (principal axes),
 
-which is largest at a corner of the box of the body, since it is convex in x, and at most |x|^2 / min I. A contact patch holds against turning as well: its stiffness has a part for turns alone, K J across the normal and k_s J about it, J the
-polar moment of the patch or, where there is one, of the bond.
+which is largest at a corner of the box of the body, since it is convex in x, and at most |x|^2 / min I. A contact
+patch holds against turning as well: its stiffness has a part for turns alone, K J across the normal and k_s J about it, J the polar moment
+of the patch or, where there is one, of the bond.
 
 Dashpots lower the limit. Those of joints, of the ratio z to the critical one, to dt < 2/omega (sqrt(1 + z^2) - z), which is taken into
 account; for others safety leaves room, below about half of the critical damping.
@@ -22,7 +23,8 @@ import math
 
 import numpy as np
 
-from .arguments import array_of, number, positive, whole
+from .arguments import number, positive, whole
+from .bodies import image_shift, is_free
 
 
 _CORNERS = np.array(list(itertools.product((False, True), repeat=3)))
@@ -92,7 +94,7 @@ def _largest_lever(body, part, radius):
     turn, place = np.eye(3), np.zeros(3)
     if part is not body:
         back = body.state.ori.conjugate()
-        turn, place = array_of((back * part.state.ori).toRotationMatrix()), np.array(back * (part.state.pos - body.state.pos))
+        turn, place = np.array((back * part.state.ori).toRotationMatrix()), np.array(back * (part.state.pos - body.state.pos))
     most = (radius + np.linalg.norm(place)) ** 2 / principal.min()
     if not hasattr(part.shape, "boundingRadius"):
         return most
@@ -112,8 +114,7 @@ def _movers(scene, bodies):
     numbers = {body.clumpId if body.isClumpMember else body.id for body in chosen}
     found = []
     for body in (scene.bodies[one] for one in sorted(numbers)):
-        if (body.shape is not None and body.state.mass > 0.0 and min(body.state.inertia) > 0.0
-                and set(body.state.blockedDOFs) != set("xyzXYZ")):
+        if (body.shape is not None and body.state.mass > 0.0 and min(body.state.inertia) > 0.0 and is_free(body)):
             found.append((body, [scene.bodies[one] for one in body.shape.members] if body.isClump else [body]))
     return found
 
@@ -183,8 +184,8 @@ def _eigenvalues(scene, movers):
             if number in row_of:
                 row = row_of[number]
                 arm = point - centres[row]
-                if scene.periodic and number == contact.id2:
-                    arm -= scene.cell.hSize * contact.cellDist
+                if number == contact.id2:
+                    arm -= image_shift(contact)
                 rows.append(row)
                 arms.append(tuple(arm))
                 numbers.append((*normal, *rest))
@@ -206,7 +207,7 @@ def _eigenvalues(scene, movers):
     roots = np.zeros_like(sums)
     for row in set(rows):
         state = bodies[row].state
-        turn = array_of(state.ori.toRotationMatrix())
+        turn = np.array(state.ori.toRotationMatrix())
         roots[row, :3, :3] = np.eye(3) / math.sqrt(state.mass)
         roots[row, 3:, 3:] = turn @ np.diag(1.0 / np.sqrt(list(state.inertia))) @ turn.T
     return np.linalg.eigvalsh(roots @ sums @ roots)[:, -1].tolist()

@@ -5,6 +5,7 @@ import re
 
 import yade
 
+from ..bodies import is_free
 from .balance import balance
 from .ranks import gather, mpy, rank, ranks, share
 from .splitting import split
@@ -63,7 +64,7 @@ def _check_division():
     if max(owners) >= ranks():
         raise ValueError(f"a body belongs to worker {max(owners)} of {ranks() - 1}: call mpi.divide on rank 0")
     for body in O.bodies:
-        if body.subdomain == 0 and body.dynamic and set(body.state.blockedDOFs) != set("xyzXYZ"):
+        if body.subdomain == 0 and body.dynamic and is_free(body):
             raise ValueError(
                 f"body {body.id} is free to move and on rank 0, from which workers get no positions: let mpi.divide give it to one")
 

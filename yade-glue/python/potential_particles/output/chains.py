@@ -3,19 +3,20 @@
 import numpy as np
 import yade
 
+from ..bodies import image_shift, is_free
 from . import vtk_files
 
 
 def branch(contact):
     """Begin and end of the line of a contact: the centres of its bodies, and of one that is not moved by forces (walls) the contact point."""
-    scene, ends = yade.O, []
+    ends = []
     for number in (contact.id1, contact.id2):
-        body = scene.bodies[number]
+        body = yade.O.bodies[number]
         place = contact.geom.contactPoint
-        if body is not None and (body.isClumpMember or set(body.state.blockedDOFs) != set("xyzXYZ")):
+        if body is not None and (body.isClumpMember or is_free(body)):
             place = yade.Vector3(body.state.pos)
-            if scene.periodic and number == contact.id2:
-                place += scene.cell.hSize * contact.cellDist
+            if number == contact.id2:
+                place += image_shift(contact)
         ends.append(place)
     return ends
 

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The bodies of YADE's scene as triangles to draw: one mesh for each shape, put where its bodies are."""
 import warnings
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 
 import numpy as np
 import yade
@@ -13,8 +13,19 @@ EDGE_ANGLE = np.radians(25.0)
 _told = set()
 
 
+class Rows:
+    """Arrays with a row for each of many things, the fields of a dataclass with `none()`."""
+
+    @classmethod
+    def together(cls, parts):
+        """Of many one; none makes an empty one."""
+        if not parts:
+            return cls.none()
+        return cls(*(np.concatenate([getattr(part, field.name) for part in parts]) for field in fields(cls)))
+
+
 @dataclass
-class Triangles:
+class Triangles(Rows):
     """Triangles in the world frame: corners and normals at them (n, 3, 3); colours (n, 3), 0 to 1; bodies: whose, (n,)."""
 
     corners: np.ndarray
@@ -23,12 +34,8 @@ class Triangles:
     bodies: np.ndarray
 
     @classmethod
-    def together(cls, parts):
-        """Of many one; none makes an empty one."""
-        if not parts:
-            return cls(np.zeros((0, 3, 3)), np.zeros((0, 3, 3)), np.zeros((0, 3)), np.zeros(0, int))
-        return cls(*(np.concatenate([getattr(part, name) for part in parts])
-                     for name in ("corners", "normals", "colours", "bodies")))
+    def none(cls):
+        return cls(np.zeros((0, 3, 3)), np.zeros((0, 3, 3)), np.zeros((0, 3)), np.zeros(0, int))
 
     def where(self, chosen):
         """Those of a mask or of indices."""

@@ -6,10 +6,13 @@ import numpy as np
 import yade
 
 from .. import _glue
+from ..bodies import image_shift
+from .drawn import Rows
+from .mesh import rotation_matrix
 
 
 @dataclass
-class Patches:
+class Patches(Rows):
     """Triangles on contact patches, world frame.
 
     corners (n, 3, 3), m; pressure at them (n, 3), Pa, below 0 where a bond is pulled; contacts (n,), rows of the contacts they belong to.
@@ -20,11 +23,8 @@ class Patches:
     contacts: np.ndarray
 
     @classmethod
-    def together(cls, parts):
-        """Of many one; none makes an empty one."""
-        if not parts:
-            return cls(np.zeros((0, 3, 3)), np.zeros((0, 3)), np.zeros(0, int))
-        return cls(*(np.concatenate([getattr(part, name) for part in parts]) for name in ("corners", "pressure", "contacts")))
+    def none(cls):
+        return cls(np.zeros((0, 3, 3)), np.zeros((0, 3)), np.zeros(0, int))
 
 
 def patches(contacts):
@@ -55,7 +55,7 @@ def _stiffness(contact):
 def _bond(number, contact):
     """The bonded area under the stress of its force and bending moment."""
     phys, one = contact.phys, yade.O.bodies[contact.id1].state
-    axes = np.array((one.ori * phys.bondTurn1).toRotationMatrix())
+    axes = rotation_matrix(one.ori * phys.bondTurn1)
     centroid = np.array(one.pos + one.ori * phys.bondPoint1)
     rim = np.array(phys.bondRim).reshape(-1, 2)
     moment = axes.T @ np.array(phys.bendingMoment)
@@ -63,8 +63,3 @@ def _bond(number, contact):
     middle = axes[:, 0] @ np.array(phys.normalForce) / phys.bondArea
     fan = np.stack([np.zeros_like(rim), rim, np.roll(rim, -1, axis=0)], axis=1)
     return Patches(centroid + fan @ axes[:, 1:].T, middle + fan @ slope, np.full(len(rim), number))
-
-
-def image_shift(contact):
-    """From body id2 to its image that touches body id1, world axes."""
-    return yade.O.cell.hSize * contact.cellDist if yade.O.periodic else yade.Vector3.Zero
