@@ -78,7 +78,8 @@ def main():
                 total_failed += failed
                 print(f"{'FAIL' if failed else 'ok  '} {script.stem:24} -j{threads}  {passed:4} passed {failed:3} failed"
                       f"  {seconds:5.1f} s", flush=True)
-                lines = text.splitlines()
+                # What failed stands first: logs of a build server are cut.
+                lines = sorted(text.splitlines(), key=lambda line: not line.startswith("FAILED"))
                 for line in lines if failed or options.verbose else [line for line in lines if line.startswith("skipped")]:
                     print("    " + line)
     print(f"{total_passed} passed, {total_failed} failed")
