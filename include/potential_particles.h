@@ -169,8 +169,8 @@
 // The tolerance was not reached; error tells how far off the answer may be.
 #define PP_PATCH_TOLERANCE_NOT_REACHED 2
 
-// The contact point lies in the core of both bodies (s is 0 or nearly): the patch is that of slightly
-// rounder bodies.
+// The contact point lies in the core of both bodies, or the boundary reaches through that of A (s is 0 or
+// nearly): the patch is that of slightly rounder bodies.
 #define PP_PATCH_DEEP 4
 
 // No patch was found around the contact point, and force and area are 0: an overlap within rounding.

@@ -15,8 +15,8 @@ use std::cell::RefCell;
 pub const PP_PATCH_FOLDED: u32 = 1;
 /// The tolerance was not reached; error tells how far off the answer may be.
 pub const PP_PATCH_TOLERANCE_NOT_REACHED: u32 = 2;
-/// The contact point lies in the core of both bodies (s is 0 or nearly): the patch is that of slightly
-/// rounder bodies.
+/// The contact point lies in the core of both bodies, or the boundary reaches through that of A (s is 0 or
+/// nearly): the patch is that of slightly rounder bodies.
 pub const PP_PATCH_DEEP: u32 = 4;
 /// No patch was found around the contact point, and force and area are 0: an overlap within rounding.
 pub const PP_PATCH_EMPTY: u32 = 8;

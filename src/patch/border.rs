@@ -54,6 +54,7 @@ pub(super) fn around(
     let share = SHARE * (1.0 - RADIAL) * tolerance * force / (2.0 * polygon.len() as f64);
     let mut estimate = Estimate::default();
     for k in 0..polygon.len() {
+        estimate.force += overhang(walker, level, polygon, k);
         for spread in [side(walker, polygon, k), corner(walker, polygon, k)].into_iter().flatten() {
             let (force, area, rays) = spread.integrate(walker, level, share, points)?;
             estimate.rays += rays;
@@ -94,6 +95,23 @@ fn side(walker: &Walker, polygon: &[Corner], k: usize) -> Option<Spread> {
     // Sides that go on nearly straight are one.
     let skew = cosines.iter().filter(|c| **c < STRAIGHT).sum();
     Some(Spread { from, to, directions: [out; 2], size, is_polar: false, skew })
+}
+
+/// ∫ p over what lies beyond the ends of a side where s = 1, about: outwards of the side p rises at first, at the rate g, and falls by W u²/2.
+fn overhang(walker: &Walker, level: &Level, polygon: &[Corner], k: usize) -> f64 {
+    let plane = walker.field.planes.get(polygon[k].side as usize).filter(|plane| plane.owner != Owner::Edge);
+    let (Some(plane), Some(along)) = (plane, direction(polygon, k)) else { return 0.0 };
+    let out = outwards(along);
+    let [rise, fall] = [out, along].map(|[u, v]| level.pressure[1] * u + level.pressure[2] * v);
+    let count = polygon.len();
+    // The ends of the side at which p is 0, and falls beyond.
+    let ends = [(polygon[(k + count - 1) % count].side, fall), (polygon[(k + 1) % count].side, -fall)];
+    let weight =
+        if plane.owner == Owner::A { walker.field.a } else { walker.field.b.unwrap_or(walker.field.a) }.plane_weight;
+    let curvature = weight * (plane.normal[0] * out[0] + plane.normal[1] * out[1]).powi(2);
+    let beyond = |fall: f64| 0.1 * rise.powi(5) / (curvature.powi(3) * fall.max(0.0));
+    let load = |(side, fall): (u32, f64)| if side == RIM && rise > 0.0 { beyond(fall) } else { 0.0 };
+    ends.into_iter().map(load).sum()
 }
 
 /// What lies between the rays across two sides, or across a side and the edge of a triangle.

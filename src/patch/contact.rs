@@ -133,8 +133,9 @@ fn on_boundary(
     visit: impl FnMut(PatchPoint),
 ) -> Result<Patch, PatchError> {
     let frame = checked(contact.kind, &[*branch], normal, settings)?;
+    let (least, flags) = least_sphericity(contact.s);
     let task = Task {
-        a: Placed::new(a, pose, branch, &frame, 0.0),
+        a: Placed::new(a, pose, branch, &frame, least),
         b: None,
         edges,
         inside,
@@ -144,7 +145,7 @@ fn on_boundary(
         position: *pose.position(),
         near: NEAR * contact.overlap,
         settings: *settings,
-        flags: PatchFlags::default(),
+        flags,
     };
     Ok(patch(&task, scratch, visit))
 }

@@ -80,7 +80,8 @@ impl PatchFlags {
     pub const FOLDED: Self = Self(1);
     /// The tolerance was not reached with the most rays; the estimated error tells how far off the answer is.
     pub const TOLERANCE_NOT_REACHED: Self = Self(2);
-    /// The contact point lies in the core of both bodies, where s is 0 or nearly: the answer is that for a slightly larger sphericity.
+    /// The contact point lies in the core of both bodies, or the boundary reaches through that of A, so that
+    /// s is 0 or nearly: the answer is that for a slightly larger sphericity.
     pub const DEEP: Self = Self(4);
     /// No patch was found around the contact point, and force and area are 0: an overlap within rounding.
     pub const EMPTY: Self = Self(8);

@@ -30,6 +30,9 @@ const FEW: usize = 48;
 /// Part of a cap's load by which a rule of one point is wrong at most, about.
 const SINGLE: f64 = 0.3;
 
+/// How much farther a zone reaches out between the places that its border is known at, at most.
+const BETWEEN: f64 = 1.1;
+
 /// A part of the patch.
 #[derive(Clone, Copy, Debug)]
 struct Piece {
@@ -99,16 +102,17 @@ pub(super) fn pieces(
         builder.edge_or_disc(active, &at, tolerance)?;
     }
     let flat = nodes.len();
-    refine(&mut scratch.zones, flat, tolerance, nodes)
+    let deepest = field.values(start)[0].0;
+    refine(&mut scratch.zones, flat, tolerance, deepest, nodes)
 }
 
-/// Integrates over all zones, with finer rules where the error is above its share.
-fn refine(zones: &mut [Piece], flat: usize, tolerance: f64, nodes: &mut Vec<Node>) -> Option<Estimate> {
+/// Integrates over all zones, with finer rules where the error is above its share; `deepest`: the least S.
+fn refine(zones: &mut [Piece], flat: usize, tolerance: f64, deepest: f64, nodes: &mut Vec<Node>) -> Option<Estimate> {
     for _ in 0..RULES.len() {
         nodes.truncate(flat);
         let mut estimate = Estimate::default();
         for piece in zones.iter_mut() {
-            let (force, area) = piece.integrate(tolerance, nodes)?;
+            let (force, area) = piece.integrate(tolerance, deepest, nodes)?;
             piece.error = force;
             estimate.force += force + piece.neglected;
             estimate.area += area;
@@ -144,7 +148,7 @@ impl PieceScratch {
 
 impl Piece {
     /// Appends its points; the estimated errors of force and area from a coarser rule.
-    fn integrate(&self, tolerance: f64, nodes: &mut Vec<Node>) -> Option<(f64, f64)> {
+    fn integrate(&self, tolerance: f64, deepest: f64, nodes: &mut Vec<Node>) -> Option<(f64, f64)> {
         let [across, along, cap, outwards, around] = RULES[self.rule];
         let mut fine = [0.0; 4];
         let mut coarse = [0.0; 4];
@@ -183,8 +187,11 @@ impl Piece {
         let (off, size) = (Vector::from(off).norm(), Vector::new(fine[0], fine[1], fine[2]).norm());
         // Between one point and two the difference does not tell how fast it falls.
         let is_plain = tolerance < FINE || matches!(self.kind, Kind::Cap(_)) && cap == 2;
-        let least = if is_plain { 1.0 } else { 0.02 };
-        let of = |off: f64, size: f64| if off > 0.0 { off * (3.0 * off / size).clamp(least, 1.0) } else { 0.0 };
+        let least = if is_plain { 1.0 } else { (0.02 / deepest).min(1.0) };
+        // The nearer s = √S comes to the kink at its 0, the slower the rules converge.
+        let of = |off: f64, size: f64| {
+            if off > 0.0 { off * (3.0 * off / (deepest * size)).clamp(least, 1.0) } else { 0.0 }
+        };
         Some((of(off, size), of((fine[3] - coarse[3]).abs(), fine[3])))
     }
 }
@@ -265,7 +272,7 @@ impl Builder<'_, '_, '_> {
             let radii = [one.radius, flat.radius];
             let strip = Strip::new(chart, radii, Some(0.0), 1.0, [ends[0].0, ends[1].0])?;
             let active = [i as u32, j.map_or(RIM, |j| j as u32), side, RIM];
-            self.strip(strip, &active);
+            self.strip(strip, &active, neighbours);
             // A cap belongs to the strip before it.
             let next = neighbours[1];
             if let Some(of_next) = self.owner(next) {
@@ -294,13 +301,15 @@ impl Builder<'_, '_, '_> {
         })
     }
 
-    fn strip(&mut self, strip: Strip, active: &[u32]) {
+    /// `ends`: what it ends at.
+    fn strip(&mut self, strip: Strip, active: &[u32], ends: [u32; 2]) {
         let [first, last] = strip.lengths();
         let outline = strip.outline().map(|at| strip.place(at));
         let width = (outline[4] - 0.5 * (outline[0] + outline[1])).norm();
         let mut neglected = self.neglected(&outline[2..], width * first.max(last).max(0.0), active);
-        let ends = [(outline[2] - outline[0]).norm(), (outline[3] - outline[1]).norm()];
-        neglected += ends[0].max(ends[1]) * strip.overhang();
+        neglected += self.beyond_edges(&outline, &ends);
+        let sides = [(outline[2] - outline[0]).norm(), (outline[3] - outline[1]).norm()];
+        neglected += sides[0].max(sides[1]) * strip.overhang();
         if first < 0.0 || last < 0.0 {
             // The ends cross before the rim.
             neglected += width * (first.abs() + last.abs()) * strip.depth().max(0.0);
@@ -312,7 +321,8 @@ impl Builder<'_, '_, '_> {
         let outline = cap.outline();
         let corner = cap.corner();
         let size = (outline[0] - corner).norm() * (outline[1] - corner).norm();
-        let neglected = self.neglected(&outline, size, active) + size * cap.rise();
+        let beyond = self.beyond_edges(&[outline[0], outline[1], outline[2], corner], &[]);
+        let neglected = self.neglected(&outline, size, active) + beyond + size * cap.rise();
         self.zones.push(Piece { kind: Kind::Cap(cap), rule: 0, neglected, error: 0.0 });
     }
 
@@ -328,6 +338,23 @@ impl Builder<'_, '_, '_> {
         }
         let farthest = places.iter().map(|x| x.norm()).fold(0.0, f64::max);
         if farthest > self.field.loaded() { f64::INFINITY } else { area * most }
+    }
+
+    /// Bound on ∫ p over what lies beyond the edges of a triangle, but for those that the zone ends at, as p ≤ 1; of a zone with these
+    /// places on its border, between which it reaches out a little farther.
+    fn beyond_edges(&self, places: &[Vector], ends: &[u32]) -> f64 {
+        let middle = places.iter().sum::<Vector>() / places.len() as f64;
+        let reach = places.iter().map(|x| (x - middle).norm()).fold(0.0, f64::max) * BETWEEN;
+        let edges = self.field.planes.iter().enumerate().filter(|(_, plane)| plane.owner == Owner::Edge);
+        let others = edges.filter(|(k, _)| !ends.contains(&(*k as u32)));
+        others
+            .map(|(_, edge)| {
+                let n = normal(edge);
+                let outwards = places.iter().map(|x| n.dot(&(x - middle))).fold(0.0, f64::max);
+                let beyond = edge.excess + n.dot(&middle) + BETWEEN * outwards;
+                2.0 * reach * beyond.clamp(0.0, 2.0 * reach)
+            })
+            .sum()
     }
 
     /// The patch about an edge, or one zone.
@@ -362,6 +389,7 @@ impl Builder<'_, '_, '_> {
         // Between places on the rim it reaches out a little farther.
         let outline = disc.outline()?;
         let middle = outline.iter().sum::<Vector>() / outline.len() as f64;
+        let beyond = self.beyond_edges(&outline, &[]);
         let outline = outline.map(|x| middle + 1.035 * (x - middle));
         let across = (outline[0] - outline[6]).norm() * (outline[3] - outline[9]).norm();
         let farthest = outline.iter().map(|x| x.norm()).fold(0.0, f64::max);
@@ -369,7 +397,7 @@ impl Builder<'_, '_, '_> {
             self.field.load(farthest);
         }
         let active = [three[0], three[1], three[2], last.unwrap_or(usize::MAX)].map(|k| k as u32);
-        let neglected = self.neglected(&outline, across, &active);
+        let neglected = self.neglected(&outline, across, &active) + beyond;
         self.zones.push(Piece { kind: Kind::Disc(disc), rule: 1, neglected, error: 0.0 });
         Some(())
     }
@@ -445,7 +473,7 @@ impl Builder<'_, '_, '_> {
         for sign in [1.0, -1.0] {
             let limits = ends.map(|(along, side)| self.end(chart, side, along));
             let strip = Strip::new(*chart, radii, None, sign, limits)?;
-            self.strip(strip, &active);
+            self.strip(strip, &active, ends.map(|(_, side)| side));
             for (_, side) in ends {
                 let Some(plane) = self.field.planes.get(side as usize).filter(|plane| plane.owner != Owner::Edge)
                 else {

@@ -11,6 +11,9 @@ use std::sync::LazyLock;
 /// Most steps towards the corner of a strip.
 const MOST_STEPS: usize = 12;
 
+/// Relative step at which the corner of a strip is not where the last one put it.
+const UNSETTLED: f64 = 1e-5;
+
 /// Where a strip ends.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum End {
@@ -56,15 +59,19 @@ impl Strip {
         };
         for side in 0..2 {
             let first = strip.end(side, start).0;
-            let (mut width, mut along) = (strip.width(first).0, first);
+            let (mut width, mut along, mut step) = (strip.width(first).0, first, f64::INFINITY);
             for _ in 0..MOST_STEPS {
                 along = strip.end(side, start + width).0;
                 let next = strip.width(along).0;
-                let step = (next - width).abs();
+                step = (next - width).abs();
                 width = next;
                 if step <= 1e-9 * width.abs() {
                     break;
                 }
+            }
+            // Where the end does not meet the rim within the zone, the steps do not settle.
+            if step > UNSETTLED * width.abs() {
+                return None;
             }
             strip.corners[side] = (width, along);
             strip.starts[side] = first;

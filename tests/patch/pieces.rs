@@ -1,12 +1,14 @@
 //! Patches in pieces against the fan of rays, which computes them when the energy is asked for.
 
-use crate::bodies::{Chance, FAMILIES, Pair, cuboid};
+use crate::bodies::{Chance, FAMILIES, Pair, body, cuboid};
+use crate::boundaries::{Boundary, resting};
 use crate::patch;
 use nalgebra::{Matrix3, Rotation3, Vector3};
 use potential_particles::{
-    Patch, PatchFlags, PatchScratch, PatchSettings, Pose, Settings, Triangle, Wall, contact_with_plane,
+    Particle, Patch, PatchFlags, PatchScratch, PatchSettings, Pose, Settings, Triangle, Wall, contact_with_plane,
     contact_with_triangle, patch_on_plane, patch_on_triangle,
 };
+use std::f64::consts::TAU;
 
 /// Errors of force, torque, area and second moments, relative to the patch.
 fn errors(found: &Patch, exact: &Patch) -> [f64; 4] {
@@ -117,4 +119,63 @@ fn floors_are_as_the_fan() {
             assert!(off[0] < 2e-5 && off[1] < 2e-5 && off[2] < 2e-4, "tilt {tilt}, triangles {in_triangles}: {off:?}");
         }
     }
+}
+
+/// A body of chance on a floor at z = 0, and a triangle of that, as large as its patch or far larger or smaller, whose border runs across.
+fn over_a_triangle(chance: &mut Chance) -> Option<(Particle, Pose, [[f64; 3]; 3])> {
+    let (family, k) = (chance.pick(&FAMILIES), chance.pick(&[0.0, 0.0, 0.0, 0.02]));
+    let (r, depth) = (chance.pick(&[1e-6, 1e-4, 1e-3, 0.05, 0.3, 1.0]), chance.pick(&[0.01, 0.1, 0.3, 0.9]));
+    let a = body(family, r, k, chance);
+    let overlap = depth * if family == "ball" { 0.1 } else { a.rounding_radius() };
+    let pose = resting(&a, &chance.rotation(), overlap);
+    let floor = Boundary::Plane(Wall::new([0.0; 3], [0.0, 0.0, 1.0]).unwrap());
+    let whole = floor.patch(&a, &pose, &PatchSettings::default())?;
+    let (at, size) = (whole.pressure_centre, whole.area.sqrt());
+    let scale = size * chance.pick(&[0.3, 1.0, 3.0, 100.0]);
+    let (angle, shift) = (TAU * chance.uniform(), [0; 2].map(|_| size * (chance.uniform() - 0.5)));
+    let corners = [(0.0_f64, 1.0), (2.0, 3.0), (4.3, 3.0)].map(|(turn, way)| {
+        let (sin, cos) = (angle + turn).sin_cos();
+        [at.x + shift[0] + scale * way * cos, at.y + shift[1] + scale * way * sin, 0.0]
+    });
+    (size > 0.0).then_some((a, pose, corners))
+}
+
+/// ∫ (1 − s) over a triangle at z = 0, times ℓ, by the midpoints of a grid over a square about a point.
+fn by_midpoints(a: &Particle, pose: &Pose, corners: &[[f64; 3]; 3], middle: &Vector3<f64>, half: f64) -> f64 {
+    const CELLS: usize = 1200;
+    let corners = corners.map(Vector3::from);
+    let at = |i: usize| half * (2.0 * (i as f64 + 0.5) / CELLS as f64 - 1.0);
+    let mut sum = 0.0;
+    for (i, j) in (0..CELLS).flat_map(|i| (0..CELLS).map(move |j| (i, j))) {
+        let x = Vector3::new(middle.x + at(i), middle.y + at(j), 0.0);
+        let is_inside = (0..3).all(|e| (corners[(e + 1) % 3] - corners[e]).xy().perp(&(x - corners[e]).xy()) > 0.0);
+        let s = if is_inside { (a.potential(&pose.to_local(&x)) + 1.0).max(0.0).sqrt() } else { 1.0 };
+        sum += (1.0 - s).max(0.0);
+    }
+    a.depth_length() * sum * (2.0 * half / CELLS as f64).powi(2)
+}
+
+/// The border of a triangle may cut off any part of what would be a zone.
+#[test]
+fn patches_over_the_border_of_a_triangle_are_as_the_fan_and_as_the_definition() {
+    let (mut chance, mut count, mut over) = (Chance::new(17), 0, 0);
+    for round in 0..1500 {
+        let Some((a, pose, corners)) = over_a_triangle(&mut chance) else { continue };
+        let triangle = Boundary::Triangle(Triangle::new(corners).unwrap());
+        let with = |tolerance: f64, with_energy: bool| {
+            triangle.patch(&a, &pose, &PatchSettings { tolerance, with_energy, ..PatchSettings::default() })
+        };
+        let (Some(found), Some(exact)) = (with(1e-4, false), with(1e-7, true)) else { continue };
+        let force = exact.force.norm();
+        let off = (found.force - exact.force).norm() / force;
+        count += 1;
+        over += usize::from(off > 1e-4);
+        assert!(off < 1e-3, "{round}: {off:e}, estimated {:e}", found.error);
+        if round % 100 == 0 {
+            let half = 5.0 * (exact.second_moment.trace() / exact.area).sqrt();
+            let plain = by_midpoints(&a, &pose, &corners, &exact.pressure_centre, half);
+            assert!((found.force.norm() - plain).abs() < 3e-2 * plain, "{round}: {} for {plain}", found.force.norm());
+        }
+    }
+    assert!(count > 700 && 200 * over <= count, "{over} of {count}");
 }
