@@ -29,7 +29,7 @@ Contact detection between potential particles.
   make bench    run time, each target beside what was measured, and run time against error; results in out/bench
   make side-by-side  YADE's own contact functor and this one on the same scenes; results in out/side_by_side
   make patch    contact patches: closed forms, the gradient of their energy, time by kind; results in out/patch
-  make rock     a rock mass cut into blocks: time, closure of volume, a slope as a picture; results in out/rock
+  make rock     a rock mass cut into blocks: time, closure of volume, a slope as a picture, key blocks against 1,000 simulations; results in out/rock
   make patch-yade   joints in YADE: closed forms, energy, rest, time; results in out/patch-yade
   make peers    the codes one would pick instead, on the same pairs and piles; installs them; results in out/peers
   make roofline after make peers: what limits a call from memory, and a step of a pile; results in out/roofline
@@ -201,10 +201,11 @@ patch:
 	@cargo bench --bench patch $(if $(QUICK),-- quick)
 	@/usr/bin/python3 benches/patch/plot.py
 
-rock:
+rock: glue
 	$(call heading,Rock masses)
 	@cargo bench --bench rock $(if $(QUICK),-- quick)
 	@/usr/bin/python3 benches/rock/plot.py
+	@CUTS=$(if $(QUICK),50,1000) scripts/yade.sh -j1 benches/rock/key_blocks.py
 
 patch-yade: export CASES := $(CASES)
 patch-yade: export OUTPUT := $(OUTPUT)
