@@ -753,7 +753,7 @@ typedef struct pp_slice_settings {
     // A joint leaves a block whole if a part would have less than this volume.
     double least_volume;
     // Or less than this compactness, 36 pi V^2 / A^3 of volume and surface: 1 of a ball, 0.52 of a cube.
-    double least_compactness;
+    double least_thickness;
     // More blocks than this are an error; 0: a million.
     uint64_t most_blocks;
 } pp_slice_settings;

@@ -55,8 +55,9 @@ pub struct pp_joint_set {
 pub struct pp_slice_settings {
     /// A joint leaves a block whole if a part would have less than this volume.
     pub least_volume: f64,
-    /// Or less than this compactness, 36 pi V^2 / A^3 of volume and surface: 1 of a ball, 0.52 of a cube.
-    pub least_compactness: f64,
+    /// Or be thinner than this in the mean, 2 V / A of volume and surface, length: a cube has a third of its
+    /// edge.
+    pub least_thickness: f64,
     /// More blocks than this are an error; 0: a million.
     pub most_blocks: u64,
 }
@@ -528,7 +529,7 @@ fn settings_from(settings: Option<&pp_slice_settings>) -> Result<SliceSettings, 
     };
     Ok(SliceSettings {
         least_volume: not_negative(settings.least_volume, "least_volume")?,
-        least_compactness: not_negative(settings.least_compactness, "least_compactness")?,
+        least_thickness: not_negative(settings.least_thickness, "least_thickness")?,
         most_blocks: match settings.most_blocks {
             0 => SliceSettings::default().most_blocks,
             most => usize::try_from(most).unwrap_or(usize::MAX),

@@ -6,7 +6,6 @@ use crate::rock::block::{Block, FaceOf};
 use crate::rock::error::RockError;
 use crate::rock::joint::Joint;
 use nalgebra::Vector3;
-use std::f64::consts::PI;
 
 /// Least depth of a cut over the size of the domain: some rounding of corners.
 const LEAST_CUT: f64 = 1e-13;
@@ -19,15 +18,15 @@ const FAR: f64 = 1e4;
 pub struct SliceSettings {
     /// A joint leaves a block whole if one of its parts would have less than this volume.
     pub least_volume: f64,
-    /// Or less than this compactness 36π V²/A³, V the volume and A the surface: 1 of a ball, 0.52 of a cube, 0.08 of a slab 10 by 10 by 1.
-    pub least_compactness: f64,
+    /// Or be thinner than this in the mean, 2V/A of volume and surface: of a wide slab its thickness, of a cube a third of its edge.
+    pub least_thickness: f64,
     /// More blocks than this are an error.
     pub most_blocks: usize,
 }
 
 impl Default for SliceSettings {
     fn default() -> Self {
-        Self { least_volume: 0.0, least_compactness: 0.0, most_blocks: 1_000_000 }
+        Self { least_volume: 0.0, least_thickness: 0.0, most_blocks: 1_000_000 }
     }
 }
 
@@ -38,7 +37,7 @@ pub struct RockMass {
     pub blocks: Vec<Block>,
     /// Joints that cut no block.
     pub missing: Vec<usize>,
-    /// How many cuts were left out because of `least_volume` or `least_compactness`, or as a part would have been no thicker than the
+    /// How many cuts were left out because of `least_volume` or `least_thickness`, or as a part would have been no thicker than the
     /// rounding of its corners.
     pub too_small: usize,
     /// How many blocks were left whole where the parts of a cut would not have closed, by rounding.
@@ -99,12 +98,12 @@ pub fn slice_with_regions(
     let block = |part: &Polyhedron| Block::of(part, &origin, |number| cuts[number - OF_CUBE]);
     // The volume of a part no thicker than the rounding of its corners is rounding, too.
     let thinnest = polyhedron.least_cut();
-    let is_thick = |part: &Polyhedron, least_volume: f64, least_compactness: f64| {
+    let is_thick = |part: &Polyhedron, least_volume: f64, least_thickness: f64| {
         let Block { volume, faces, .. } = block(part);
         let area = faces.iter().map(|face| face.area).sum::<f64>();
-        volume > least_volume.max(thinnest * area) && 36.0 * PI * volume * volume >= least_compactness * area.powi(3)
+        volume > least_volume.max(thinnest * area) && 2.0 * volume >= least_thickness * area
     };
-    let is_too_small = |part: &Polyhedron| !is_thick(part, settings.least_volume, settings.least_compactness);
+    let is_too_small = |part: &Polyhedron| !is_thick(part, settings.least_volume, settings.least_thickness);
     let mut parts = vec![Part::of(polyhedron)];
     let mut mass = RockMass { blocks: Vec::new(), missing: Vec::new(), too_small: 0, unclosed: 0, joints: 0 };
     for (i, joint) in joints.iter().enumerate() {
@@ -428,14 +427,14 @@ mod tests {
         assert_eq!((mass.blocks.len(), mass.too_small, mass.missing), (2, 1, vec![1]));
     }
 
-    /// Of a cuboid a × b × c: compactness 36π (abc)²/(2(ab + bc + ca))³.
+    /// Of a cuboid a × b × c: 2V/A = abc/(ab + bc + ca).
     #[test]
     fn flat_parts_are_left_out() {
         let domain = cuboid([1.0, 1.0, 1.0], [0.0; 3]);
         let at = |z: f64| Joint { point: Vector3::new(0.0, 0.0, z), normal: Vector3::z(), radius: f64::INFINITY };
-        let compactness = |c: f64| 36.0 * PI * c * c / (2.0 + 4.0 * c).powi(3);
-        for (least, blocks) in [(compactness(0.1) * 0.999, 2), (compactness(0.1) * 1.001, 1)] {
-            let settings = SliceSettings { least_compactness: least, ..SliceSettings::default() };
+        let thickness = |c: f64| c / (1.0 + 2.0 * c);
+        for (least, blocks) in [(thickness(0.1) * 0.999, 2), (thickness(0.1) * 1.001, 1)] {
+            let settings = SliceSettings { least_thickness: least, ..SliceSettings::default() };
             let mass = slice(&domain, &[at(0.4)], &settings).unwrap();
             assert_eq!((mass.blocks.len(), mass.too_small), (blocks, 2 - blocks));
         }

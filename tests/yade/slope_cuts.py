@@ -22,7 +22,7 @@ def cut(seed):
     domain = rock.Domain.box((0, 0, 0), (10, 10, 8)).below((9, 5, 0), random.uniform(45, 80), 90)
     joints = [rock.joint((random.uniform(4, 8), random.uniform(3, 7), random.uniform(2, 7)), np.degrees(np.arccos(random.uniform())), random.uniform(0, 360))
               for _ in range(random.integers(4, 8))]
-    mass = rock.slice(domain, joints, least_volume=0.1, least_compactness=0.06, progress=False)
+    mass = rock.slice(domain, joints, least_volume=0.1, least_thickness=0.1, progress=False)
     return mass, random.uniform(10, 45), random
 
 

@@ -44,7 +44,7 @@ check.close(sum(mass[i].volume for i in range(len(mass))), mass.volume, 1e-9, "b
 outer = sum(mass.faces["area"][mass.faces_on(Domain.TOP)])
 check.close(outer, 10 * (18 - 8 / math.tan(math.radians(60))), 1e-9, "area of the top")
 check.equal(rock.slice(slope, sets, progress=False).blocks.tobytes(), mass.blocks.tobytes(), "the same seeds")
-few = rock.slice(slope, sets[:3], least_volume=2.0, least_compactness=0.1, progress=False)
+few = rock.slice(slope, sets[:3], least_volume=2.0, least_thickness=0.1, progress=False)
 check.true(few.too_small > 0 and few.blocks["volume"].min() >= 2.0 and abs(few.volume / volume - 1) < 1e-12, "small parts stay with their block")
 check.equal(list(rock.slice(cube, [rock.joint((0, 0, 0), 0, 0), rock.joint((0, 0, 5), 0, 0)], progress=False).missing), [1], "a plane that misses is told")
 # Regions: a tunnel, which is a prism, and what a domain leaves out.
@@ -159,6 +159,16 @@ acceleration = 9.81 * (math.sin(math.radians(35)) - math.tan(0.35) * math.cos(ma
 way = 0.5 * acceleration * math.cos(math.radians(35)) * O.time**2
 check.true(all(abs(one / way - 1) < 0.02 for one in slides), f"they slide as their friction says: {slides}, {way}")
 check.raises(ValueError, lambda: rock.joint_engine(two, ids, {0: 3}), "no material", "give a ConicJointMat")
+# Saved and loaded, as in another process, the engine goes on: contacts that are made anew have the friction of their set.
+O.save("joints.yade.gz")
+O.load("joints.yade.gz")
+potential_particles.rock.scene._known.clear()
+O.interactions.clear()
+for number in ids[upper]:
+    O.bodies[int(number)].state.vel = Vector3.Zero
+    O.bodies[int(number)].state.pos -= Vector3(0, 0, 1e-4)
+run(3)
+check.equal({round(i.phys.tangensOfFrictionAngle, 9) for i in O.interactions if i.isReal and i.id1 + 1 == i.id2}, {round(math.tan(0.35), 9)}, "after loading")
 
 # Loads: water all around a block is buoyancy (Archimedes), half of it where the water reaches half way up a cube; a surcharge on the top.
 water = rock.water_pressure(mass, np.ones(len(mass.faces), bool), level=20.0)

@@ -113,7 +113,7 @@ py::dict sliceRock(const py::object& domain, const py::object& joints, const py:
         counts.push_back(py::extract<std::size_t>(regionCounts[i]));
     pp_slice_settings limits {};
     limits.least_volume = field<double>(settings, "least_volume");
-    limits.least_compactness = field<double>(settings, "least_compactness");
+    limits.least_thickness = field<double>(settings, "least_thickness");
     limits.most_blocks = field<std::uint64_t>(settings, "most_blocks");
 
     Listener listener { progress };

@@ -142,14 +142,14 @@ class RockMass:
         return dataclasses.replace(self, blocks=blocks, faces=left, partners=pairs)
 
 
-def slice(domain, joints, regions=(), least_volume=0.0, least_compactness=0.0, most_blocks=1_000_000, progress=True):
+def slice(domain, joints, regions=(), least_volume=0.0, least_thickness=0.0, most_blocks=1_000_000, progress=True):
     """Cuts a Domain by joints, in their order, into a RockMass (Boon, Houlsby & Utili 2015, Computers and Geotechnics 65).
 
     joints: JointSets, Joints and lists of Joints. A joint cuts each block that it meets in two, a disc all of a block that it reaches.
     regions: convex Domains, as the steps of an excavation, that cut the blocks that they meet, after all joints; `inside` tells which blocks lie in one.
     What `domain` leaves out is taken out.
-    least_volume: a joint leaves a block whole if a part would be smaller than this (length^3), or have less than least_compactness, 36 pi V^2/A^3 of
-    volume and surface: 0.52 for a cube, 0.08 for a slab 10 by 10 by 1. Such cuts are counted.
+    least_volume: a joint leaves a block whole if a part would be smaller than this (length^3), or thinner than least_thickness in the mean, 2V/A of
+    volume and surface (length): of a wide slab its thickness, of a cube a third of its edge. Such cuts are counted.
     most_blocks: more are a ValueError. progress: a bar on a terminal. Ctrl-C ends the cuts, and the blocks that there are come back.
     """
     from .. import _glue
@@ -158,7 +158,7 @@ def slice(domain, joints, regions=(), least_volume=0.0, least_compactness=0.0, m
     for region in regions:
         if not isinstance(region, Domain) or region.left_out:
             raise ValueError(f"a region is {type(region).__name__}: give convex Domains that leave nothing out themselves")
-    limits = {"least_volume": _not_negative(least_volume, "least_volume"), "least_compactness": _not_negative(least_compactness, "least_compactness"),
+    limits = {"least_volume": _not_negative(least_volume, "least_volume"), "least_thickness": _not_negative(least_thickness, "least_thickness"),
               "most_blocks": whole(most_blocks, 1, "most_blocks")}
     centre, reach = domain.ball()
     cutting, numbers = [], []

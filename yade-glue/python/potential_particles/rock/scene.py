@@ -123,11 +123,14 @@ def excavate(ids, settle=0, slow=1e-3, check_every=100):
     """
     import yade
     scene = yade.O
-    for one in sorted({int(one) for one in np.atleast_1d(ids)}):
-        body = scene.bodies[one] if one < len(scene.bodies) else None
-        if body is None:
-            continue
-        scene.bodies.erase(body.clumpId if body.isClumpMember else one, True)
+    chosen = [body for body in (scene.bodies[one] for one in sorted({int(one) for one in np.atleast_1d(ids)}) if one < len(scene.bodies)) if body is not None]
+    carriers = {body.clumpId if body.isClumpMember else body.id for body in chosen}
+    gone = carriers | {member for one in carriers if scene.bodies[one].isClump for member in scene.bodies[one].shape.members}
+    # YADE would leave their contacts until the next step.
+    for pair in [(contact.id1, contact.id2) for contact in scene.interactions if not gone.isdisjoint((contact.id1, contact.id2))]:
+        scene.interactions.erase(*pair)
+    for one in carriers:
+        scene.bodies.erase(one, True)
     slow, done = positive(slow, "slow"), 0
     while done < whole(settle, 0, "settle"):
         scene.run(min(check_every, settle - done), True)
