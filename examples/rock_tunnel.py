@@ -38,12 +38,12 @@ O.engines = [
     NewtonIntegrator(damping=0.2, gravity=(0, 0, -9.81), exactAsphericalRot=True),
 ]
 rock.excavate(ids[inside])
-near = [int(i) for i, y, out in zip(ids, mass.blocks["centroid"][:, 1], inside) if not out and y > 5]
+roof = [int(ids[block]) for one in keys if one.mode != "inner" for block in one.blocks if mass.blocks["centroid"][block, 2] > 11]
 
 
 def picture(name):
-    """From the south into the tunnel, without the blocks in front."""
-    potential_particles.plot(os.path.join(OUT, name), towards=(0.15, -1.0, 0.1), size=(900, 820), bodies=near)
+    """The blocks at the upper half of the tunnel, from below."""
+    potential_particles.plot(os.path.join(OUT, name), towards=(0.2, -0.75, -0.62), size=(900, 640), bodies=roof)
 
 
 picture("key_blocks.png")

@@ -752,7 +752,8 @@ typedef struct pp_joint_set {
 typedef struct pp_slice_settings {
     // A joint leaves a block whole if a part would have less than this volume.
     double least_volume;
-    // Or less than this compactness, 36 pi V^2 / A^3 of volume and surface: 1 of a ball, 0.52 of a cube.
+    // Or be thinner than this in the mean, 2 V / A of volume and surface, length: a cube has a third of its
+    // edge.
     double least_thickness;
     // More blocks than this are an error; 0: a million.
     uint64_t most_blocks;
