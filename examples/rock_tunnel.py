@@ -24,8 +24,9 @@ keys = rock.key_blocks(mass, free=(), friction=FRICTION, removed=inside)
 print(mass)
 print(rock.summary(keys))
 
-# What lies farther away than 1.7 radii stays where it is.
-away = np.hypot(*(mass.blocks["centroid"] - (12, 0, 11))[:, [0, 2]].T) > 1.7 * RADIUS
+# Blocks that are not at the tunnel stay where they are.
+away = np.ones(len(mass), bool)
+away[[block for one in keys if one.mode != "inner" for block in one.blocks]] = False
 colours = {block: one.color for one in keys for block in one.blocks}
 O.materials.append(ConicJointMat(normalStiffness=1e8, shearStiffness=5e7, frictionAngle=np.radians(FRICTION), restitution=0.3, density=2600))
 ids = rock.bodies(mass, r=0.05, fixed=away | mass.on_domain([rock.Domain.SOUTH, rock.Domain.NORTH]), color=lambda block: colours.get(block, rock.COLOURS["inner"]))

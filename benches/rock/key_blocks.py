@@ -11,7 +11,7 @@ import sys
 import time
 from pathlib import Path
 
-TOP = Path(__file__).resolve().parents[2]
+TOP = Path(sys.argv[0]).resolve().parents[2]
 sys.path[:0] = [str(TOP / "tests/yade"), str(TOP / "studies")]
 
 import slope_cuts  # noqa: E402
@@ -43,15 +43,15 @@ for row in rows:
     if not row["agrees"]:
         print(f"cut {row['seed']}: {row['mode']}, factor of safety {row['factor']:.3f}, moved by {row['distance']:.1e} m")
 turned = [row for row in rows if "distance_with_turns" in row and not row["moves"]]
-toppled = sum(row["distance_with_turns"] > slope_cuts.MOVED for row in turned)
+toppled = int(sum(row["distance_with_turns"] > slope_cuts.MOVED for row in turned))
 print(f"of {len(turned)} that stay, {toppled} move by 1 mm if they may turn; {time.monotonic() - begin:.0f} s")
 file = TOP / "out/rock/summary.json"
 summary = json.loads(file.read_text()) if file.exists() else {"targets": []}
 name = "cuts of a slope where block theory and simulation differ"
-wrong = sum(not row["agrees"] for row in rows)
+wrong = int(sum(not row["agrees"] for row in rows))
 summary["targets"] = [one for one in summary["targets"] if one["name"] != name] + [
     {"name": name, "sense": "at most", "target": 0, "measured": wrong, "met": wrong == 0}]
-summary["key_blocks"] = {"cuts": len(rows), "moves": sum(row["moves"] for row in rows), "differ": wrong, "stay": len(turned), "stay_but_turn": toppled,
+summary["key_blocks"] = {"cuts": len(rows), "moves": int(sum(row["moves"] for row in rows)), "differ": wrong, "stay": len(turned), "stay_but_turn": toppled,
                          "modes": {f"{mode}, {'moves' if moves else 'stays'}": sum(row["mode"] == mode and row["moves"] == moves for row in rows)
                                    for mode, moves in sorted({(row["mode"], row["moves"]) for row in rows})}}
 file.parent.mkdir(parents=True, exist_ok=True)

@@ -78,7 +78,8 @@ pub fn slice(domain: &[Plane], joints: &[Joint], settings: &SliceSettings) -> Re
 
 /// The same with convex regions, which cut the blocks that they meet after all joints: a tunnel, a bench, or what a domain that is not
 /// convex leaves out. A block is then cut plane by plane into what lies in the region, in the first one of several, and the parts beside
-/// it, which keep its [`Block::parent`].
+/// it, which keep its [`Block::parent`]. Parts smaller than the settings allow are not made: one in the region stays with what is beside it, one
+/// beside it with what is in the region.
 ///
 /// `progress` is called before each joint with the number of joints that have cut and of blocks that there are; where it returns false, the
 /// joints that are left do not cut ([`RockMass::joints`]), and the regions still do.
@@ -98,12 +99,11 @@ pub fn slice_with_regions(
     let block = |part: &Polyhedron| Block::of(part, &origin, |number| cuts[number - OF_CUBE]);
     // The volume of a part no thicker than the rounding of its corners is rounding, too.
     let thinnest = polyhedron.least_cut();
-    let is_thick = |part: &Polyhedron, least_volume: f64, least_thickness: f64| {
+    let is_too_small = |part: &Polyhedron| {
         let Block { volume, faces, .. } = block(part);
         let area = faces.iter().map(|face| face.area).sum::<f64>();
-        volume > least_volume.max(thinnest * area) && 2.0 * volume >= least_thickness * area
+        !(volume > settings.least_volume.max(thinnest * area) && 2.0 * volume >= settings.least_thickness * area)
     };
-    let is_too_small = |part: &Polyhedron| !is_thick(part, settings.least_volume, settings.least_thickness);
     let mut parts = vec![Part::of(polyhedron)];
     let mut mass = RockMass { blocks: Vec::new(), missing: Vec::new(), too_small: 0, unclosed: 0, joints: 0 };
     for (i, joint) in joints.iter().enumerate() {
@@ -149,7 +149,7 @@ pub fn slice_with_regions(
             .into_iter()
             .flat_map(|part| match part.region {
                 Some(_) => vec![part],
-                None => parted(part, i, first, planes, |part| is_thick(part, 0.0, 0.0), &mut mass),
+                None => parted(part, i, first, planes, is_too_small, &mut mass),
             })
             .collect();
         first += region.len();
@@ -167,7 +167,7 @@ fn parted(
     region: usize,
     first: usize,
     planes: &[Cut],
-    is_thick: impl Fn(&Polyhedron) -> bool,
+    is_too_small: impl Fn(&Polyhedron) -> bool,
     mass: &mut RockMass,
 ) -> Vec<Part> {
     let Part { middle, radius, parent, .. } = part;
@@ -181,14 +181,16 @@ fn parted(
                 mass.unclosed += 1;
                 return vec![part];
             };
-            // What is as thin as rounding belongs to the other side.
-            if !is_thick(&below) {
+            if is_too_small(&below) {
+                mass.too_small += 1;
                 return vec![part];
             }
-            if is_thick(&beyond) {
-                beside.push(Part { parent, ..Part::of(beyond) });
-                inside = below;
+            if is_too_small(&beyond) {
+                mass.too_small += 1;
+                continue;
             }
+            beside.push(Part { parent, ..Part::of(beyond) });
+            inside = below;
         } else if n.dot(&Part::of(inside.clone()).middle) > *height {
             return vec![part];
         }
@@ -459,6 +461,15 @@ mod tests {
             let pieces = mass.blocks.iter().filter(|block| block.parent == parent);
             assert!((pieces.map(|block| block.volume).sum::<f64>() - 8.0).abs() < 1e-13);
         }
+        // What is too small stays on the other side: the region takes the centimetre that it leaves, and no 2 cm beside a joint are cut off.
+        let (narrow, least) =
+            (cuboid([1.99, 9.0, 9.0], [1.005, 0.0, 0.0]), SliceSettings { least_thickness: 0.03, ..settings });
+        let wide = slice_with_regions(&domain, &joints[..1], &[narrow], &least, |_, _| true).unwrap();
+        assert_eq!((wide.blocks.len(), wide.too_small), (2, 1));
+        assert!((wide.blocks.iter().find(|block| block.region == Some(0)).unwrap().volume - 32.0).abs() < 1e-13);
+        let left = cuboid([0.02, 9.0, 9.0], [-0.01, 0.0, 0.0]);
+        let whole = slice_with_regions(&domain, &joints[..1], &[left], &least, |_, _| true).unwrap();
+        assert!(whole.blocks.len() == 2 && whole.blocks.iter().all(|block| block.region.is_none()));
         // A region that holds everything, and one that misses it.
         let (all, none) = (cuboid([9.0; 3], [0.0; 3]), cuboid([1.0; 3], [7.0, 0.0, 0.0]));
         let mass = slice_with_regions(&domain, &joints, &[none, all], &settings, |_, _| true).unwrap();
