@@ -13,6 +13,8 @@ Contact detection between potential particles.
   make scale    where the time of a step goes, 200 to 100,000 pyramids beside spheres and an earlier commit; results in out/scale
   make mpi-scale  when several processes pay: measured here, and a model; minutes; results in out/mpi/scale
 
+  make wheel    the library for Python without YADE: a wheel, tried in a bare virtual environment; takes maturin from PyPI; results in out/wheel
+
   make guide    the documentation as a site, in out/guide
 
   make deb        Debian packages of the library and the plugin, built in a Debian 12 and a 13 of their own; needs root; results in out/packages
@@ -52,7 +54,7 @@ Variables, as in "make demo STEPS=1000 BODIES=50":
   CASES=all         wedge, classics: all, or short for a few of them; classics: names, as in CASES=arch,rocking
   OUTPUT=DIR        demo, wedge, classics, mpi, side-by-side, long: where the results go (out/pyramids, ...)
   THREADS=1         demo, mpi: threads of YADE (of each process)
-  QUICK=1           side-by-side, peers: a little of everything, in seconds (peers: a minute)
+  QUICK=1           side-by-side, peers: a little of everything, in seconds (peers: a minute); wheel: without times
   POSES=1000000     stress: number of poses
   WALLS=100000      stress: number of contacts with planes and triangles; by default POSES/10
   SEAMS=50000       stress: number of meshes whose triangles share edges and vertices; by default POSES/20
@@ -85,7 +87,7 @@ export PATH := $(PATH):$(HOME)/.cargo/bin
 
 heading = @printf '== %s\n' '$(1)'
 
-.PHONY: check sanitize guide deb packages-test install help demo wedge classics mpi scale mpi-scale test test-debian13 side-by-side patch rock patch-yade peers roofline setup build library glue header lint bench stress fuzz long clean
+.PHONY: check sanitize wheel guide deb packages-test install help demo wedge classics mpi scale mpi-scale test test-debian13 side-by-side patch rock patch-yade peers roofline setup build library glue header lint bench stress fuzz long clean
 .DEFAULT_GOAL := help
 # The steps of one goal build on each other in the order in which they are named.
 .NOTPARALLEL:
@@ -153,6 +155,12 @@ test:
 
 check:
 	@scripts/check.sh
+
+wheel: export OUTPUT := $(OUTPUT)
+wheel: export QUICK := $(QUICK)
+wheel:
+	$(call heading,Wheel)
+	@scripts/wheel.sh
 
 guide: glue
 	$(call heading,Guide)

@@ -41,6 +41,7 @@ stage suite "Short wedge" scripts/short_wedge.sh
 stage suite "Short classics" scripts/short_classics.sh
 stage suite "Short side by side" scripts/short_side_by_side.sh
 stage check "Guide as a site" scripts/guide.sh "$CARGO_TARGET_DIR/guide"
+stage suite "Wheel for Python, in a bare virtual environment" env QUICK=1 OUTPUT="$CARGO_TARGET_DIR/wheel" scripts/wheel.sh
 stage suite "Links of the guide" tests/guide/links.py "$CARGO_TARGET_DIR/guide"
 stage suite "Code blocks of the guide" tests/guide/run.py
 stage suite "Messages that the guide explains" tests/guide/sentences.py

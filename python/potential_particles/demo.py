@@ -22,7 +22,7 @@ def demo(file):
     contact = detect(a, pose_a, b, pose_b)
     patch = patch_of_contact(a, pose_a, b, pose_b, contact)
     print(f"A: {a}\nB: {b}")
-    print(f"{contact.kind}: s = {contact.s:.12f}, right to {contact.gap:.1e}, in {contact.iterations} iterations")
+    print(f"{contact.kind}: s = {contact.s:.12f}, right to {contact.gap:.1e}, iterations: {contact.iterations}")
     print(f"overlap {contact.overlap:.9f}, normal {contact.normal}, point {contact.point}")
     print(f"patch: area {patch.area:.6f}, mean overlap {patch.mean_depth:.6f}")
     try:
@@ -79,3 +79,4 @@ def _equal(scene, corners):
     for side, a, b in zip("xyz", low, high):
         getattr(scene, f"set_{side}lim")(a, b)
     scene.set_box_aspect(high - low)
+    scene.locator_params(nbins=5)

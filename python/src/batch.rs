@@ -12,7 +12,10 @@ use pyo3::prelude::*;
 use std::collections::HashMap;
 use std::sync::{Mutex, PoisonError};
 
-/// The particles of some bodies, and what their pairs keep from call to call.
+/// The contacts of a scene, step after step: the particles of its bodies, and what each pair keeps from call to call.
+///
+/// The list of pairs may change: a pair keeps what it had as long as it is in the list. settings, threads: as of detect_batch.
+/// remember=False keeps nothing.
 #[pyclass(name = "Batch", module = "potential_particles")]
 pub struct PyBatch {
     particles: Vec<Py<PyParticle>>,
@@ -33,7 +36,9 @@ impl PyBatch {
         Self { particles, settings, threads, remembers: remember, pairs: Vec::new(), states: Vec::new() }
     }
 
-    /// Contacts of pairs (m, 2) of bodies at their poses.
+    /// Contacts of pairs (m, 2) of bodies at their poses, as detect_batch gives them, each from the last solution of its pair.
+    ///
+    /// Arrays, out and errors as of detect_batch.
     #[pyo3(signature = (poses, pairs, out=None))]
     fn detect<'py>(
         &mut self,
@@ -103,7 +108,12 @@ fn pair_rows<'py>(pairs: &Bound<'py, PyAny>) -> PyResult<PyReadonlyArray2<'py, u
     Ok(to_rows(pairs.py(), rows.into_iter()).readonly())
 }
 
-/// Contacts without memories.
+/// Contacts of pairs (m, 2) of bodies, as an array (m,) of contact_type; body i is particles[i] at poses[i]. Without memories: a Batch has those.
+///
+/// poses: an array of pose_type, or of doubles with rows x, y, z, w, x, y, z, read in place. pairs: first A, then B, counted from 0; those of uint32 are
+/// read in place. threads: how many work on it, with the GIL released; no answer depends on it. out: where the contacts are written.
+/// ContactError (IndexError where bodies do not exist): pairs without an answer, whose kind is FAILED; `failures` lists them with their reasons,
+/// and `contacts` has all answers.
 #[pyfunction]
 #[pyo3(signature = (particles, poses, pairs, settings=None, *, threads=1, out=None))]
 fn detect_batch<'py>(

@@ -103,6 +103,9 @@ impl PyFlatContact {
     }
 }
 
+/// The contact of particle A with a plane, which it may touch from either side, as a FlatContact: the least S_A on it.
+///
+/// state: a PairState of A and this boundary, read, and updated on success. ContactError: no answer, which does not mean separated.
 #[pyfunction(name = "contact_with_plane")]
 #[pyo3(signature = (a, pose, wall, settings=None, state=None))]
 fn with_plane(
@@ -116,6 +119,9 @@ fn with_plane(
     contact_with_plane(&a.0, &pose.0, &wall.wall, &or_default(settings), state).map(PyFlatContact).map_err(of_contact)
 }
 
+/// The contact of particle A with a closed triangle, which it may touch from either side, as a FlatContact: the least S_A on it.
+///
+/// Of the triangles of a mesh, the one with the least s owns the contact at a seam. state and errors as of contact_with_plane.
 #[pyfunction(name = "contact_with_triangle")]
 #[pyo3(signature = (a, pose, triangle, settings=None, state=None))]
 fn with_triangle(

@@ -71,6 +71,9 @@ fn built(
     Ok(PyShape { shape, particle })
 }
 
+/// Of half-spaces, rows (a, b, c, h) with a x + b y + c z <= h inside, or (normals, offsets): the faces of the particle are where these planes are.
+///
+/// Planes that make no face are left out. r and R: shares of the size, the diameter of the largest ball that fits in the sharp shape; k: sphericity. ValueError: no volume, or no point inside.
 #[pyfunction]
 #[pyo3(signature = (planes, *, r=0.05, k=0.02, R=None))]
 #[allow(non_snake_case)]
@@ -79,6 +82,9 @@ fn half_spaces(py: Python<'_>, planes: &Bound<'_, PyAny>, r: f64, k: f64, R: Opt
     built(py, (r, k, R), |rounding| shapes::half_spaces(&planes, rounding))
 }
 
+/// Of the convex hull of points (n, 3), rounded inwards: no part lies outside the hull.
+///
+/// Triangles that are coplanar to 1e-6 of the extent are one face. r and R: shares of the size, the diameter of the largest ball that fits in the sharp shape; k: sphericity. ValueError: flat points.
 #[pyfunction]
 #[pyo3(signature = (points, *, r=0.05, k=0.02, R=None))]
 #[allow(non_snake_case)]
@@ -87,6 +93,9 @@ fn hull(py: Python<'_>, points: &Bound<'_, PyAny>, r: f64, k: f64, R: Option<f64
     built(py, (r, k, R), |rounding| shapes::hull(&points, rounding))
 }
 
+/// Of a closed convex surface: points (n, 3) and triangles (m, 3), numbers of points.
+///
+/// r and R: shares of the size, the diameter of the largest ball that fits in the sharp shape; k: sphericity. ValueError: a surface that is open, not convex or crosses itself; hull makes its convex hull.
 #[pyfunction]
 #[pyo3(signature = (points, triangles, *, r=0.05, k=0.02, R=None))]
 #[allow(non_snake_case)]
@@ -103,7 +112,9 @@ fn surface(
     built(py, (r, k, R), |rounding| shapes::surface(&points, &triangles, rounding))
 }
 
-/// Of a file .stl or .obj.
+/// Of a closed convex surface in a file, .stl (binary or text) or .obj, all lengths multiplied by scale.
+///
+/// hull=True takes the convex hull of its points. r and R: shares of the size, the diameter of the largest ball that fits in the sharp shape; k: sphericity. ValueError: as of surface, and files that cannot be read.
 #[pyfunction]
 #[pyo3(signature = (file, *, hull=false, scale=1.0, r=0.05, k=0.02, R=None))]
 #[allow(non_snake_case)]
@@ -170,11 +181,15 @@ fn read(file: &Path) -> Result<Surface, String> {
     Ok((once, triangles))
 }
 
+/// A sphere about the origin: k = 1.
 #[pyfunction]
 fn sphere(py: Python<'_>, radius: f64) -> PyResult<PyShape> {
     built(py, (0.0, 1.0, None), |_| shapes::sphere(radius))
 }
 
+/// A cuboid about the origin with these edges along x, y, z, length.
+///
+/// r and R: shares of the size, the diameter of the largest ball that fits in the sharp shape; k: sphericity.
 #[pyfunction]
 #[pyo3(signature = (edges, *, r=0.05, k=0.02, R=None))]
 #[allow(non_snake_case)]
@@ -183,6 +198,9 @@ fn cuboid(py: Python<'_>, edges: &Bound<'_, PyAny>, r: f64, k: f64, R: Option<f6
     built(py, (r, k, R), |rounding| shapes::cuboid(edges, rounding))
 }
 
+/// A regular prism along z from -height/2 to height/2; radius: of the circle within its section; the first side faces x.
+///
+/// top_radius: that at the upper end, a frustum; 0 makes a pyramid. r and R: shares of the size, the diameter of the largest ball that fits in the sharp shape; k: sphericity.
 #[pyfunction]
 #[pyo3(signature = (sides=6, radius=0.5, height=1.0, top_radius=None, *, r=0.05, k=0.02, R=None))]
 #[allow(non_snake_case, clippy::too_many_arguments)]
@@ -199,6 +217,9 @@ fn prism(
     built(py, (r, k, R), |rounding| shapes::frustum(sides, radius, top_radius.unwrap_or(radius), height, rounding))
 }
 
+/// A cylinder along z as a prism of as many sides, whose section has the area pi radius^2.
+///
+/// r and R: shares of the size, the diameter of the largest ball that fits in the sharp shape; k: sphericity.
 #[pyfunction]
 #[pyo3(signature = (radius=0.5, height=1.0, sides=32, *, r=0.05, k=0.02, R=None))]
 #[allow(non_snake_case)]
@@ -214,6 +235,9 @@ fn cylinder(
     built(py, (r, k, R), |rounding| shapes::cylinder(radius, height, sides, rounding))
 }
 
+/// The regular solid of 4, 6, 8, 12 or 20 faces with this length of edges, about the origin.
+///
+/// r and R: shares of the size, the diameter of the largest ball that fits in the sharp shape; k: sphericity.
 #[pyfunction]
 #[pyo3(signature = (faces, edge=1.0, *, r=0.05, k=0.02, R=None))]
 #[allow(non_snake_case)]

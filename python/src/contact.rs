@@ -115,6 +115,11 @@ pub fn names(bits: u32, flags: impl std::fmt::Display) -> Vec<String> {
     if bits == 0 { Vec::new() } else { flags.to_string().split(", ").map(String::from).collect() }
 }
 
+/// The contact of particle A at pose_a with particle B at pose_b, as a Contact: world axes, normal from A to B.
+///
+/// Midway: the least t with s_A <= t and s_B <= t; they overlap if it is below 1 (Boon, Houlsby & Utili, eqs 4, 44). Closest: s_A at its least where
+/// s_B <= 1, and the swap (eqs 3, 9). state: a PairState of this ordered pair, read, and updated on success.
+/// ContactError: no solver reached an answer; that does not mean separated.
 #[pyfunction]
 #[pyo3(signature = (a, pose_a, b, pose_b, settings=None, state=None))]
 fn detect(
@@ -137,6 +142,9 @@ pub struct PyClosestPoint(ClosestPoint);
 
 getters!(PyClosestPoint: s, gap, point_bound; point, branch_a, branch_b);
 
+/// The point on one particle, on="a" or "b", where the scale of the other is least (eqs 3, 9), as a ClosestPoint.
+///
+/// None where there is none: the other particle's centre (for k = 0, its core) lies inside this one. ContactError as of detect.
 #[pyfunction]
 #[pyo3(signature = (a, pose_a, b, pose_b, on, settings=None))]
 fn closest_point(
@@ -156,6 +164,9 @@ fn closest_point(
     found.map(|point| point.map(PyClosestPoint)).map_err(of_contact)
 }
 
+/// Area, length^2, that the plane through the contact point normal to the contact normal cuts out of both particles; 0 when separated.
+///
+/// It is in closed form; tolerance, in [1e-12, 0.1], counts where rounding forbids that. ValueError: the contact is of other bodies or poses.
 #[pyfunction]
 #[pyo3(signature = (a, pose_a, b, pose_b, contact, tolerance=1e-6))]
 fn contact_area(

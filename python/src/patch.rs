@@ -80,6 +80,10 @@ fn made(
     Ok(PyPatch { patch, points })
 }
 
+/// The patch {s_A = s_B <= 1} of an overlapping contact, with the pressure K l (1 - s) on it, as a Patch; world axes, all over K.
+///
+/// tolerance: relative, of force and torque, in [1e-12, 0.1]. energy, stiffness: whether these are computed, too. Its points are the points of
+/// quadrature. ValueError: the contact is separated, or the tolerance out of range.
 #[pyfunction(name = "patch_of_contact")]
 #[pyo3(signature = (a, pose_a, b, pose_b, contact, *, tolerance=1e-4, energy=false, stiffness=false))]
 #[allow(clippy::too_many_arguments)]
@@ -99,6 +103,7 @@ fn of_contact(
     })
 }
 
+/// The patch of an overlapping contact with a plane: the part of the plane inside A. Otherwise as patch_of_contact.
 #[pyfunction(name = "patch_on_plane")]
 #[pyo3(signature = (a, pose, contact, *, tolerance=1e-4, energy=false, stiffness=false))]
 fn on_plane(
@@ -114,6 +119,9 @@ fn on_plane(
     })
 }
 
+/// The patch of an overlapping contact with a triangle: the part of the triangle inside A. Otherwise as patch_of_contact.
+///
+/// from_front: A counts as in front, where the vertices run counter-clockwise, as for the mesh of a closed body seen from outside.
 #[pyfunction(name = "patch_on_triangle")]
 #[pyo3(signature = (a, pose, triangle, contact, *, from_front=true, tolerance=1e-4, energy=false, stiffness=false))]
 #[allow(clippy::too_many_arguments)]

@@ -186,6 +186,7 @@ impl PyPlanarContact {
     }
 }
 
+/// The contact of particle A at pose_a with particle B at pose_b, as a planar.Contact; settings, state and errors as of detect in space.
 #[pyfunction]
 #[pyo3(signature = (a, pose_a, b, pose_b, settings=None, state=None))]
 fn detect(
@@ -202,6 +203,7 @@ fn detect(
     found.map(PyPlanarContact).map_err(of_contact)
 }
 
+/// How much of the line through the contact point normal to the contact normal lies in both particles, length; 0 when separated.
 #[pyfunction]
 fn contact_length(
     a: &PyPlanarParticle,

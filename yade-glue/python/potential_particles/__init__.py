@@ -35,6 +35,8 @@ functor (window). protect_runs() replaces more, for those who ask for it.
 """
 import builtins
 import functools
+import importlib.util
+import pkgutil
 
 from . import builds, window
 from .bodies import body
@@ -219,6 +221,18 @@ def library_version():
     return _glue.library_version()
 
 
+def _take_numpy_names():
+    """The names of the package of the same name for numpy arrays (docs/wheel.md), if it is installed beside this one, whose own names stay."""
+    global __path__
+    __path__ = pkgutil.extend_path(__path__, __name__)
+    if importlib.util.find_spec("._api", __name__) is None:
+        return
+    from . import _api
+    for name in _api.__all__:
+        globals().setdefault(name, getattr(_api, name))
+        __all__.append(name)
+
+
 def _load():
     yade, running = _import_yade()
     glue = _import_glue(running)
@@ -242,3 +256,5 @@ _glue = _load()
 # After the classes that they serve.
 from .check import SceneWarning, check  # noqa: E402, F401
 from .output import Mesh, Recorder, mesh, plot, save_mesh  # noqa: E402, F401
+
+_take_numpy_names()
