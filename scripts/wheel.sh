@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # Builds the wheel, the library for Python without YADE, into out/wheel, and tries it in a virtual environment that has nothing else but numpy: its
-# tests, the blocks of docs/wheel.md, and, without QUICK=1, what Python adds to the time of C (summary.json). maturin and ziglang, a linker for
-# systems with an older C library than this one, come from PyPI into a virtual environment of their own. Called by "make wheel" and "make test".
+# tests, the blocks of docs/wheel.md, and what Python adds to the time of C (summary.json). With QUICK=1 it is built for this system alone, without
+# link-time optimisation, and no time is measured. maturin and ziglang, a linker for systems with an older C library than this one, come from PyPI
+# into a virtual environment of their own. Called by "make wheel" and "make test".
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -26,11 +27,17 @@ from_pypi() {
 
 if ! "$TOOLS/bin/maturin" --version >/dev/null 2>&1; then
     "$PYTHON" -m venv --clear "$TOOLS" || die "no virtual environment by $PYTHON (Debian: python3-venv)"
-    from_pypi "$TOOLS" 'maturin>=1.7,<2' ziglang
+    from_pypi "$TOOLS" 'maturin>=1.7,<2'
+fi
+if [ "${QUICK:-0}" = 1 ]; then
+    how=(--profile quick)
+else
+    "$TOOLS/bin/python" -c 'import ziglang' 2>/dev/null || from_pypi "$TOOLS" ziglang
+    how=(--release --zig --compatibility manylinux2014)
 fi
 mkdir -p "$OUT"
 rm -f "$OUT"/*.whl
-PATH=$TOOLS/bin:$PATH "$TOOLS/bin/maturin" build --release --locked --zig --compatibility manylinux2014 --manifest-path python/Cargo.toml \
+PATH=$TOOLS/bin:$PATH "$TOOLS/bin/maturin" build "${how[@]}" --locked --manifest-path python/Cargo.toml \
     --interpreter "$PYTHON" --out "$OUT"
 
 rm -rf "$TRIED"

@@ -89,6 +89,9 @@ mod solver;
 mod surface;
 
 pub use boundary::{BoundaryError, Feature, FlatContact, Triangle, Wall, contact_with_plane, contact_with_triangle};
+/// Its vectors and matrices are those of this interface: of this version, whatever others a program has.
+pub use nalgebra;
+
 pub use contact::batch::{detect_batch, detect_batch_into};
 pub use contact::closest_point::{ClosestPoint, closest_point};
 pub use contact::contact::{Contact, Kind};
@@ -96,6 +99,7 @@ pub use contact::detect::{DetectError, detect};
 pub use flags::Flags;
 pub use pair::pair_state::PairState;
 pub use pair::role::Role;
+pub use particle::error::ToleranceError;
 pub use particle::mass_properties::{MASS_TOLERANCE, MassProperties};
 pub use particle::particle::{MAX_PLANES, Particle, ParticleError, Plane};
 pub use patch::{

@@ -110,7 +110,8 @@ fn pair_rows<'py>(pairs: &Bound<'py, PyAny>) -> PyResult<PyReadonlyArray2<'py, u
 
 /// Contacts of pairs (m, 2) of bodies, as an array (m,) of contact_type; body i is particles[i] at poses[i]. Without memories: a Batch has those.
 ///
-/// poses: an array of pose_type, or of doubles with rows x, y, z, w, x, y, z, read in place. pairs: first A, then B, counted from 0; those of uint32 are
+/// poses: an array of pose_type, or of doubles with rows x, y, z, w, x, y, z, read in place. pairs: first A, then B, counted from 0; those of uint32
+/// are
 /// read in place. threads: how many work on it, with the GIL released; no answer depends on it. out: where the contacts are written.
 /// ContactError (IndexError where bodies do not exist): pairs without an answer, whose kind is FAILED; `failures` lists them with their reasons,
 /// and `contacts` has all answers.

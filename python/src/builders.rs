@@ -73,7 +73,8 @@ fn built(
 
 /// Of half-spaces, rows (a, b, c, h) with a x + b y + c z <= h inside, or (normals, offsets): the faces of the particle are where these planes are.
 ///
-/// Planes that make no face are left out. r and R: shares of the size, the diameter of the largest ball that fits in the sharp shape; k: sphericity. ValueError: no volume, or no point inside.
+/// Planes that make no face are left out. r and R: shares of the size, the diameter of the largest ball that fits in the sharp shape; k: sphericity.
+/// ValueError: no volume, or no point inside.
 #[pyfunction]
 #[pyo3(signature = (planes, *, r=0.05, k=0.02, R=None))]
 #[allow(non_snake_case)]
@@ -84,7 +85,8 @@ fn half_spaces(py: Python<'_>, planes: &Bound<'_, PyAny>, r: f64, k: f64, R: Opt
 
 /// Of the convex hull of points (n, 3), rounded inwards: no part lies outside the hull.
 ///
-/// Triangles that are coplanar to 1e-6 of the extent are one face. r and R: shares of the size, the diameter of the largest ball that fits in the sharp shape; k: sphericity. ValueError: flat points.
+/// Triangles that are coplanar to 1e-6 of the extent are one face. r and R: shares of the size, the diameter of the largest ball that fits in the
+/// sharp shape; k: sphericity. ValueError: flat points.
 #[pyfunction]
 #[pyo3(signature = (points, *, r=0.05, k=0.02, R=None))]
 #[allow(non_snake_case)]
@@ -95,7 +97,8 @@ fn hull(py: Python<'_>, points: &Bound<'_, PyAny>, r: f64, k: f64, R: Option<f64
 
 /// Of a closed convex surface: points (n, 3) and triangles (m, 3), numbers of points.
 ///
-/// r and R: shares of the size, the diameter of the largest ball that fits in the sharp shape; k: sphericity. ValueError: a surface that is open, not convex or crosses itself; hull makes its convex hull.
+/// r and R: shares of the size, the diameter of the largest ball that fits in the sharp shape; k: sphericity. ValueError: a surface that is open,
+/// not convex or crosses itself; hull makes its convex hull.
 #[pyfunction]
 #[pyo3(signature = (points, triangles, *, r=0.05, k=0.02, R=None))]
 #[allow(non_snake_case)]
@@ -114,7 +117,8 @@ fn surface(
 
 /// Of a closed convex surface in a file, .stl (binary or text) or .obj, all lengths multiplied by scale.
 ///
-/// hull=True takes the convex hull of its points. r and R: shares of the size, the diameter of the largest ball that fits in the sharp shape; k: sphericity. ValueError: as of surface, and files that cannot be read.
+/// hull=True takes the convex hull of its points. r and R: shares of the size, the diameter of the largest ball that fits in the sharp shape; k:
+/// sphericity. ValueError: as of surface, and files that cannot be read.
 #[pyfunction]
 #[pyo3(signature = (file, *, hull=false, scale=1.0, r=0.05, k=0.02, R=None))]
 #[allow(non_snake_case)]
@@ -200,7 +204,8 @@ fn cuboid(py: Python<'_>, edges: &Bound<'_, PyAny>, r: f64, k: f64, R: Option<f6
 
 /// A regular prism along z from -height/2 to height/2; radius: of the circle within its section; the first side faces x.
 ///
-/// top_radius: that at the upper end, a frustum; 0 makes a pyramid. r and R: shares of the size, the diameter of the largest ball that fits in the sharp shape; k: sphericity.
+/// top_radius: that at the upper end, a frustum; 0 makes a pyramid. r and R: shares of the size, the diameter of the largest ball that fits in the
+/// sharp shape; k: sphericity.
 #[pyfunction]
 #[pyo3(signature = (sides=6, radius=0.5, height=1.0, top_radius=None, *, r=0.05, k=0.02, R=None))]
 #[allow(non_snake_case, clippy::too_many_arguments)]

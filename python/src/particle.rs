@@ -9,7 +9,8 @@ use pyo3::prelude::*;
 
 /// A validated potential particle, immutable: {x: (1-k)/r^2 sum <n.x - d>^2 + k/R^2 |x|^2 <= 1}, local frame.
 ///
-/// planes: rows (a, b, c, d) with outward normals, or (normals, offsets); a face of the finished particle lies near d + r. r: rounding radius, R: radius of
+/// planes: rows (a, b, c, d) with outward normals, or (normals, offsets); a face of the finished particle lies near d + r. r: rounding radius, R:
+/// radius of
 /// the shadow sphere, lengths; k: sphericity, in [0, 1]. ValueError: says which number is at fault.
 #[pyclass(name = "Particle", module = "potential_particles", frozen)]
 pub struct PyParticle(pub Particle);
@@ -123,10 +124,7 @@ impl PyParticle {
 
     #[pyo3(signature = (tolerance=1e-6))]
     fn mass_properties(&self, py: Python<'_>, tolerance: f64) -> PyResult<PyMassProperties> {
-        if !(1e-12..=0.1).contains(&tolerance) {
-            return Err(refused(format!("tolerance={tolerance:?} must lie in [1e-12, 0.1]")));
-        }
-        Ok(PyMassProperties(py.detach(|| self.0.mass_properties(tolerance))))
+        py.detach(|| self.0.mass_properties(tolerance)).map(PyMassProperties).map_err(refused)
     }
 
     #[pyo3(signature = (tolerance=1e-3))]

@@ -73,15 +73,12 @@ impl PyPlanarParticle {
     }
 
     #[pyo3(signature = (tolerance=1e-6))]
-    fn area_properties(&self, py: Python<'_>, tolerance: f64) -> PyAreaProperties {
-        PyAreaProperties(py.detach(|| self.0.area_properties(tolerance)))
+    fn area_properties(&self, py: Python<'_>, tolerance: f64) -> PyResult<PyAreaProperties> {
+        py.detach(|| self.0.area_properties(tolerance)).map(PyAreaProperties).map_err(refused)
     }
 
     fn outline<'py>(&self, py: Python<'py>, tolerance: f64) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        if !(tolerance > 0.0) {
-            return Err(refused(format!("tolerance={tolerance:?} must be above 0")));
-        }
-        let points = py.detach(|| self.0.outline(tolerance));
+        let points = py.detach(|| self.0.outline(tolerance)).map_err(refused)?;
         Ok(to_rows(py, points.into_iter().map(|point| point.into())))
     }
 

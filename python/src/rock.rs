@@ -44,7 +44,8 @@ impl PyJoint {
 
 /// The joints of a set, as a list of Joint: those that cross the line through centre along their mean normal within reach of it.
 ///
-/// dip, dip_direction: degrees, from horizontal and clockwise from north. spacing: mean, length; exponential: drawn from that distribution. fisher: kappa of
+/// dip, dip_direction: degrees, from horizontal and clockwise from north. spacing: mean, length; exponential: drawn from that distribution. fisher:
+/// kappa of
 /// Fisher's distribution of normals. The numbers drawn depend on seed alone.
 #[pyfunction]
 #[pyo3(signature = (dip, dip_direction, spacing, *, centre, reach, exponential=false, fisher=f64::INFINITY, seed=0))]
@@ -166,7 +167,8 @@ impl PyRockMass {
 
 /// A convex domain {a x + b y + c z <= d}, planes (n, 4), cut by joints in their order, as a RockMass.
 ///
-/// A joint cuts each block that it meets in two, but for parts of less than least_volume. ValueError: a domain that is empty or open, or more than most_blocks.
+/// A joint cuts each block that it meets in two, but for parts of less than least_volume. ValueError: a domain that is empty or open, or more than
+/// most_blocks.
 #[pyfunction]
 #[pyo3(signature = (domain, joints, *, least_volume=0.0, most_blocks=1_000_000))]
 fn slice(

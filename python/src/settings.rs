@@ -8,7 +8,8 @@ use pyo3::types::PyDict;
 /// How to solve; immutable.
 ///
 /// formulation: "midway" or "closest". solve_separated: solve separated pairs to the end as well. gap_tolerance: relative gap of s^2 at which the
-/// solver may stop, in (0, 0.1]; below 1e-13 it goes on in extended precision. weight_on_a: of the point on A in the contact point of closest, in [0, 1].
+/// solver may stop, in (0, 0.1]; below 1e-13 it goes on in extended precision. weight_on_a: of the point on A in the contact point of closest, in
+/// [0, 1].
 /// flat_regularisation: sphericity below which the position on a flat face is regularised, in [0, 0.1]. carry_tolerance: to what part of the smaller
 /// bounding radius the point of a contact has to be known that is carried on from the last step, in [0, 0.1]; 0: every contact is solved.
 /// ValueError: a number out of range.
@@ -37,15 +38,13 @@ impl PySettings {
         flat_regularisation: f64,
         carry_tolerance: f64,
     ) -> PyResult<Self> {
-        let settings = Settings {
-            formulation: self::formulation(formulation)?,
-            solve_separated,
-            gap_tolerance,
-            weight_on_a,
-            flat_regularisation,
-            carry_tolerance,
-            ..Settings::default()
-        };
+        let settings = Settings::default()
+            .with_formulation(self::formulation(formulation)?)
+            .with_solve_separated(solve_separated)
+            .with_gap_tolerance(gap_tolerance)
+            .with_weight_on_a(weight_on_a)
+            .with_flat_regularisation(flat_regularisation)
+            .with_carry_tolerance(carry_tolerance);
         settings.validate().map_err(refused)?;
         Ok(Self(settings))
     }

@@ -4,6 +4,9 @@
 //!
 //! The documentation of every exported item is also the comment in the C header: plain text, without the marks of
 //! rustdoc, and "Pointers:" where Rust would have a section on safety.
+
+// Comments are those of the C header, where brackets are C's.
+#![allow(rustdoc::broken_intra_doc_links)]
 #![allow(non_camel_case_types, unsafe_code)]
 #![allow(clippy::missing_safety_doc)]
 

@@ -3,7 +3,7 @@
 use crate::particle::plane::Plane;
 use crate::particle::polyhedron::{OF_CUBE, Polyhedron};
 use crate::rock::block::{Block, FaceOf};
-use crate::rock::error::RockError;
+use crate::rock::error::{RockError, within};
 use crate::rock::joint::Joint;
 use nalgebra::Vector3;
 
@@ -60,8 +60,10 @@ impl Ball {
 /// cuts all of a block that it reaches, as in the paper.
 ///
 /// # Errors
-/// A domain that is empty or open, a plane or joint without a normal or whose numbers are not finite, more blocks than allowed.
+/// A domain that is empty or open, a plane or joint without a normal or whose numbers are not finite, a least volume that is none, more blocks
+/// than allowed.
 pub fn slice(domain: &[Plane], joints: &[Joint], settings: &SliceSettings) -> Result<RockMass, RockError> {
+    within(settings.least_volume, settings.least_volume >= 0.0, "least_volume", "a volume of 0 or above")?;
     let outer = unit_planes(domain)?;
     let (origin, polyhedron) = enclosed(&outer)?;
     let of_domain = outer.iter().enumerate().map(|(i, (n, d))| Ok((FaceOf::Domain(i), *n, d - n.dot(&origin))));
@@ -264,7 +266,7 @@ mod tests {
         assert!(areas.len() == 12 && areas.values().all(|sum: &f64| sum.abs() < 1e-12), "{areas:?}");
         let largest = mass.blocks.iter().max_by(|a, b| a.volume.total_cmp(&b.volume)).unwrap();
         let r = 1e-4 * largest.volume.cbrt();
-        let of_particle = largest.particle(r).unwrap().mass_properties(1e-6).volume;
+        let of_particle = largest.particle(r).unwrap().mass_properties(1e-6).unwrap().volume;
         assert!(of_particle <= largest.volume * (1.0 + 1e-6) && of_particle > (1.0 - 1e-3) * largest.volume);
     }
 
@@ -336,6 +338,8 @@ mod tests {
         assert_eq!(error(&turned, &[], &none), RockError::Empty);
         turned[0].normal = Vector3::zeros();
         assert_eq!(error(&turned, &[], &none), RockError::NoPlane(0));
+        let least = SliceSettings { least_volume: f64::NAN, ..none };
+        assert!(error(&domain, &[], &least).to_string().contains("least_volume = NaN must be"));
         let most = SliceSettings { most_blocks: 5, ..none };
         let joints = random_joints(4, 9, [0.0; 3], 0.2);
         assert!(matches!(error(&domain, &joints, &most), RockError::TooManyBlocks { most: 5, .. }));

@@ -14,7 +14,7 @@
 use super::error::{ShapeError, positive, within};
 use super::largest_ball;
 use super::principal_frame;
-use crate::particle::mass_properties::{MASS_TOLERANCE, MassProperties};
+use crate::particle::mass_properties::{self, MASS_TOLERANCE, MassProperties};
 use crate::particle::particle::Particle;
 use crate::particle::plane::Plane;
 use crate::pose::Pose;
@@ -116,7 +116,7 @@ impl Shape {
         for _ in 0..MOST_STEPS {
             let Definition { k, shadow_radius, .. } = definition(&centre);
             let particle = definition(&centre).particle()?;
-            let shift = particle.mass_properties(ROUGHLY).centroid;
+            let shift = mass_properties::of(&particle, ROUGHLY).centroid;
             if !(shift.amax() > CENTRED * size) {
                 found = Some(particle);
                 break;
@@ -128,7 +128,7 @@ impl Shape {
         }
         let Definition { k, shadow_radius, .. } = definition(&centre);
         let particle = found.ok_or(ShapeError::NoCentre { k, shadow_radius })?;
-        let mass = particle.mass_properties(MASS_TOLERANCE);
+        let mass = mass_properties::of(&particle, MASS_TOLERANCE);
         // The centroid is known no better than this.
         if mass.centroid.amax() > MASS_TOLERANCE * size {
             centre += mass.centroid;
@@ -138,7 +138,7 @@ impl Shape {
         let quaternion = UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(axes));
         let sign = if quaternion.w < 0.0 { -1.0 } else { 1.0 };
         let orientation = [quaternion.w, quaternion.i, quaternion.j, quaternion.k].map(|c| sign * c);
-        let mass = particle.mass_properties(MASS_TOLERANCE);
+        let mass = mass_properties::of(&particle, MASS_TOLERANCE);
         Ok(Self { particle, mass, centroid: centre, orientation })
     }
 }
