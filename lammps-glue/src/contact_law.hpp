@@ -94,10 +94,12 @@ inline ContactForce contactForce(const LawParameters& law, const ContactMotion& 
                 shearDamping = (shear + shearDamping) * (most / both) - shear;
         } else
             shearDamping.setZero();
+        // The velocity is that of half a step ago: half of the work is of the force now, half of that of the last step.
+        const Vector3d before = history.damping;
         history.damping = damping * n + shearDamping;
         history.normal = n;
         if (advance)
-            force.damped = -dt * history.damping.dot(motion.velocity);
+            force.damped = -0.5 * dt * (before + history.damping).dot(motion.velocity);
     }
     force.onB = spring * n + history.shear + history.damping;
     force.elastic = 0.5 * spring * motion.overlap + (law.shearStiffness > 0 ? 0.5 * history.shear.squaredNorm() / law.shearStiffness : 0);

@@ -23,7 +23,7 @@ namespace {
 
 constexpr const char* style = "fix wall/potential/particle";
 constexpr const char* expected
-    = "expected KN KS FRICTION RESTITUTION, then plane X Y Z NX NY NZ, stl FILE, scale S, linear VX VY VZ, or rotate X Y Z AX AY AZ PERIOD";
+    = "expected KN KS FRICTION RESTITUTION, then plane X Y Z NX NY NZ, stl FILE, scale S, flat EPS, linear VX VY VZ, or rotate X Y Z AX AY AZ PERIOD";
 
 } // namespace
 
@@ -34,8 +34,9 @@ FixWall::FixWall(LAMMPS* lmp, int count, char** arguments)
     maxexchange_dynamic = 1;
     vector_flag = extvector = global_freq = 1;
     size_vector = sums;
-    if (count < 8)
+    if (count < 7)
         error->all(FLERR, "{}: {}", style, expected);
+    pp_settings_default(&how);
     const double restitution = numberAt(arguments, 6, "restitution");
     law = { numberAt(arguments, 3, "normal stiffness"), numberAt(arguments, 4, "shear stiffness"), numberAt(arguments, 5, "friction"),
         dampingRatioOf(restitution) };
@@ -62,6 +63,11 @@ FixWall::FixWall(LAMMPS* lmp, int count, char** arguments)
             scale = numberAt(arguments, i + 1, "scale");
             if (!(scale > 0))
                 error->all(FLERR, "{}: scale = {}: it must be above 0", style, scale);
+            i += 2;
+        } else if (is("flat", 1)) {
+            how.flat_regularisation = numberAt(arguments, i + 1, "flat");
+            if (!(how.flat_regularisation >= 0 && how.flat_regularisation <= 0.1))
+                error->all(FLERR, "{}: flat = {}: it must lie in [0, 0.1]", style, arguments[i + 1]);
             i += 2;
         } else if (is("linear", 3)) {
             linear = threeAt(i + 1, "linear");
@@ -166,15 +172,16 @@ void FixWall::meet(int i, const Frame& frame, bool advance)
     const Quaterniond turned = frame.turn.conjugate() * Quaterniond(q[0], q[1], q[2], q[3]);
     const pp_pose pose { { position[0], position[1], position[2] }, { turned.w(), turned.x(), turned.y(), turned.z() } };
 
-    std::vector<Known> now;
-    std::vector<TriangleContact> touched; // one for each in `now`; triangles by their number in the mesh
+    now.clear();
+    touched.clear();
+    founds.clear();
     for (int element : candidates) {
         const auto old = std::find_if(mine.begin(), mine.end(), [&](const Known& k) { return k.element == element; });
         Known next = old != mine.end() ? *old : Known { element, {}, {} };
         pp_flat_contact found;
         const pp_status status = element < firstTriangle
-            ? pp_contact_plane(shape.particle.get(), &pose, planes[element].point.data(), planes[element].normal.data(), nullptr, &next.state, &found)
-            : pp_contact_triangle(shape.particle.get(), &pose, mesh->points(element - firstTriangle).data(), nullptr, &next.state, &found);
+            ? pp_contact_plane(shape.particle.get(), &pose, planes[element].point.data(), planes[element].normal.data(), &how, &next.state, &found)
+            : pp_contact_triangle(shape.particle.get(), &pose, mesh->points(element - firstTriangle).data(), &how, &next.state, &found);
         if (status != PP_OK)
             error->one(FLERR, "{}: the contact of atom {} with {} {} failed: {}. Shape {}; pose in the wall's frame {} {} {}, {} {} {} {}", style, atom->tag[i],
                 element < firstTriangle ? "plane" : "triangle", element < firstTriangle ? element + 1 : element - firstTriangle + 1,
@@ -185,17 +192,25 @@ void FixWall::meet(int i, const Frame& frame, bool advance)
         touched.push_back({ element - firstTriangle, found, uncertaintyOf(found, shape.radius) });
     }
 
-    std::vector<Known> kept;
+    const auto yields = [&](const TriangleContact& one) {
+        return one.triangle >= 0 && std::any_of(touched.begin(), touched.end(), [&](const TriangleContact& other) {
+            return other.triangle >= 0 && other.triangle != one.triangle && yieldsTo(*mesh, other, one);
+        });
+    };
+    size_t count = 0;
+    for (size_t n = 0; n < now.size(); ++n)
+        if (!yields(touched[n])) {
+            std::swap(now[count], now[n]);
+            founds.push_back(touched[n].found);
+            ++count;
+        }
+    now.resize(count);
+
     const Vector3d turn(atom->omega[i]);
     for (size_t n = 0; n < now.size(); ++n) {
-        const bool yields = touched[n].triangle >= 0 && std::any_of(touched.begin(), touched.end(), [&](const TriangleContact& other) {
-            return other.triangle >= 0 && other.triangle != touched[n].triangle && yieldsTo(*mesh, other, touched[n]);
-        });
-        if (yields)
-            continue;
         Known& contact = now[n];
-        const pp_flat_contact& found = touched[n].found;
-        // A contact that slides over a seam takes its history along.
+        const pp_flat_contact& found = founds[n];
+        // A contact that comes over a seam takes its history along.
         if (!contact.history.touching)
             for (Known& left : mine)
                 if (left.history.touching && shareVertex(left.element, contact.element)
@@ -221,9 +236,8 @@ void FixWall::meet(int i, const Frame& frame, bool advance)
         own[damped] += force.damped;
         for (int d = 0; d < 3; ++d)
             own[forceX + d] += force.onB[d];
-        kept.push_back(contact);
     }
-    mine.swap(kept);
+    mine.swap(now);
 }
 
 double FixWall::compute_vector(int n)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 //
 // fix ID group wall/potential/particle KN KS FRICTION RESTITUTION
-//     [plane X Y Z NX NY NZ] ... [stl FILE [scale S]] [linear VX VY VZ] [rotate X Y Z AX AY AZ PERIOD]
+//     [plane X Y Z NX NY NZ] ... [stl FILE [scale S]] [flat EPS] [linear VX VY VZ] [rotate X Y Z AX AY AZ PERIOD]
 //
 // Planes and one mesh, which may move together as one rigid body: at time 0 they are where the command says. Bodies are put into the frame of the wall,
 // so that its triangles are sorted into cells once. As a vector: contacts, elastic energy, energy that friction and dashpots took,
@@ -72,13 +72,18 @@ private:
 
     FixShapes* shapes = nullptr;
     LawParameters law;
+    pp_settings how;
     std::vector<Plane> planes;
     std::unique_ptr<Mesh> mesh;
     std::string file;
     Eigen::Vector3d centre = Eigen::Vector3d::Zero(), linear = Eigen::Vector3d::Zero(), axis = Eigen::Vector3d::UnitZ();
     double rate = 0; // of rotation
     std::vector<std::vector<Known>> known; // of atoms
-    std::vector<int> candidates; // of the atom at work
+    // Of the atom at work: what is near, what touches, and the contacts that do not yield at seams.
+    std::vector<int> candidates;
+    std::vector<TriangleContact> touched;
+    std::vector<Known> now;
+    std::vector<pp_flat_contact> founds;
     double own[sums] = {};
 };
 

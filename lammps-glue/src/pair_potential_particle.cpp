@@ -213,7 +213,7 @@ void PairPotentialParticle::rebuild()
     }
     poses.clear(); // gathered anew, with no way between
     ways.assign(all, 0.0);
-    const bool mayGrowOld = neighbor->every > 1 || neighbor->delay > 0 || !neighbor->dist_check;
+    const bool mayGrowOld = neighbor->every > 1 || neighbor->delay > 0 || !neighbor->dist_check || neighbor->build_once;
     held.resize(mayGrowOld ? local : 0);
     for (size_t i = 0; i < held.size(); ++i)
         std::copy_n(atom->x[i], 3, held[i].begin());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 //
-// Entry of the plugin: `plugin load libpotential_particles_lammps.so` calls lammpsplugin_init.
+// Entry of the plugin: `plugin load potential_particles_plugin.so` calls lammpsplugin_init.
 #include "contact_memory.hpp"
 #include "fix_nve.hpp"
 #include "fix_shapes.hpp"
