@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "fix_wall.hpp"
 #include "fix_shapes.hpp"
+#include "motion.hpp"
 #include "text_file.hpp"
 
 #include "atom.h"
 #include "comm.h"
 #include "error.h"
+#include "neighbor.h"
 #include "update.h"
 #include "utils.h"
 
@@ -142,102 +144,150 @@ void FixWall::post_force(int)
     for (int i = 0; i < atom->nlocal; ++i)
         if (atom->mask[i] & groupbit) {
             meet(i, frame, advance);
-            most = std::max(most, known[i].size());
+            most = std::max(most, around[i].known.size());
         }
     maxexchange = 1 + static_cast<int>(most) * savedSize;
+}
+
+double FixWall::ballDistance(int element, const Vector3d& position, double radius) const
+{
+    const int triangle = element - static_cast<int>(planes.size());
+    if (triangle < 0)
+        return std::abs(planes[element].normal.dot(position - planes[element].point)) - radius;
+    const auto& corners = mesh->triangle(triangle);
+    const Vector3d &a = mesh->vertex(corners[0]), normal = (mesh->vertex(corners[1]) - a).cross(mesh->vertex(corners[2]) - a);
+    return std::abs(normal.dot(position - a)) / normal.norm() - radius;
+}
+
+// All elements that the body can touch before it has come by the skin.
+void FixWall::lookAround(Surroundings& here, double radius)
+{
+    const Vector3d position(here.last.position);
+    const int firstTriangle = static_cast<int>(planes.size());
+    here.way = 0;
+    here.limit = neighbor->skin;
+    here.elements.clear();
+    candidates.clear();
+    if (mesh)
+        mesh->near(position, radius + here.limit, candidates);
+    for (int p = -firstTriangle; p < 0; ++p)
+        candidates.push_back(p);
+    for (int candidate : candidates) {
+        const int element = candidate + firstTriangle;
+        const double distance = ballDistance(element, position, radius);
+        if (!(distance > here.limit))
+            here.elements.push_back({ element, distance });
+    }
 }
 
 // All contacts of an atom with the wall.
 void FixWall::meet(int i, const Frame& frame, bool advance)
 {
     const Shape& shape = shapes->shape(atom->type[i]);
+    Surroundings& here = around[i];
     const Vector3d position = intoWall(frame, Vector3d(atom->x[i]));
-    std::vector<Known>& mine = known[i];
-    const int firstTriangle = static_cast<int>(planes.size());
-
-    candidates.clear();
-    if (mesh)
-        mesh->near(position, shape.radius, candidates);
-    for (int& candidate : candidates)
-        candidate += firstTriangle;
-    for (int p = 0; p < firstTriangle; ++p)
-        if (std::abs(planes[p].normal.dot(position - planes[p].point)) <= shape.radius)
-            candidates.push_back(p);
-    if (candidates.empty()) {
-        mine.clear();
-        return;
-    }
-
     const double* q = shapes->orientations()[i];
     const Quaterniond turned = frame.turn.conjugate() * Quaterniond(q[0], q[1], q[2], q[3]);
     const pp_pose pose { { position[0], position[1], position[2] }, { turned.w(), turned.x(), turned.y(), turned.z() } };
+    here.way += wayBetween(here.last, pose, shape.radius);
+    here.last = pose;
+    if (!std::isfinite(here.way))
+        error->one(FLERR, "{}: atom {} has the position {} {} {}, orientation {} {} {} {}: they must be finite; a smaller timestep or softer contacts may help",
+            style, atom->tag[i], atom->x[i][0], atom->x[i][1], atom->x[i][2], q[0], q[1], q[2], q[3]);
+    if (!(here.way < here.limit))
+        lookAround(here, shape.radius);
+    if (here.elements.empty()) {
+        here.known.clear();
+        return;
+    }
+    solve(i, shape, here);
+    for (size_t n = 0; n < touched.size(); ++n)
+        now[slotOf[n]].touches = !yields(touched[n]);
+    for (size_t n = 0; n < touched.size(); ++n)
+        if (now[slotOf[n]].touches)
+            applyLaw(i, frame, advance, touched[n].found, now[slotOf[n]], here);
+    for (Known& one : now)
+        if (!one.touches)
+            one.history.touching = false;
+    here.known.swap(now);
+}
 
+// Fills `now`, with a memory for each element that touches or nearly does, and `touched`.
+void FixWall::solve(int i, const Shape& shape, Surroundings& here)
+{
+    const int firstTriangle = static_cast<int>(planes.size());
     now.clear();
     touched.clear();
-    founds.clear();
-    for (int element : candidates) {
-        const auto old = std::find_if(mine.begin(), mine.end(), [&](const Known& k) { return k.element == element; });
-        Known next = old != mine.end() ? *old : Known { element, {}, {} };
+    slotOf.clear();
+    for (Asleep& one : here.elements) {
+        if (here.way < one.wake)
+            continue;
+        const int element = one.element;
+        const auto old = std::find_if(here.known.begin(), here.known.end(), [&](const Known& k) { return k.element == element; });
+        Known next = old != here.known.end() ? *old : Known { element, false, {}, {} };
+        next.touches = false;
         pp_flat_contact found;
         const pp_status status = element < firstTriangle
-            ? pp_contact_plane(shape.particle.get(), &pose, planes[element].point.data(), planes[element].normal.data(), &how, &next.state, &found)
-            : pp_contact_triangle(shape.particle.get(), &pose, mesh->points(element - firstTriangle).data(), &how, &next.state, &found);
-        if (status != PP_OK)
-            error->one(FLERR, "{}: the contact of atom {} with {} {} failed: {}. Shape {}; pose in the wall's frame {} {} {}, {} {} {} {}", style, atom->tag[i],
-                element < firstTriangle ? "plane" : "triangle", element < firstTriangle ? element + 1 : element - firstTriangle + 1,
-                pp_status_message(status), shape.name, position[0], position[1], position[2], turned.w(), turned.x(), turned.y(), turned.z());
-        if (found.kind != PP_OVERLAPPING)
-            continue;
-        now.push_back(next);
-        touched.push_back({ element - firstTriangle, found, uncertaintyOf(found, shape.radius) });
-    }
-
-    const auto yields = [&](const TriangleContact& one) {
-        return one.triangle >= 0 && std::any_of(touched.begin(), touched.end(), [&](const TriangleContact& other) {
-            return other.triangle >= 0 && other.triangle != one.triangle && yieldsTo(*mesh, other, one);
-        });
-    };
-    size_t count = 0;
-    for (size_t n = 0; n < now.size(); ++n)
-        if (!yields(touched[n])) {
-            std::swap(now[count], now[n]);
-            founds.push_back(touched[n].found);
-            ++count;
+            ? pp_contact_plane(shape.particle.get(), &here.last, planes[element].point.data(), planes[element].normal.data(), &how, &next.state, &found)
+            : pp_contact_triangle(shape.particle.get(), &here.last, mesh->points(element - firstTriangle).data(), &how, &next.state, &found);
+        if (status != PP_OK) {
+            const double *x = here.last.position, *q = here.last.orientation;
+            error->one(FLERR, "{}: the contact of atom {} with {} {} failed: {}. Shape {}; pose in the wall's frame {:.17g} {:.17g} {:.17g}, {:.17g} {:.17g} {:.17g} {:.17g}",
+                style, atom->tag[i], element < firstTriangle ? "plane" : "triangle", element < firstTriangle ? element + 1 : element - firstTriangle + 1,
+                pp_status_message(status), shape.name, x[0], x[1], x[2], q[0], q[1], q[2], q[3]);
         }
-    now.resize(count);
-
-    const Vector3d turn(atom->omega[i]);
-    for (size_t n = 0; n < now.size(); ++n) {
-        Known& contact = now[n];
-        const pp_flat_contact& found = founds[n];
-        // A contact that comes over a seam takes its history along.
-        if (!contact.history.touching)
-            for (Known& left : mine)
-                if (left.history.touching && shareVertex(left.element, contact.element)
-                    && std::none_of(now.begin(), now.end(), [&](const Known& k) { return k.element == left.element; })) {
-                    contact.history = left.history;
-                    left.history.touching = false;
-                    break;
-                }
-        ContactMotion motion;
-        motion.overlap = found.overlap;
-        motion.normal = frame.turn * Vector3d(found.normal);
-        const Vector3d arm = frame.turn * Vector3d(found.branch);
-        const Vector3d ofWall = frame.velocity + frame.angularVelocity.cross(Vector3d(atom->x[i]) + arm - frame.origin);
-        motion.velocity = ofWall - Vector3d(atom->v[i]) - turn.cross(arm);
-        motion.spin = 0.5 * motion.normal.dot(turn + frame.angularVelocity);
-        motion.mass = atom->rmass[i];
-        const ContactForce force = contactForce(law, motion, update->dt, advance, contact.history);
-        Map<Vector3d>(atom->f[i]) -= force.onB;
-        Map<Vector3d>(atom->torque[i]) -= arm.cross(force.onB);
-        own[contacts] += 1;
-        own[elastic] += force.elastic;
-        own[slid] += force.slid;
-        own[damped] += force.damped;
-        for (int d = 0; d < 3; ++d)
-            own[forceX + d] += force.onB[d];
+        if (found.kind == PP_SEPARATED && found.distance > farShare * shape.radius) {
+            one.wake = here.way + found.distance;
+            continue;
+        }
+        if (found.kind == PP_OVERLAPPING) {
+            slotOf.push_back(static_cast<int>(now.size()));
+            touched.push_back({ element - firstTriangle, found, uncertaintyOf(found, shape.radius) });
+        }
+        now.push_back(next);
     }
-    mine.swap(now);
+}
+
+bool FixWall::yields(const TriangleContact& one) const
+{
+    return one.triangle >= 0 && std::any_of(touched.begin(), touched.end(), [&](const TriangleContact& other) {
+        return other.triangle >= 0 && other.triangle != one.triangle && yieldsTo(*mesh, other, one);
+    });
+}
+
+void FixWall::applyLaw(int i, const Frame& frame, bool advance, const pp_flat_contact& found, Known& contact, Surroundings& here)
+{
+    // A contact that comes over a seam takes its history along.
+    if (!contact.history.touching)
+        for (Known& left : here.known)
+            if (left.history.touching && shareVertex(left.element, contact.element)
+                && std::none_of(now.begin(), now.end(), [&](const Known& k) { return k.touches && k.element == left.element; })) {
+                contact.history = left.history;
+                left.history.touching = false;
+                break;
+            }
+    const Vector3d turn(atom->omega[i]), arm = frame.turn * Vector3d(found.branch);
+    ContactMotion motion;
+    motion.overlap = found.overlap;
+    motion.normal = frame.turn * Vector3d(found.normal);
+    const Vector3d ofWall = frame.velocity + frame.angularVelocity.cross(Vector3d(atom->x[i]) + arm - frame.origin);
+    motion.velocity = ofWall - Vector3d(atom->v[i]) - turn.cross(arm);
+    motion.spin = 0.5 * motion.normal.dot(turn + frame.angularVelocity);
+    motion.mass = atom->rmass[i];
+    const ContactForce force = contactForce(law, motion, update->dt, advance, contact.history);
+    Map<Vector3d>(atom->f[i]) -= force.onB;
+    Map<Vector3d>(atom->torque[i]) -= arm.cross(force.onB);
+    own[contacts] += 1;
+    own[elastic] += force.elastic;
+    own[slid] += force.slid;
+    own[damped] += force.damped;
+    for (int d = 0; d < 3; ++d)
+        own[forceX + d] += force.onB[d];
+}
+
+int FixWall::touching(int i) const
+{
+    return static_cast<int>(std::count_if(around[i].known.begin(), around[i].known.end(), [](const Known& one) { return one.touches; }));
 }
 
 double FixWall::compute_vector(int n)
@@ -250,8 +300,10 @@ double FixWall::compute_vector(int n)
 int FixWall::pack(int i, double* buffer) const
 {
     int m = 0;
-    buffer[m++] = static_cast<double>(known[i].size());
-    for (const Known& one : known[i]) {
+    buffer[m++] = touching(i);
+    for (const Known& one : around[i].known) {
+        if (!one.touches)
+            continue;
         buffer[m++] = one.element;
         for (const Vector3d* part : { &one.history.shear, &one.history.normal, &one.history.damping })
             for (int d = 0; d < 3; ++d)
@@ -265,11 +317,11 @@ int FixWall::pack(int i, double* buffer) const
 int FixWall::unpack(int i, const double* buffer)
 {
     int m = 0;
-    known[i].resize(static_cast<size_t>(buffer[m++]));
-    for (Known& one : known[i]) {
-        one = {};
+    around[i] = {};
+    around[i].known.resize(static_cast<size_t>(buffer[m++]));
+    for (Known& one : around[i].known) {
         one.element = static_cast<int>(buffer[m++]);
-        one.history.touching = true;
+        one.touches = one.history.touching = true;
         for (Vector3d* part : { &one.history.shear, &one.history.normal, &one.history.damping })
             for (int d = 0; d < 3; ++d)
                 (*part)[d] = buffer[m++];
@@ -325,9 +377,9 @@ void FixWall::restart(char* saved)
 
 double FixWall::memory_usage()
 {
-    double bytes = static_cast<double>(known.capacity() * sizeof(known[0]));
-    for (const auto& one : known)
-        bytes += static_cast<double>(one.capacity() * sizeof(Known));
+    double bytes = static_cast<double>(around.capacity() * sizeof(Surroundings));
+    for (const Surroundings& here : around)
+        bytes += static_cast<double>(here.elements.capacity() * sizeof(Asleep) + here.known.capacity() * sizeof(Known));
     return bytes;
 }
 

@@ -18,4 +18,7 @@ inline double wayBetween(const pp_pose& from, const pp_pose& to, double radius)
         + 2 * radius * (Map<const Eigen::Vector4d>(to.orientation) - Map<const Eigen::Vector4d>(from.orientation)).norm();
 }
 
+// What is further apart than this share of a size sleeps until it can have met; what is nearer would wake too often.
+constexpr double farShare = 1e-3;
+
 } // namespace potential_particles

@@ -25,8 +25,6 @@ namespace potential_particles {
 namespace {
 
 constexpr const char* style = "pair_style potential/particle";
-// A pair sleeps if it is further apart than this share of both radii: nearer ones would wake too often.
-constexpr double farShare = 1e-3;
 constexpr double lowestRestitution = 0.01;
 
 std::string described(const pp_pose& pose)

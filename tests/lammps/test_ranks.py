@@ -10,7 +10,7 @@ from scene import DEFAULTS, FRICTION, SCRIPT, SHEAR, STIFFNESS, TOP, lammps, ran
 
 from potential_particles_lammps.pictures import frames
 
-FLOOR = f"fix floor all wall/potential/particle {STIFFNESS} {SHEAR} {FRICTION} 0.8 plane 0 0 0 0 0 1"
+FLOOR = f"fix floor all wall/potential/particle {STIFFNESS} {SHEAR} {FRICTION} 0.3 plane 0 0 0 0 0 1"
 
 
 def heap(seed=11):
@@ -19,29 +19,34 @@ def heap(seed=11):
 
 
 def test_ranks_agree(folder):
-    """One, two and four ranks, with bodies and sliding contacts that cross borders."""
+    """One and two ranks, with bodies and sliding contacts that cross the border."""
     ends = []
-    for ranks, grid in ((1, "processors 1 1 1"), (2, "processors 2 1 1"), (4, "processors 2 2 1")):
-        dumped, said = run(folder, heap(), ranks=ranks, processors=grid, walls=FLOOR, coefficients=f"pair_coeff * * {STIFFNESS} {SHEAR} {FRICTION} 0.8",
-                           run="run 900")
+    for ranks in (1, 2):
+        dumped, said = run(folder, heap(), ranks=ranks, processors="processors * 1 1", walls=FLOOR,
+                           coefficients=f"pair_coeff * * {STIFFNESS} {SHEAR} {FRICTION} 0.3", run="thermo 10\nrun 900")
         ends.append((state(dumped[-1][1]), thermo(said)))
         start = state(dumped[0][1])
     crossed = (np.sign(start[:, 0]) != np.sign(ends[0][0][:, 0])).sum()
-    assert crossed > 3 and ends[0][1]["c_pp[1]"][-1] > 8, (crossed, ends[0][1]["c_pp[1]"])
+    assert crossed > 3 and ends[0][1]["c_pp[1]"].max() > 8, (crossed, ends[0][1]["c_pp[1]"])
     for end, table in ends[1:]:
         assert np.abs(end[:, :3] - ends[0][0][:, :3]).max() < 1e-8, np.abs(end - ends[0][0]).max()
         for column in ("PotEng", "f_move", "c_pp[1]", "c_pp[4]", "c_pp[5]"):
-            assert np.allclose(table[column], ends[0][1][column], rtol=1e-6, atol=1e-12), column
+            assert np.allclose(table[column], ends[0][1][column], rtol=1e-6, atol=1e-10), (column, table[column], ends[0][1][column])
+
+
+def test_four_ranks(folder):
+    """Few steps, since four ranks wait for each other where there are two cores: forces over edges between ranks."""
+    bodies = [(b[0], np.asarray(b[1]) * 0.8, *b[2:]) for b in random_bodies(8, 0.1, seed=6, low=(-0.05, -0.05, -0.05), across=2)]
+    ends = [state(run(folder, bodies, ranks=ranks, processors="processors * * 1", run="run 40")[0][-1][1]) for ranks in (1, 4)]
+    assert np.abs(ends[0] - ends[1])[:, :3].max() < 1e-9 and np.abs(ends[0][:, 3:6] - [b[2] for b in bodies]).max() > 0.2
 
 
 def test_periodic(folder):
     """A heap in the middle of a periodic box and the same over its faces."""
     ends = []
     for shift in (0.0, 0.5):
-        bodies = [(b[0], (np.asarray(b[1]) + [shift, shift, 0] + 0.5) % 1 - [0.5, 0.5, 0.5], b[2], b[3], b[4]) for b in heap()]
-        bodies = [(b[0], (b[1][0], b[1][1], b[1][2] + 0.0), *b[2:]) for b in bodies]
-        dumped, said = run(folder, [(b[0], (b[1][0], b[1][1], h[1][2]), *b[2:]) for b, h in zip(bodies, heap())], box="-0.5 0.5 -0.5 0.5 -1 1", boundary="p p f",
-                           walls=FLOOR, run="run 600")
+        bodies = [(b[0], [*((np.asarray(b[1])[:2] + shift + 0.5) % 1 - 0.5), b[1][2]], *b[2:]) for b in heap()]
+        dumped, _ = run(folder, bodies, box="-0.5 0.5 -0.5 0.5 -1 1", boundary="p p f", walls=FLOOR, run="run 600")
         s = state(dumped[-1][1])
         s[:, :2] = (s[:, :2] - shift + 0.5) % 1 - 0.5
         ends.append(s)
@@ -68,12 +73,12 @@ run 400
 
 def test_restart_in_the_middle(folder):
     """A run that goes on from a file, on as many ranks or more, is the run that was not interrupted: friction, dashpots, energies."""
-    parts = {"walls": FLOOR, "coefficients": f"pair_coeff * * {STIFFNESS} {SHEAR} {FRICTION} 0.8", "boundary": "f f f"}
-    whole, said = run(folder, heap(), run="run 800", before="restart 400 half.restart other.restart\n"
+    parts = {"walls": FLOOR, "coefficients": f"pair_coeff * * {STIFFNESS} {SHEAR} {FRICTION} 0.3", "boundary": "f f f"}
+    whole, said = run(folder, heap(), run="thermo 10\nrun 800", before="restart 400 half.restart other.restart\n"
                       "thermo_style custom step ke pe f_move c_pp[1] c_pp[2] c_pp[3] c_pp[4] c_pp[5] f_floor[3] f_floor[4]", **parts)
     (folder / "half.restart").exists() or (folder / "other.restart").rename(folder / "half.restart")
     wanted, table = state(whole[-1][1]), thermo(said)
-    assert table["c_pp[4]"][0] == 0 and table["c_pp[1]"][-1] > 5
+    assert table["c_pp[4]"][0] == 0 and table["c_pp[1]"].max() > 8, table["c_pp[1]"]
     for ranks in (1, 2):
         status, said = lammps(folder, "newton off\nprocessors * * 1\n" + AGAIN.format(**{**DEFAULTS, **parts}), ranks)
         assert status == 0, said[-2000:]
@@ -89,7 +94,7 @@ def test_restart_in_the_middle(folder):
 
 def test_runs_in_parts(folder):
     """Two runs one after the other are one, also with a restart written by command between and atoms that balance."""
-    parts = {"walls": FLOOR, "coefficients": f"pair_coeff * * {STIFFNESS} {SHEAR} {FRICTION} 0.8"}
+    parts = {"walls": FLOOR, "coefficients": f"pair_coeff * * {STIFFNESS} {SHEAR} {FRICTION} 0.3"}
     whole, _ = run(folder, heap(), run="run 600", **parts)
     split, _ = run(folder, heap(), ranks=2, run="run 300\nwrite_restart x.restart\nbalance 1.0 shift x 5 1.05\nrun 150\nrun 150 pre no", **parts)
     steps = {step: state(columns) for step, columns in split}

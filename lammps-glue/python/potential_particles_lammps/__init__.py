@@ -5,6 +5,6 @@
 """
 from .library import Particle, detect, library
 from .pictures import write_picture, write_vtk
-from .shapes import polyhedron, read_shapes, write_shapes
+from .shapes import polyhedron, read_shapes, write_drum, write_shapes
 
-__all__ = ["Particle", "detect", "library", "polyhedron", "read_shapes", "write_picture", "write_shapes", "write_vtk"]
+__all__ = ["Particle", "detect", "library", "polyhedron", "read_shapes", "write_drum", "write_picture", "write_shapes", "write_vtk"]

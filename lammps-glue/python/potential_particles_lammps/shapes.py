@@ -77,3 +77,20 @@ def read_shapes(path):
         else:
             numbers[words[0]] = float(words[1])
     return shapes
+
+
+def write_drum(path, radius, length, sides=48):
+    """A closed drum about the y axis as a text STL, its middle at the origin: `sides` flat strips and two ends."""
+    at = 2 * np.pi * np.arange(sides + 1) / sides
+    rim = radius * np.column_stack([np.cos(at), np.zeros(sides + 1), np.sin(at)])
+    near, far = rim - [0, 0.5 * length, 0], rim + [0, 0.5 * length, 0]
+    near[-1], far[-1] = near[0], far[0]
+    triangles = []
+    for i in range(sides):
+        triangles += [(near[i], near[i + 1], far[i]), (near[i + 1], far[i + 1], far[i])]
+        triangles += [((0, s * 0.5 * length, 0), rims[i], rims[i + 1]) for s, rims in ((-1, near), (1, far))]
+    with open(path, "w") as file:
+        file.write("solid drum\n")
+        for triangle in triangles:
+            file.write("facet normal 0 0 0\nouter loop\n" + "".join("vertex %.7g %.7g %.7g\n" % tuple(v) for v in triangle) + "endloop\nendfacet\n")
+        file.write("endsolid drum\n")
