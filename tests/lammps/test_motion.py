@@ -1,8 +1,11 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Motion and contacts of bodies against the loop in Python, and against closed forms."""
+import subprocess
+
 import numpy as np
 from loop import Loop, matrix
-from scene import DENSITY, DT, FRICTION, SHEAR, STIFFNESS, random_bodies, run, shapes, state, thermo
+from potential_particles_lammps.pictures import frames
+from scene import DENSITY, DT, FRICTION, SHEAR, STIFFNESS, TOP, lammps, random_bodies, run, shapes, state, thermo
 
 
 def loop_of(bodies, **more):
@@ -129,3 +132,28 @@ def test_stress_of_two(folder):
     overlap = 0.06 - 0.0595
     assert abs(table["c_sum"][0] / (-0.0595 * STIFFNESS * overlap) - 1) < 1e-6, table
     assert abs(table["PotEng"][0] / (0.5 * STIFFNESS * overlap**2) - 1) < 1e-6, table
+
+
+YADE = TOP / "yade-glue" / "build" / "python" / "potential_particles"
+
+
+def test_same_scene_in_yade(folder):
+    """Two bricks that hit, slide and rotate on a wall: a scene of YADE, carried over by to_lammps, moves as in YADE, to the order of the time step."""
+    if not YADE.exists():
+        print("not tried: the YADE plugin is not built (make build)")
+        return
+    errors = []
+    for halvings in range(2):
+        done = subprocess.run([TOP / "scripts" / "yade.sh", "-j1", TOP / "tests" / "lammps" / "yade_scene.py", folder, str(halvings)], stdin=subprocess.DEVNULL,
+                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=120)
+        assert (folder / "yade.npy").exists(), done.stdout[-2000:]
+        wanted, every = np.load(folder / "yade.npy"), 2**halvings
+        status, said = lammps(folder, f"include scene.lmp\ndump 1 all custom {every} all.dump id type x y z "
+                              "d2_orientation[1] d2_orientation[2] d2_orientation[3] d2_orientation[4]\ndump_modify 1 sort id format float %.17g\n"
+                              f"run {len(wanted) - 1}")
+        assert status == 0, said[-2000:]
+        mine = [np.column_stack([columns[c] for c in "xyz"]) for _, columns in frames(folder / "all.dump")]
+        errors.append(np.abs(np.array(mine) - wanted[::every, :, :3]).max())
+        moved = np.abs(wanted[-1] - wanted[0]).max(axis=0)
+    assert moved[3:].max() > 0.01, moved  # they have turned
+    assert errors[0] < 1e-7 and errors[1] < 0.6 * errors[0], errors

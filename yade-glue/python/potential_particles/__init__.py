@@ -40,6 +40,7 @@ from . import builds, window
 from .bodies import body
 from .clumps import clump
 from .joints import bond_contacts, use_joints
+from .lammps import to_lammps
 from .measures import body_stresses, coordination_number, extrema, fabric_tensor, overlap_ratio, porosity, solid_volume, stress
 from .outside import protect_runs
 from .packing import add_packing, pack
@@ -50,7 +51,7 @@ __version__ = "0.1.0"
 
 __all__ = ["AbiError", "Mesh", "Recorder", "SceneWarning", "add_packing", "body", "body_stresses", "bond_contacts", "check", "clump", "coordination_number",
            "critical_time_step", "extrema", "fabric_tensor", "grading_curve", "library_version", "mesh", "overlap_ratio", "pack", "plot", "porosity",
-           "prepare", "protect_runs", "sampled_porosity", "save_mesh", "solid_volume", "stress", "time_stepper", "use_joints"]
+           "prepare", "protect_runs", "sampled_porosity", "save_mesh", "solid_volume", "stress", "time_stepper", "to_lammps", "use_joints"]
 
 
 class AbiError(ImportError):
