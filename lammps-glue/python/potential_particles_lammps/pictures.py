@@ -3,12 +3,16 @@
 
 A dump has bodies as they are: dump 1 all custom 500 pile.dump id type x y z vx vy vz d2_orientation[1] d2_orientation[2] d2_orientation[3] d2_orientation[4]
 """
+import importlib.util
 import sys
+from pathlib import Path
 
 import numpy as np
 
 from .shapes import read_shapes
 
+# OpenGL without a display, of the package for YADE: the file stands alone.
+GRAPHICS = Path(__file__).resolve().parents[3] / "yade-glue" / "python" / "potential_particles" / "output" / "graphics.py"
 QUATERNION = [f"d2_orientation[{n}]" for n in (1, 2, 3, 4)]
 
 
@@ -86,7 +90,7 @@ def write_vtk(dump, shapes, stem):
     return len(entries)
 
 
-def write_picture(dump, shapes, file, mesh=None, mesh_turn=0.0, frame=-1, view=(0.5, -1.0, 0.45), colour="type", pixels=(1200, 900)):
+def write_picture(dump, shapes, file, mesh=None, mesh_turn=0.0, frame=-1, view=(0.5, -1.0, 0.45), colour="type", zoom=1.35, pixels=(1200, 900)):
     """The last (or another) frame of a dump as a PNG. mesh: an STL file, drawn transparent, turned about y by `mesh_turn` degrees."""
     import vtk
     step, columns = list(frames(dump))[frame]
@@ -124,21 +128,32 @@ def write_picture(dump, shapes, file, mesh=None, mesh_turn=0.0, frame=-1, view=(
     focus = np.array(camera.GetFocalPoint())
     camera.SetPosition(focus + camera.GetDistance() * np.asarray(view, float) / np.linalg.norm(view))
     camera.SetViewUp(0, 0, 1)
-    renderer.ResetCamera()
-    camera.Zoom(1.35)
-    window = vtk.vtkRenderWindow()
-    window.SetOffScreenRendering(1)
-    window.SetMultiSamples(8)
-    window.SetSize(*pixels)
+    spec = importlib.util.spec_from_file_location("graphics", GRAPHICS)
+    graphics = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(graphics)
+    graphics.with_graphics(_save, renderer, str(file), zoom, pixels)
+    return step
+
+
+def _save(window, renderer, file, zoom, pixels):
+    import vtk
+    # Drawn at twice the size and halved: there are no samples between pixels in such a window.
+    window.SetSize(2 * pixels[0], 2 * pixels[1])
     window.AddRenderer(renderer)
+    renderer.ResetCamera()
+    renderer.GetActiveCamera().Zoom(zoom)
     window.Render()
     grab = vtk.vtkWindowToImageFilter()
     grab.SetInput(window)
+    grab.ReadFrontBufferOff()
+    half = vtk.vtkImageResize()
+    half.SetInputConnection(grab.GetOutputPort())
+    half.SetOutputDimensions(*pixels, 1)
     writer = vtk.vtkPNGWriter()
-    writer.SetFileName(str(file))
-    writer.SetInputConnection(grab.GetOutputPort())
+    writer.SetFileName(file)
+    writer.SetInputConnection(half.GetOutputPort())
     writer.Write()
-    return step
+    window.RemoveRenderer(renderer)
 
 
 def main():
