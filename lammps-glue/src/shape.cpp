@@ -8,8 +8,8 @@
 namespace potential_particles {
 namespace {
 
-// Of mass properties; a shape counts as centred and principal to a hundred times that.
-constexpr double massTolerance = 1e-7, centred = 1e-5;
+// Of mass properties; a shape counts as centred and principal to the other.
+constexpr double massTolerance = 1e-9, centred = 1e-5;
 
 struct Place {
     const std::string& path;

@@ -5,6 +5,7 @@ import subprocess
 import numpy as np
 from loop import Loop, matrix
 from potential_particles_lammps.pictures import frames
+from potential_particles_lammps.shapes import principal
 from scene import DENSITY, DT, FRICTION, SHEAR, STIFFNESS, TOP, lammps, random_bodies, run, shapes, state, thermo
 
 
@@ -91,9 +92,10 @@ def test_energy_without_friction(folder):
         assert table["c_pp[1]"].max() == 1 and table["c_pp[1]"][-1] == 0
         energy = table["KinEng"] + table["PotEng"] + table["f_move"]
         rises.append(np.abs(energy / energy[0] - 1).max())
-        masses = [DENSITY * shapes()[name].volume for name in ("pyramid", "cuboid")]
+        masses = [DENSITY * principal(shapes()[name])[0].volume for name in ("pyramid", "cuboid")]
         momentum = [masses @ state(columns)[:, 3:6] for _, columns in dumped]
-        assert np.abs(np.array(momentum) - momentum[0]).max() < 1e-8  # masses here are not known better
+        error = np.abs(np.array(momentum) - momentum[0]).max() / np.abs(momentum[0]).max()
+        assert error < 1e-10, error
     assert rises[0] < 0.03 and rises[1] < 0.45 * rises[0], rises
 
 

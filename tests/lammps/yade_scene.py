@@ -32,5 +32,5 @@ for body in O.bodies:
 rows = []
 for step in range(STEPS + 1):
     rows.append([[*O.bodies[i].state.pos, *O.bodies[i].state.ori] for i in (1, 2)])
-    O.run(1, True)
+    O.step()
 np.save(folder + "/yade.npy", np.array(rows))
