@@ -44,7 +44,7 @@ void FixNve::push()
         if (!(atom->mask[i] & groupbit))
             continue;
         const Vector3d moments = atom->rmass[i] / shapes->shape(atom->type[i]).volume * shapes->shape(atom->type[i]).moments;
-        const Quaterniond at = quaternion(q[i]);
+        const Eigen::Matrix3d at = quaternion(q[i]).toRotationMatrix();
         Map<Vector3d> v(atom->v[i]), turn(atom->omega[i]);
         v += half / atom->rmass[i] * Map<Vector3d>(atom->f[i]);
         turn = angularVelocityOf(at, moments, momentumOf(at, moments, turn) + half * Map<Vector3d>(atom->torque[i]));
@@ -62,9 +62,9 @@ void FixNve::initial_integrate(int)
         Map<Vector3d>(atom->x[i]) += update->dt * Map<Vector3d>(atom->v[i]);
         Map<Vector3d> turn(atom->omega[i]);
         Quaterniond at = quaternion(q[i]);
-        const Vector3d momentum = momentumOf(at, moments, turn);
+        const Vector3d momentum = momentumOf(at.toRotationMatrix(), moments, turn);
         rotateFreely(update->dt, moments, momentum, at);
-        turn = angularVelocityOf(at, moments, momentum);
+        turn = angularVelocityOf(at.toRotationMatrix(), moments, momentum);
         q[i][0] = at.w();
         Map<Vector3d>(q[i] + 1) = at.vec();
     }
@@ -79,7 +79,7 @@ double FixNve::compute_scalar()
             continue;
         const Vector3d turn(atom->omega[i]);
         own += 0.5 * atom->rmass[i] / shapes->shape(atom->type[i]).volume
-            * turn.dot(momentumOf(quaternion(q[i]), shapes->shape(atom->type[i]).moments, turn));
+            * turn.dot(momentumOf(quaternion(q[i]).toRotationMatrix(), shapes->shape(atom->type[i]).moments, turn));
     }
     MPI_Allreduce(&own, &all, 1, MPI_DOUBLE, MPI_SUM, world);
     return all;
