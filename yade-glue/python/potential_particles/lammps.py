@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A scene of YADE as files for LAMMPS with this project's plugin (docs/lammps.md)."""
+from functools import lru_cache
 from pathlib import Path
 
 from .arguments import number, positive
@@ -44,9 +45,9 @@ def to_lammps(stem, normal_stiffness, shear_stiffness, friction, restitution=1.0
         shape = body.shape
         name = type(shape).__name__
         if name in PARTICLES:
-            volume = _volume(body)
-            key = (tuple(map(tuple, _planes(shape))), shape.r, shape.k, shape.R, body.state.mass / volume, is_free(body))
-            rows.append((kinds.setdefault(key, len(kinds) + 1), body.state))
+            definition = (tuple(zip(*(map(float, column) for column in (shape.a, shape.b, shape.c, shape.d)))), shape.r, shape.k, shape.R)
+            kind = (definition, body.state.mass / _volume(definition), is_free(body))
+            rows.append((kinds.setdefault(kind, len(kinds) + 1), body.state))
         elif name == "Wall":
             normal = [0, 0, 0]
             normal[shape.axis] = 1
@@ -54,7 +55,8 @@ def to_lammps(stem, normal_stiffness, shear_stiffness, friction, restitution=1.0
         elif name == "Facet":
             facets.append([body.state.pos + body.state.ori * vertex for vertex in shape.vertices])
         elif not body.isClump and shape is not None:
-            raise ValueError(f"body {body.id} is a {name}: only potential particles, walls and facets can go to LAMMPS; take shapes.sphere() for a Sphere, for instance")
+            raise ValueError(f"body {body.id} is a {name}: only potential particles, walls and facets can go to LAMMPS; "
+                             "take shapes.sphere() for a Sphere, for instance")
         if body.isClump or body.isClumpMember:
             raise ValueError(f"body {body.id} belongs to a clump: LAMMPS would take its members for single bodies")
     if not rows:
@@ -69,45 +71,32 @@ def to_lammps(stem, normal_stiffness, shear_stiffness, friction, restitution=1.0
         _write_stl(paths[-1], facets)
         commands += f"fix facets all wall/potential/particle {coefficients} stl {paths[-1].name}\n"
     gravity = next((engine.gravity for engine in yade.O.engines if type(engine).__name__ == "NewtonIntegrator"), yade.Vector3.Zero)
-    size = min((volume_of(key) for key in kinds))**(1 / 3)
+    size = min(_volume(definition) for definition, _, _ in kinds) ** (1 / 3)
     paths[2].write_text(SCRIPT.format(
         name=stem.name, boundary=boundary, law=coefficients, walls=commands, dt=float(yade.O.dt), skin=0.2 * size,
-        types=" ".join(f"type {number_} shape{number_} {key[4]!r}" for key, number_ in kinds.items()),
-        free=" ".join(str(number_) for key, number_ in kinds.items() if key[5]) or "0",
-        gravity=f"fix weight free gravity {gravity.norm()!r} vector {' '.join(repr(float(g)) for g in gravity)}\n" if gravity.norm() > 0 else ""))
+        types=" ".join(f"type {n} shape{n} {density!r}" for (_, density, _), n in kinds.items()),
+        free=" ".join(str(n) for (_, _, free), n in kinds.items() if free) or "0",
+        gravity=f"fix weight free gravity {gravity.norm()!r} vector {_text(gravity)}\n" if gravity.norm() > 0 else ""))
     return paths
 
 
-def volume_of(key):
-    return _conic(key).massProperties()[0]
-
-
-def _conic(key):
+@lru_cache(maxsize=None)
+def _volume(definition):
     from yade.wrapper import ConicPotentialParticle
-    return ConicPotentialParticle(planes=[tuple(row) for row in key[0]], r=key[1], k=key[2], R=key[3])
-
-
-def _planes(shape):
-    return zip(map(float, shape.a), map(float, shape.b), map(float, shape.c), map(float, shape.d))
-
-
-_volumes = {}
-
-
-def _volume(body):
-    shape = body.shape
-    key = (tuple(map(tuple, _planes(shape))), shape.r, shape.k, shape.R)
-    if key not in _volumes:
-        _volumes[key] = volume_of(key)
-    return _volumes[key]
+    planes, r, k, R = definition
+    return ConicPotentialParticle(planes=list(planes), r=r, k=k, R=R).massProperties()[0]
 
 
 def _write_shapes(path, kinds):
     with open(path, "w") as file:
-        for key, number_ in kinds.items():
-            file.write(f"shape shape{number_}\nr {key[1]!r}\nk {key[2]!r}\nR {key[3]!r}\n")
-            file.writelines("plane " + " ".join(map(repr, row)) + "\n" for row in key[0])
+        for ((planes, r, k, R), _, _), n in kinds.items():
+            file.write(f"shape shape{n}\nr {r!r}\nk {k!r}\nR {R!r}\n")
+            file.writelines(f"plane {_text(row)}\n" for row in planes)
             file.write("end\n")
+
+
+def _text(values):
+    return " ".join(repr(float(x)) for x in values)
 
 
 def _write_data(path, rows, types, margin):
@@ -115,22 +104,21 @@ def _write_data(path, rows, types, margin):
     if yade.O.periodic:
         size = yade.O.cell.size
         if (yade.O.cell.hSize - yade.Matrix3(size[0], 0, 0, 0, size[1], 0, 0, 0, size[2])).norm() > 1e-12 * size.norm():
-            raise ValueError("the periodic cell is not a box along the axes: LAMMPS's atom_style sphere would need a triclinic box, which is not written")
+            raise ValueError("the periodic cell is not a box along the axes: a triclinic box of LAMMPS is not written")
         low, high, boundary = yade.Vector3.Zero, size, "p p p"
     else:
         from .measures import extrema
         low, high = extrema()
         space = yade.Vector3.Ones * (margin * (high - low).norm())
         low, high, boundary = low - space, high + space, "f f f"
-    text = lambda values: " ".join(repr(float(x)) for x in values)
     with open(path, "w") as file:
         file.write(f"a scene of YADE, step {yade.O.iter}\n\n{len(rows)} atoms\n{types} atom types\n"
                    + "".join(f"{l!r} {h!r} {axis}lo {axis}hi\n" for axis, l, h in zip("xyz", map(float, low), map(float, high))))
         # The diameter and density are replaced by those of the shape.
-        file.write("\nAtoms # sphere\n\n" + "".join(f"{i} {kind} 1.0 1.0 {text(yade.O.cell.wrap(state.pos) if yade.O.periodic else state.pos)}\n"
+        file.write("\nAtoms # sphere\n\n" + "".join(f"{i} {kind} 1.0 1.0 {_text(yade.O.cell.wrap(state.pos) if yade.O.periodic else state.pos)}\n"
                                                    for i, (kind, state) in enumerate(rows, 1)))
-        file.write("\nVelocities\n\n" + "".join(f"{i} {text(state.vel)} {text(state.angVel)}\n" for i, (_, state) in enumerate(rows, 1)))
-        file.write("\norientation\n\n" + "".join(f"{i} {text([state.ori[n] for n in (3, 0, 1, 2)])}\n" for i, (_, state) in enumerate(rows, 1)))
+        file.write("\nVelocities\n\n" + "".join(f"{i} {_text(state.vel)} {_text(state.angVel)}\n" for i, (_, state) in enumerate(rows, 1)))
+        file.write("\norientation\n\n" + "".join(f"{i} {_text([state.ori[n] for n in (3, 0, 1, 2)])}\n" for i, (_, state) in enumerate(rows, 1)))
     return boundary
 
 
@@ -138,5 +126,5 @@ def _write_stl(path, facets):
     with open(path, "w") as file:
         file.write("solid facets\n")
         for facet in facets:
-            file.write("facet normal 0 0 0\nouter loop\n" + "".join("vertex %.9g %.9g %.9g\n" % tuple(vertex) for vertex in facet) + "endloop\nendfacet\n")
+            file.write("facet normal 0 0 0\nouter loop\n" + "".join(f"vertex {_text(vertex)}\n" for vertex in facet) + "endloop\nendfacet\n")
         file.write("endsolid facets\n")
