@@ -63,7 +63,7 @@ void ContactMemory::collect()
     }
     partners.resize(sum);
     for (int slot = 0; slot < slots; ++slot)
-        forEachLocal(slot, [&](int i, int j) { partners[ranges[i].first + ranges[i].count++] = { atom->tag[j], slot }; });
+        forEachLocal(slot, [&](int i, int j) { partners[ranges[i].first + ranges[i].count++] = { pair->tagAtBuild(j), slot }; });
     maxexchange = 1 + most * (1 + valueCount);
 }
 

@@ -25,6 +25,7 @@ namespace potential_particles {
 namespace {
 
 constexpr const char* style = "pair_style potential/particle";
+constexpr const char* memoryId = "POTENTIAL_PARTICLE_MEMORY";
 constexpr double lowestRestitution = 0.01;
 
 std::string described(const pp_pose& pose)
@@ -70,9 +71,9 @@ PairPotentialParticle::~PairPotentialParticle()
         memory->destroy(setflag);
         memory->destroy(cutsq);
     }
-    if (memory_ && !copymode && modify->get_fix_by_id(memory_->id)) {
+    if (memory_ && modify->get_fix_by_id(memoryId)) {
         memory_->detach();
-        modify->delete_fix(memory_->id);
+        modify->delete_fix(memoryId);
     }
 }
 
@@ -163,7 +164,7 @@ void PairPotentialParticle::init_style()
     shapes = FixShapes::of(lmp, style);
     const auto memories = modify->get_fix_by_style("^potential/particle/memory$");
     memory_ = static_cast<ContactMemory*>(
-        memories.empty() ? modify->add_fix("POTENTIAL_PARTICLE_MEMORY all potential/particle/memory") : memories.front());
+        memories.empty() ? modify->add_fix(fmt::format("{} all potential/particle/memory", memoryId)) : memories.front());
     memory_->attach(this);
     neighbor->add_request(this);
 }
@@ -202,6 +203,7 @@ void PairPotentialParticle::rebuild()
 {
     local = atom->nlocal;
     const int all = local + atom->nghost;
+    tags.assign(atom->tag, atom->tag + all);
     particles.resize(all);
     radii.resize(all);
     for (int i = 0; i < all; ++i) {
@@ -448,7 +450,7 @@ void PairPotentialParticle::compute(int eflag, int vflag)
 double PairPotentialParticle::memory_usage()
 {
     const auto bytes = [](const auto& of) { return static_cast<double>(of.capacity() * sizeof(of[0])); };
-    return Pair::memory_usage() + bytes(particles) + bytes(radii) + bytes(ways) + bytes(poses) + bytes(last) + bytes(held) + bytes(far) + bytes(bodies) + bytes(states)
+    return Pair::memory_usage() + bytes(tags) + bytes(particles) + bytes(radii) + bytes(ways) + bytes(poses) + bytes(last) + bytes(held) + bytes(far) + bytes(bodies) + bytes(states)
         + bytes(answers) + bytes(histories) + bytes(statuses);
 }
 

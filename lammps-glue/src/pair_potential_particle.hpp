@@ -42,6 +42,7 @@ public:
     void rebuild(); // from the new list of neighbours
     int slotCount() const { return static_cast<int>(histories.size()); }
     int localAtBuild() const { return local; }
+    LAMMPS_NS::tagint tagAtBuild(int atom) const { return tags[atom]; } // a fix may have put new atoms in the place of ghosts since
     std::pair<int, int> bodiesOf(int slot) const { return { bodies[slot].a, bodies[slot].b }; }
     bool touches(int slot) const { return histories[slot].touching; }
     ContactMemory::Values valuesOf(int slot) const;
@@ -80,6 +81,7 @@ private:
     bool advance = true; // this step goes on, and does not repeat the last one
 
     int local = 0; // atoms, when the list of neighbours was built
+    std::vector<LAMMPS_NS::tagint> tags;
     std::vector<const pp_particle*> particles; // of all atoms, ghosts too
     std::vector<double> radii, ways; // ways: come since the list was built
     std::vector<pp_pose> poses, last; // of this step and the last one

@@ -6,9 +6,10 @@ import subprocess
 import time
 
 import numpy as np
-from scene import DEFAULTS, FRICTION, SCRIPT, SHEAR, STIFFNESS, TOP, lammps, random_bodies, run, state, thermo, write
+from scene import DEFAULTS, FRICTION, SCRIPT, SHEAR, STIFFNESS, TOP, lammps, random_bodies, run, shapes, state, thermo, write
 
 from potential_particles_lammps.pictures import frames
+from potential_particles_lammps.shapes import principal
 
 FLOOR = f"fix floor all wall/potential/particle {STIFFNESS} {SHEAR} {FRICTION} 0.3 plane 0 0 0 0 0 1"
 
@@ -128,3 +129,44 @@ def test_killed_rank(folder):
     finally:
         if run_.poll() is None:
             os.killpg(run_.pid, signal.SIGKILL)
+
+
+DEPOSIT = """units si
+atom_style sphere
+newton off
+comm_modify vel yes
+boundary p p f
+region box block -0.4 0.4 -0.4 0.4 -0.1 2
+create_box 2 box
+fix shapes all potential/particle/shapes shapes.txt type 1 pyramid 2600 type 2 cuboid 2600 orient random 4
+pair_style potential/particle
+pair_coeff * * 1e5 6e4 0.4 0.3
+fix floor all wall/potential/particle 1e5 6e4 0.4 0.3 plane 0 0 0 0 0 1
+region fill block -0.35 0.35 -0.35 0.35 1.0 1.5
+fix pour all deposit 30 1 60 12345 region fill near 0.18 vz -1 -1
+neighbor 0.02 bin
+fix move all nve/potential/particle
+fix weight all gravity 9.81 vector 0 0 -1
+timestep 2e-4
+thermo 1000
+run 3000
+group gone id 3
+delete_atoms group gone compress no
+dump all all custom 1 all.dump id type x y z mass radius d2_orientation[1] d2_orientation[2] d2_orientation[3] d2_orientation[4]
+run 500
+clear
+"""
+
+
+def test_atoms_that_come_during_a_run(folder):
+    """fix deposit: bodies get shape, mass and a random orientation when they come, on one rank and on two; `clear` ends the scene."""
+    write(folder, heap(), DEFAULTS["box"])  # for its file of shapes
+    shape = principal(shapes()["pyramid"])[0]
+    for ranks in (1, 2):
+        status, said = lammps(folder, DEPOSIT, ranks)
+        assert status == 0, said[-2000:]
+        last = list(frames(folder / "all.dump"))[-1][1]
+        assert len(last["id"]) == 29 and (last["z"] > 0).all()
+        assert np.allclose(last["mass"], 2600 * shape.volume, rtol=1e-5) and np.allclose(last["radius"], shape.radius, rtol=1e-5)
+        q = np.column_stack([last[f"d2_orientation[{n}]"] for n in (1, 2, 3, 4)])
+        assert np.abs(np.linalg.norm(q, axis=1) - 1).max() < 1e-5 and np.std(q, axis=0).min() > 0.1
