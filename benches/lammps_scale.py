@@ -157,7 +157,7 @@ def lammps(name):
     clock, processor = min(loops) / steps, min(l * s for l, s in zip(loops, shares)) / steps
     return {"bodies": bodies, "ranks": ranks, "clock_ms": 1e3 * clock, "processor_ms": 1e3 * processor,
             "contacts": float(last[2]) / (2 if spheres else 1), "failures": 0 if spheres else float(last[3]), "kinetic_J": float(last[1]),
-            "peak_bytes_a_body": int(peak.stdout.split()[-1]) / bodies}
+            "peak_bytes_a_body": int(peak.stdout.split()[-1]) / bodies if ranks == 1 else None}  # of the largest process
 
 
 def polyhedra():
@@ -219,7 +219,7 @@ def report(runs):
     write_summary(OUT / "summary.json", {"targets": judged, "runs": runs, "machine": machine.machine_line(), "date": machine.now(), "command": "make lammps-scale"})
     table = [(name, f"{run['bodies']:,} bodies, {run['ranks']} rank(s): {run['clock_ms']:.3g} ms a step, processor {run['processor_ms']:.3g}; "
               f"{run['bodies'] / run['clock_ms'] * 1e3:.2g} body-steps/s; {run.get('contacts', float('nan')):.0f} contacts; "
-              f"{run.get('peak_bytes_a_body', float('nan')):.0f} bytes a body") for name, run in runs.items()]
+              f"{run.get('peak_bytes_a_body') or float('nan'):.0f} bytes a body") for name, run in runs.items()]
     table += [(row["name"], f"{row['measured']:.3g}, {row['sense']} {row['target']}: {'met' if row['met'] else 'MISSED'}") for row in judged]
     print_table(table)
     figure, axis = plt.subplots(figsize=(7.5, 3.4), dpi=150)
