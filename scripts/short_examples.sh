@@ -13,17 +13,18 @@ BODIES=20 STEPS=3500 OUTPUT=$folder/pyramids scripts/yade.sh -j1 examples/pyrami
 LAW=joint BODIES=10 STEPS=9000 OUTPUT=$folder/joints scripts/yade.sh -j1 examples/pyramids.py | tee "$folder/joints.txt"
 BODIES=60 STRAIN=0.02 OUTPUT=$folder/triaxial scripts/yade.sh -j1 examples/triaxial.py 2>&1 | tee "$folder/triaxial.txt"
 BODIES=20 STRESS=5e4 OUTPUT=$folder/oedometer scripts/yade.sh -j1 examples/oedometer.py
+BODIES=12 OUTPUT=$folder/voxels scripts/yade.sh -j1 examples/voxels.py
 scripts/yade.sh -j1 examples/wedge.py | tee "$folder/wedge.txt"
 BODIES=60 STEPS=1500 OUTPUT=$folder/mpi scripts/yade_mpi.sh 3 -j1 examples/mpi_pile.py 2>&1 | tee "$folder/mpi.txt"
 
 /usr/bin/python3 - "$folder" <<'PYTHON'
 import json, pathlib, re, sys
 folder = pathlib.Path(sys.argv[1])
-rocks, hopper, triaxial, oedometer = (json.loads((folder / name / "summary.json").read_text()) for name in ("rocks", "hopper", "triaxial", "oedometer"))
+rocks, hopper, triaxial, oedometer, voxels = (json.loads((folder / name / "summary.json").read_text()) for name in ("rocks", "hopper", "triaxial", "oedometer", "voxels"))
 said = {name: (folder / f"{name}.txt").read_text() for name in ("pyramids", "joints", "arch", "wedge", "mpi", "triaxial")}
 wedge = [float(number) for number in re.findall(r"slides below (\S+) degrees; closed form (\S+),", said["wedge"])[0]]
 pictures = [folder / "first_pile.png", folder / "arch.png", folder / "rocks" / "rocks.png", folder / "hopper" / "hopper.png", folder / "triaxial" / "triaxial.png",
-            folder / "oedometer" / "oedometer.png",
+            folder / "oedometer" / "oedometer.png", folder / "voxels" / "voxels.png",
             *(folder / "pyramids" / f"pyramids_{i}.png" for i in range(3))]
 checks = {
     "pictures": all(picture.stat().st_size > 10_000 for picture in pictures),
@@ -48,11 +49,12 @@ checks = {
     "triaxial: no warning": "SceneWarning" not in said["triaxial"],
     "oedometer: work is energy, to what overlaps add or lose": abs(oedometer["energy_over_work"]) < 0.05,
     "oedometer: pressed rocks are stiff": oedometer["modulus_of_loading_Pa"] > 1e5 and 0 < oedometer["overlap_over_r"] < 1,
+    "voxels: a body for each grain, of its volume, near to it": voxels["grains"] == 12 and voxels["volume_off"] < 1e-6 and voxels["mean_off"] < 0.03,
     "hopper: rocks flow out": 0 < hopper["mass_out_kg"] <= hopper["mass_kg"] * (1 + 1e-9),
 }
 for name, good in checks.items():
     if not good:
-        print(f"short examples: {name}: does not hold; summaries: {rocks} {hopper} {triaxial} {oedometer}")
+        print(f"short examples: {name}: does not hold; summaries: {rocks} {hopper} {triaxial} {oedometer} {voxels}")
 print(f"{sum(checks.values())} passed, {sum(not good for good in checks.values())} failed")
 sys.exit(not all(checks.values()))
 PYTHON

@@ -38,7 +38,7 @@ import functools
 
 from . import builds, window
 from .bodies import body
-from .clumps import clump
+from .clumps import add_clump, clump
 from .joints import bond_contacts, use_joints
 from .measures import body_stresses, coordination_number, extrema, fabric_tensor, overlap_ratio, porosity, solid_volume, stress
 from .outside import protect_runs
@@ -48,7 +48,7 @@ from .time_step import critical_time_step, time_stepper
 
 __version__ = "0.1.0"
 
-__all__ = ["AbiError", "Mesh", "Recorder", "SceneWarning", "add_packing", "body", "body_stresses", "bond_contacts", "check", "clump", "coordination_number",
+__all__ = ["AbiError", "Mesh", "Recorder", "SceneWarning", "add_clump", "add_packing", "body", "body_stresses", "bond_contacts", "check", "clump", "coordination_number",
            "critical_time_step", "extrema", "fabric_tensor", "grading_curve", "library_version", "mesh", "overlap_ratio", "pack", "plot", "porosity",
            "prepare", "protect_runs", "sampled_porosity", "save_mesh", "solid_volume", "stress", "time_stepper", "use_joints"]
 
