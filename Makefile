@@ -31,10 +31,11 @@ Contact detection between potential particles.
   make patch    contact patches: closed forms, the gradient of their energy, time by kind; results in out/patch
   make rock     a rock mass cut into blocks: time, closure of volume, a slope as a picture; results in out/rock
   make patch-yade   joints in YADE: closed forms, energy, rest, time; results in out/patch-yade
+  make time-step  where piles break, against critical_time_step() and YADE's stepper; results in out/time_step
   make peers    the codes one would pick instead, on the same pairs and piles; installs them; results in out/peers
   make roofline after make peers: what limits a call from memory, and a step of a pile; results in out/roofline
   make stress   a million random pairs, walls, seams of triangles, pairs of the plane, memories of any bytes, judged without a known answer; results in out/stress
-  make fuzz     fuzz creation, detection, walls, the plane, memories, mass properties and the reader of pairs, a minute each; needs libFuzzer's headers (g++)
+  make fuzz     fuzz creation, detection, walls, the plane, memories, mass properties, the reader of pairs, a minute each (libFuzzer's headers of g++), and mesh files
   make sanitize  the plugin with AddressSanitizer and UBSan, and YADE's scenes with it; a quarter of an hour
   make long     YADE for 200,000 steps, killed and loaded, started 500 times: what breaks? results in out/long
   make clean    remove everything built (results in out/ stay)
@@ -61,6 +62,7 @@ Variables, as in "make demo STEPS=1000 BODIES=50":
   SEED=N            stress: repeats the pairs of that seed; without it each run draws one, and prints it first
   SETTLE=1          stress: settle one pose in so many in 32 digits, and those in doubt; POSES=100000000 SETTLE=200 takes 45 minutes
   FUZZ_SECONDS=60   fuzz: how long each target
+  MESH_FILES=1000   fuzz: damaged mesh files of each kind, read by the plugin
   SUITE=trixie      test-debian13: which release of Debian; SUITES="bookworm trixie": deb, packages-test
   CACHE=out/debian  test-debian13: where that release and its packages stay for the next time; FRESH=1 makes it anew
   WERROR=0          build, test: 1 takes compiler warnings for errors, as this project's CI does
@@ -85,7 +87,7 @@ export PATH := $(PATH):$(HOME)/.cargo/bin
 
 heading = @printf '== %s\n' '$(1)'
 
-.PHONY: check sanitize guide deb packages-test install help demo wedge classics mpi scale mpi-scale test test-debian13 side-by-side patch rock patch-yade peers roofline setup build library glue header lint bench stress fuzz long clean
+.PHONY: check sanitize guide deb packages-test install help demo wedge classics mpi scale mpi-scale test test-debian13 side-by-side patch rock patch-yade time-step peers roofline setup build library glue header lint bench stress fuzz long clean
 .DEFAULT_GOAL := help
 # The steps of one goal build on each other in the order in which they are named.
 .NOTPARALLEL:
@@ -212,6 +214,10 @@ patch-yade: glue
 	$(call heading,Joints)
 	@scripts/yade.sh -j$(THREADS) studies/joints/run.py
 
+time-step: glue
+	$(call heading,Time steps)
+	@scripts/yade.sh -j1 benches/time_step.py
+
 peers: glue
 	$(call heading,Peers)
 	@benches/peers/run.py $(if $(QUICK),--quick)
@@ -253,6 +259,9 @@ fuzz: export FUZZ_SECONDS ?= 60
 fuzz:
 	$(call heading,Fuzzing)
 	@fuzz/run.sh
+	$(call heading,Mesh files with random damage)
+	@if [ -d $(GLUE_BUILD)/python/potential_particles ]; then PP_MESH_FILES=$(or $(MESH_FILES),1000) tests/yade/run.py -j1 mesh_file; \
+	else echo 'skipped: the plugin is not built (make build)'; fi
 
 clean:
 	@cargo clean
