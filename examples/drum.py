@@ -34,22 +34,14 @@ O.engines = [ForceResetter(), InsertionSortCollider([PotentialParticle2AABB(), B
                                   [Law2_ScGeom_FrictPhys_CundallStrack(sphericalBodies=False)]),
              RotationEngine(ids=drum, rotationAxis=(0, 1, 0), angularVelocity=SPEED, rotateAroundZero=True, zeroPoint=(0, 0, 0)),
              potential_particles.time_stepper(safety=0.8), NewtonIntegrator(damping=0.1, gravity=(0, 0, -9.81), exactAsphericalRot=True)]
-
-
-def slope():
-    """Of the surface, degrees: the highest rock in each strip of the middle part."""
-    x, _, z = np.array([O.bodies[i].state.pos for i in ids]).T
-    strips = np.linspace(-0.6, 0.6, 9) * RADIUS
-    top = [(0.5 * (a + b), np.sort(z[(x >= a) & (x < b)])[-3:].mean()) for a, b in zip(strips, strips[1:]) if ((x >= a) & (x < b)).any()]
-    return np.degrees(np.arctan(np.polyfit(*np.transpose(top), 1)[0]))
-
-
-rows = []
+rows, strips = [], np.linspace(-0.6, 0.6, 9) * RADIUS
 while SPEED * O.time < 2 * np.pi * TURNS:
     O.run(200, True)
-    rows.append((SPEED * O.time / (2 * np.pi), slope()))
+    x, y, z = np.array([O.bodies[i].state.pos for i in ids]).T
+    # The slope of the surface, by the highest rocks in each strip of its middle part.
+    top = [(0.5 * (a + b), np.sort(z[(x >= a) & (x < b)])[-3:].mean()) for a, b in zip(strips, strips[1:]) if ((x >= a) & (x < b)).any()]
+    rows.append((SPEED * O.time / (2 * np.pi), np.degrees(np.arctan(np.polyfit(*np.transpose(top), 1)[0]))))
 turns, angles = np.array(rows).T
-x, y, z = np.array([O.bodies[i].state.pos for i in ids]).T
 late = turns > 0.4 * TURNS
 summary = {"bodies": len(ids), "steps": O.iter, "slope": abs(angles[late].mean()), "slope_scatter": angles[late].std(), "radius": RADIUS,
            "out_of_drum": int(((np.hypot(x, z) > RADIUS) | (abs(y - 0.5 * LENGTH) > 0.5 * LENGTH)).sum())}

@@ -31,11 +31,11 @@ shearing, rows = False, []
 
 def follow():
     """Lets the cell shrink or grow towards the pressure: in all three directions, or across the planes of shear."""
-    rates = np.clip(5 * (-np.array(utils.getStress().diagonal()) / PRESSURE - 1), -0.5, 0.5)
+    rates = np.clip(2 * (-np.array(utils.getStress().diagonal()) / PRESSURE - 1), -0.5, 0.5)
     O.cell.velGrad = Matrix3(0, RATE, 0, 0, rates[1], 0, 0, 0, 0) if shearing else Matrix3(rates[0], 0, 0, 0, rates[1], 0, 0, 0, rates[2])
 
 
-while O.iter < 500 or abs(potential_particles.stress().trace() / 3 / -PRESSURE - 1) > 0.01 or utils.unbalancedForce() > 0.02:
+while O.time < 0.5 or abs(potential_particles.stress().trace() / 3 / -PRESSURE - 1) > 0.02 and O.time < 1.5:
     O.run(250, True)
 utils.setContactFriction(FRICTION)
 shearing, begin, height = True, O.time, O.cell.hSize[1, 1]
@@ -43,17 +43,14 @@ while RATE * (O.time - begin) < STRAIN:
     O.run(100, True)
     stress, fabric = potential_particles.stress(), potential_particles.fabric_tensor()
     rows.append((RATE * (O.time - begin), stress[0, 1] / stress[1, 1], O.cell.hSize[1, 1] / height - 1, potential_particles.porosity(), fabric[0, 1]))
-
 strain, ratio, growth, porosity, fabric = np.array(rows).T
-end = strain > 0.6 * STRAIN
-angles = np.degrees(np.arctan(np.abs(ratio)))
+angles, end = np.degrees(np.arctan(np.abs(ratio))), strain > 0.6 * STRAIN
 summary = {"bodies": len(rocks), "steps": O.iter, "porosity": [porosity[0], porosity[-1]], "friction_angle_peak": angles.max(), "friction_angle_end": angles[end].mean(),
            "growth_end_percent": 100 * growth[-1], "fabric_end": fabric[end].mean(), "normal_stress_end": -stress[1, 1]}
 os.makedirs(OUT, exist_ok=True)
 potential_particles.plot(os.path.join(OUT, "rocks.png"), size=(600, 600), towards=(0.2, 0.35, 0.9))
 picture, axes = pyplot.subplots(1, 4, figsize=(13, 3.2), layout="constrained")
 axes[0].imshow(pyplot.imread(os.path.join(OUT, "rocks.png")))
-axes[0].axis("off")
 for place, line, label in zip(axes[1:], (np.abs(ratio), 100 * growth, fabric), ("shear stress / normal stress", "growth across, %", "fabric, xy")):
     place.plot(100 * strain, line)
     place.set(xlabel="shear strain, %", ylabel=label)

@@ -28,17 +28,6 @@ O.engines = [ForceResetter(), InsertionSortCollider([PotentialParticle2AABB(), B
                                   [Law2_ScGeom_FrictPhys_CundallStrack(sphericalBodies=False)]),
              potential_particles.time_stepper(safety=0.8), press, NewtonIntegrator(damping=0.2, exactAsphericalRot=True)]
 
-
-def row():
-    """Strain, q from the forces on both walls of each pair, from contacts (Love-Weber) and from these with what accelerates rocks, p, compaction, porosity, fabric."""
-    sides = press.width, press.height, press.depth
-    volume = np.prod(sides)
-    outer = [0.5 * (O.forces.f(walls[2 * i])[i] - O.forces.f(walls[2 * i + 1])[i]) * sides[i] / volume for i in range(3)]
-    tensors = outer, *(potential_particles.stress(volume, moving).diagonal() for moving in (False, True)), potential_particles.fabric_tensor().diagonal()
-    q, inside, moved, directed = (tensor[1] - 0.5 * (tensor[0] + tensor[2]) for tensor in tensors)
-    return -press.strain[1], -q, -inside, -moved, -sum(outer) / 3, -sum(press.strain), 1 - potential_particles.solid_volume() / volume, directed
-
-
 while O.time < 0.9:  # smooth rocks are pressed together
     O.run(250, True)
 utils.setContactFriction(FRICTION)
@@ -46,7 +35,13 @@ press.stressMask, press.goal2 = 5, -RATE
 begin, rows = press.strain[1], []
 while begin - press.strain[1] < STRAIN:
     O.run(250, True)
-    rows.append(row())
+    sides = press.width, press.height, press.depth
+    volume = np.prod(sides)
+    # Forces on both walls of each pair; contacts (Love-Weber), and these with what accelerates rocks; fabric.
+    outer = [0.5 * (O.forces.f(walls[2 * i])[i] - O.forces.f(walls[2 * i + 1])[i]) * sides[i] / volume for i in range(3)]
+    tensors = outer, *(potential_particles.stress(volume, moving).diagonal() for moving in (False, True)), potential_particles.fabric_tensor().diagonal()
+    q, inside, moved, directed = (tensor[1] - 0.5 * (tensor[0] + tensor[2]) for tensor in tensors)
+    rows.append((-press.strain[1], -q, -inside, -moved, -sum(outer) / 3, -sum(press.strain), 1 - potential_particles.solid_volume() / volume, directed))
 
 strain, wall, inner, moved, mean, compaction, porosity, fabric = np.array(rows).T
 strain, compaction = 100 * (strain + begin), 100 * (compaction - compaction[0])
