@@ -29,7 +29,7 @@ while O.time < 1 or utils.unbalancedForce() > 0.01 and O.time < 3:
 place = (0.5 * LENGTH, 0.5 * WIDTH, potential_particles.extrema(ids)[1][2] + 0.06)
 sleeper = O.bodies[O.bodies.append(potential_particles.body(shapes.cuboid((0.25, 0.9 * WIDTH, 0.12)), position=place, color=(0.75, 0.72, 0.68)))]
 sleeper.state.blockedDOFs = "xyXYZ"  # it goes up and down
-begin, rows = O.time, []
+O.engines[4].dead, begin, rows = False, O.time, []
 
 
 def press():
@@ -40,7 +40,6 @@ def press():
     rows.append((cycles, load, sleeper.state.pos[2]))
 
 
-O.engines[4].dead = False
 while FREQUENCY * (O.time - begin - 0.5) < CYCLES:
     O.run(500, True)
 cycle, load, height = np.array([row for row in rows if row[0] > 0]).T
@@ -51,6 +50,7 @@ os.makedirs(OUT, exist_ok=True)
 potential_particles.plot(os.path.join(OUT, "box.png"), size=(700, 500))
 picture, (left, middle, right) = pyplot.subplots(1, 3, figsize=(12, 3.4), layout="constrained")
 left.imshow(pyplot.imread(os.path.join(OUT, "box.png")))
+left.axis("off")
 for place, x, y, along, up in (middle, settlement, load / 1e3, "settlement, mm", "load, kN"), (right, range(1, CYCLES), ends, "cycles", "settlement at the least load, mm"):
     place.plot(x, y, lw=0.8)
     place.set(xlabel=along, ylabel=up)

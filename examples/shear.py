@@ -13,7 +13,6 @@ from matplotlib import pyplot
 from potential_particles import packing, shapes
 from yade import *
 from yade import utils
-
 COUNT, STRAIN, OUT = int(os.environ.get("BODIES", 1000)), float(os.environ.get("STRAIN", 0.3)), os.environ.get("OUTPUT", "out/shear")
 PRESSURE, RATE, FRICTION, SIDE = 1e5, 0.3, np.radians(30), 0.1 * (1.5 * COUNT) ** (1 / 3)  # Pa, 1/s, between rocks, m
 O.periodic = True
@@ -51,6 +50,7 @@ os.makedirs(OUT, exist_ok=True)
 potential_particles.plot(os.path.join(OUT, "rocks.png"), size=(600, 600), towards=(0.2, 0.35, 0.9))
 picture, axes = pyplot.subplots(1, 4, figsize=(13, 3.2), layout="constrained")
 axes[0].imshow(pyplot.imread(os.path.join(OUT, "rocks.png")))
+axes[0].axis("off")
 for place, line, label in zip(axes[1:], (np.abs(ratio), 100 * growth, fabric), ("shear stress / normal stress", "growth across, %", "fabric, xy")):
     place.plot(100 * strain, line)
     place.set(xlabel="shear strain, %", ylabel=label)

@@ -42,11 +42,6 @@ class Placement(typing.NamedTuple):
     position: tuple
     orientation: tuple  #: w, x, y, z
 
-    def __repr__(self):
-        """One line."""
-        place, turn = (", ".join(f"{one:.4g}" for one in given) for given in (self.position, self.orientation))
-        return f"<Placement of {self.shape.name}, {len(self.shape.planes)} planes, times {self.scale:.4g}, at ({place}), turned by ({turn})>"
-
 
 def pack(container, shapes, sizes=None, number=None, dense=False, seed=0, margin=0.0, shares="number", threads=None, progress=True):
     """Places bodies of random orientation in a container, none of which overlap; a list of Placement.
