@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""A slope of 500 blocks, cut by two joint sets: it slides, topples or stands as friction says. Run it inside YADE: yade -x -n -j2 examples/rock_slope.py
+"""A slope of 591 blocks, cut by two joint sets: it slides or topples as friction says. Run it inside YADE: yade -x -n -j2 examples/rock_slope.py
 
 Environment: SECONDS (1.2), OUTPUT (out/rock_slope). Joints that dip out of the slope by 30 degrees cut columns; columns whose width over height is
 below tan(30) topple where they cannot slide (Goodman & Bray 1976). Writes a picture for each friction angle, and summary.json. SI units.

@@ -120,9 +120,11 @@ depths = [i.geom.penetrationDepth for i in O.interactions if i.isReal]
 check.true(0 < min(depths) and max(depths) < 1e-9, f"blocks touch and do not overlap: {max(depths)}")
 owners = few.faces["block"].astype(int)[few.partners["faces"].astype(int)]
 still = few.on_domain(Domain.BOTTOM)
-touching = {tuple(sorted((int(ids[a]), int(ids[b])))) for a, b in owners if not (still[a] and still[b])}
-check.true(touching <= {tuple(sorted((i.id1, i.id2))) for i in O.interactions if i.isReal}, "all partners are contacts")
-check.equal({tuple(sorted((i.id1, i.id2))) for i in O.interactions if i.isReal} - touching, set(), "and no others")
+pairs = [(tuple(sorted((int(ids[a]), int(ids[b])))), area) for (a, b), area in zip(owners, few.partners["area"]) if not (still[a] and still[b])]
+found = {tuple(sorted((i.id1, i.id2))) for i in O.interactions if i.isReal}
+# Of faces that share little, rounded edges may be apart.
+check.true({pair for pair, area in pairs if area > 0.05} <= found, "partners are contacts")
+check.equal(found - {pair for pair, _ in pairs}, set(), "and no others")
 # Pieces of a block are a clump of its mass and inertia.
 start()
 ids = rock.bodies(notched, r=0.01)
