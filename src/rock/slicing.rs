@@ -85,7 +85,7 @@ pub fn slice(domain: &[Plane], joints: &[Joint], settings: &SliceSettings) -> Re
 /// joints that are left do not cut ([`RockMass::joints`]), and the regions still do.
 ///
 /// # Errors
-/// As of [`slice`], and a plane of a region that is none.
+/// As of [`slice()`], and a plane of a region that is none.
 pub fn slice_with_regions(
     domain: &[Plane],
     joints: &[Joint],
