@@ -2,6 +2,7 @@
 //!
 //! What the zones do not cover, as where edges of both bodies coincide, is walked over here without the flat part.
 
+use super::chart::{normal, radius};
 use super::field::Owner;
 use super::pieces::Estimate;
 use super::polygon::{Corner, Level, integrate};
@@ -97,21 +98,24 @@ fn side(walker: &Walker, polygon: &[Corner], k: usize) -> Option<Spread> {
     Some(Spread { from, to, directions: [out; 2], size, is_polar: false, skew })
 }
 
-/// ∫ p over what lies beyond the ends of a side where s = 1, about: outwards of the side p rises at first, at the rate g, and falls by W u²/2.
+/// Estimate of ∫ p beyond the ends of a side at which s = 1: no ray starts there, yet p may rise outwards from the line of the side.
+///
+/// Outwards p changes by rise·u − curvature·u²/2, and along the line it falls at a constant rate.
 fn overhang(walker: &Walker, level: &Level, polygon: &[Corner], k: usize) -> f64 {
-    let plane = walker.field.planes.get(polygon[k].side as usize).filter(|plane| plane.owner != Owner::Edge);
-    let (Some(plane), Some(along)) = (plane, direction(polygon, k)) else { return 0.0 };
+    let side = polygon[k].side;
+    let owner = owner(walker, side).filter(|owner| *owner != Owner::Edge);
+    let (Some(owner), Some(along)) = (owner, direction(polygon, k)) else { return 0.0 };
     let out = outwards(along);
-    let [rise, fall] = [out, along].map(|[u, v]| level.pressure[1] * u + level.pressure[2] * v);
+    let [rise, along_side] = [out, along].map(|[u, v]| level.pressure[1] * u + level.pressure[2] * v);
+    if !(rise > 0.0) {
+        return 0.0;
+    }
+    let n = normal(&walker.field.planes[side as usize]);
+    let curvature = ((n.x * out[0] + n.y * out[1]) / radius(walker.field, owner)).powi(2);
     let count = polygon.len();
-    // The ends of the side at which p is 0, and falls beyond.
-    let ends = [(polygon[(k + count - 1) % count].side, fall), (polygon[(k + 1) % count].side, -fall)];
-    let weight =
-        if plane.owner == Owner::A { walker.field.a } else { walker.field.b.unwrap_or(walker.field.a) }.plane_weight;
-    let curvature = weight * (plane.normal[0] * out[0] + plane.normal[1] * out[1]).powi(2);
-    let beyond = |fall: f64| 0.1 * rise.powi(5) / (curvature.powi(3) * fall.max(0.0));
-    let load = |(side, fall): (u32, f64)| if side == RIM && rise > 0.0 { beyond(fall) } else { 0.0 };
-    ends.into_iter().map(load).sum()
+    let ends = [(polygon[(k + count - 1) % count].side, along_side), (polygon[(k + 1) % count].side, -along_side)];
+    let at_rim = ends.into_iter().filter(|(next, _)| *next == RIM);
+    at_rim.map(|(_, fall)| 0.1 * rise.powi(5) / (curvature.powi(3) * fall.max(0.0))).sum()
 }
 
 /// What lies between the rays across two sides, or across a side and the edge of a triangle.

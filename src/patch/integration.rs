@@ -54,13 +54,14 @@ pub(super) fn patch(task: &Task, scratch: &mut PatchScratch, mut visit: impl FnM
     let start = on_patch(&mut field, 0.0, 0.0, 0.0).unwrap_or_default();
     let deepest = field.values(&start)[0].0;
     let state = field.state();
-    let outcome = in_parts(task, &mut field, start, (ray_planes, nodes), pieces, points).unwrap_or_else(|| {
-        field.restore(state);
-        let (order, budget, with_energy) = (2, f64::INFINITY, false);
-        let walker = Walker { field: &mut field, planes: ray_planes, nodes, order, with_energy, budget };
-        let mut fan = Fan::new(walker, rays, sectors, stack, [0.0; 3], task.settings.tolerance);
-        spread(task, &mut fan, start, points)
-    });
+    let outcome =
+        in_parts(task, &mut field, (start, deepest), (ray_planes, nodes), pieces, points).unwrap_or_else(|| {
+            field.restore(state);
+            let (order, budget, with_energy) = (2, f64::INFINITY, false);
+            let walker = Walker { field: &mut field, planes: ray_planes, nodes, order, with_energy, budget };
+            let mut fan = Fan::new(walker, rays, sectors, stack, [0.0; 3], task.settings.tolerance);
+            spread(task, &mut fan, start, points)
+        });
     let mut flags = task.flags;
     let is_empty = points.is_empty() || !outcome.error.is_finite();
     flags.set(PatchFlags::EMPTY, is_empty);
@@ -97,7 +98,7 @@ struct Outcome {
 fn in_parts(
     task: &Task,
     field: &mut Field,
-    start: [f64; 3],
+    (start, deepest): ([f64; 3], f64),
     (ray_planes, nodes): (&mut Vec<RayPlane>, &mut Vec<Node>),
     scratch: &mut PieceScratch,
     points: &mut Vec<Node>,
@@ -105,7 +106,7 @@ fn in_parts(
     if task.settings.with_energy || task.settings.tolerance < FINEST_OF_PIECES {
         return None;
     }
-    let estimate = pieces(field, &start, task.settings.tolerance, scratch, points).or_else(|| {
+    let estimate = pieces(field, &start, deepest, task.settings.tolerance, scratch, points).or_else(|| {
         let (level, polygon) = scratch.flat()?;
         let (order, budget, with_energy) = (order_of(task.settings.tolerance), f64::INFINITY, false);
         let mut walker = Walker { field, planes: ray_planes, nodes, order, with_energy, budget };

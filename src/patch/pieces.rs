@@ -30,7 +30,7 @@ const FEW: usize = 48;
 /// Part of a cap's load by which a rule of one point is wrong at most, about.
 const SINGLE: f64 = 0.3;
 
-/// How much farther a zone reaches out between the places that its border is known at, at most.
+/// Factor by which a zone reaches farther from its middle than the places of its border that are computed, at most.
 const BETWEEN: f64 = 1.1;
 
 /// A part of the patch.
@@ -60,10 +60,12 @@ pub(super) struct Estimate {
     pub rays: usize,
 }
 
-/// Fills `nodes` with points of the patch; `None` where it is not made of such pieces or its error is above the tolerance.
+/// Fills `nodes` with points of the patch, on which `start` lies and `deepest` is the least S; `None` where it is not made of such
+/// pieces or its error is above the tolerance.
 pub(super) fn pieces(
     field: &mut Field,
     start: &[f64; 3],
+    deepest: f64,
     tolerance: f64,
     scratch: &mut PieceScratch,
     nodes: &mut Vec<Node>,
@@ -102,7 +104,6 @@ pub(super) fn pieces(
         builder.edge_or_disc(active, &at, tolerance)?;
     }
     let flat = nodes.len();
-    let deepest = field.values(start)[0].0;
     refine(&mut scratch.zones, flat, tolerance, deepest, nodes)
 }
 
@@ -301,29 +302,27 @@ impl Builder<'_, '_, '_> {
         })
     }
 
-    /// `ends`: what it ends at.
+    /// `ends`: the planes or edges of a triangle at which it ends.
     fn strip(&mut self, strip: Strip, active: &[u32], ends: [u32; 2]) {
         let [first, last] = strip.lengths();
         let outline = strip.outline().map(|at| strip.place(at));
         let width = (outline[4] - 0.5 * (outline[0] + outline[1])).norm();
         let mut neglected = self.neglected(&outline[2..], width * first.max(last).max(0.0), active);
-        neglected += self.beyond_edges(&outline, &ends);
         let sides = [(outline[2] - outline[0]).norm(), (outline[3] - outline[1]).norm()];
         neglected += sides[0].max(sides[1]) * strip.overhang();
         if first < 0.0 || last < 0.0 {
             // The ends cross before the rim.
             neglected += width * (first.abs() + last.abs()) * strip.depth().max(0.0);
         }
-        self.zones.push(Piece { kind: Kind::Strip(strip), rule: 1, neglected, error: 0.0 });
+        self.push(Kind::Strip(strip), 1, &outline, &ends, neglected);
     }
 
     fn cap(&mut self, cap: Cap, active: &[u32]) {
         let outline = cap.outline();
         let corner = cap.corner();
         let size = (outline[0] - corner).norm() * (outline[1] - corner).norm();
-        let beyond = self.beyond_edges(&[outline[0], outline[1], outline[2], corner], &[]);
-        let neglected = self.neglected(&outline, size, active) + beyond + size * cap.rise();
-        self.zones.push(Piece { kind: Kind::Cap(cap), rule: 0, neglected, error: 0.0 });
+        let neglected = self.neglected(&outline, size, active) + size * cap.rise();
+        self.push(Kind::Cap(cap), 0, &[outline[0], outline[1], outline[2], corner], &[], neglected);
     }
 
     /// What planes may change, over an area, that are on at one of these places though they do not count as active, or the reverse.
@@ -340,17 +339,22 @@ impl Builder<'_, '_, '_> {
         if farthest > self.field.loaded() { f64::INFINITY } else { area * most }
     }
 
-    /// Bound on ∫ p over what lies beyond the edges of a triangle, but for those that the zone ends at, as p ≤ 1; of a zone with these
-    /// places on its border, between which it reaches out a little farther.
-    fn beyond_edges(&self, places: &[Vector], ends: &[u32]) -> f64 {
-        let middle = places.iter().sum::<Vector>() / places.len() as f64;
-        let reach = places.iter().map(|x| (x - middle).norm()).fold(0.0, f64::max) * BETWEEN;
+    /// Adds a zone with these places on its border, which ends at `ends`; what else of it lies outside a triangle is neglected, too.
+    fn push(&mut self, kind: Kind, rule: usize, border: &[Vector], ends: &[u32], neglected: f64) {
+        let neglected = neglected + self.beyond_edges(border, ends);
+        self.zones.push(Piece { kind, rule, neglected, error: 0.0 });
+    }
+
+    /// Bound on ∫ p over the part of a zone that lies outside the triangle, since p ≤ 1; the edges in `ends` cut nothing off.
+    fn beyond_edges(&self, border: &[Vector], ends: &[u32]) -> f64 {
+        let middle = border.iter().sum::<Vector>() / border.len() as f64;
+        let reach = border.iter().map(|x| (x - middle).norm()).fold(0.0, f64::max) * BETWEEN;
         let edges = self.field.planes.iter().enumerate().filter(|(_, plane)| plane.owner == Owner::Edge);
         let others = edges.filter(|(k, _)| !ends.contains(&(*k as u32)));
         others
             .map(|(_, edge)| {
                 let n = normal(edge);
-                let outwards = places.iter().map(|x| n.dot(&(x - middle))).fold(0.0, f64::max);
+                let outwards = border.iter().map(|x| n.dot(&(x - middle))).fold(0.0, f64::max);
                 let beyond = edge.excess + n.dot(&middle) + BETWEEN * outwards;
                 2.0 * reach * beyond.clamp(0.0, 2.0 * reach)
             })
@@ -389,16 +393,15 @@ impl Builder<'_, '_, '_> {
         // Between places on the rim it reaches out a little farther.
         let outline = disc.outline()?;
         let middle = outline.iter().sum::<Vector>() / outline.len() as f64;
-        let beyond = self.beyond_edges(&outline, &[]);
-        let outline = outline.map(|x| middle + 1.035 * (x - middle));
-        let across = (outline[0] - outline[6]).norm() * (outline[3] - outline[9]).norm();
-        let farthest = outline.iter().map(|x| x.norm()).fold(0.0, f64::max);
+        let wider = outline.map(|x| middle + 1.035 * (x - middle));
+        let across = (wider[0] - wider[6]).norm() * (wider[3] - wider[9]).norm();
+        let farthest = wider.iter().map(|x| x.norm()).fold(0.0, f64::max);
         if farthest > self.field.loaded() {
             self.field.load(farthest);
         }
         let active = [three[0], three[1], three[2], last.unwrap_or(usize::MAX)].map(|k| k as u32);
-        let neglected = self.neglected(&outline, across, &active) + beyond;
-        self.zones.push(Piece { kind: Kind::Disc(disc), rule: 1, neglected, error: 0.0 });
+        let neglected = self.neglected(&wider, across, &active);
+        self.push(Kind::Disc(disc), 1, &outline, &[], neglected);
         Some(())
     }
 

@@ -8,10 +8,10 @@ use super::rules::{MOST_POINTS, gauss};
 use std::f64::consts::TAU;
 use std::sync::LazyLock;
 
-/// Most steps towards the corner of a strip.
+/// Most fixed-point steps towards the corner of a strip.
 const MOST_STEPS: usize = 12;
 
-/// Relative step at which the corner of a strip is not where the last one put it.
+/// Relative size of the last step above which the search for a corner has not converged.
 const UNSETTLED: f64 = 1e-5;
 
 /// Where a strip ends.
@@ -69,7 +69,7 @@ impl Strip {
                     break;
                 }
             }
-            // Where the end does not meet the rim within the zone, the steps do not settle.
+            // The steps diverge where the end does not meet the rim within the zone.
             if step > UNSETTLED * width.abs() {
                 return None;
             }

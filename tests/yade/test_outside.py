@@ -15,7 +15,7 @@ check = Checks()
 random.seed(6)
 SECONDS = 2.0  # of hammering; without protection the process was gone sooner, mostly
 PATIENCE = 60.0  # seconds; on a busy machine one thread may take the lock over and over while the other waits
-CALLS, STEPS = 50, 5  # that a hammering must hold
+CALLS, STEPS = 50, 5  # more of both than this in each hammering
 
 
 def prism(sides):
