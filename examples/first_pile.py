@@ -18,7 +18,7 @@ O.engines = [
                     [Law2_ScGeom_FrictPhys_CundallStrack(sphericalBodies=False)]),
     NewtonIntegrator(damping=0.3, gravity=(0, 0, -9.81), exactAsphericalRot=True),
 ]
-if os.environ.get("LAW") == "joint":
+if potential_particles.joints.chosen():
     potential_particles.use_joints(restitution=0.5)
 O.dt = potential_particles.critical_time_step()
 O.run(int(1.0 / O.dt), wait=True)

@@ -51,7 +51,7 @@ O.engines = [
     NewtonIntegrator(damping=0.1, gravity=(0, 0, -9.81), exactAsphericalRot=True),
 ]
 mass = O.bodies[next(iter(ids))].state.mass
-if os.environ.get("LAW") == "joint":
+if potential_particles.joints.chosen():
     potential_particles.use_joints(restitution=0.5)
 O.dt = potential_particles.critical_time_step()
 

@@ -39,7 +39,7 @@ O.engines = [
     InteractionLoop(contacts, [Ip2_FrictMat_FrictMat_FrictPhys()], [Law2_ScGeom_FrictPhys_CundallStrack(sphericalBodies=False)]),
     NewtonIntegrator(damping=0.3, gravity=(0, 0, -9.81), exactAsphericalRot=True),
 ]
-if os.environ.get("LAW") == "joint":
+if potential_particles.joints.chosen():
     potential_particles.use_joints(restitution=0.5)
 O.dt = potential_particles.critical_time_step()
 record = potential_particles.Recorder(os.path.join(OUT, "rocks"))

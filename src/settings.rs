@@ -47,15 +47,16 @@ impl fmt::Display for BackEnd {
 
 /// How to solve a contact.
 ///
-/// Write settings with the defaults for what is not named, so that a field added later changes nothing:
+/// Settings begin with the defaults, so that a field added later changes nothing:
 ///
 /// ```
 /// use potential_particles::{Formulation, Settings};
-/// let settings = Settings { formulation: Formulation::Closest, weight_on_a: 0.3, ..Settings::default() };
+/// let settings = Settings::default().with_formulation(Formulation::Closest).with_weight_on_a(0.3);
 /// assert!(settings.validate().is_ok());
-/// assert!(Settings { weight_on_a: 1.3, ..settings }.validate().is_err());
+/// assert!(settings.with_weight_on_a(1.3).validate().is_err());
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Settings {
     /// Which problem.
     pub formulation: Formulation,
@@ -96,17 +97,22 @@ pub(crate) const LEAST_OF_DOUBLES: f64 = 1e-13;
 /// Share of a smaller `gap_tolerance` that the regularisation of flat faces may take.
 const SHARE_OF_REGULARISATION: f64 = 1e-5;
 
+impl Settings {
+    /// What [`Settings::default`] gives.
+    pub const DEFAULT: Self = Self {
+        formulation: Formulation::Midway,
+        back_end: BackEnd::Fast,
+        solve_separated: false,
+        gap_tolerance: 1e-12,
+        weight_on_a: 0.5,
+        flat_regularisation: 1e-13,
+        carry_tolerance: 0.0,
+    };
+}
+
 impl Default for Settings {
     fn default() -> Self {
-        Self {
-            formulation: Formulation::Midway,
-            back_end: BackEnd::Fast,
-            solve_separated: false,
-            gap_tolerance: 1e-12,
-            weight_on_a: 0.5,
-            flat_regularisation: 1e-13,
-            carry_tolerance: 0.0,
-        }
+        Self::DEFAULT
     }
 }
 
@@ -132,6 +138,31 @@ pub enum SettingsError {
     )]
     NoConeProgram,
 }
+
+/// The same settings with another number of this name.
+macro_rules! with {
+    ($($with:ident $field:ident: $kind:ty),*) => {
+        impl Settings {
+            $(
+                #[doc = concat!("The same with [`Settings::", stringify!($field), "`].")]
+                #[must_use]
+                pub const fn $with(self, $field: $kind) -> Self {
+                    Self { $field, ..self }
+                }
+            )*
+        }
+    };
+}
+
+with!(
+    with_formulation formulation: Formulation,
+    with_back_end back_end: BackEnd,
+    with_solve_separated solve_separated: bool,
+    with_gap_tolerance gap_tolerance: f64,
+    with_weight_on_a weight_on_a: f64,
+    with_flat_regularisation flat_regularisation: f64,
+    with_carry_tolerance carry_tolerance: f64
+);
 
 impl Settings {
     /// Sphericity that replaces smaller ones: the regularisation of flat faces, or less where it would add more to the gap

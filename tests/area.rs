@@ -139,7 +139,7 @@ fn closest_may_put_the_point_onto_a_surface() {
         Pose::new([0.55, 0.35, 0.1], [0.3, -0.4, 1.0, 0.2]).unwrap(),
     );
     let area = |weight_on_a: f64| {
-        let settings = Settings { formulation: Formulation::Closest, weight_on_a, ..Settings::default() };
+        let settings = Settings::default().with_formulation(Formulation::Closest).with_weight_on_a(weight_on_a);
         let contact = detect(&a, &pose_a, &b, &pose_b, &settings, None).unwrap();
         assert_eq!((contact.kind, contact.formulation), (Kind::Overlapping, Formulation::Closest));
         Cut::of_contact(&a, &pose_a, &b, &pose_b, &contact).area()

@@ -1,6 +1,8 @@
 //! `detect_batch` against `detect`: the same bits for any number of threads, and what it refuses.
 
-use potential_particles::{DetectError, Flags, PairState, Particle, Plane, Pose, Settings, detect, detect_batch};
+use potential_particles::{
+    Contact, DetectError, Flags, PairState, Particle, Plane, Pose, Settings, detect, detect_batch, detect_batch_into,
+};
 
 fn cube() -> Particle {
     let mut planes = Vec::new();
@@ -75,7 +77,7 @@ fn moved(poses: &[Pose]) -> Vec<Pose> {
 fn contacts_that_are_followed_are_those_of_single_calls() {
     let particles = [cube(), Particle::sphere(0.5).unwrap()];
     let (all, first, pairs) = block(&particles);
-    let settings = Settings { carry_tolerance: 1e-9, ..Settings::default() };
+    let settings = Settings::default().with_carry_tolerance(1e-9);
     for threads in [1, 2, 7] {
         let mut poses = first.clone();
         let mut states = vec![PairState::default(); pairs.len()];
@@ -100,9 +102,35 @@ fn contacts_that_are_followed_are_those_of_single_calls() {
     let nothing = detect_batch(&all, &first, &pairs, &settings, 1, &mut []).unwrap();
     assert_eq!(format!("{solved:?}"), format!("{nothing:?}"));
     for carry_tolerance in [-1e-9, 0.2, f64::NAN] {
-        let refused = detect_batch(&all, &first, &pairs, &Settings { carry_tolerance, ..settings }, 1, &mut []);
+        let refused = detect_batch(&all, &first, &pairs, &settings.with_carry_tolerance(carry_tolerance), 1, &mut []);
         assert!(matches!(refused, Err(DetectError::Settings(_))), "{carry_tolerance}: {refused:?}");
     }
+}
+
+/// Into answers of the caller's own form: the same contacts at the places of their pairs, also of those that have none.
+#[test]
+fn contacts_are_written_where_they_are_wanted() {
+    let particles = [cube(), Particle::sphere(0.5).unwrap()];
+    let (all, poses, mut pairs) = block(&particles);
+    pairs[70] = [0, 64];
+    for settings in [Settings::default(), Settings::default().with_carry_tolerance(1e-9)] {
+        let (mut states, mut own) = (vec![PairState::default(); pairs.len()], vec![PairState::default(); pairs.len()]);
+        for threads in [1, 3, 1] {
+            let expected = detect_batch(&all, &poses, &pairs, &settings, threads, &mut states).unwrap();
+            let mut answers = vec![(usize::MAX, None); pairs.len()];
+            let write = |number, place: &mut (usize, Option<Contact>), answer: Result<Contact, DetectError>| {
+                *place = (number, answer.ok());
+            };
+            detect_batch_into(&all, &poses, &pairs, &settings, threads, &mut own, &mut answers, write).unwrap();
+            for (n, (expected, (number, answer))) in expected.into_iter().zip(answers).enumerate() {
+                assert_eq!((number, answer.is_some()), (n, n != 70));
+                assert_eq!(answer, expected.ok(), "pair {n}");
+            }
+        }
+    }
+    let mut short = [(); 3];
+    let refused = detect_batch_into(&all, &poses, &pairs, &Settings::default(), 1, &mut [], &mut short, |_, _, _| ());
+    assert!(matches!(refused, Err(DetectError::Length { what: "answers", given: 3, .. })), "{refused:?}");
 }
 
 #[test]
@@ -114,7 +142,7 @@ fn what_does_not_fit_is_refused_and_a_missing_body_is_told_by_its_pair() {
     assert!(matches!(short, Err(DetectError::Length { what: "poses", given: 63, expected: 64, .. })), "{short:?}");
     let short = detect_batch(&all, &poses, &pairs, &settings, 1, &mut [PairState::default(); 3]);
     assert!(matches!(short, Err(DetectError::Length { what: "states", given: 3, .. })), "{short:?}");
-    let bad = detect_batch(&all, &poses, &pairs, &Settings { weight_on_a: 2.0, ..settings }, 1, &mut []);
+    let bad = detect_batch(&all, &poses, &pairs, &settings.with_weight_on_a(2.0), 1, &mut []);
     assert!(matches!(bad, Err(DetectError::Settings(_))), "{bad:?}");
     pairs[5] = [3, 64];
     let answers = detect_batch(&all, &poses, &pairs, &settings, 2, &mut []).unwrap();

@@ -94,7 +94,7 @@ fn walk(planes: usize, r: f64, k: f64, step: f64, far: f64, seed: u64) -> (usize
     let (turned, towards) = (quaternion(seed), direction(seed));
     let mut poses = [pose_a, touching(&a, &pose_a, &b, turned, &towards, 0.1 * r)];
     let (mut state, mut count) = (PairState::default(), (0, 0));
-    let settings = Settings { carry_tolerance: tolerance, ..Settings::default() };
+    let settings = Settings::default().with_carry_tolerance(tolerance);
     for _ in 0..40 {
         let contact = detect(&a, &poses[0], &b, &poses[1], &settings, Some(&mut state)).unwrap();
         let solved = detect(&a, &poses[0], &b, &poses[1], &settings, None).unwrap();
@@ -147,7 +147,7 @@ fn contacts_with_a_raised_regularisation_are_solved() {
     let pose_a = Pose::at([0.0; 3]).unwrap();
     let pose_b = touching(&a, &pose_a, &b, [1.0, 0.3, 0.2, 0.1], &Vector3::x(), 0.005);
     for (flat_regularisation, carries) in [(1e-13, true), (1e-3, false)] {
-        let settings = Settings { flat_regularisation, carry_tolerance: 1e-9, ..Settings::default() };
+        let settings = Settings::default().with_flat_regularisation(flat_regularisation).with_carry_tolerance(1e-9);
         let mut state = PairState::default();
         let mut look = || detect(&a, &pose_a, &b, &pose_b, &settings, Some(&mut state)).unwrap();
         let (solved, next) = (look(), look());
@@ -164,7 +164,7 @@ fn only_the_pair_and_the_problem_that_it_was_made_for_are_carried_on() {
     let pose_b = touching(&a, &pose_a, &b, [1.0, 0.3, 0.2, 0.1], &Vector3::x(), 0.005);
     let mut state = PairState::default();
     let mut look = |a: &Particle, b: &Particle, settings: &Settings, carry_tolerance: f64| {
-        let settings = Settings { carry_tolerance, ..*settings };
+        let settings = settings.with_carry_tolerance(carry_tolerance);
         let contact = detect(a, &pose_a, b, &pose_b, &settings, Some(&mut state)).unwrap();
         contact.flags.contains(Flags::CARRIED)
     };
@@ -172,20 +172,20 @@ fn only_the_pair_and_the_problem_that_it_was_made_for_are_carried_on() {
     assert!(!look(&a, &b, &midway, 1e-9) && look(&a, &b, &midway, 1e-9));
     assert!(look(&a.clone(), &b, &midway, 1e-9), "a clone is the same particle");
     assert!(!look(&a, &b, &midway, 0.0), "a tolerance of 0 always solves");
-    let smoother = Settings { flat_regularisation: 1e-3, ..midway };
-    let coarser = Settings { gap_tolerance: 1e-9, ..midway };
+    let smoother = midway.with_flat_regularisation(1e-3);
+    let coarser = midway.with_gap_tolerance(1e-9);
     assert!(!look(&a, &b, &smoother, 1e-9) && !look(&a, &b, &coarser, 1e-9), "each value of the settings solves anew");
     assert!(look(&a, &b, &coarser, 1e-9) && !look(&a, &b, &midway, 1e-9) && look(&a, &b, &midway, 1e-9));
     let twin = particle(6, 0.05, 0.05, &mut 77);
     assert!(!look(&twin, &b, &midway, 1e-9) && look(&twin, &b, &midway, 1e-9));
-    assert!(!look(&twin, &b, &Settings { formulation: Formulation::Closest, ..midway }, 1e-9));
-    assert!(!look(&twin, &b, &Settings { back_end: BackEnd::ConeProgram, ..midway }, 1e-9));
+    assert!(!look(&twin, &b, &midway.with_formulation(Formulation::Closest), 1e-9));
+    assert!(!look(&twin, &b, &midway.with_back_end(BackEnd::ConeProgram), 1e-9));
     for carry_tolerance in [0.2, f64::NAN] {
-        let settings = Settings { carry_tolerance, ..midway };
+        let settings = midway.with_carry_tolerance(carry_tolerance);
         assert!(detect(&a, &pose_a, &b, &pose_b, &settings, Some(&mut PairState::default())).is_err());
     }
     // What is saved is the solution alone.
-    let carrying_on = Settings { carry_tolerance: 1e-9, ..midway };
+    let carrying_on = midway.with_carry_tolerance(1e-9);
     let mut state = PairState::default();
     let flags = |state: &mut PairState| detect(&a, &pose_a, &b, &pose_b, &carrying_on, Some(state)).unwrap().flags;
     flags(&mut state);

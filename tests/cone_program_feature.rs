@@ -9,7 +9,7 @@ use potential_particles::{BackEnd, DetectError, Kind, Particle, Pose, Settings, 
 fn the_cone_program_back_end_is_there_or_refused_by_name() {
     let ball = Particle::sphere(1.0).unwrap();
     let (left, right) = (Pose::at([0.0; 3]).unwrap(), Pose::at([1.5, 0.0, 0.0]).unwrap());
-    let by = |back_end| detect(&ball, &left, &ball, &right, &Settings { back_end, ..Settings::default() }, None);
+    let by = |back_end| detect(&ball, &left, &ball, &right, &Settings::default().with_back_end(back_end), None);
     assert_eq!(by(BackEnd::Fast).unwrap().kind, Kind::Overlapping);
     match by(BackEnd::ConeProgram) {
         Ok(contact) => {

@@ -20,7 +20,7 @@ fn pose(position: [f64; 3], orientation: [f64; 4]) -> Pose {
 
 /// Solves to the end, whatever the kind.
 fn solve(a: &Particle, at_a: &Pose, b: &Particle, at_b: &Pose, formulation: Formulation) -> Contact {
-    let settings = Settings { formulation, solve_separated: true, ..Settings::default() };
+    let settings = Settings::default().with_formulation(formulation).with_solve_separated(true);
     detect(a, at_a, b, at_b, &settings, None).expect("an answer")
 }
 
@@ -39,7 +39,7 @@ fn spheres_match_their_closed_form() {
             let at_a = pose([1.0, 2.0, 3.0], [1.0, 0.0, 0.0, 0.0]);
             let centre: Vector3<f64> = at_a.position() + distance * n;
             let at_b = pose(centre.into(), [0.5, 0.5, -0.5, 0.5]);
-            let settings = Settings { back_end, solve_separated: true, ..Settings::default() };
+            let settings = Settings::default().with_back_end(back_end).with_solve_separated(true);
             let contact = detect(&a, &at_a, &b, &at_b, &settings, None).unwrap();
             let accuracy = if back_end == BackEnd::Fast { 1e-14 } else { 1e-7 };
             // Both scaled by s the spheres touch: s (ra + rb) = distance.
@@ -243,7 +243,7 @@ proptest! {
     #[test]
     fn no_state_changes_the_answer_beyond_its_gap((a, at_a, b, at_b) in pairs(), solution in prop::array::uniform8(prop_oneof![Just(1.0), -2.0..2.0, Just(f64::NAN), Just(1e300)])) {
         let cold = solve(&a, &at_a, &b, &at_b, Formulation::Midway);
-        let settings = Settings { solve_separated: true, ..Settings::default() };
+        let settings = Settings::default().with_solve_separated(true);
         let mut solution = solution;
         solution[0] = 1.0;
         let mut state = PairState::from_raw(solution);
@@ -275,7 +275,7 @@ fn raised_regularisation_loses_no_contact() {
         for exponent in -8..=-3 {
             for (aside, tilt) in [(0.0, 0.0), (0.3, 0.0), (0.2, 1e-4)] {
                 let overlap = 10f64.powi(exponent);
-                let settings = Settings { flat_regularisation, ..Settings::default() };
+                let settings = Settings::default().with_flat_regularisation(flat_regularisation);
                 let at_b = pose([aside, 0.1, 1.0 - overlap], [1.0, tilt, 0.0, 0.0]);
                 let case =
                     format!("regularisation {flat_regularisation}, overlap {overlap}, aside {aside}, tilt {tilt}");
@@ -304,10 +304,10 @@ fn a_regularisation_that_was_overridden_is_told() {
         for exponent in [-12, -8, -4, -2] {
             for tilt in [0.0, 1e-8, 1e-6, 1e-4] {
                 for formulation in [Formulation::Midway, Formulation::Closest] {
-                    let default = Settings { formulation, ..Settings::default() };
+                    let default = Settings::default().with_formulation(formulation);
                     let at_b = pose([0.3, 0.1, 1.0 + tilt - 10f64.powi(exponent)], [1.0, tilt, tilt, 0.0]);
                     let case = format!("{flat_regularisation}, {exponent}, {tilt}, {formulation}");
-                    let settings = Settings { flat_regularisation, ..default };
+                    let settings = default.with_flat_regularisation(flat_regularisation);
                     let contact = detect(&cube, &at_a, &cube, &at_b, &settings, None).expect(&case);
                     let plain = detect(&cube, &at_a, &cube, &at_b, &default, None).expect(&case);
                     assert!(!plain.flags.contains(Flags::DEFAULT_REGULARISATION), "{case}");
@@ -337,7 +337,7 @@ fn a_regularisation_below_the_default_counts_as_the_default() {
     let at_a = pose([0.0; 3], [1.0, 0.0, 0.0, 0.0]);
     for at_b in [pose([0.93; 3], [1.0, 0.0, 0.0, 0.0]), pose([0.2, 0.1, 0.98], [1.0, 0.0, 0.0, 0.0])] {
         let of = |flat_regularisation: f64| {
-            let settings = Settings { flat_regularisation, ..Settings::default() };
+            let settings = Settings::default().with_flat_regularisation(flat_regularisation);
             detect(&cube, &at_a, &cube, &at_b, &settings, None).unwrap()
         };
         let default = of(Settings::default().flat_regularisation);
@@ -401,7 +401,9 @@ fn blocks_face_to_face_are_answered_by_any_regularisation() {
         for (closer, kind) in [(0.0, Kind::Separated), (8.5e-5, Kind::Overlapping), (1e-3, Kind::Overlapping)] {
             let at_b = pose([closer - 124.99961318552711, -2.54879564075102e-10, 24.000147783915253], orientation);
             for solve_separated in [true, false] {
-                let settings = Settings { flat_regularisation, solve_separated, ..Settings::default() };
+                let settings = Settings::default()
+                    .with_flat_regularisation(flat_regularisation)
+                    .with_solve_separated(solve_separated);
                 let found = detect(&a, &at_a, &b, &at_b, &settings, None).expect("an answer");
                 assert_eq!(found.kind, kind, "{flat_regularisation:e}, {closer:e} closer: {found:?}");
             }

@@ -20,7 +20,7 @@ use std::collections::BTreeMap;
 
 /// Solved to the end, also where it is apart.
 pub fn solved() -> Settings {
-    Settings { solve_separated: true, ..Settings::default() }
+    Settings::default().with_solve_separated(true)
 }
 
 /// A cube of edge 1 with edges and corners rounded by r.
@@ -101,7 +101,7 @@ fn worst_of_known(settings: &Settings) -> BTreeMap<String, Worst> {
             assert_eq!(contact.kind == Kind::Overlapping, s < 1.0, "{family}: s {s}, {contact:?}");
         }
         // With cheap proofs the kind is the same.
-        let quick = Settings { solve_separated: false, ..*settings };
+        let quick = settings.with_solve_separated(false);
         assert_eq!(known.contact(&particle, &pose, &quick).kind, contact.kind, "{family}: s {s}");
         let worst = families.entry(family.clone()).or_default();
         worst.count += 1;
@@ -130,7 +130,7 @@ fn contacts_known_to_40_digits() {
 #[test]
 fn contacts_known_to_40_digits_to_the_last_digits() {
     let gap_tolerance = 1e-14;
-    let families = worst_of_known(&Settings { gap_tolerance, ..solved() });
+    let families = worst_of_known(&solved().with_gap_tolerance(gap_tolerance));
     for (family, Worst { square, .. }) in families {
         assert!(square <= gap_tolerance, "{family}: a gap of s² of {square:e}");
     }
@@ -154,6 +154,6 @@ fn what_is_no_boundary_is_refused() {
     assert!(Wall::new(corner, [0.0, 1e-300, 1e-300]).is_ok() && Wall::new(corner, [1e300, 1e300, 0.0]).is_ok());
     assert!(Triangle::new([corner, [1e-160, 0.0, 0.0], [0.0, 1e-160, 0.0]]).is_ok());
     let wall = Wall::new(corner, [0.0, 0.0, 1.0]).unwrap();
-    let settings = Settings { gap_tolerance: 0.0, ..Settings::default() };
+    let settings = Settings::default().with_gap_tolerance(0.0);
     assert!(contact_with_plane(&cube(0.1, 0.1), &Pose::at(corner).unwrap(), &wall, &settings, None).is_err());
 }

@@ -35,7 +35,7 @@ fn surface(particle: &Particle, body: &Placement, seed: u32) -> Vec<Vector3<f64>
 /// Every pair whose balls meet, by the paper's cone programs, which share no code with what packed them.
 fn assert_no_overlap(shapes: &[Particle], bodies: &[Placement]) {
     let particles = scaled(shapes, bodies);
-    let settings = Settings { back_end: BackEnd::ConeProgram, ..Settings::default() };
+    let settings = Settings::default().with_back_end(BackEnd::ConeProgram);
     let mut near = 0;
     for (i, a) in bodies.iter().enumerate() {
         for (j, b) in bodies.iter().enumerate().take(i) {
@@ -63,7 +63,7 @@ fn rocks_in_a_box_overlap_neither_each_other_nor_the_walls() {
         }
     }
     // The size is the diameter of a ball of the same volume.
-    let volumes: Vec<f64> = shapes.iter().map(|shape| shape.mass_properties(1e-6).volume).collect();
+    let volumes: Vec<f64> = shapes.iter().map(|shape| shape.mass_properties(1e-6).unwrap().volume).collect();
     for body in &bodies {
         let size = body.scale * (6.0 / std::f64::consts::PI * volumes[body.shape]).cbrt();
         assert!((size - 0.5).abs() < 1e-6 || (size - 0.9).abs() < 1e-6, "{size}");

@@ -196,7 +196,7 @@ fn the_planes_of_a_sphere_are_not_looked_at() {
     for i in 1..40 {
         let position = [0.03 * f64::from(i), 0.4, 0.7];
         let (here, there) = (Pose::at([0.0; 3]).unwrap(), Pose::new(position, [1.0, 0.3, f64::from(i), 0.2]).unwrap());
-        let settings = Settings { solve_separated: true, ..Settings::default() };
+        let settings = Settings::default().with_solve_separated(true);
         let solved = |sphere| detect(sphere, &here, &other, &there, &settings, None).unwrap();
         let (of_with, of_without) = (solved(&with), solved(&without));
         assert_eq!(of_with.iterations, of_without.iterations, "{i}");

@@ -27,7 +27,7 @@ fn circles_match_their_closed_form() {
             let at_a = Pose::new([1.0, 2.0], -0.7).unwrap();
             let centre: Vector2<f64> = at_a.position() + distance * n;
             let at_b = Pose::new(centre.into(), 12.0).unwrap();
-            let settings = Settings { back_end, solve_separated: true, ..Settings::default() };
+            let settings = Settings::default().with_back_end(back_end).with_solve_separated(true);
             let contact = detect(&a, &at_a, &b, &at_b, &settings, None).unwrap();
             let accuracy = if back_end == BackEnd::Fast { 1e-14 } else { 1e-7 };
             // Both scaled by s the circles touch: s (ra + rb) = distance.
@@ -43,7 +43,7 @@ fn circles_match_their_closed_form() {
             } else {
                 assert!(contact.overlap.is_nan() && contact.point_on_a.x.is_nan());
             }
-            let settings = Settings { formulation: Formulation::Closest, ..settings };
+            let settings = settings.with_formulation(Formulation::Closest);
             let contact = detect(&a, &at_a, &b, &at_b, &settings, None).unwrap();
             assert!((contact.s - (distance - rb) / ra).abs() < accuracy);
             if distance < ra + rb {
@@ -196,7 +196,7 @@ fn each_violation_is_its_own_error_and_names_the_value() {
     assert!(matches!(angle, PoseError::Angle(_)) && angle.to_string().contains("angle inf"));
     let turns = Pose::new([0.0; 2], -1.1e9).unwrap_err().to_string();
     assert!(turns.contains("-1100000000.0") && turns.contains("whole turns") && Pose::new([0.0; 2], -1.07e9).is_ok());
-    let bad = Settings { gap_tolerance: 0.0, ..Settings::default() };
+    let bad = Settings::default().with_gap_tolerance(0.0);
     let (circle, home) = (Particle::circle(1.0).unwrap(), Pose::new([0.0; 2], 0.0).unwrap());
     assert!(detect(&circle, &home, &circle, &home, &bad, None).is_err());
 }

@@ -46,8 +46,10 @@ fn everything_comes_back() {
     for (distance, formulation) in [(1.7, Formulation::Midway), (1.7, Formulation::Closest), (2.5, Formulation::Midway)]
     {
         let there = Pose::new([0.0, 0.1, distance], [1.0, 0.0, 0.0, 1.0 / 3.0]).unwrap();
-        let settings =
-            Settings { formulation, gap_tolerance: 1.0 / 3e11, carry_tolerance: 1e-9 / 3.0, ..Settings::default() };
+        let settings = Settings::default()
+            .with_formulation(formulation)
+            .with_gap_tolerance(1.0 / 3e11)
+            .with_carry_tolerance(1e-9 / 3.0);
         assert_eq!(there_and_back(&here), here);
         assert_eq!(there_and_back(&there), there);
         assert_eq!(there_and_back(&settings), settings);
@@ -77,7 +79,7 @@ fn names_are_those_of_the_documentation() {
         "its name in earlier files"
     );
     let settings: Settings = serde_json::from_str(r#"{"formulation": "closest"}"#).unwrap();
-    assert_eq!(settings, Settings { formulation: Formulation::Closest, ..Settings::default() });
+    assert_eq!(settings, Settings::default().with_formulation(Formulation::Closest));
 }
 
 #[test]

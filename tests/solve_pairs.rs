@@ -237,7 +237,7 @@ fn no_digit_of_a_distance_is_lost() {
 
     let read = |name: &str| serde_json::from_value::<support::Shape>(pair[name].clone()).expect("a shape").particle();
     let place = |name: &str| serde_json::from_value::<support::Place>(pair[name].clone()).expect("a place").pose();
-    let settings = Settings { gap_tolerance: 1e-14, solve_separated: true, ..Settings::default() };
+    let settings = Settings::default().with_gap_tolerance(1e-14).with_solve_separated(true);
     let direct = detect(&read("A"), &place("a"), &read("B"), &place("b"), &settings, None).expect("an answer");
     assert!((of_pair - direct.s).abs() <= 1e-15 * direct.s, "{of_pair} and {}", direct.s);
     assert!((of_rounded - of_pair).abs() > 1e-10 * direct.s, "the pair does not tell: {of_rounded} and {of_pair}");

@@ -32,7 +32,7 @@ fn answers(pairs: &[Pair], first: usize) -> Vec<Vec<u64>> {
     for index in (0..pairs.len()).map(|i| (i + first) % pairs.len()) {
         let Pair { a, b, pose_a, pose_b } = &pairs[index];
         for formulation in [Formulation::Midway, Formulation::Closest] {
-            let settings = Settings { formulation, ..Settings::default() };
+            let settings = Settings::default().with_formulation(formulation);
             let mut state = PairState::default();
             for _ in 0..2 {
                 let contact = detect(a, pose_a, b, pose_b, &settings, Some(&mut state)).expect("a pair with an answer");

@@ -25,7 +25,7 @@ struct Worst {
 }
 
 fn sweep(back_end: BackEnd, formulation: Formulation) -> BTreeMap<String, Worst> {
-    let settings = Settings { back_end, formulation, solve_separated: true, ..Settings::default() };
+    let settings = Settings::default().with_back_end(back_end).with_formulation(formulation).with_solve_separated(true);
     let mut families: BTreeMap<String, Worst> = BTreeMap::new();
     for (line, pair) in pairs().iter().enumerate() {
         let (a, b) = (pair.shape_a.particle(), pair.shape_b.particle());
@@ -190,8 +190,8 @@ impl Accuracy {
 
 /// Both formulations, every pair, at one tolerance.
 fn accuracy(gap_tolerance: f64) -> BTreeMap<String, Accuracy> {
-    let midway = Settings { gap_tolerance, solve_separated: true, ..Settings::default() };
-    let closest = Settings { formulation: Formulation::Closest, ..midway };
+    let midway = Settings::default().with_gap_tolerance(gap_tolerance).with_solve_separated(true);
+    let closest = midway.with_formulation(Formulation::Closest);
     let mut families: BTreeMap<String, Accuracy> = BTreeMap::new();
     for pair in &pairs() {
         let (a, b, truth) = (pair.shape_a.particle(), pair.shape_b.particle(), &pair.truth);

@@ -94,7 +94,7 @@ impl Touching {
     fn placed(a: Particle, b: Particle, pose_a: Pose, pose_b: Pose, random: &mut Random) -> Self {
         let moved_b = random.moved(&pose_b, STEP, STEP);
         let after = |formulation| {
-            let settings = Settings { formulation, carry_tolerance: CARRY_TOLERANCE, ..Settings::default() };
+            let settings = Settings::default().with_formulation(formulation).with_carry_tolerance(CARRY_TOLERANCE);
             let mut state = PairState::default();
             let contact = detect(&a, &pose_a, &b, &pose_b, &settings, Some(&mut state));
             (contact.expect("a contact of ordinary bodies"), state)

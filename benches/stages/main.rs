@@ -39,12 +39,12 @@ fn walk<T>(c: &mut Criterion, group: &str, name: &str, pairs: &[Touching], call:
 }
 
 fn contact(pair: &Touching, formulation: Formulation) -> Contact {
-    let settings = Settings { formulation, ..Settings::default() };
+    let settings = Settings::default().with_formulation(formulation);
     detect(&pair.a, &pair.pose_a, &pair.b, &pair.pose_b, &settings, None).expect("a contact of ordinary bodies")
 }
 
 fn warm(pair: &Touching, formulation: Formulation) -> Contact {
-    let settings = Settings { formulation, ..Settings::default() };
+    let settings = Settings::default().with_formulation(formulation);
     let mut state: PairState = pair.state(formulation);
     detect(&pair.a, &pair.pose_a, &pair.b, &pair.moved_b, &settings, Some(&mut state))
         .expect("a contact of ordinary bodies")

@@ -44,7 +44,7 @@ pub fn count(effort: &Effort, progress: &ProgressBar) -> Counts {
 }
 
 fn over(pool: &[Particle], calls: usize, progress: &ProgressBar) -> Falls {
-    let settings = Settings { solve_separated: true, ..Settings::default() };
+    let settings = Settings::default().with_solve_separated(true);
     let mut random = Random::seeded(47);
     let mut falls = Falls::default();
     let begin = Instant::now();

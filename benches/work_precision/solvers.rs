@@ -89,8 +89,11 @@ impl Case {
 }
 
 fn library(name: &'static str, back_end: BackEnd, formulation: Formulation, tolerance: f64) -> Solver {
-    let settings =
-        Settings { formulation, back_end, solve_separated: true, gap_tolerance: tolerance, ..Settings::default() };
+    let settings = Settings::default()
+        .with_formulation(formulation)
+        .with_back_end(back_end)
+        .with_solve_separated(true)
+        .with_gap_tolerance(tolerance);
     let contact = move |case: &Case, settings: &Settings| {
         detect(&case.a, &case.pose_a, &case.b, &case.pose_b, settings, None).map_err(|error| error.to_string())
     };
@@ -109,7 +112,7 @@ fn library(name: &'static str, back_end: BackEnd, formulation: Formulation, tole
         } else {
             // With all weight on one of them the contact point is that closest point, free of the world's origin.
             for (point, weight_on_a) in points.iter_mut().zip([0.0, 1.0]) {
-                *point = contact(case, &Settings { weight_on_a, ..settings })?.branch_b;
+                *point = contact(case, &settings.with_weight_on_a(weight_on_a))?.branch_b;
             }
         }
         Ok(Found { s: [found.s, found.s_b], points, touching, own: None })

@@ -211,11 +211,11 @@ fn group(
 }
 
 fn settings(formulation: Formulation) -> Settings {
-    Settings { formulation, ..Settings::default() }
+    Settings::default().with_formulation(formulation)
 }
 
 fn carrying_on() -> Settings {
-    Settings { carry_tolerance: touching::CARRY_TOLERANCE, ..Settings::default() }
+    Settings::default().with_carry_tolerance(touching::CARRY_TOLERANCE)
 }
 
 fn call(pair: &Touching, formulation: Formulation) {

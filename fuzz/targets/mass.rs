@@ -8,7 +8,7 @@ pub fn run(data: &[u8]) {
     let mut bytes = Bytes(data);
     let Ok(particle) = particle::likely(&mut bytes) else { return };
     let radius = particle.bounding_radius();
-    let found = [1e-1, 1e-3].map(|tolerance| particle.mass_properties(tolerance));
+    let found = [1e-1, 1e-3].map(|tolerance| particle.mass_properties(tolerance).unwrap());
     // Beyond these a volume or moment leaves the range of numbers.
     if !(1e-60..1e60).contains(&radius) {
         return;

@@ -19,7 +19,7 @@ pub fn run(data: &[u8]) {
     }
     let (Ok(a), Ok(b)) = (particle::likely(&mut bytes), particle::likely(&mut bytes)) else { return };
     let (Some(at_a), Some(at_b)) = (pose(&mut bytes), pose(&mut bytes)) else { return };
-    let mut settings = Settings { solve_separated: choices & 8 != 0, ..Settings::default() };
+    let mut settings = Settings::default().with_solve_separated(choices & 8 != 0);
     if choices & 16 != 0 {
         settings.formulation = Formulation::Closest;
     }

@@ -26,7 +26,7 @@ pub fn run(data: &[u8]) {
         settings.flat_regularisation = bytes.number();
     }
     let quick = solve(&particle, &at, &boundary, &settings);
-    let full = solve(&particle, &at, &boundary, &Settings { solve_separated: true, ..settings });
+    let full = solve(&particle, &at, &boundary, &settings.with_solve_separated(true));
     if settings.validate().is_err() {
         assert!(quick.is_err() && full.is_err());
         return;

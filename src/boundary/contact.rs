@@ -9,7 +9,7 @@ use crate::contact::contact::Kind;
 use crate::contact::detect::DetectError;
 use crate::contact::geometry::direction;
 use crate::flags::Flags;
-use crate::linalg::number::{UNKNOWN_VECTOR, larger};
+use crate::linalg::number::{UNKNOWN_VECTOR, equality, larger};
 use crate::pair::body::{Body, shift_in_a};
 use crate::pair::boundary_part::PlacedPart;
 use crate::pair::pair::Pair;
@@ -61,6 +61,9 @@ pub struct FlatContact {
     /// The point of the surface of A beyond x* along the normal, world frame; NaN when separated.
     pub on_particle: Vector3<f64>,
 }
+
+equality!(FlatContact: kind, feature, flags, iterations; s, gap, point_bound, overlap, distance;
+    normal, point, branch, on_boundary, on_particle);
 
 /// Contact of A at a pose with a plane, which it may touch from either side.
 ///

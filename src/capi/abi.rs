@@ -4,6 +4,9 @@ use super::flat::pp_flat_contact;
 use super::packing::{pp_packing, pp_placement};
 use super::patch::{pp_patch, pp_patch_point, pp_patch_state};
 use super::planar::{pp_area_properties, pp_closest_2d, pp_contact_2d, pp_patch_2d, pp_patch_point_2d, pp_pose_2d};
+use super::rock::{
+    pp_block, pp_block_face, pp_face_partners, pp_joint, pp_joint_set, pp_rock_summary, pp_slice_settings,
+};
 use super::types::{pp_closest, pp_contact, pp_mass_properties, pp_pair_state, pp_pose, pp_settings};
 use std::ffi::{CStr, c_char};
 
@@ -56,6 +59,20 @@ pub const PP_STRUCT_PATCH_2D: u32 = 19;
 pub const PP_STRUCT_PATCH_POINT_2D: u32 = 20;
 /// struct pp_patch_state, for pp_struct_size.
 pub const PP_STRUCT_PATCH_STATE: u32 = 21;
+/// struct pp_joint, for pp_struct_size.
+pub const PP_STRUCT_JOINT: u32 = 22;
+/// struct pp_joint_set, for pp_struct_size.
+pub const PP_STRUCT_JOINT_SET: u32 = 23;
+/// struct pp_slice_settings, for pp_struct_size.
+pub const PP_STRUCT_SLICE_SETTINGS: u32 = 24;
+/// struct pp_rock_summary, for pp_struct_size.
+pub const PP_STRUCT_ROCK_SUMMARY: u32 = 25;
+/// struct pp_block, for pp_struct_size.
+pub const PP_STRUCT_BLOCK: u32 = 26;
+/// struct pp_block_face, for pp_struct_size.
+pub const PP_STRUCT_BLOCK_FACE: u32 = 27;
+/// struct pp_face_partners, for pp_struct_size.
+pub const PP_STRUCT_FACE_PARTNERS: u32 = 28;
 
 /// Version of the loaded library as "major.minor.patch". Static text: do not free it.
 #[unsafe(no_mangle)]
@@ -96,6 +113,13 @@ pub extern "C" fn pp_struct_size(which: u32) -> usize {
         PP_STRUCT_PATCH_2D => size_of::<pp_patch_2d>(),
         PP_STRUCT_PATCH_POINT_2D => size_of::<pp_patch_point_2d>(),
         PP_STRUCT_PATCH_STATE => size_of::<pp_patch_state>(),
+        PP_STRUCT_JOINT => size_of::<pp_joint>(),
+        PP_STRUCT_JOINT_SET => size_of::<pp_joint_set>(),
+        PP_STRUCT_SLICE_SETTINGS => size_of::<pp_slice_settings>(),
+        PP_STRUCT_ROCK_SUMMARY => size_of::<pp_rock_summary>(),
+        PP_STRUCT_BLOCK => size_of::<pp_block>(),
+        PP_STRUCT_BLOCK_FACE => size_of::<pp_block_face>(),
+        PP_STRUCT_FACE_PARTNERS => size_of::<pp_face_partners>(),
         _ => 0,
     }
 }

@@ -4,6 +4,9 @@
 //!
 //! The documentation of every exported item is also the comment in the C header: plain text, without the marks of
 //! rustdoc, and "Pointers:" where Rust would have a section on safety.
+
+// Comments are those of the C header, where brackets are C's.
+#![allow(rustdoc::broken_intra_doc_links)]
 #![allow(non_camel_case_types, unsafe_code)]
 #![allow(clippy::missing_safety_doc)]
 
@@ -17,6 +20,7 @@ mod packing;
 mod particle;
 mod patch;
 mod planar;
+mod rock;
 mod shape;
 mod status;
 mod surface;
@@ -30,6 +34,7 @@ pub use packing::*;
 pub use particle::*;
 pub use patch::*;
 pub use planar::*;
+pub use rock::*;
 pub use shape::*;
 pub use status::*;
 pub use surface::*;

@@ -142,7 +142,7 @@ pub unsafe extern "C" fn pp_particle_mass_properties(
     fenced(|| {
         let particle = &unsafe { borrow(particle) }?.0;
         let out = unsafe { output(properties) }?;
-        let mass = particle.mass_properties(mass_tolerance(tolerance)?);
+        let mass = particle.mass_properties(tolerance).map_err(|_| PP_BAD_SETTING)?;
         let i = mass.inertia;
         out.write(pp_mass_properties {
             volume: mass.volume,
@@ -152,9 +152,4 @@ pub unsafe extern "C" fn pp_particle_mass_properties(
         });
         Ok(())
     })
-}
-
-/// A tolerance of volume or area, if it is one.
-pub(super) fn mass_tolerance(tolerance: f64) -> Result<f64, pp_status> {
-    if (1e-12..=1.0).contains(&tolerance) { Ok(tolerance) } else { Err(PP_BAD_SETTING) }
 }

@@ -61,6 +61,8 @@ pub const PP_TOO_MANY_PLANES: pp_status = 27;
 
 /// Nothing can be packed with these values; the message names the one at fault.
 pub const PP_BAD_PACKING: pp_status = 30;
+/// No rock mass can be cut with these values; the message names the one at fault.
+pub const PP_BAD_ROCK: pp_status = 31;
 
 /// Every code with its sentence; pp_status_message and the tests read this one table.
 const MESSAGES: &[(pp_status, &CStr)] = &[
@@ -100,6 +102,7 @@ const MESSAGES: &[(pp_status, &CStr)] = &[
     (PP_UNBOUNDED, c"with k = 0 the planes must enclose a bounded volume"),
     (PP_TOO_MANY_PLANES, c"more planes than PP_MAX_PLANES"),
     (PP_BAD_PACKING, c"nothing can be packed with these values; the message of pp_pack names the one at fault"),
+    (PP_BAD_ROCK, c"no rock mass can be cut with these values; the message names the one at fault"),
 ];
 
 /// The sentence of a status code, if it is one.

@@ -1,11 +1,12 @@
 //! Many pairs in one call: the contacts of a whole step.
 
 use crate::contact::contact::Contact;
-use crate::contact::detect::{DetectError, detect, not_carried_on};
+use crate::contact::detect::{DetectError, detect, detect_as, not_carried_on};
 use crate::pair::pair_state::PairState;
 use crate::particle::particle::Particle;
 use crate::pose::Pose;
 use crate::settings::Settings;
+use std::cell::Cell;
 use std::convert::identity;
 use std::panic::resume_unwind;
 use std::sync::{Mutex, PoisonError};
@@ -50,11 +51,60 @@ pub fn detect_batch(
     states: &mut [PairState],
 ) -> Result<Vec<Result<Contact, DetectError>>, DetectError> {
     settings.validate()?;
-    let one = |a: Placed, b: Placed, state: Option<&mut PairState>, answer: &mut Answer| match state {
+    let one = |_, a: Placed, b: Placed, state: Option<&mut PairState>, answer: &mut Answer| match state {
         Some(state) if settings.carries_on() => carry_on(a, b, settings, state, answer),
         state => *answer = detect(a.0, a.1, b.0, b.1, settings, state),
     };
-    detect_batch_by(one, particles, poses, pairs, threads, states)
+    let mut answers = unanswered(pairs.len());
+    detect_batch_by((one, refuse), (particles, poses), pairs, threads, states, &mut answers)?;
+    Ok(answers)
+}
+
+/// [`detect_batch`] into answers of the caller's own form, one for each pair: `write` gets the number of a pair, the place of its answer and the
+/// answer, which is not copied on the way. It is called once for each pair, by several threads.
+///
+/// ```
+/// use potential_particles::{Particle, Pose, Settings, detect_batch_into};
+/// let ball = Particle::sphere(1.0)?;
+/// let poses = [Pose::at([0.0, 0.0, 0.0])?, Pose::at([1.5, 0.0, 0.0])?];
+/// let mut overlaps = [f64::NAN];
+/// let write = |_, place: &mut f64, answer: Result<potential_particles::Contact, _>| {
+///     if let Ok(contact) = answer {
+///         *place = contact.overlap;
+///     }
+/// };
+/// detect_batch_into(&[&ball, &ball], &poses, &[[0, 1]], &Settings::default(), 1, &mut [], &mut overlaps, write)?;
+/// assert!((overlaps[0] - 0.5).abs() < 1e-12);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// Those of [`detect_batch`], and a number of answers that is not that of the pairs; then nothing was written.
+#[allow(clippy::too_many_arguments)]
+pub fn detect_batch_into<T: Send>(
+    particles: &[&Particle],
+    poses: &[Pose],
+    pairs: &[[u32; 2]],
+    settings: &Settings,
+    threads: usize,
+    states: &mut [PairState],
+    answers: &mut [T],
+    write: impl Fn(usize, &mut T, Result<Contact, DetectError>) + Sync,
+) -> Result<(), DetectError> {
+    settings.validate()?;
+    let one = |number, a: Placed, b: Placed, state: Option<&mut PairState>, place: &mut T| {
+        let place = Cell::new(Some(place));
+        let write = |answer| {
+            if let Some(place) = place.take() {
+                write(number, place, answer);
+            }
+        };
+        if let Err(error) = detect_as(a, b, settings, state, |contact| write(Ok(contact))) {
+            write(Err(error));
+        }
+    };
+    let refuse = |number, place: &mut T, error| write(number, place, Err(error));
+    detect_batch_by((one, refuse), (particles, poses), pairs, threads, states, answers)
 }
 
 /// One contact, carried on where it can be. It is written where it comes into being: copying it takes a twentieth of the time.
@@ -69,27 +119,31 @@ fn carry_on(a: Placed, b: Placed, settings: &Settings, state: &mut PairState, an
 pub(crate) type Placed<'a, P = Particle, Q = Pose> = (&'a P, &'a Q);
 type Answer = Result<Contact, DetectError>;
 
-/// Finds the contact C of one pair of particles P at poses Q, with its state, if that is kept.
-pub(crate) trait Detect<P, Q, C>:
-    Fn(Placed<P, Q>, Placed<P, Q>, Option<&mut PairState>, &mut Result<C, DetectError>) + Sync
-{
+/// Of so many pairs. A contact is large, and each will be written: until then something small stands there.
+pub(crate) fn unanswered<C: Clone>(pairs: usize) -> Vec<Result<C, DetectError>> {
+    vec![Err(DetectError::NoSuchBody { index: 0, bodies: 0 }); pairs]
 }
 
-impl<P, Q, C, F> Detect<P, Q, C> for F where
-    F: Fn(Placed<P, Q>, Placed<P, Q>, Option<&mut PairState>, &mut Result<C, DetectError>) + Sync
-{
+/// What stands for a pair that names a body that is not there.
+pub(crate) fn refuse<C>(_: usize, answer: &mut Result<C, DetectError>, error: DetectError) {
+    *answer = Err(error);
 }
 
-/// [`detect_batch`] by `detect`, with settings that were checked: in space or in the plane.
-pub(crate) fn detect_batch_by<P: Sync, Q: Sync, C: Clone + Send>(
-    detect: impl Detect<P, Q, C>,
-    particles: &[&P],
-    poses: &[Q],
+/// [`detect_batch`] with settings that were checked, in space or in the plane: `detect` finds the answer T of the pair of this
+/// number, particles P at poses Q, with its state, if that is kept, and `refuse` writes an error in its place.
+pub(crate) fn detect_batch_by<P: Sync, Q: Sync, T: Send>(
+    (detect, refuse): (
+        impl Fn(usize, Placed<P, Q>, Placed<P, Q>, Option<&mut PairState>, &mut T) + Sync,
+        impl Fn(usize, &mut T, DetectError) + Sync,
+    ),
+    (particles, poses): (&[&P], &[Q]),
     pairs: &[[u32; 2]],
     threads: usize,
     states: &mut [PairState],
-) -> Result<Vec<Result<C, DetectError>>, DetectError> {
+    answers: &mut [T],
+) -> Result<(), DetectError> {
     same_length("poses", poses.len(), particles.len())?;
+    same_length("answers", answers.len(), pairs.len())?;
     if !states.is_empty() {
         same_length("states", states.len(), pairs.len())?;
     }
@@ -97,20 +151,18 @@ pub(crate) fn detect_batch_by<P: Sync, Q: Sync, C: Clone + Send>(
         (Some(&particle), Some(pose)) => Ok((particle, pose)),
         _ => Err(DetectError::NoSuchBody { index, bodies: particles.len() }),
     };
-    // A contact is large, and each will be written: until then something small stands there.
-    let mut answers = vec![Err(DetectError::NoSuchBody { index: 0, bodies: 0 }); pairs.len()];
     let chunks = pairs.chunks(CHUNK).zip(answers.chunks_mut(CHUNK)).zip(optional_chunks(states));
-    in_parallel(threads, pairs.len(), chunks, |((pairs, answers), states)| {
+    in_parallel(threads, pairs.len(), chunks.enumerate(), |(chunk, ((pairs, answers), states))| {
         let mut states = states.iter_mut();
-        for (&[i, j], answer) in pairs.iter().zip(answers) {
+        for (number, (&[i, j], answer)) in (chunk * CHUNK..).zip(pairs.iter().zip(answers)) {
             let state = states.next();
             match (body(i), body(j)) {
-                (Ok(a), Ok(b)) => detect(a, b, state, answer),
-                (Err(error), _) | (_, Err(error)) => *answer = Err(error),
+                (Ok(a), Ok(b)) => detect(number, a, b, state, answer),
+                (Err(error), _) | (_, Err(error)) => refuse(number, answer, error),
             }
         }
     });
-    Ok(answers)
+    Ok(())
 }
 
 fn same_length(what: &'static str, given: usize, expected: usize) -> Result<(), DetectError> {

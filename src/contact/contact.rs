@@ -1,7 +1,7 @@
 //! The answer for one pair.
 
 use crate::flags::Flags;
-use crate::linalg::number::UNKNOWN_VECTOR;
+use crate::linalg::number::{UNKNOWN_VECTOR, equality};
 use crate::settings::{BackEnd, Formulation};
 use nalgebra::Vector3;
 use std::fmt;
@@ -69,6 +69,9 @@ pub struct Contact {
     /// Point on the surface of B (P2 of closest), world frame; NaN when separated.
     pub point_on_b: Vector3<f64>,
 }
+
+equality!(Contact: kind, formulation, back_end, flags, iterations; s, s_b, weight, gap, point_bound, overlap, distance;
+    normal, point, branch_a, branch_b, point_on_a, point_on_b);
 
 impl Contact {
     /// A pair of which nothing is known yet.

@@ -70,7 +70,7 @@ impl From<SolveError> for DetectError {
 /// use potential_particles::{Flags, Kind, PairState, Particle, Pose, Settings, detect};
 /// let ball = Particle::sphere(1.0)?;
 /// let left = Pose::at([0.0, 0.0, 0.0])?;
-/// let settings = Settings { carry_tolerance: 1e-9, ..Settings::default() };
+/// let settings = Settings::default().with_carry_tolerance(1e-9);
 /// let mut state = PairState::default();
 /// for step in 0..3 {
 ///     let right = Pose::at([1.5, 1e-6 * f64::from(step), 0.0])?;

@@ -2,7 +2,7 @@
 
 use crate::packing::error::PackError;
 use crate::packing::sizes::Sizes;
-use crate::particle::mass_properties::MASS_TOLERANCE;
+use crate::particle::mass_properties::{self, MASS_TOLERANCE};
 use crate::particle::particle::Particle;
 use crate::random::Random;
 use std::f64::consts::PI;
@@ -116,7 +116,7 @@ impl<'a> Supply<'a> {
 
 /// Diameter of a ball of the same volume.
 fn size_of(shape: &Particle) -> f64 {
-    (6.0 / PI * shape.mass_properties(MASS_TOLERANCE).volume).cbrt()
+    (6.0 / PI * mass_properties::of(shape, MASS_TOLERANCE).volume).cbrt()
 }
 
 /// Radius ρ of a ball about the origin within the particle: by Cauchy's inequality S(x) is at most

@@ -72,6 +72,28 @@ pub enum ParticleError {
     RoundingTooSmall { r: f64, radius: f64 },
 }
 
+/// A tolerance that is out of range, or no number.
+#[derive(Clone, Copy, Debug, Error, PartialEq)]
+#[error("tolerance={given:?} must be {range}")]
+pub struct ToleranceError {
+    /// As given.
+    pub given: f64,
+    /// What it has to be.
+    pub range: &'static str,
+}
+
+impl ToleranceError {
+    /// A relative tolerance of a volume or an area, if it is one.
+    pub(crate) fn refuse_relative(given: f64) -> Result<(), Self> {
+        if (1e-12..=1.0).contains(&given) { Ok(()) } else { Err(Self { given, range: "in [1e-12, 1]" }) }
+    }
+
+    /// A length, if it is one.
+    pub(crate) fn refuse_length(given: f64) -> Result<(), Self> {
+        if given > 0.0 && given.is_finite() { Ok(()) } else { Err(Self { given, range: "a length above 0" }) }
+    }
+}
+
 impl ParticleError {
     /// The same error for a two-dimensional particle, whose planes (a, b, 0, d) the caller gave as lines.
     pub(crate) fn of_lines(self) -> Self {

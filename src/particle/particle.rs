@@ -1,6 +1,7 @@
 //! A potential particle: the public interface to a [`Shape`].
 
 pub use crate::particle::error::ParticleError;
+use crate::particle::error::ToleranceError;
 use crate::particle::mass_properties::{self, MassProperties};
 pub use crate::particle::plane::{MAX_PLANES, Plane};
 use crate::particle::shape::Shape;
@@ -23,7 +24,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 /// assert!(tetrahedron.potential(&[0.0, 0.0, 0.0].into()) < 0.0);
 /// // Volume and inertia of unit density: between those of the tetrahedra of planes at 0.9 and at 1.
 /// let sharp = |height: f64| 8.0 * f64::sqrt(3.0) * height.powi(3);
-/// let mass = tetrahedron.mass_properties(1e-6);
+/// let mass = tetrahedron.mass_properties(1e-6)?;
 /// assert!(mass.volume > sharp(0.9) && mass.volume < sharp(1.0) && mass.centroid.norm() < 1e-6);
 /// // Planes are refused with the reason.
 /// let error = Particle::new(&planes[..3], 0.1, 0.0, 1.0).unwrap_err();
@@ -31,7 +32,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 ///
 /// let ball = Particle::sphere(2.0)?;
 /// assert!(ball.potential(&[0.0, 2.0, 0.0].into()).abs() < 1e-12 && ball.bounding_radius() >= 2.0);
-/// # Ok::<(), potential_particles::ParticleError>(())
+/// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Debug)]
 pub struct Particle {
@@ -188,12 +189,16 @@ impl Particle {
         ray_cast::distance(self, from, direction)
     }
 
-    /// Volume, centroid and inertia to a relative tolerance (1e-12 or more; [`MASS_TOLERANCE`](crate::MASS_TOLERANCE) = 1e-6 is usual),
+    /// Volume, centroid and inertia to a relative tolerance ([`MASS_TOLERANCE`](crate::MASS_TOLERANCE) = 1e-6 is usual),
     /// by adaptive quadrature over rays from the origin to the surface. The answer says how far off it may be.
     ///
-    /// 1e-6 takes milliseconds for some tens of planes. A tolerance that is not a number counts as the least.
-    pub fn mass_properties(&self, tolerance: f64) -> MassProperties {
-        mass_properties::of(self, tolerance)
+    /// 1e-6 takes milliseconds for some tens of planes.
+    ///
+    /// # Errors
+    /// A tolerance outside [1e-12, 1].
+    pub fn mass_properties(&self, tolerance: f64) -> Result<MassProperties, ToleranceError> {
+        ToleranceError::refuse_relative(tolerance)?;
+        Ok(mass_properties::of(self, tolerance))
     }
 
     /// A cube for tests.

@@ -151,6 +151,11 @@ impl Polyhedron {
         self.corners.iter().filter(|corner| corner.state != State::Removed).map(|corner| &corner.at)
     }
 
+    /// All corners with the numbers of their faces, counter-clockwise from outside.
+    pub fn corners_with_faces(&self) -> impl Iterator<Item = (&Vector3<f64>, [usize; 3])> {
+        self.corners.iter().filter(|corner| corner.state != State::Removed).map(|corner| (&corner.at, corner.faces))
+    }
+
     /// The corner that lies farthest along n: uphill from corner to corner, also between those that are level but for `least_cut`.
     fn highest(&mut self, n: &Vector3<f64>) -> usize {
         self.searches += 1;

@@ -38,8 +38,11 @@ pub fn detect_batch(
     states: &mut [PairState],
 ) -> Result<Vec<Result<Contact, DetectError>>, DetectError> {
     settings.validate()?;
-    let one = |a: Placed<Particle, Pose>, b: Placed<Particle, Pose>, state: Option<&mut PairState>, answer: &mut _| {
-        *answer = detect(a.0, a.1, b.0, b.1, settings, state);
-    };
-    batch::detect_batch_by(one, particles, poses, pairs, threads, states)
+    let one =
+        |_, a: Placed<Particle, Pose>, b: Placed<Particle, Pose>, state: Option<&mut PairState>, answer: &mut _| {
+            *answer = detect(a.0, a.1, b.0, b.1, settings, state);
+        };
+    let mut answers = batch::unanswered(pairs.len());
+    batch::detect_batch_by((one, batch::refuse), (particles, poses), pairs, threads, states, &mut answers)?;
+    Ok(answers)
 }

@@ -9,7 +9,7 @@ use crate::settings::Settings;
 use nalgebra::Vector2;
 
 /// The closest point on one particle, world axes, lengths in the caller's unit.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct ClosestPoint {
     /// Scale of the other particle at the point: s_A at P2, s_B at P1.

@@ -5,6 +5,7 @@ use super::pose::Pose;
 use crate::contact::contact::{self, Kind};
 use crate::contact::detect::{self, DetectError};
 use crate::flags::Flags;
+use crate::linalg::number::equality;
 use crate::pair::pair_state::PairState;
 use crate::settings::{BackEnd, Formulation, Settings};
 use nalgebra::Vector2;
@@ -50,6 +51,9 @@ pub struct Contact {
     /// Point on the boundary of B (P2 of closest), world frame; NaN when separated.
     pub point_on_b: Vector2<f64>,
 }
+
+equality!(Contact: kind, formulation, back_end, flags, iterations; s, s_b, weight, gap, point_bound, overlap, distance;
+    normal, point, branch_a, branch_b, point_on_a, point_on_b);
 
 impl From<contact::Contact> for Contact {
     /// Of a contact of two particles of the plane.

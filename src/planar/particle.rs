@@ -4,6 +4,7 @@ use super::area_properties::{self, AreaProperties};
 use super::polygon::{self, Polygon};
 use super::pose::Pose;
 use super::raised;
+use crate::particle::error::ToleranceError;
 use crate::particle::particle::{self, ParticleError};
 use crate::particle::ray_cast;
 use nalgebra::{Matrix2, Vector2};
@@ -59,9 +60,9 @@ impl Particle {
     /// ```
     /// use potential_particles::planar::Particle;
     /// let triangle = Particle::polygon(&[[0.0, 0.0], [3.0, 0.0], [0.0, 3.0]], 0.1, 0.0)?;
-    /// let properties = triangle.area_properties(1e-9);
+    /// let properties = triangle.area_properties(1e-9)?;
     /// assert!(properties.area < 4.5 && properties.centroid.norm() < 0.01);
-    /// # Ok::<(), potential_particles::ParticleError>(())
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     ///
     /// # Errors
@@ -119,15 +120,23 @@ impl Particle {
         ray_cast::distance(&self.0, &raised(from), &raised(direction))
     }
 
-    /// Area, centroid and second moments to a relative tolerance (1e-12 or more), by adaptive quadrature over rays from the origin.
-    pub fn area_properties(&self, tolerance: f64) -> AreaProperties {
-        area_properties::of(&self.0, tolerance)
+    /// Area, centroid and second moments to a relative tolerance, by adaptive quadrature over rays from the origin.
+    ///
+    /// # Errors
+    /// A tolerance outside [1e-12, 1].
+    pub fn area_properties(&self, tolerance: f64) -> Result<AreaProperties, ToleranceError> {
+        ToleranceError::refuse_relative(tolerance)?;
+        Ok(area_properties::of(&self.0, tolerance))
     }
 
     /// Points of the boundary in order, so dense that a chord between two neighbours is within `tolerance` (length) of the
     /// boundary: the boundary is at most that far outside. At most a million or so, whatever the tolerance.
-    pub fn outline(&self, tolerance: f64) -> Vec<Vector2<f64>> {
-        area_properties::outline(&self.0, tolerance)
+    ///
+    /// # Errors
+    /// A tolerance that is not positive and finite.
+    pub fn outline(&self, tolerance: f64) -> Result<Vec<Vector2<f64>>, ToleranceError> {
+        ToleranceError::refuse_length(tolerance)?;
+        Ok(area_properties::outline(&self.0, tolerance))
     }
 
     /// Lines as given.

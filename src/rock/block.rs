@@ -3,7 +3,7 @@
 use crate::particle::particle::{Particle, ParticleError};
 use crate::particle::plane::Plane;
 use crate::particle::polyhedron::Polyhedron;
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3};
 
 /// What a face of a block comes from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -12,6 +12,13 @@ pub enum FaceOf {
     Domain(usize),
     /// A joint, by its index.
     Joint(usize),
+    /// A plane of a region, by their indices.
+    Region {
+        /// Index of the region.
+        region: usize,
+        /// Index of the plane in it.
+        plane: usize,
+    },
 }
 
 /// A face of a block.
@@ -36,6 +43,10 @@ pub struct Block {
     pub centroid: Vector3<f64>,
     /// Its faces.
     pub faces: Vec<BlockFace>,
+    /// Blocks of the same number were one before regions cut it: where none of them lies inside a region they are still one piece of rock.
+    pub parent: usize,
+    /// The region that it lies in, by its index.
+    pub region: Option<usize>,
 }
 
 impl Block {
@@ -71,7 +82,21 @@ impl Block {
             BlockFace { of, plane: Plane { normal, offset }, area: 0.5 * doubled.norm(), corners }
         });
         let made = made.collect();
-        Self { volume, centroid: origin + (pole + moment / volume), faces: made }
+        Self { volume, centroid: origin + (pole + moment / volume), faces: made, parent: 0, region: None }
+    }
+
+    /// Moments and products of inertia about its centroid for density 1, axes of the domain: ∫ (|x|² 1 − x xᵀ) dV.
+    pub fn inertia(&self) -> Matrix3<f64> {
+        // Over a tetrahedron at the centroid with the corners a, b, c beyond: ∫ x xᵀ = V/20 (a aᵀ + b bᵀ + c cᵀ + s sᵀ), s = a + b + c.
+        let mut second = Matrix3::zeros();
+        for face in &self.faces {
+            for pair in face.corners[1..].windows(2) {
+                let [a, b, c] = [face.corners[0] - self.centroid, pair[0] - self.centroid, pair[1] - self.centroid];
+                let squares = [a, b, c, a + b + c].iter().map(|x| x * x.transpose()).sum::<Matrix3<f64>>();
+                second += a.dot(&b.cross(&c)) / 120.0 * squares;
+            }
+        }
+        Matrix3::from_diagonal_element(second.trace()) - second
     }
 
     /// The block as a particle about its centroid, its edges and corners rounded by r, length, with faces where they are (k = 0).

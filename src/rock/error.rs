@@ -21,6 +21,14 @@ pub enum RockError {
     /// A joint has a normal of length 0, or numbers that are not finite.
     #[error("joint {0} is none: its normal must have a length, and its numbers must be finite")]
     NoJoint(usize),
+    /// A plane of a region has a normal of length 0, or numbers that are not finite.
+    #[error("plane {plane} of region {region} is none: its normal must have a length, and its numbers must be finite")]
+    NoRegion {
+        /// Index of the region.
+        region: usize,
+        /// Index of the plane.
+        plane: usize,
+    },
     /// The planes of the domain enclose no volume.
     #[error("the domain is empty: no point lies inside of all its planes; normals have to point outwards")]
     Empty,

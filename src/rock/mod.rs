@@ -9,6 +9,7 @@
 //! | `joint_set` | joints of one orientation and spacing, with their scatter |
 //! | `block` | what is cut out, with the joint or the side of the domain that each face comes from |
 //! | `slicing` | the cuts |
+//! | `partners` | which faces lie on each other |
 //!
 //! ```
 //! use potential_particles::{Plane, rock::{JointSet, SliceSettings, slice}};
@@ -30,10 +31,12 @@ mod block;
 mod error;
 mod joint;
 mod joint_set;
+mod partners;
 mod slicing;
 
 pub use block::{Block, BlockFace, FaceOf};
 pub use error::RockError;
 pub use joint::Joint;
 pub use joint_set::JointSet;
-pub use slicing::{RockMass, SliceSettings, slice};
+pub use partners::Partners;
+pub use slicing::{RockMass, SliceSettings, slice, slice_with_regions};

@@ -3,7 +3,7 @@
 use crate::particle::plane::Plane;
 use crate::particle::polyhedron::{OF_CUBE, Polyhedron};
 use crate::rock::block::{Block, FaceOf};
-use crate::rock::error::RockError;
+use crate::rock::error::{RockError, within};
 use crate::rock::joint::Joint;
 use nalgebra::Vector3;
 
@@ -18,13 +18,15 @@ const FAR: f64 = 1e4;
 pub struct SliceSettings {
     /// A joint leaves a block whole if one of its parts would have less than this volume.
     pub least_volume: f64,
+    /// Or be thinner than this in the mean, 2V/A of volume and surface: of a wide slab its thickness, of a cube a third of its edge.
+    pub least_thickness: f64,
     /// More blocks than this are an error.
     pub most_blocks: usize,
 }
 
 impl Default for SliceSettings {
     fn default() -> Self {
-        Self { least_volume: 0.0, most_blocks: 1_000_000 }
+        Self { least_volume: 0.0, least_thickness: 0.0, most_blocks: 1_000_000 }
     }
 }
 
@@ -35,63 +37,92 @@ pub struct RockMass {
     pub blocks: Vec<Block>,
     /// Joints that cut no block.
     pub missing: Vec<usize>,
-    /// How many cuts were left out because of `least_volume`, or as a part would have been no thicker than the rounding of its corners.
+    /// How many cuts were left out because of `least_volume` or `least_thickness`, or as a part would have been no thicker than the
+    /// rounding of its corners.
     pub too_small: usize,
     /// How many blocks were left whole where the parts of a cut would not have closed, by rounding.
     pub unclosed: usize,
+    /// How many of the joints have cut: all, unless it was ended before.
+    pub joints: usize,
 }
 
-/// A ball around a block: a joint that misses it misses the block.
-struct Ball {
+/// A piece of the domain, and a ball around it: a joint that misses the ball misses the piece.
+struct Part {
+    polyhedron: Polyhedron,
     middle: Vector3<f64>,
     radius: f64,
+    parent: usize,
+    region: Option<usize>,
 }
 
-impl Ball {
-    fn of(polyhedron: &Polyhedron) -> Self {
+impl Part {
+    fn of(polyhedron: Polyhedron) -> Self {
         let count = polyhedron.corners().count() as f64;
         let middle = polyhedron.corners().sum::<Vector3<f64>>() / count;
         let radius = polyhedron.corners().map(|at| (at - middle).norm()).fold(0.0, f64::max);
-        Self { middle, radius }
+        Self { polyhedron, middle, radius, parent: 0, region: None }
     }
 }
+
+/// A plane that cuts: what it is, unit normal, height above the origin of the polyhedra.
+type Cut = (FaceOf, Vector3<f64>, f64);
 
 /// Cuts a convex domain {x : n_i·x ≤ d_i for all planes} by joints, in their order. A joint cuts each block that it meets in two; a disc
 /// cuts all of a block that it reaches, as in the paper.
 ///
 /// # Errors
-/// A domain that is empty or open, a plane or joint without a normal or whose numbers are not finite, more blocks than allowed.
+/// A domain that is empty or open, a plane or joint without a normal or whose numbers are not finite, a least volume that is none, more blocks
+/// than allowed.
 pub fn slice(domain: &[Plane], joints: &[Joint], settings: &SliceSettings) -> Result<RockMass, RockError> {
-    let outer = unit_planes(domain)?;
+    slice_with_regions(domain, joints, &[], settings, |_, _| true)
+}
+
+/// The same with convex regions, which cut the blocks that they meet after all joints: a tunnel, a bench, or what a domain that is not
+/// convex leaves out. A block is then cut plane by plane into what lies in the region, in the first one of several, and the parts beside
+/// it, which keep its [`Block::parent`]. Parts smaller than the settings allow are not made: one in the region stays with what is beside it, one
+/// beside it with what is in the region.
+///
+/// `progress` is called before each joint with the number of joints that have cut and of blocks that there are; where it returns false, the
+/// joints that are left do not cut ([`RockMass::joints`]), and the regions still do.
+///
+/// # Errors
+/// As of [`slice()`], and a plane of a region that is none.
+pub fn slice_with_regions(
+    domain: &[Plane],
+    joints: &[Joint],
+    regions: &[Vec<Plane>],
+    settings: &SliceSettings,
+    mut progress: impl FnMut(usize, usize) -> bool,
+) -> Result<RockMass, RockError> {
+    within(settings.least_volume, settings.least_volume >= 0.0, "least_volume", "a volume of 0 or above")?;
+    within(settings.least_thickness, settings.least_thickness >= 0.0, "least_thickness", "a length of 0 or above")?;
+    let outer = unit_planes(domain).map_err(RockError::NoPlane)?;
     let (origin, polyhedron) = enclosed(&outer)?;
-    let of_domain = outer.iter().enumerate().map(|(i, (n, d))| Ok((FaceOf::Domain(i), *n, d - n.dot(&origin))));
-    let of_joints = joints.iter().enumerate().map(|(i, joint)| {
-        let n = joint.normal.normalize();
-        let height = n.dot(&(joint.point - origin));
-        let is_plane = height.is_finite() && joint.radius > 0.0;
-        is_plane.then_some((FaceOf::Joint(i), n, height)).ok_or(RockError::NoJoint(i))
-    });
-    let planes = of_domain.chain(of_joints).collect::<Result<Vec<_>, _>>()?;
-    let block = |part: &Polyhedron| Block::of(part, &origin, |number| planes[number - OF_CUBE]);
+    let cuts = cuts(&outer, joints, regions, &origin)?;
+    let block = |part: &Polyhedron| Block::of(part, &origin, |number| cuts[number - OF_CUBE]);
     // The volume of a part no thicker than the rounding of its corners is rounding, too.
     let thinnest = polyhedron.least_cut();
     let is_too_small = |part: &Polyhedron| {
         let Block { volume, faces, .. } = block(part);
-        !(volume > settings.least_volume && volume > thinnest * faces.iter().map(|face| face.area).sum::<f64>())
+        let area = faces.iter().map(|face| face.area).sum::<f64>();
+        !(volume > settings.least_volume.max(thinnest * area) && 2.0 * volume >= settings.least_thickness * area)
     };
-    let (mut balls, mut parts) = (vec![Ball::of(&polyhedron)], vec![polyhedron]);
-    let mut mass = RockMass { blocks: Vec::new(), missing: Vec::new(), too_small: 0, unclosed: 0 };
+    let mut parts = vec![Part::of(polyhedron)];
+    let mut mass = RockMass { blocks: Vec::new(), missing: Vec::new(), too_small: 0, unclosed: 0, joints: 0 };
     for (i, joint) in joints.iter().enumerate() {
+        if !progress(i, parts.len()) {
+            break;
+        }
         let number = OF_CUBE + domain.len() + i;
-        let (_, n, height) = planes[domain.len() + i];
+        let (_, n, height) = cuts[domain.len() + i];
         let local = Joint { point: joint.point - origin, normal: n, ..*joint };
         let whole = parts.len();
         for place in 0..whole {
-            let Ball { middle, radius } = &balls[place];
-            if (n.dot(middle) - height).abs() >= *radius || !parts[place].is_crossed(&n, height) {
+            let Part { polyhedron, middle, radius, .. } = &parts[place];
+            if (n.dot(middle) - height).abs() >= *radius || !polyhedron.is_crossed(&n, height) {
                 continue;
             }
-            let Some([below, beyond]) = parts[place].split(number, &n, height) else {
+            let Some([below, beyond]) = polyhedron.split(number, &n, height) else {
                 mass.unclosed += 1;
                 continue;
             };
@@ -105,17 +136,94 @@ pub fn slice(domain: &[Plane], joints: &[Joint], settings: &SliceSettings) -> Re
             if parts.len() == settings.most_blocks {
                 return Err(RockError::TooManyBlocks { joint: i, most: settings.most_blocks });
             }
-            balls[place] = Ball::of(&below);
-            balls.push(Ball::of(&beyond));
-            parts[place] = below;
-            parts.push(beyond);
+            parts[place] = Part::of(below);
+            parts.push(Part::of(beyond));
         }
         if parts.len() == whole {
             mass.missing.push(i);
         }
+        mass.joints = i + 1;
     }
-    mass.blocks = parts.iter().map(block).collect();
+    parts.iter_mut().enumerate().for_each(|(i, part)| part.parent = i);
+    let mut first = OF_CUBE + domain.len() + joints.len();
+    for (i, region) in regions.iter().enumerate() {
+        let planes = &cuts[first - OF_CUBE..][..region.len()];
+        parts = parts
+            .into_iter()
+            .flat_map(|part| match part.region {
+                Some(_) => vec![part],
+                None => parted(part, i, first, planes, is_too_small, &mut mass),
+            })
+            .collect();
+        first += region.len();
+    }
+    mass.blocks = parts
+        .iter()
+        .map(|part| Block { parent: part.parent, region: part.region, ..block(&part.polyhedron) })
+        .collect();
     Ok(mass)
+}
+
+/// A part as what lies in a region, whose planes have numbers from `first` on, and what lies beside it.
+fn parted(
+    part: Part,
+    region: usize,
+    first: usize,
+    planes: &[Cut],
+    is_too_small: impl Fn(&Polyhedron) -> bool,
+    mass: &mut RockMass,
+) -> Vec<Part> {
+    let Part { middle, radius, parent, .. } = part;
+    if planes.iter().any(|(_, n, height)| n.dot(&middle) - height >= radius) {
+        return vec![part];
+    }
+    let (mut inside, mut beside) = (part.polyhedron.clone(), Vec::new());
+    for (i, (_, n, height)) in planes.iter().enumerate() {
+        if inside.is_crossed(n, *height) {
+            let Some([below, beyond]) = inside.split(first + i, n, *height) else {
+                mass.unclosed += 1;
+                return vec![part];
+            };
+            if is_too_small(&below) {
+                mass.too_small += 1;
+                return vec![part];
+            }
+            if is_too_small(&beyond) {
+                mass.too_small += 1;
+                continue;
+            }
+            beside.push(Part { parent, ..Part::of(beyond) });
+            inside = below;
+        } else if n.dot(&Part::of(inside.clone()).middle) > *height {
+            return vec![part];
+        }
+    }
+    beside.push(Part { parent, region: Some(region), ..Part::of(inside) });
+    beside
+}
+
+/// All planes about the origin, in the order of their numbers.
+fn cuts(
+    outer: &[(Vector3<f64>, f64)],
+    joints: &[Joint],
+    regions: &[Vec<Plane>],
+    origin: &Vector3<f64>,
+) -> Result<Vec<Cut>, RockError> {
+    let about = |of: FaceOf, (n, d): (Vector3<f64>, f64)| (of, n, d - n.dot(origin));
+    let mut cuts: Vec<Cut> = outer.iter().enumerate().map(|(i, plane)| about(FaceOf::Domain(i), *plane)).collect();
+    for (i, joint) in joints.iter().enumerate() {
+        let n = joint.normal.normalize();
+        let height = n.dot(&(joint.point - origin));
+        if !(height.is_finite() && joint.radius > 0.0) {
+            return Err(RockError::NoJoint(i));
+        }
+        cuts.push((FaceOf::Joint(i), n, height));
+    }
+    for (region, planes) in regions.iter().enumerate() {
+        let planes = unit_planes(planes).map_err(|plane| RockError::NoRegion { region, plane })?;
+        cuts.extend(planes.into_iter().enumerate().map(|(plane, of)| about(FaceOf::Region { region, plane }, of)));
+    }
+    Ok(cuts)
 }
 
 /// Whether a joint reaches the face that it made of a part.
@@ -127,14 +235,14 @@ fn reaches(joint: &Joint, part: &Polyhedron, number: usize) -> bool {
         })
 }
 
-/// Unit normals and distances from the origin.
-fn unit_planes(domain: &[Plane]) -> Result<Vec<(Vector3<f64>, f64)>, RockError> {
+/// Unit normals and distances from the origin; the index of a plane that is none.
+fn unit_planes(planes: &[Plane]) -> Result<Vec<(Vector3<f64>, f64)>, usize> {
     let unit = |(i, plane): (usize, &Plane)| {
         let length = plane.normal.norm();
         let is_plane = length > 0.0 && length.is_finite() && plane.offset.is_finite();
-        is_plane.then(|| (plane.normal / length, plane.offset / length)).ok_or(RockError::NoPlane(i))
+        is_plane.then(|| (plane.normal / length, plane.offset / length)).ok_or(i)
     };
-    domain.iter().enumerate().map(unit).collect()
+    planes.iter().enumerate().map(unit).collect()
 }
 
 /// What planes enclose, about an origin in its middle: twice, as corners that are cut from a cube far away are known less well.
@@ -264,7 +372,7 @@ mod tests {
         assert!(areas.len() == 12 && areas.values().all(|sum: &f64| sum.abs() < 1e-12), "{areas:?}");
         let largest = mass.blocks.iter().max_by(|a, b| a.volume.total_cmp(&b.volume)).unwrap();
         let r = 1e-4 * largest.volume.cbrt();
-        let of_particle = largest.particle(r).unwrap().mass_properties(1e-6).volume;
+        let of_particle = largest.particle(r).unwrap().mass_properties(1e-6).unwrap().volume;
         assert!(of_particle <= largest.volume * (1.0 + 1e-6) && of_particle > (1.0 - 1e-3) * largest.volume);
     }
 
@@ -324,6 +432,81 @@ mod tests {
         assert_eq!((mass.blocks.len(), mass.too_small, mass.missing), (2, 1, vec![1]));
     }
 
+    /// Of a cuboid a × b × c: 2V/A = abc/(ab + bc + ca).
+    #[test]
+    fn flat_parts_are_left_out() {
+        let domain = cuboid([1.0, 1.0, 1.0], [0.0; 3]);
+        let at = |z: f64| Joint { point: Vector3::new(0.0, 0.0, z), normal: Vector3::z(), radius: f64::INFINITY };
+        let thickness = |c: f64| c / (1.0 + 2.0 * c);
+        for (least, blocks) in [(thickness(0.1) * 0.999, 2), (thickness(0.1) * 1.001, 1)] {
+            let settings = SliceSettings { least_thickness: least, ..SliceSettings::default() };
+            let mass = slice(&domain, &[at(0.4)], &settings).unwrap();
+            assert_eq!((mass.blocks.len(), mass.too_small), (blocks, 2 - blocks));
+        }
+    }
+
+    /// A tunnel through a grid, and a second region across it: volumes by their closed forms, parents whole again, nothing counted twice.
+    #[test]
+    fn regions_part_the_blocks_that_they_meet() {
+        let domain = cuboid([4.0, 4.0, 4.0], [0.0; 3]);
+        let joint =
+            |axis: usize| Joint { point: Vector3::zeros(), normal: Vector3::ith(axis, 1.0), radius: f64::INFINITY };
+        let tunnel = cuboid([1.0, 9.0, 1.0], [0.3, 0.0, 0.2]);
+        let shaft = cuboid([0.5, 0.5, 9.0], [0.3, 0.0, 0.0]);
+        let joints = [joint(0), joint(1), joint(2)];
+        let settings = SliceSettings::default();
+        let mass = slice_with_regions(&domain, &joints, &[tunnel, shaft], &settings, |_, _| true).unwrap();
+        let of = |region: Option<usize>| mass.blocks.iter().filter(move |block| block.region == region);
+        let sum = |region| of(region).map(|block| block.volume).sum::<f64>();
+        assert!((sum(Some(0)) - 4.0).abs() < 1e-13 && (sum(Some(1)) - 0.25 * 3.0).abs() < 1e-13);
+        assert!((volume(&mass) - 64.0).abs() < 1e-12 && of(None).all(|block| block.volume > 0.0));
+        for parent in 0..8 {
+            let pieces = mass.blocks.iter().filter(|block| block.parent == parent);
+            assert!((pieces.map(|block| block.volume).sum::<f64>() - 8.0).abs() < 1e-13);
+        }
+        // What is too small stays on the other side: the region takes the centimetre that it leaves, and no 2 cm beside a joint are cut off.
+        let (narrow, least) =
+            (cuboid([1.99, 9.0, 9.0], [1.005, 0.0, 0.0]), SliceSettings { least_thickness: 0.03, ..settings });
+        let wide = slice_with_regions(&domain, &joints[..1], &[narrow], &least, |_, _| true).unwrap();
+        assert_eq!((wide.blocks.len(), wide.too_small), (2, 1));
+        assert!((wide.blocks.iter().find(|block| block.region == Some(0)).unwrap().volume - 32.0).abs() < 1e-13);
+        let left = cuboid([0.02, 9.0, 9.0], [-0.01, 0.0, 0.0]);
+        let whole = slice_with_regions(&domain, &joints[..1], &[left], &least, |_, _| true).unwrap();
+        assert!(whole.blocks.len() == 2 && whole.blocks.iter().all(|block| block.region.is_none()));
+        // A region that holds everything, and one that misses it.
+        let (all, none) = (cuboid([9.0; 3], [0.0; 3]), cuboid([1.0; 3], [7.0, 0.0, 0.0]));
+        let mass = slice_with_regions(&domain, &joints, &[none, all], &settings, |_, _| true).unwrap();
+        assert!(mass.blocks.len() == 8 && mass.blocks.iter().all(|block| block.region == Some(1)));
+        let bad = vec![Plane { normal: Vector3::zeros(), offset: 1.0 }];
+        let error = slice_with_regions(&domain, &joints, &[bad], &settings, |_, _| true).unwrap_err();
+        assert_eq!(error, RockError::NoRegion { region: 0, plane: 0 });
+    }
+
+    #[test]
+    fn what_is_ended_keeps_what_was_cut() {
+        let domain = cuboid([1.0, 1.0, 1.0], [0.0; 3]);
+        let joints = random_joints(3, 10, [0.0; 3], 0.1);
+        let mass = slice_with_regions(&domain, &joints, &[], &SliceSettings::default(), |done, _| done < 4).unwrap();
+        let four = slice(&domain, &joints[..4], &SliceSettings::default()).unwrap();
+        assert_eq!((mass.joints, mass.blocks.len()), (4, four.blocks.len()));
+        assert!((volume(&mass) - 1.0).abs() < 1e-13);
+    }
+
+    /// Against the closed form of a cuboid, far from the origin, and that of a tetrahedron with three edges along the axes.
+    #[test]
+    fn inertia_is_that_of_closed_forms() {
+        let mass = slice(&cuboid([1.0, 2.0, 3.0], [1e3, 0.0, -5.0]), &[], &SliceSettings::default()).unwrap();
+        let inertia = mass.blocks[0].inertia();
+        let expected = Vector3::new(4.0 + 9.0, 1.0 + 9.0, 1.0 + 4.0) * 0.5;
+        assert!((inertia.diagonal() - expected).norm() < 1e-9 && (inertia.trace() - inertia.sum()).abs() < 1e-9);
+        let planes = [[-1.0, 0.0, 0.0, 0.0], [0.0, -1.0, 0.0, 0.0], [0.0, 0.0, -1.0, 0.0], [1.0, 1.0, 1.0, 1.0]];
+        let mass = slice(&planes.map(Plane::from), &[], &SliceSettings::default()).unwrap();
+        let inertia = mass.blocks[0].inertia();
+        // ∫ x² = 1/60 and ∫ xy = 1/120 about the right angle; less 1/6 · (1/4)² by Steiner.
+        let (square, product) = (1.0 / 60.0 - 1.0 / 96.0, 1.0 / 120.0 - 1.0 / 96.0);
+        assert!((inertia[(0, 0)] - 2.0 * square).abs() < 1e-15 && (inertia[(0, 1)] + product).abs() < 1e-15);
+    }
+
     #[test]
     fn bad_domains_are_told() {
         let (domain, none) = (cuboid([1.0, 1.0, 1.0], [0.0; 3]), SliceSettings::default());
@@ -336,6 +519,8 @@ mod tests {
         assert_eq!(error(&turned, &[], &none), RockError::Empty);
         turned[0].normal = Vector3::zeros();
         assert_eq!(error(&turned, &[], &none), RockError::NoPlane(0));
+        let least = SliceSettings { least_volume: f64::NAN, ..none };
+        assert!(error(&domain, &[], &least).to_string().contains("least_volume = NaN must be"));
         let most = SliceSettings { most_blocks: 5, ..none };
         let joints = random_joints(4, 9, [0.0; 3], 0.2);
         assert!(matches!(error(&domain, &joints, &most), RockError::TooManyBlocks { most: 5, .. }));

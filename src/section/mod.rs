@@ -77,7 +77,7 @@ impl Section {
     /// rounding of its boundary, and about 1 area in 1,000 is wrong.
     ///
     /// `None` when the section has no finite point or normal, and when the contact point lies outside a particle, that is
-    /// S > 1 + 1e-6 by more than rounding: what a solver leaves counts as on the surface.
+    /// S > 1 + 1e-6 by more than rounding: what a solver leaves counts as on the surface; and where the tolerance is not a number.
     pub fn area(
         &self,
         a: &Particle,
@@ -86,6 +86,9 @@ impl Section {
         pose_b: &Pose,
         relative_tolerance: f64,
     ) -> Option<f64> {
+        if relative_tolerance.is_nan() {
+            return None;
+        }
         let sections = self.in_local_frames([(a, pose_a), (b, pose_b)])?;
         match intersection::area(&sections) {
             Ok(area) => Some(area),

@@ -46,7 +46,7 @@ pub fn contact(least: f64) -> impl Strategy<Value = Cut> {
     (shape(least), shape(least), turn(), turn(), direction(), overlap, formulation).prop_filter_map(
         "no contact",
         |(a, b, turn_a, turn_b, direction, overlap, formulation)| {
-            let settings = Settings { formulation, ..Settings::default() };
+            let settings = Settings::default().with_formulation(formulation);
             let pose_a = Pose::from_rotation([0.0; 3], &turn_a).unwrap();
             let at = |distance: f64| Pose::from_rotation((distance * direction).into(), &turn_b).unwrap();
             let found = |distance: f64| detect(&a, &pose_a, &b, &at(distance), &settings, None).ok();

@@ -22,8 +22,15 @@ static void sizes_are_those_of_the_library(void) {
     CHECK(pp_struct_size(PP_STRUCT_PATCH_2D) == sizeof(pp_patch_2d));
     CHECK(pp_struct_size(PP_STRUCT_PATCH_POINT_2D) == sizeof(pp_patch_point_2d));
     CHECK(pp_struct_size(PP_STRUCT_PATCH_STATE) == sizeof(pp_patch_state));
+    CHECK(pp_struct_size(PP_STRUCT_JOINT) == sizeof(pp_joint));
+    CHECK(pp_struct_size(PP_STRUCT_JOINT_SET) == sizeof(pp_joint_set));
+    CHECK(pp_struct_size(PP_STRUCT_SLICE_SETTINGS) == sizeof(pp_slice_settings));
+    CHECK(pp_struct_size(PP_STRUCT_ROCK_SUMMARY) == sizeof(pp_rock_summary));
+    CHECK(pp_struct_size(PP_STRUCT_BLOCK) == sizeof(pp_block));
+    CHECK(pp_struct_size(PP_STRUCT_BLOCK_FACE) == sizeof(pp_block_face));
+    CHECK(pp_struct_size(PP_STRUCT_FACE_PARTNERS) == sizeof(pp_face_partners));
     /* 3, 10 and 11 were structs of an older interface. */
-    const uint32_t unknown[] = {0, 3, 10, 11, 22, UINT32_MAX};
+    const uint32_t unknown[] = {0, 3, 10, 11, 29, UINT32_MAX};
     for (int i = 0; i < 6; i++) CHECK(pp_struct_size(unknown[i]) == 0);
 }
 
@@ -139,6 +146,30 @@ void test_layout(void) {
     CHECK(offsetof(pp_packing, margin) == 64);
     CHECK(offsetof(pp_packing, seed) == 72);
     CHECK(offsetof(pp_packing, number) == 80);
+
+    CHECK(sizeof(pp_joint) == 56);
+    CHECK(offsetof(pp_joint, normal) == 24);
+    CHECK(offsetof(pp_joint, radius) == 48);
+    CHECK(sizeof(pp_joint_set) == 56);
+    CHECK(offsetof(pp_joint_set, seed) == 40);
+    CHECK(offsetof(pp_joint_set, exponential) == 48);
+    CHECK(sizeof(pp_slice_settings) == 24);
+    CHECK(offsetof(pp_slice_settings, most_blocks) == 16);
+    CHECK(sizeof(pp_rock_summary) == 64);
+    CHECK(offsetof(pp_rock_summary, partners) == 24);
+    CHECK(offsetof(pp_rock_summary, unclosed) == 56);
+    CHECK(sizeof(pp_block) == 112);
+    CHECK(offsetof(pp_block, centroid) == 8);
+    CHECK(offsetof(pp_block, inertia) == 32);
+    CHECK(offsetof(pp_block, first_face) == 80);
+    CHECK(offsetof(pp_block, region) == 104);
+    CHECK(sizeof(pp_block_face) == 80);
+    CHECK(offsetof(pp_block_face, index) == 8);
+    CHECK(offsetof(pp_block_face, plane) == 16);
+    CHECK(offsetof(pp_block_face, area) == 48);
+    CHECK(offsetof(pp_block_face, block) == 72);
+    CHECK(sizeof(pp_face_partners) == 24);
+    CHECK(offsetof(pp_face_partners, area) == 16);
 
     CHECK(sizeof(pp_placement) == 72);
     CHECK(offsetof(pp_placement, pose) == 0);

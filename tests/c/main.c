@@ -41,5 +41,6 @@ int main(int count, char **arguments) {
     test_planar_closest();
     test_packing();
     test_patch();
+    test_rock();
     return check_report();
 }

@@ -7,7 +7,7 @@ use potential_particles::{Contact, Flags, Kind, PairState, Particle, Pose, Setti
 
 /// Answers of the extended tier.
 fn exactly() -> Settings {
-    Settings { gap_tolerance: 1e-14, solve_separated: true, ..Settings::default() }
+    Settings::default().with_gap_tolerance(1e-14).with_solve_separated(true)
 }
 
 #[derive(Default, Debug)]
@@ -41,7 +41,7 @@ fn touching(a: &Particle, pose_a: &Pose, b: &Particle, random: &mut Random) -> P
     let towards = random.direction();
     let turned = random.pose(Vector3::zeros()).orientation();
     let at = |distance: f64| Pose::new((pose_a.position() + distance * towards).into(), turned).unwrap();
-    let settings = Settings { solve_separated: true, ..Settings::default() };
+    let settings = Settings::default().with_solve_separated(true);
     let deep = random.uniform() < 0.1;
     let s_wanted = if deep { random.uniform() } else { 1.0 - random.log_uniform(1e-7, 0.1) };
     let (mut near, mut far) = (0.0, a.bounding_radius() + b.bounding_radius());
@@ -67,7 +67,7 @@ pub fn walk(random: &mut Random, tally: &mut Tally) {
     let away = (poses[1].position() - poses[0].position()).try_normalize(0.0).unwrap_or_else(Vector3::x);
     let drift = if random.uniform() < 0.5 { step * (2.0 * random.uniform() - 1.0) * away } else { Vector3::zeros() };
     let tolerance = if random.uniform() < 0.5 { 1e-9 } else { random.log_uniform(1e-14, 1e-1) };
-    let settings = Settings { carry_tolerance: tolerance, ..Settings::default() };
+    let settings = Settings::default().with_carry_tolerance(tolerance);
     let (mut state, mut touched) = (PairState::default(), false);
     for i in 0..60 {
         let [at_a, at_b] = &poses;

@@ -16,7 +16,7 @@ fn a_triangle_that_cuts_a_sharp_body() {
         [-2.6093495532049915, 0.4099708592823988, 0.6166098931653176],
     ]);
     let pose = Pose::at([0.0; 3]).unwrap();
-    for settings in [Settings::default(), solved(), Settings { gap_tolerance: 1e-14, ..Settings::default() }] {
+    for settings in [Settings::default(), solved(), Settings::default().with_gap_tolerance(1e-14)] {
         let contact = contact_with_triangle(&particle, &pose, &triangle.unwrap(), &settings, None).unwrap();
         assert!(contact.kind == Kind::Overlapping && contact.s <= 0.6249 && contact.gap < 1e-6, "{contact:?}");
     }

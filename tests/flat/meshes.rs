@@ -31,7 +31,7 @@ fn of_a_flat_floor_the_owner_is_what_the_plane_is() {
     let particles = [cube(0.1, 0.0), cube(1e-6, 1e-6), cube(0.05, 0.2), Particle::sphere(0.55).unwrap()];
     for (number, particle) in particles.iter().enumerate() {
         // Under a flat face, s is the same but for the regularisation.
-        let settings = if number == 0 { Settings { flat_regularisation: 1e-4, ..solved() } } else { solved() };
+        let settings = if number == 0 { solved().with_flat_regularisation(1e-4) } else { solved() };
         for step in 0..41 {
             // Along a seam, across seams, and over vertices.
             let way = 0.02 * f64::from(step) - 0.4;

@@ -38,7 +38,7 @@ fn answers_are_those_of_single_calls_for_any_number_of_threads() {
     let grid = Grid::new();
     let (bodies, poses) = (grid.bodies(), &grid.poses);
     for (threads, carry_tolerance) in [(0, 0.0), (1, 1e-9), (2, 0.0), (7, 1e-9)] {
-        let settings = Settings { carry_tolerance, ..Settings::default() };
+        let settings = Settings::default().with_carry_tolerance(carry_tolerance);
         let mut states = vec![PairState::default(); grid.pairs.len()];
         let mut own = states.clone();
         for step in 0..2 {
@@ -73,7 +73,7 @@ fn what_does_not_fit_is_refused_and_a_missing_body_is_told_by_its_pair() {
     assert!(matches!(short, Err(DetectError::Length { what: "poses", .. })), "{short:?}");
     let short = detect_batch(&bodies, poses, pairs, &settings, 1, &mut [PairState::default(); 3]);
     assert!(matches!(short, Err(DetectError::Length { what: "states", given: 3, .. })), "{short:?}");
-    let bad = detect_batch(&bodies, poses, pairs, &Settings { gap_tolerance: 0.0, ..settings }, 1, &mut []);
+    let bad = detect_batch(&bodies, poses, pairs, &settings.with_gap_tolerance(0.0), 1, &mut []);
     assert!(matches!(bad, Err(DetectError::Settings(_))), "{bad:?}");
     let answers = detect_batch(&bodies, poses, pairs, &settings, 2, &mut []).unwrap();
     for (n, answer) in answers.iter().enumerate() {

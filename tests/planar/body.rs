@@ -60,7 +60,7 @@ impl Body {
 
 /// Solves to the end, whatever the kind.
 pub fn solve(a: &Body, b: &Body, formulation: Formulation, back_end: BackEnd) -> Contact {
-    let settings = Settings { formulation, back_end, solve_separated: true, ..Settings::default() };
+    let settings = Settings::default().with_formulation(formulation).with_back_end(back_end).with_solve_separated(true);
     detect(&a.particle(), &a.pose(), &b.particle(), &b.pose(), &settings, None).expect("an answer")
 }
 

@@ -8,7 +8,7 @@ use potential_particles::{BackEnd, DetectError, Role, Settings};
 /// By both back ends, with the accuracy of each.
 fn found(a: &Body, b: &Body, on: Role) -> [(Option<ClosestPoint>, f64); 2] {
     [(BackEnd::Fast, 1e-12), (BackEnd::ConeProgram, 1e-5)].map(|(back_end, accuracy)| {
-        let settings = Settings { back_end, ..Settings::default() };
+        let settings = Settings::default().with_back_end(back_end);
         let found = closest_point(&a.particle(), &a.pose(), &b.particle(), &b.pose(), on, &settings);
         (found.expect("an answer"), accuracy)
     })
@@ -69,7 +69,7 @@ fn a_centre_inside_leaves_no_point() {
 #[test]
 fn settings_out_of_range_are_refused() {
     let (disc, at) = (Particle::circle(1.0).unwrap(), Pose::new([0.0, 0.0], 0.0).unwrap());
-    let settings = Settings { gap_tolerance: -1.0, ..Settings::default() };
+    let settings = Settings::default().with_gap_tolerance(-1.0);
     let refused = closest_point(&disc, &at, &disc, &at, Role::A, &settings);
     assert!(matches!(refused, Err(DetectError::Settings(_))), "{refused:?}");
 }

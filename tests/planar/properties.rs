@@ -210,7 +210,7 @@ proptest! {
         let mut solution = solution;
         solution[0] = 1.0;
         let cold = midway(&a, &b);
-        let settings = Settings { solve_separated: true, ..Settings::default() };
+        let settings = Settings::default().with_solve_separated(true);
         let mut state = PairState::from_raw(solution);
         for _ in 0..2 {
             let warm = detect(&a.particle(), &a.pose(), &b.particle(), &b.pose(), &settings, Some(&mut state)).unwrap();
@@ -268,7 +268,7 @@ proptest! {
             let ((prism_a, at_a), (prism_b, at_b)) = (prism(&a), prism(&b));
             let (prism_a, prism_b) = (prism_a.unwrap(), prism_b.unwrap());
             for back_end in [BackEnd::Fast, BackEnd::ConeProgram] {
-                let settings = Settings { back_end, solve_separated: true, ..Settings::default() };
+                let settings = Settings::default().with_back_end(back_end).with_solve_separated(true);
                 let space = potential_particles::detect(&prism_a, &at_a, &prism_b, &at_b, &settings, None).unwrap();
                 let plane = solve(&a, &b, Formulation::Midway, back_end);
                 prop_assert!((space.s - plane.s).abs() <= space.gap + plane.gap + a.noise() + b.noise());

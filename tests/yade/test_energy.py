@@ -3,7 +3,9 @@
 # With fixed stiffness this line of cubes is a line of springs, which is stepped here beside YADE.
 from harness import *
 import potential_particles
+import numpy as np
 import yade
+from potential_particles import shapes
 
 check = Checks()
 
@@ -73,5 +75,40 @@ for body in (first, second):
     check.true(max(abs(state.pos[1]), abs(state.pos[2])) < 1e-9, f"body {body} has left the line: {state.pos}")
 check.close(momentum(), Vector3.Zero, 1e-9, "momentum of the mirrored pair")
 check.equal(functor().failures, 0, "failures")
+
+# Force times overlap as a field: what of dF/dx is no gradient, over kn. None between faces; between edges in proportion to the overlap over r.
+def no_gradient(formulation, share):
+    """Of two rocks in eight directions, with that overlap over r."""
+    fresh_scene(yade.Ig2_ConicPP_ConicPP_ScGeom(formulation=formulation, carryTolerance=0.0), yade.Ip2_FrictMat_FrictMat_FrictPhys(),
+                yade.Law2_ScGeom_FrictPhys_CundallStrack(sphericalBodies=False), dt=1e-12)
+    O.engines[1].verletDist = 0.0
+    rocks = shapes.random_rock(3, size=1.0), shapes.random_rock(5, size=1.0)
+    O.bodies.append([potential_particles.body(rocks[0], fixed=True), potential_particles.body(rocks[1], fixed=True, orientation=(1, 0.3, 0.2, 0.5))])
+    wanted, found = share * rocks[0].r, []
+
+    def force(place):
+        O.bodies[1].state.pos = Vector3(*place)
+        O.interactions.clear()
+        O.step()
+        real = [one for one in O.interactions if one.isReal]
+        return (np.array(real[0].phys.normalForce), real[0].geom.penetrationDepth, real[0].phys.kn) if real else (np.zeros(3), 0.0, 1.0)
+
+    for direction in np.random.default_rng(1).normal(size=(8, 3)):
+        direction /= np.linalg.norm(direction)
+        near, far = 0.3, 2.0
+        for _ in range(40):
+            middle = 0.5 * (near + far)
+            near, far = (middle, far) if force(middle * direction)[1] > wanted else (near, middle)
+        _, depth, stiffness = force(near * direction)
+        slopes = [(force(near * direction + h)[0] - force(near * direction - h)[0]) / (2e-3 * depth) for h in 1e-3 * depth * np.eye(3)]
+        found.append(np.linalg.norm(np.transpose(slopes) - slopes) / 2 / stiffness)
+    return np.sort(found)
+
+
+for formulation in "midway", "closest":
+    little, more = no_gradient(formulation, 0.02), no_gradient(formulation, 0.1)
+    check.true(more[0] < 1e-3, f"{formulation}, faces: {more}")
+    check.close(more[-1] / little[-1], 5.0, 1.0, f"{formulation}, edges: in proportion to the overlap")
+    check.true(0.05 < more[-1] / 0.1 < 0.4, f"{formulation}, edges: {more[-1]} with a tenth of r")
 
 check.finish()

@@ -161,7 +161,7 @@ for kind, content in tetrahedron.items():
     for i in range(int(os.environ.get("PP_MESH_FILES", 150))):
         broken = text("damaged." + kind.split()[0], damaged(content), "wb")
         try:
-            shapes.from_mesh(broken, hull=bool(i % 2))
+            shapes.from_mesh(broken, hull=bool(i % 2), planes=12 if i % 4 == 3 else None)
         except ValueError as error:
             refused[kind] = refused.get(kind, 0) + 1
             if "damaged" not in str(error):

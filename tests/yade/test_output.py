@@ -417,8 +417,29 @@ def test_picture_of_patches():
     check.true(100 < rows.mean() < 200, f"between them: {rows.mean()}")
 
 
+def test_picture_of_chains():
+    from matplotlib.image import imread
+    from potential_particles.output import chains
+    joined()
+    lower, upper = block((0, 0, -0.5)), block((0, 0, 0.5 - 1e-4))
+    lower.dynamic, O.engines[-1].dead = False, True
+    O.step()
+    contact = next(one for one in O.interactions if one.isReal)
+    corners, forces = chains.tubes([contact])
+    check.close(forces[0], contact.phys.normalForce.norm(), 1e-9 * forces[0], "the force of a tube")
+    check.true(corners[..., 2].min() > -1e-3 and abs(corners[..., 2].max() - upper.state.pos[2]) < 1e-3, "from the contact with what does not move to the centre")
+    length = corners[..., 2].max() - corners[..., 2].min()
+    check.close(np.hypot(corners[..., 0], corners[..., 1]).max(), chains.WIDEST * length, 1e-6, "its width, of the largest force")
+    potential_particles.plot(path("chains.png"), size=(400, 300), chains=True)
+    image = imread(path("chains.png"))
+    yellow = (image[..., 0] - image[..., 2] > 0.3) & (image[..., 1] > 0.5)
+    check.true(yellow[:, :290].sum() > 100 and yellow[:, 290:].sum() > 20, f"it is seen through the cubes: {yellow[:, :290].sum()}")
+    check.raises(ValueError, lambda: potential_particles.plot(path("both.png"), patches=True, chains=True), "two scales", "two pictures")
+
+
 test_patches()
 test_picture_of_patches()
+test_picture_of_chains()
 test_mesh()
 test_mesh_files()
 test_outline()

@@ -22,6 +22,7 @@ VOLUME, INERTIA = 0.4038225591237064, Vector3(0.04517679396290749, 0.04517679396
 # So strong that it changes no motion.
 STRENGTH = dict(cohesion=1e6, tensileStrength=2e6, residualFrictionAngle=0.25, residualCohesion=1e3, softening=1e-3)
 PATCH = dict(patch=True, patchTolerance=1e-5)
+GAPS = dict(interactionDistance=1e-3, rotations=True)
 OTHERS = list(unserved.REMEDIES)
 
 
@@ -36,7 +37,7 @@ def scene():
                                    verletDist=0.01),
         yade.ConicInteractionLoop(
             [functor(), yade.Ig2_PP_PP_ScGeom_Conic(**{**SETTINGS, **PATCH, "label": "plain"})]
-            + [getattr(yade, f"Ig2_{other}_ConicPP_ScGeom")(**{**SETTINGS, "label": other}) for other in OTHERS],
+            + [getattr(yade, f"Ig2_{other}_ConicPP_ScGeom")(**{**SETTINGS, **(GAPS if other == "Sphere" else {}), "label": other}) for other in OTHERS],
             loop.physDispatcher.functors + [yade.Ip2_ConicJointMat_ConicJointMat_ConicJointPhys(label="joints", cohesiveTresholdIteration=5)],
             loop.lawDispatcher.functors + [yade.Law2_ScGeomConicPP_ConicJointPhys(neverErase=True, label="jointLaw")], label="loop"),
         integrator,
@@ -95,6 +96,8 @@ def expected_of(found):
     expected["functors"] = [one for one in expected["functors"] if unserved.REMEDIES.get(one["label"], NAMES[0]) in found]
     if found["Ig2_ConicPP_ConicPP_ScGeom"] == 0:
         expected["functors"] = [{**one, "carryTolerance": 1e-9} for one in expected["functors"]]
+    if found["Ig2_ConicPP_ConicPP_ScGeom"] < 3:
+        expected["functors"] = [{**one, "interactionDistance": 0.0, "rotations": False} for one in expected["functors"]]
     if found["Ig2_ConicPP_ConicPP_ScGeom"] < 2:
         expected["functors"] = [{**one, "patch": False, "patchTolerance": 1e-4} for one in expected["functors"]]
     if "ConicJointMat" not in found:

@@ -72,7 +72,7 @@ impl Answer {
             arguments::BackEnd::Fast => BackEnd::Fast,
             arguments::BackEnd::ConeProgram => BackEnd::ConeProgram,
         };
-        let settings = Settings { back_end, gap_tolerance: arguments.gap_tolerance, ..Settings::default() };
+        let settings = Settings::default().with_back_end(back_end).with_gap_tolerance(arguments.gap_tolerance);
         let midway = (wanted != arguments::Formulation::Closest).then(|| midway(input, settings)).transpose()?;
         let closest = (wanted != arguments::Formulation::Midway).then(|| closest(input, settings)).transpose()?;
         Ok(Self { line, midway, closest })
@@ -81,12 +81,12 @@ impl Answer {
 
 fn solve(input: &Input, settings: Settings) -> Result<Contact, String> {
     // A warm start would make an answer depend on the line before.
-    let settings = Settings { solve_separated: true, ..settings };
+    let settings = settings.with_solve_separated(true);
     detect(&input.a, &input.pose_a, &input.b, &input.pose_b, &settings, None).map_err(|error| error.to_string())
 }
 
 fn midway(input: &Input, settings: Settings) -> Result<Midway, String> {
-    let contact = solve(input, Settings { formulation: Formulation::Midway, ..settings })?;
+    let contact = solve(input, settings.with_formulation(Formulation::Midway))?;
     // Branches lose no digit to a position far from the origin.
     let relative = |point: Vector3<f64>| (point - input.pose_b.position()).into();
     Ok(Midway {
@@ -107,7 +107,8 @@ fn midway(input: &Input, settings: Settings) -> Result<Midway, String> {
 
 fn closest(input: &Input, settings: Settings) -> Result<Closest, String> {
     // With all weight on one of them, the contact point is that closest point, of separated particles as well.
-    let weighted = |weight_on_a| solve(input, Settings { formulation: Formulation::Closest, weight_on_a, ..settings });
+    let weighted =
+        |weight_on_a| solve(input, settings.with_formulation(Formulation::Closest).with_weight_on_a(weight_on_a));
     let on_b = weighted(0.0)?;
     if on_b.flags.contains(Flags::SLACK) {
         return slack(input, &on_b, &settings);

@@ -189,10 +189,10 @@ fn outline(random: &mut Random) -> [[f64; 2]; 3] {
 pub fn settings(random: &mut Random) -> Settings {
     let default = Settings::default();
     match random.whole(0, 6) {
-        0 => Settings { gap_tolerance: 1e-14, solve_separated: true, ..default },
-        1 => Settings { flat_regularisation: power(random, -12.0, -2.0), solve_separated: true, ..default },
+        0 => default.with_gap_tolerance(1e-14).with_solve_separated(true),
+        1 => default.with_flat_regularisation(power(random, -12.0, -2.0)).with_solve_separated(true),
         2 => default,
-        _ => Settings { solve_separated: true, ..default },
+        _ => default.with_solve_separated(true),
     }
 }
 

@@ -12,7 +12,7 @@ use crate::random::Random;
 use crate::reference::Body;
 use definition::{batched, carried, enclosed, flips, in_other_units, says_something, surfaces, swapped, well_formed};
 use nalgebra::Vector3;
-use potential_particles::{BackEnd, Contact, DetectError, Flags, Formulation, PairState, Particle, Pose, Settings};
+use potential_particles::{Contact, DetectError, Flags, PairState, Particle, Pose, Settings};
 use serde::Serialize;
 use solutions::{by_cone_program, closest, settle, warm};
 use std::cell::OnceCell;
@@ -176,15 +176,7 @@ pub type Solver =
 /// The most planes that the cone program is bothered with.
 const CONE_PROGRAM_PLANES: usize = 80;
 
-pub const FULL: Settings = Settings {
-    formulation: Formulation::Midway,
-    back_end: BackEnd::Fast,
-    solve_separated: true,
-    gap_tolerance: 1e-12,
-    weight_on_a: 0.5,
-    flat_regularisation: 1e-13,
-    carry_tolerance: 0.0,
-};
+pub const FULL: Settings = Settings::DEFAULT.with_solve_separated(true);
 
 /// What all poses of two shapes share: the shapes in another unit, and as the judge sees them.
 pub struct Shared {

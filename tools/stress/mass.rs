@@ -158,13 +158,13 @@ pub fn one(seed: u64, index: u64) -> Tally {
 }
 
 fn of_space(particle: &Particle, tolerance: f64) -> Moments<3> {
-    let found = particle.mass_properties(tolerance);
+    let found = particle.mass_properties(tolerance).unwrap();
     let second = Matrix3::from_diagonal_element(0.5 * found.inertia.trace()) - found.inertia;
     Moments { volume: found.volume, centroid: found.centroid, second, error: found.error }
 }
 
 fn of_plane(particle: &planar::Particle, tolerance: f64) -> Moments<2> {
-    let found = particle.area_properties(tolerance);
+    let found = particle.area_properties(tolerance).unwrap();
     Moments { volume: found.area, centroid: found.centroid, second: found.second_moment, error: found.error }
 }
 

@@ -88,7 +88,7 @@ pub fn any(own: impl Fn() -> Raw, another: impl Fn(&mut Random) -> Raw, random: 
 /// What the pair itself remembers.
 fn own(case: &Case) -> Raw {
     let mut raw = [0.0; 8];
-    let settings = Settings { solve_separated: true, ..Settings::default() };
+    let settings = Settings::default().with_solve_separated(true);
     // A pair without an answer has nothing to remember.
     let _ = solve(case, &settings, Some(&mut raw));
     raw
@@ -102,9 +102,9 @@ pub fn one(seed: u64, index: u64, ledger: &mut Ledger) {
     let default = Settings::default();
     let settings = match random.whole(0, 4) {
         0 => default,
-        1 => Settings { formulation: Formulation::Closest, solve_separated: true, ..default },
-        2 => Settings { gap_tolerance: 1e-14, solve_separated: true, ..default },
-        _ => Settings { solve_separated: true, ..default },
+        1 => default.with_formulation(Formulation::Closest).with_solve_separated(true),
+        2 => default.with_gap_tolerance(1e-14).with_solve_separated(true),
+        _ => default.with_solve_separated(true),
     };
     let cold = solve(&case, &settings, None);
     for _ in 0..MEMORIES {

@@ -206,16 +206,13 @@ impl Case {
         let kinds = [random.whole(0, KINDS.len()), random.whole(0, KINDS.len())];
         let particles = kinds.map(|kind| particle(kind, &mut random));
         let at = places(&particles[0], &particles[1], &mut random);
-        let default = Settings { solve_separated: true, ..Settings::default() };
+        let default = Settings::default().with_solve_separated(true);
         let (settings, name) = match random.whole(0, 4) {
-            0 => (Settings { formulation: Formulation::Closest, weight_on_a: 0.0, ..default }, "closest"),
-            1 => (Settings { gap_tolerance: 1e-14, ..default }, "midway, to 1e-14"),
+            0 => (default.with_formulation(Formulation::Closest).with_weight_on_a(0.0), "closest"),
+            1 => (default.with_gap_tolerance(1e-14), "midway, to 1e-14"),
             2 => {
                 let closest = Formulation::Closest;
-                (
-                    Settings { formulation: closest, weight_on_a: 0.0, gap_tolerance: 1e-14, ..default },
-                    "closest, to 1e-14",
-                )
+                (default.with_formulation(closest).with_weight_on_a(0.0).with_gap_tolerance(1e-14), "closest, to 1e-14")
             }
             _ => (default, "midway"),
         };

@@ -87,7 +87,7 @@ pub fn one(seed: u64, index: u64, ledger: &mut Ledger) {
     let (mesh, how) = mesh(&particle, &at, &mut random);
     let family = format!("{name} | {how}");
     *ledger.families.entry(family.clone()).or_default() += 1;
-    let settings = Settings { solve_separated: true, ..Settings::default() };
+    let settings = Settings::default().with_solve_separated(true);
     let pose = at.pose();
     let answers: Vec<Option<FlatContact>> = mesh
         .triangles

@@ -12,7 +12,7 @@ use crate::reference::Body;
 use crate::tally::{Found, Tally};
 use crate::wide::Wide3;
 use nalgebra::{UnitQuaternion, Vector3};
-use potential_particles::{Contact, Kind, Particle, Plane, Settings, detect};
+use potential_particles::{Contact, Kind, Particle, Plane, detect};
 use serde::Serialize;
 use std::f64::consts::{FRAC_PI_4, SQRT_2};
 
@@ -100,7 +100,7 @@ impl Stage {
 
     fn at(&self, t: f64) -> Result<Contact, String> {
         let (at_a, at_b) = self.places(t);
-        let settings = Settings { solve_separated: true, ..FULL };
+        let settings = FULL.with_solve_separated(true);
         detect(&self.a, &at_a.pose(), &self.b, &at_b.pose(), &settings, None).map_err(|error| error.to_string())
     }
 }

@@ -127,4 +127,4 @@ fn compare(case: &Case, at_b: &Place, states: &mut [PairState; 3]) -> Option<(Fa
     malformed.map(|contact| (Failure::Malformed, format!("overlap {:e}", contact.overlap)))
 }
 
-const CLOSEST: Settings = Settings { formulation: Formulation::Closest, ..FULL };
+const CLOSEST: Settings = FULL.with_formulation(Formulation::Closest);

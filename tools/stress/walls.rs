@@ -128,7 +128,7 @@ pub fn judge(case: &Case, solver: Solver) -> Verdict {
     let mut state = scene.memory().map(PairState::from_raw);
     let first = scene.answer(&case.settings, solver, state.as_mut(), &mut verdict);
     if first.is_some_and(|contact| contact.flags.contains(Flags::REJECTED)) {
-        scene.answer(&Settings { solve_separated: true, ..case.settings }, solver, None, &mut verdict);
+        scene.answer(&case.settings.with_solve_separated(true), solver, None, &mut verdict);
     }
     verdict
 }
@@ -165,7 +165,7 @@ impl Scene<'_> {
             let way: [f64; 3] = (share * size * random.direction()).into();
             let position = [0, 1, 2].map(|i| at.position[i] + way[i]);
             let mut state = PairState::default();
-            let settings = Settings { solve_separated: true, ..Settings::default() };
+            let settings = Settings::default().with_solve_separated(true);
             // Without an answer there is nothing to remember.
             let pose = Pose::new(position, at.orientation).expect("a pose beside another one");
             let _ = solve(particle, &pose, boundary, &settings, Some(&mut state));

@@ -26,6 +26,8 @@ public:
     ClassFactory() = delete;
     // False when the name is taken.
     bool registerFactorable(std::string name, MakeRaw raw, MakeShared shared, MakePure pure);
+    // A new object of that class. Throws std::runtime_error for a name that is not known.
+    boost::shared_ptr<Factorable> createShared(std::string name);
 };
 
 class Omega {

@@ -66,4 +66,14 @@ PP_ABI_OFFSET(ScGeom, orthonormal_axis, 120);
 PP_ABI_OFFSET(ScGeom, penetrationDepth, 160);
 PP_ABI_OFFSET(ScGeom, shearInc, 168);
 
+// Made by the factory, and never here: no field of it is declared.
+class ScGeom6D : public ScGeom {
+public:
+    ScGeom6D() = delete;
+    ~ScGeom6D() override;
+
+    // Bending and twist from the orientations at the first contact (isNew) or bond to the present ones; after precompute().
+    void precomputeRotations(const State& state1, const State& state2, bool isNew, bool creep);
+};
+
 } // namespace yade

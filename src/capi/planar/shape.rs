@@ -4,7 +4,6 @@ use super::convert::{finite, pose_from};
 use super::particle::pp_particle_2d;
 use super::types::{pp_area_properties, pp_pose_2d};
 use crate::capi::fence::{borrow, fenced, output, write_rows};
-use crate::capi::shape::mass_tolerance;
 use crate::capi::status::*;
 use nalgebra::Vector2;
 
@@ -128,7 +127,7 @@ pub unsafe extern "C" fn pp_particle_area_properties_2d(
     fenced(|| {
         let particle = &unsafe { borrow(particle) }?.0;
         let out = unsafe { output(properties) }?;
-        let found = particle.area_properties(mass_tolerance(tolerance)?);
+        let found = particle.area_properties(tolerance).map_err(|_| PP_BAD_SETTING)?;
         let second = found.second_moment;
         out.write(pp_area_properties {
             area: found.area,
@@ -158,10 +157,8 @@ pub unsafe extern "C" fn pp_particle_outline_2d(
 ) -> pp_status {
     fenced(|| {
         let particle = &unsafe { borrow(particle) }?.0;
-        if !(tolerance > 0.0 && tolerance.is_finite()) {
-            return Err(PP_BAD_SETTING);
-        }
-        let rows: Vec<[f64; 2]> = particle.outline(tolerance).into_iter().map(|point| point.into()).collect();
+        let outline = particle.outline(tolerance).map_err(|_| PP_BAD_SETTING)?;
+        let rows: Vec<[f64; 2]> = outline.into_iter().map(|point| point.into()).collect();
         // SAFETY: the caller promised 2*capacity doubles.
         unsafe { write_rows(rows.into_iter(), points, capacity, count) }
     })

@@ -43,6 +43,6 @@ fn solved(name: &str, formulation: Formulation) -> Contact {
     let line = line(name);
     let shapes = line.shapes().expect("two particles");
     let [at_a, at_b] = line.places().map(|place| place.pose());
-    let settings = Settings { formulation, ..Settings::default() };
+    let settings = Settings::default().with_formulation(formulation);
     detect(&shapes.a, &at_a, &shapes.b, &at_b, &settings, None).expect("an answer")
 }

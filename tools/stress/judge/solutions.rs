@@ -91,7 +91,7 @@ fn midway(verdict: &mut Verdict, scene: &Scene, contact: &Contact, truth: &Optim
 
 /// To the last digits: s within its gap, and the branch from A without the rounding of the way between the centres.
 fn precise(verdict: &mut Verdict, scene: &Scene, truth: &Optimum) {
-    let settings = Settings { gap_tolerance: 1e-14, ..FULL };
+    let settings = FULL.with_gap_tolerance(1e-14);
     let contact = match scene.detect(&scene.at_b, &settings, None) {
         Ok(contact) => contact,
         Err(error) => return verdict.fail(Failure::Error, format!("to 1e-14: {error}")),
@@ -209,7 +209,7 @@ pub(super) fn same(verdict: &mut Verdict, failure: Failure, one: &Contact, other
 }
 
 pub(super) fn closest(verdict: &mut Verdict, scene: &Scene, midway: &Contact, clock: &mut Clock, random: &mut Random) {
-    let settings = |weight_on_a| Settings { formulation: Formulation::Closest, weight_on_a, ..FULL };
+    let settings = |weight_on_a| FULL.with_formulation(Formulation::Closest).with_weight_on_a(weight_on_a);
     let answer = clock.time(Call::Closest, || scene.detect(&scene.at_b, &settings(0.0), None));
     let (on_b, on_a) = match (answer, scene.detect(&scene.at_b, &settings(1.0), None)) {
         (Ok(on_b), Ok(on_a)) => (on_b, on_a),
@@ -284,7 +284,7 @@ fn closest_again(verdict: &mut Verdict, scene: &Scene, cold: [(&Contact, Setting
 }
 
 pub(super) fn by_cone_program(verdict: &mut Verdict, scene: &Scene, fast: &Contact) {
-    match scene.detect(&scene.at_b, &Settings { back_end: BackEnd::ConeProgram, ..FULL }, None) {
+    match scene.detect(&scene.at_b, &FULL.with_back_end(BackEnd::ConeProgram), None) {
         Ok(cone_program) => {
             verdict.cone_program = Some(true);
             // clarabel stops at about 1e-8 of its own scaled numbers; its bound is no proof below that.

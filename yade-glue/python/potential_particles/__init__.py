@@ -35,11 +35,14 @@ functor (window). protect_runs() replaces more, for those who ask for it.
 """
 import builtins
 import functools
+import importlib.util
+import pkgutil
 
 from . import builds, window
 from .bodies import body
-from .clumps import clump
+from .clumps import add_clump, clump
 from .joints import bond_contacts, use_joints
+from .lammps import to_lammps
 from .measures import body_stresses, coordination_number, extrema, fabric_tensor, overlap_ratio, porosity, solid_volume, stress
 from .outside import protect_runs
 from .packing import add_packing, pack
@@ -48,9 +51,9 @@ from .time_step import critical_time_step, time_stepper
 
 __version__ = "0.1.0"
 
-__all__ = ["AbiError", "Mesh", "Recorder", "SceneWarning", "add_packing", "body", "body_stresses", "bond_contacts", "check", "clump", "coordination_number",
+__all__ = ["AbiError", "Mesh", "Recorder", "SceneWarning", "add_clump", "add_packing", "body", "body_stresses", "bond_contacts", "check", "clump", "coordination_number",
            "critical_time_step", "extrema", "fabric_tensor", "grading_curve", "library_version", "mesh", "overlap_ratio", "pack", "plot", "porosity",
-           "prepare", "protect_runs", "sampled_porosity", "save_mesh", "solid_volume", "stress", "time_stepper", "use_joints"]
+           "prepare", "protect_runs", "sampled_porosity", "save_mesh", "solid_volume", "stress", "time_stepper", "to_lammps", "use_joints"]
 
 
 class AbiError(ImportError):
@@ -219,6 +222,18 @@ def library_version():
     return _glue.library_version()
 
 
+def _take_numpy_names():
+    """The names of the package of the same name for numpy arrays (docs/wheel.md), if it is installed beside this one, whose own names stay."""
+    global __path__
+    __path__ = pkgutil.extend_path(__path__, __name__)
+    if importlib.util.find_spec("._api", __name__) is None:
+        return
+    from . import _api
+    for name in _api.__all__:
+        globals().setdefault(name, getattr(_api, name))
+        __all__.append(name)
+
+
 def _load():
     yade, running = _import_yade()
     glue = _import_glue(running)
@@ -242,3 +257,5 @@ _glue = _load()
 # After the classes that they serve.
 from .check import SceneWarning, check  # noqa: E402, F401
 from .output import Mesh, Recorder, mesh, plot, save_mesh  # noqa: E402, F401
+
+_take_numpy_names()

@@ -169,6 +169,11 @@ def _laws(scene, ours, dispatchers):
             for functor in [dispatcher.dispFunctor(one, other)] if functor}
     for law in [law for engine in scene.engines for law in getattr(getattr(engine, "lawDispatcher", None), "functors", ())]:
         name, (geometry, physics) = type(law).__name__, law.bases
+        without = [type(one).__name__ for engine in scene.engines for one in getattr(getattr(engine, "geomDispatcher", None), "functors", ())
+                   if not getattr(one, "rotations", True)]
+        if geometry == "ScGeom6D" and without:
+            yield Finding(f"{name} asks for a geometry with bending and twist, and passes over contacts of potential particles",
+                          f"give {', '.join(without)} the keyword rotations=True")
         if geometry != "ScGeom" and name != "Law2_SCG_KnKsPhys_KnKsLaw" or not any(one.endswith("_" + physics) for one in made):
             continue
         if isinstance(law, yade.Law2_ScGeom_FrictPhys_CundallStrack) and law.sphericalBodies:

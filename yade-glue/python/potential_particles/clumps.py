@@ -41,6 +41,18 @@ def clump(bodies, lines=20_000, seed=0):
     return number
 
 
+def add_clump(parts, material=None, position=(0.0, 0.0, 0.0), orientation=(1.0, 0.0, 0.0, 0.0), **more):
+    """Appends bodies of shapes.clump_from_mesh (or of any Shapes that stand in one frame) and makes a clump of them; returns its id.
+
+    position, orientation: of the frame of the file, as for body(), to which `more` goes (color, mask, ...).
+    """
+    import yade
+    from .bodies import body
+    shapes = getattr(parts, "shapes", parts)
+    ids = yade.O.bodies.append([body(one, material, position, orientation, **more) for one in shapes])
+    return clump(ids) if len(ids) > 1 else ids[0]
+
+
 def union(members, lines=20_000, seed=0):
     """(mass, centre of mass (3,), inertia about it (3, 3), error of the mass over it) of the union of bodies of one density, world axes."""
     import yade

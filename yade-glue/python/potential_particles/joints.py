@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The law of joints in the place of another, bonds of joints, and what the law needs before a scene steps."""
 
+import os
+
 LAW = "Law2_ScGeomConicPP_ConicJointPhys"
 
 
@@ -15,6 +17,14 @@ def require_patches(engines):
         # Beside another law a functor may serve that one.
         if without and (len(laws) == 1 or len(without) == len(ours)):
             raise ValueError(f"{LAW} needs the contact patch: give {', '.join(without)} the keyword patch=True")
+
+
+def chosen():
+    """Whether LAW in the environment is "joint", as the examples ask; False for "point" and without it. SystemExit with a sentence for anything else."""
+    law = os.environ.get("LAW") or "point"
+    if law not in ("point", "joint"):
+        raise SystemExit(f"LAW={law!r} in the environment: it is point (or nothing), or joint for contact patches with the law of joints")
+    return law == "joint"
 
 
 def use_joints(**material):

@@ -65,7 +65,7 @@ def porosity(lower=None, upper=None, bodies=None):
     return 1.0 - solid_volume(ids) / volume
 
 
-def stress(volume=None):
+def stress(volume=None, moving=False):
     """Mean stress (Love-Weber) of potential particles and spheres, a Matrix3 in Pa, negative in compression as that of YADE's getStress():
 
         sigma = 1/volume sum over particles, sum over their contacts  f (x_c - x)^T
@@ -74,11 +74,19 @@ def stress(volume=None):
     the vector between their centres and one with a wall from centre to wall. Where all is at rest, without gravity, this is force by area of smooth walls. volume:
     length^3; default: that of the periodic cell. ValueError where there is none. Forces are those of normalForce and shearForce of
     the contact's physics: dashpots that a law does not write there are left out.
+
+    moving=True adds 1/volume sum over particles  F (x - x_m)^T, F the sum of the contact forces on a particle, which accelerates it or is taken by numerical
+    damping, x_m the mean of all x. It is then the stress on the walls to rounding, at rest or not (with contact points for places of the walls, and as long as the
+    sum of all F is small against the force of a wall); without it the stress within. In a periodic cell, which has no walls, ValueError.
     """
     import yade
     if volume is None and not yade.O.periodic:
         raise ValueError("there is no periodic cell: give the volume in which the particles are, as stress(volume=...)")
-    return _sum_of_moments(_sides(), yade) / (yade.O.cell.volume if volume is None else positive(volume, "volume"))
+    if moving and yade.O.periodic:
+        raise ValueError("a periodic cell has no walls: moving=True is for particles between walls")
+    sides = _sides()
+    total = _sum_of_moments(sides, yade) + (_moment_of_net_forces(sides, yade) if moving else yade.Matrix3.Zero)
+    return total / (yade.O.cell.volume if volume is None else positive(volume, "volume"))
 
 
 def body_stresses():
@@ -142,6 +150,15 @@ def _sum_of_moments(sides, yade):
     return sum((force.outer(arm) for _, _, force, arm in sides), yade.Matrix3.Zero)
 
 
+def _moment_of_net_forces(sides, yade):
+    forces, places = {}, {}
+    for body, contact, force, arm in sides:
+        forces[body.id] = forces.get(body.id, yade.Vector3.Zero) + force
+        places[body.id] = contact.geom.contactPoint - arm
+    middle = sum(places.values(), yade.Vector3.Zero) / max(len(places), 1)
+    return sum((forces[one].outer(places[one] - middle) for one in forces), yade.Matrix3.Zero)
+
+
 def counted(bodies):
     import yade
     chosen = yade.O.bodies if bodies is None else [yade.O.bodies[int(one)] for one in bodies]
@@ -195,7 +212,8 @@ def largest_overlap():
         if not contact.isReal or not hasattr(contact.geom, "penetrationDepth"):
             continue
         shapes = (yade.O.bodies[contact.id1].shape, yade.O.bodies[contact.id2].shape)
-        radii = [shape.r for shape in shapes if isinstance(shape, yade.PotentialParticle)]
+        # A ball has no rounding but its radius.
+        radii = [shape.r if shape.k < 1.0 else shape.R for shape in shapes if isinstance(shape, yade.PotentialParticle)]
         if radii:
             depth = max(contact.geom.penetrationDepth, getattr(contact.geom, "largestDepth", 0.0))
             largest = max(largest, (depth / min(radii), contact), key=lambda one: one[0])

@@ -23,30 +23,30 @@ ROUNDING, SPHERICITY = 0.05, 0.02
 # Of volume, centroid and inertia, relative.
 TOLERANCE = 1e-6
 
-# The repetition ends when the centre is the centroid to this share of the size, found with fewer digits, which takes far less time. A last step
-# with all digits follows; the shape does not change by it, but in the product of this share and k.
+# The repetition ends when the centre is the centroid to this share of the size (or a tenth of the last tolerance), found with fewer digits, which takes
+# far less time. A last step with all digits follows; the shape does not change by it, but in the product of this share and k.
 CENTRED, ROUGHLY = 1e-5, 1e-4
 MOST_STEPS = 50
 
 
-def rounded(polyhedron, r, k, R, name):
+def rounded(polyhedron, r, k, R, name, tolerance=TOLERANCE):
     """The Shape of a polyhedron with rounding radius r, sphericity k and shadow radius R, lengths; R=None: to the farthest corner."""
-    return _settled(lambda centre: _planes(polyhedron, r, k, R, centre), polyhedron.centroid, 2.0 * polyhedron.ball_radius, name)
+    return _settled(lambda centre: _planes(polyhedron, r, k, R, centre), polyhedron.centroid, 2.0 * polyhedron.ball_radius, name, tolerance)
 
 
 def ball(radius, name):
     """The Shape of a sphere: k = 1, no planes."""
-    return _settled(lambda centre: ([], 0.0, 1.0, radius), np.zeros(3), 2.0 * radius, name)
+    return _settled(lambda centre: ([], 0.0, 1.0, radius), np.zeros(3), 2.0 * radius, name, TOLERANCE)
 
 
 def _planes(polyhedron, r, k, R, centre):
     if R is None:
         R = np.linalg.norm(polyhedron.corners - centre, axis=1).max()
     heights = polyhedron.offsets - polyhedron.normals @ centre
-    return _about(polyhedron.normals, heights, r, k, R), r, k, R
+    return about(polyhedron.normals, heights, r, k, R), r, k, R
 
 
-def _about(normals, heights, r, k, R):
+def about(normals, heights, r, k, R):
     """Rows (a, b, c, d) of faces at `heights` above the centre."""
     if k == 1.0:
         return []
@@ -55,19 +55,20 @@ def _about(normals, heights, r, k, R):
     return [(*map(float, n), float(d)) for n, d in zip(normals, heights - depth)]
 
 
-def _settled(definition_about, centre, size, name):
+def _settled(definition_about, centre, size, name, tolerance):
     """The Shape with its centroid as its centre, in principal axes. `definition_about(centre)`: planes, r, k, R."""
     from yade.wrapper import ConicPotentialParticle
+    rough, near = max(ROUGHLY, 10.0 * tolerance), max(CENTRED, 0.1 * tolerance) * size
     for _ in range(MOST_STEPS):
         planes, r, k, R = definition_about(centre)
         particle = ConicPotentialParticle(planes=planes, r=r, k=k, R=R)
-        shift = np.array(particle.massProperties(ROUGHLY)[1])
-        if np.abs(shift).max() <= CENTRED * size:
+        shift = np.array(particle.massProperties(rough)[1])
+        if np.abs(shift).max() <= near:
             break
         centre = centre + shift
     else:
         raise ValueError(f"{name}: no centre is its own centroid, to which k={k:g} with R={R:g} leads: take a smaller k, or a larger R")
-    volume, shift, inertia, error = particle.massProperties(TOLERANCE)
+    volume, shift, inertia, error = particle.massProperties(tolerance)
     # The centroid is known no better than this.
     if np.abs(np.array(shift)).max() > TOLERANCE * size:
         centre = centre + np.array(shift)

@@ -14,6 +14,14 @@ def definition(particle):
     return hash((tuple(particle.planes), particle.r, particle.k, particle.R))
 
 
+class Fit(typing.NamedTuple):
+    """How near a particle comes to the surface that it was made from."""
+
+    largest: float  #: distance of a sample of the surface from that of the particle, to first order, over the diameter of the ball of the surface's volume
+    mean: float  #: the root of the mean of its square
+    volume: float  #: of the surface, length^3
+
+
 @dataclasses.dataclass(frozen=True, repr=False)
 class Shape:
     """One particle, validated by the library. Immutable; one shape serves any number of bodies.
@@ -35,11 +43,13 @@ class Shape:
     orientation: typing.Tuple[float, float, float, float]  #: w, x, y, z, from the principal to the builder's frame
     bounding_radius: float  #: of a ball about the centroid that holds the particle, length
     name: str = "particle"
+    fit: typing.Optional[Fit] = None  #: of a shape from a surface
 
     def __repr__(self):
         """One line; the planes and the rest are attributes."""
+        off = "" if self.fit is None else f", off its surface by {self.fit.largest:.2g} of its diameter at most, {self.fit.mean:.2g} in the mean"
         return (f"<Shape {self.name}: {len(self.planes)} planes, r={self.r:.3g}, k={self.k:.3g}, R={self.R:.3g}, volume {self.volume:.4g}, "
-                f"bounding radius {self.bounding_radius:.3g}>")
+                f"bounding radius {self.bounding_radius:.3g}{off}>")
 
     @property
     def equivalent_diameter(self):
@@ -55,7 +65,8 @@ class Shape:
             planes=tuple((a, b, c, d * factor) for a, b, c, d in self.planes),
             r=self.r * factor, R=self.R * factor,
             volume=self.volume * factor**3, inertia=tuple(one * factor**5 for one in self.inertia),
-            centroid=tuple(one * factor for one in self.centroid), bounding_radius=self.bounding_radius * factor)
+            centroid=tuple(one * factor for one in self.centroid), bounding_radius=self.bounding_radius * factor,
+            fit=self.fit and self.fit._replace(volume=self.fit.volume * factor**3))
 
     def particle(self, **attributes):
         """A new ConicPotentialParticle of this shape; `attributes` are further ones of it (isBoundary, color, ...)."""

@@ -16,18 +16,21 @@ Bad input is a ValueError of one sentence, and nothing is made.
 import math
 
 import numpy as np
+from scipy.spatial import ConvexHull
 
-from . import rounding
+from . import fitting, rounding
 from .arguments import positive, rows, vector, whole, within
+from .convex_parts import clump_from_mesh
 from .mesh_file import from_mesh
-from .polyhedron import Polyhedron
+from .polyhedron import Polyhedron, refuse_flat
 from .random_rock import random_rock
 from .rounding import ROUNDING, SPHERICITY
 from .solids import rounded_hull, sizes
-from .shape import Shape
+from .shape import Fit, Shape
+from .voxels import from_voxels, voxel_image
 
-__all__ = ["Shape", "cuboid", "cylinder", "from_mesh", "from_planes", "from_vertices", "platonic_solid", "prism",
-           "random_rock", "sphere"]
+__all__ = ["Fit", "Shape", "clump_from_mesh", "cuboid", "cylinder", "from_mesh", "from_planes", "from_vertices", "from_voxels", "platonic_solid",
+           "prism", "random_rock", "sphere", "voxel_image"]
 
 
 def from_planes(planes, r=ROUNDING, k=SPHERICITY, R=None, name="planes"):
@@ -43,9 +46,18 @@ def from_planes(planes, r=ROUNDING, k=SPHERICITY, R=None, name="planes"):
     return rounding.rounded(polyhedron, *sizes(polyhedron.ball_radius, r, k, R), name)
 
 
-def from_vertices(points, r=ROUNDING, k=SPHERICITY, R=None, name="vertices"):
-    """Of the convex hull of points (x, y, z), rounded inwards: no part lies outside the hull."""
-    return rounded_hull(rows(points, 3, "points", "the three numbers x, y, z"), r, k, R, name)
+def from_vertices(points, r=None, k=SPHERICITY, R=None, name="vertices", planes=None, error=None):
+    """Of the convex hull of points (x, y, z), rounded inwards: no part lies outside the hull.
+
+    planes=N, error=e: few planes that keep the volume of the hull, as from_mesh has them; r=None is chosen then, and the default without them.
+    """
+    points = rows(points, 3, "points", "the three numbers x, y, z")
+    if planes is None and error is None:
+        return rounded_hull(points, ROUNDING if r is None else r, k, R, name)
+    refuse_flat(points)
+    hull = ConvexHull(points - points.mean(0))
+    samples = np.concatenate([points[hull.vertices], points[hull.simplices].mean(1)])
+    return fitting.warn_of_volume(fitting.of_surface(points, samples, hull.volume, r, k, R, name, planes, error), name)
 
 
 def sphere(radius, name="sphere"):

@@ -13,7 +13,7 @@ A new contact at the point x holds against the turn that moves x most: of B^T B 
 
 which is largest at a corner of the box of the body, since it is convex in x, and at most |x|^2 / min I. A contact
 patch holds against turning as well: its stiffness has a part for turns alone, K J across the normal and k_s J about it, J the polar moment
-of the patch or, where there is one, of the bond.
+of the patch or, where there is one, of the bond. So does the point of a contact of flat faces, which moves as they turn (rolling.py).
 
 Dashpots lower the limit. Those of joints, of the ratio z to the critical one, to dt < 2/omega (sqrt(1 + z^2) - z), which is taken into
 account; for others safety leaves room, below about half of the critical damping.
@@ -23,6 +23,7 @@ import math
 
 import numpy as np
 
+from . import rolling
 from .arguments import number, positive, whole
 from .bodies import image_shift, is_free
 
@@ -170,16 +171,30 @@ def _of_contact(scene, contact):
     return normal, point, physics.kn, physics.ks, physics.normalStiffness * polar_moment, physics.twistStiffness
 
 
+def _of_moving_points(contacts):
+    """(m, 2, 3, 3), for both bodies of rows (contact, normal, point, normal force, kn)."""
+    found = np.zeros((len(contacts), 2, 3, 3))
+    pressed = [row for row, one in enumerate(contacts) if one[3] > 0.0 and one[4] > 0.0]
+    if pressed:
+        of_contact, normals, points, forces, stiffnesses = zip(*(contacts[row] for row in pressed))
+        found[pressed] = rolling.turning_stiffness(of_contact, *(np.array([list(one) for one in given]) for given in (normals, points)),
+                                                   np.array(forces), np.array(stiffnesses))
+    return found
+
+
 def _eigenvalues(scene, movers):
     """Largest eigenvalue of M^-1 sum B^T K B of each body with a contact, 1/s^2."""
     bodies = [body for body, _ in movers]
     row_of = {part.id: row for row, (_, parts) in enumerate(movers) for part in parts}
     centres = [body.state.pos for body in bodies]
     rows, arms, numbers = [], [], []
+    moving, at = [], []
     for contact in scene.interactions:
         if not contact.isReal or contact.id1 not in row_of and contact.id2 not in row_of:
             continue
         normal, point, *rest = _of_contact(scene, contact)
+        force = 0.0 if hasattr(contact.phys, "twistStiffness") else contact.phys.normalForce.norm()
+        moving.append((contact, normal, point, force, rest[0]))
         for number in (contact.id1, contact.id2):
             if number in row_of:
                 row = row_of[number]
@@ -187,6 +202,7 @@ def _eigenvalues(scene, movers):
                 if number == contact.id2:
                     arm -= image_shift(contact)
                 rows.append(row)
+                at.append((len(moving) - 1, int(number == contact.id2)))
                 arms.append(tuple(arm))
                 numbers.append((*normal, *rest))
     if not rows:
@@ -201,7 +217,7 @@ def _eigenvalues(scene, movers):
     for i, j, k in ((0, 1, 2), (1, 2, 0), (2, 0, 1)):
         moved[:, i, 3 + j], moved[:, j, 3 + i] = arms[:, k], -arms[:, k]
     parts = moved.swapaxes(1, 2) @ (kn * along + ks * across) @ moved
-    parts[:, 3:, 3:] += bending * across + twist * along
+    parts[:, 3:, 3:] += bending * across + twist * along + _of_moving_points(moving)[tuple(np.array(at).T)]
     sums = np.zeros((len(bodies), 6, 6))
     np.add.at(sums, rows, parts)
     roots = np.zeros_like(sums)

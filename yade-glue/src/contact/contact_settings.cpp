@@ -112,6 +112,10 @@ pp_settings ContactSettings::parsed() const
     if (patch && twoDimension)
         refuse("patch", "True", "with twoDimension the contact area is a width: choose one of them");
 
+    if (!(std::isfinite(interactionDistance) && interactionDistance >= 0))
+        refuse("interactionDistance", shown(interactionDistance), "give a length, or 0");
+    if (patch && seesGaps())
+        refuse("patch", "True", "a patch ends where bodies come apart: rotations and interactionDistance are for laws at a point, joints have bonds of their own");
     if (!(std::isfinite(unitWidth2D) && unitWidth2D > 0))
         refuse("unitWidth2D", shown(unitWidth2D), "give a positive length");
     if (!(twoDdir.allFinite() && twoDdir.norm() > 0))

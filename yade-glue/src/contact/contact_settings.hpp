@@ -30,6 +30,11 @@ struct ContactSettings {
     int areaStep = 5;
     double accuracyTol = 1e-7;
     bool measureTime = false;
+    double interactionDistance = 0.0;
+    bool rotations = false;
+
+    // Whether laws are told how far a pair is apart, instead of that it is.
+    bool seesGaps() const { return rotations || interactionDistance > 0; }
 
     // The settings for the library. Throws std::invalid_argument naming the attribute, its value
     // and what it may be.
@@ -67,6 +72,12 @@ struct ContactSettings {
         visit("accuracyTol", &S::accuracyTol,
               "Accepted for scripts written for Ig2_PP_PP_ScGeom and not used. See tolerance.");
         visit("measureTime", &S::measureTime, "Whether the time inside this functor is added up in seconds.");
+        visit("interactionDistance", &S::interactionDistance,
+              "Particles whose gap along the normal is at most this interact, with penetrationDepth = -gap: for laws that hold them together. The collider "
+              "must see such pairs (verletDist of half of it, with BoundWatch).");
+        visit("rotations", &S::rotations,
+              "Whether the geometry is YADE's ScGeom6D, with bending and twist, for laws that ask for it (Law2_ScGeom6D_...); penetrationDepth "
+              "is then -gap of particles that have come apart. Pairs are solved from nothing in each step.");
     }
 };
 

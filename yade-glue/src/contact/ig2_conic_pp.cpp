@@ -12,6 +12,8 @@
 #include "loop/step.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 namespace potential_particles {
 
@@ -37,6 +39,18 @@ namespace {
             return false;
         normal = given.normalized();
         return true;
+    }
+
+    // How far from `point`, outside of a particle, its surface lies along a unit vector into it; not a number if it is missed. From points
+    // within, further and further in, back to where the line leaves it.
+    double gapBefore(const Particle& particle, const pp_pose& pose, const Vector3r& point, const Vector3r& inwards)
+    {
+        for (double way = 1e-3 * particle.boundingRadius(); way < 4 * particle.boundingRadius(); way *= 2) {
+            const double back = distanceToSurface(particle, pose, point + way * inwards, -inwards);
+            if (back > 0)
+                return way - back;
+        }
+        return std::numeric_limits<double>::quiet_NaN();
     }
 
     bool areBoundaries(const Shape& one, const Shape& other)
@@ -174,7 +188,9 @@ bool Ig2_ConicPP_ConicPP_ScGeom::contact(Pair& pair)
         }
     }
 
-    if (pair.isKeptApart()) {
+    const ContactSettings& given = pair.settings.given;
+    const bool held = pair.real && given.seesGaps();
+    if (!held && pair.isKeptApart()) {
         pair.counts.add(Count::motion);
     } else {
         pp_contact found;
@@ -192,9 +208,40 @@ bool Ig2_ConicPP_ConicPP_ScGeom::contact(Pair& pair)
             fill(pair, found);
             return true;
         }
-        pair.noteApart(found.distance);
+        if (held || (given.interactionDistance > 0 && !(found.distance > given.interactionDistance)))
+            return acrossGap(pair);
+        pair.noteApart(found.distance - given.interactionDistance);
     }
     return leaveApart(pair);
+}
+
+// A pair that does not touch, for laws that ask how far it is apart: solved to the end. Where no gap along the normal is found, it is no
+// pair that a law could hold.
+bool Ig2_ConicPP_ConicPP_ScGeom::acrossGap(Pair& pair)
+{
+    pp_settings settings = pair.settings.library;
+    settings.solve_separated = 1;
+    const pp_pose pose1 = pair.pose1(), pose2 = pair.pose2();
+    pp_contact found;
+    if (const pp_status status = pp_contact_detect(pair.particle1->handle(), &pose1, pair.particle2->handle(), &pose2, &settings, nullptr, &found);
+        status != PP_OK) {
+        fail(pair, pp_status_message(status));
+        return keep(pair);
+    }
+    const Vector3r point(found.point), normal(found.normal);
+    const double gap = gapBefore(*pair.particle1, pose1, point, -normal) + gapBefore(*pair.particle2, pose2, point, normal);
+    if (!std::isfinite(gap) || (!pair.real && gap > pair.settings.given.interactionDistance)) {
+        pair.noteApart(0);
+        return leaveApart(pair);
+    }
+    pair.noteTouching();
+    yade::ScGeom& geom = *pair.geom;
+    geom.refR1 = pair.particle1->boundingRadius();
+    geom.refR2 = pair.particle2->boundingRadius();
+    geom.contactPoint = point;
+    geom.penetrationDepth = -gap;
+    pair.precompute(normal, scene);
+    return true;
 }
 
 bool Ig2_ConicPP_ConicPP_ScGeom::leaveApart(PairInScene& pair)

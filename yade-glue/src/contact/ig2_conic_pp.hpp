@@ -73,6 +73,7 @@ private:
 
     struct Pair; // the arguments of one call, put in order
     bool contact(Pair& pair);
+    bool acrossGap(Pair& pair);
     pp_status detect(Pair& pair, pp_contact& found);
     void fill(Pair& pair, pp_contact& found);
 

@@ -203,7 +203,7 @@ template <class Archive> void Ig2_ConicPP_ConicPP_ScGeom::serialize(Archive& arc
     serializeBase<yade::IGeomFunctor>(archive, *this, "IGeomFunctor");
     ContactSettings::eachAttribute([&](const char* attribute, auto member, const char*) {
         const std::string name(attribute);
-        const unsigned since = name == "patch" || name == "patchTolerance" ? 2 : name == "carryTolerance" ? 1 : 0;
+        const unsigned since = name == "interactionDistance" || name == "rotations" ? 3 : name == "patch" || name == "patchTolerance" ? 2 : name == "carryTolerance" ? 1 : 0;
         if (version >= since)
             archiveAttribute(archive, attribute, written.*member);
     });

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "abi/interaction.hpp"
+#include "abi/registry.hpp"
 #include "abi/scgeom.hpp"
 
 #include "contact_settings.hpp"
@@ -55,6 +56,12 @@ struct PairInScene {
     yade::ScGeom* geom = nullptr;
     ScGeomConicPP* own = nullptr; // geom, if it is one with memory
 
+    // An ScGeom6D of YADE.
+    static boost::shared_ptr<yade::IGeom> withRotations()
+    {
+        return boost::static_pointer_cast<yade::IGeom>(Singleton<yade::ClassFactory>::instance().createShared("ScGeom6D"));
+    }
+
     // What the library keeps of the pair, if its geometry has a place for that.
     pp_pair_state* state() const { return own ? &own->state : nullptr; }
 
@@ -78,11 +85,15 @@ struct PairInScene {
             return true;
         }
         if (real)
-            return geom != nullptr; // of another functor or file: served without memory
+            return geom != nullptr; // of another functor or file, or with rotations: served without memory
+        if (settings.given.rotations) {
+            interaction->geom = withRotations();
+            geom = static_cast<yade::ScGeom*>(interaction->geom.get());
+            begin(*geom);
+            return true;
+        }
         const auto made = boost::make_shared<ScGeomConicPP>();
-        made->normal = directionOf(branch());
-        made->contactPoint = state1.se3.position + 0.5 * branch();
-        made->penetrationDepth = apart;
+        begin(*made);
         interaction->geom = made;
         geom = own = made.get();
         return true;
@@ -95,6 +106,17 @@ struct PairInScene {
     void precompute(const yade::Vector3r& normal, const yade::Scene* scene)
     {
         geom->precompute(state1, state2, scene, interaction, normal, !real, shift2, false);
+        if (!own && settings.given.rotations)
+            if (auto* const turning = dynamic_cast<yade::ScGeom6D*>(geom))
+                turning->precomputeRotations(state1, state2, !real, false);
+    }
+
+    // What holds of a pair that has not been solved.
+    void begin(yade::ScGeom& made) const
+    {
+        made.normal = directionOf(branch());
+        made.contactPoint = state1.se3.position + 0.5 * branch();
+        made.penetrationDepth = apart;
     }
 
     // The normal of the last step, or the line of centres (a law may have zeroed the former).

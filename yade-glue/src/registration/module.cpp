@@ -7,6 +7,7 @@
 #include "joint/patch_surface.hpp"
 #include "packing/packing.hpp"
 #include "particle/particle_store.hpp"
+#include "rock/rock.hpp"
 #include "shape/plane_lists.hpp"
 #include "registration.hpp"
 #include "shape/retired.hpp"
@@ -73,6 +74,8 @@ BOOST_PYTHON_MODULE(_glue)
     py::def("surface_mesh", &pp::surfaceMesh);
     py::def("patch_surface", &pp::patchSurface);
     py::def("pack", &pp::packContainer);
+    py::def("joints_of_set", &pp::jointsOfSet);
+    py::def("slice_rock", &pp::sliceRock);
     py::def("window_dispatcher", &pp::windowDispatcher);
     py::scope().attr("packing_choices") = pp::packingChoices();
 }

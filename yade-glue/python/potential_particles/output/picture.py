@@ -4,6 +4,7 @@ import numpy as np
 import yade
 
 from . import vtk_files
+from .chains import tubes
 from .drawn import ShapeMeshes, Triangles, drawn, edges
 from .patches import patches as patches_of
 from .view import View, framing_view
@@ -23,12 +24,13 @@ BAR = 110  # pixels beside the picture for the scale of the pressure
 NEAR = 1.1  # boundaries that far from the middle, in radii of the scene, are held by the view
 
 
-def plot(file, towards=(0.46, -0.84, 0.42), size=(1000, 800), tolerance=None, bodies=None, patches=False):
+def plot(file, towards=(0.46, -0.84, 0.42), size=(1000, 800), tolerance=None, bodies=None, patches=False, chains=False):
     """Draws the present scene to a PNG: particles, spheres, boxes, facets and walls, each in the colour of its shape.
 
     towards: direction from the scene to the eye, world axes. size: width and height in pixels. tolerance: of the meshes of
     particles (see `mesh`); without one it follows from the size of the bodies on the picture. bodies: ids; without them, all. patches: bodies become
-    transparent, and contact patches between them (functors with patch=True, bonds) show their pressure, with a scale in pascals.
+    transparent, and contact patches between them (functors with patch=True, bonds) show their pressure, with a scale in pascals. chains: the same with force
+    chains, a tube along the line between the centres of each contact, its width and colour by the normal force, with a scale in newtons.
     The camera stands so that all bodies are seen, through those boundaries (Box, Facet, Wall, shapes with isBoundary) that would
     hide them. Needs no display. ValueError for a scene that has nothing to draw; RuntimeError with the packages to install
     where there is no OpenGL.
@@ -39,17 +41,24 @@ def plot(file, towards=(0.46, -0.84, 0.42), size=(1000, 800), tolerance=None, bo
     if tolerance is None:
         tolerance = fitting_tolerance(sum(not body.isClump for body in scene), size)
     of_bodies, of_boundaries = drawn(scene, ShapeMeshes(tolerance))
-    if not patches:
+    if patches and chains:
+        raise ValueError("patches=True and chains=True have each a scale of their own: draw two pictures")
+    if not patches and not chains:
         view = framing(of_bodies, of_boundaries, towards, width / height)
         imsave(file, render(of_bodies, of_boundaries, view, width, height))
         return
     chosen = {body.id for body in scene}
-    shown = patches_of([contact for contact in yade.O.interactions if contact.isReal and {contact.id1, contact.id2} <= chosen])
+    contacts = [contact for contact in yade.O.interactions if contact.isReal and {contact.id1, contact.id2} <= chosen]
+    if chains:
+        corners, forces = tubes(contacts)
+        values, name, unit = np.repeat(forces[:, None], 3, axis=1), "normal force", "N"
+    else:
+        shown = patches_of(contacts)
+        corners, values, name, unit = shown.corners, shown.pressure, "pressure", "Pa"
     view = framing(of_bodies, of_boundaries, towards, (width - BAR) / height)
-    scale, pascals, unit = _pressure_scale(shown.pressure)
-    coloured = Triangles(shown.corners, np.zeros_like(shown.corners), scale.to_rgba(shown.pressure / pascals)[..., :3],
-                         np.zeros(len(shown.corners), int))
-    imsave(file, _with_scale(render(of_bodies, of_boundaries, view, width - BAR, height, coloured), scale, unit))
+    scale, one, prefix = _scale(values)
+    coloured = Triangles(corners, np.zeros_like(corners), scale.to_rgba(values / one)[..., :3], np.zeros(len(corners), int))
+    imsave(file, _with_scale(render(of_bodies, of_boundaries, view, width - BAR, height, coloured), scale, f"{name}, {prefix}{unit}"))
 
 
 def fitting_tolerance(count, size):
@@ -155,23 +164,23 @@ def _lines(segments, middle, radius):
     return actor
 
 
-def _pressure_scale(pressure):
-    """Colours for pressures in a unit, that unit in pascals, and its name."""
+def _scale(values):
+    """Colours for values in a multiple of their unit, that multiple, and its prefix."""
     from matplotlib import cm, colors
-    largest = np.abs(pressure).max(initial=0.0)
-    pascals, unit = next(((size, name) for size, name in ((1e9, "GPa"), (1e6, "MPa"), (1e3, "kPa")) if largest >= size), (1.0, "Pa"))
-    span = colors.Normalize(pressure.min(initial=0.0) / pascals, (pressure.max(initial=0.0) or largest or 1.0) / pascals)
-    return cm.ScalarMappable(span, PRESSURE_MAP), pascals, unit
+    largest = np.abs(values).max(initial=0.0)
+    one, prefix = next(((size, name) for size, name in ((1e9, "G"), (1e6, "M"), (1e3, "k")) if largest >= size), (1.0, ""))
+    span = colors.Normalize(values.min(initial=0.0) / one, (values.max(initial=0.0) or largest or 1.0) / one)
+    return cm.ScalarMappable(span, PRESSURE_MAP), one, prefix
 
 
-def _with_scale(image, scale, unit):
-    """An image with the scale of the pressure on its right."""
+def _with_scale(image, scale, label):
+    """An image with a scale of colours on its right."""
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
     height, dots = len(image), 100
     figure = Figure(figsize=(BAR / dots, height / dots), dpi=dots, facecolor="white")
     canvas = FigureCanvasAgg(figure)
-    figure.colorbar(scale, cax=figure.add_axes([0.05, 0.2, 0.2, 0.6]), label=f"pressure, {unit}")
+    figure.colorbar(scale, cax=figure.add_axes([0.05, 0.2, 0.2, 0.6]), label=label)
     canvas.draw()
     return np.concatenate([image, np.asarray(canvas.buffer_rgba())[:height, :, :3] / np.float32(255.0)], axis=1)
 

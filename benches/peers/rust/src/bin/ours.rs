@@ -37,7 +37,7 @@ fn main() {
         let (way, waits) = way.strip_suffix("+wait").map_or((way, false), |way| (way, true));
         let (way, all) = way.strip_suffix("+all").map_or((way, false), |way| (way, true));
         let (way, tolerance) = way.split_once('@').unwrap_or((way, "1e-12"));
-        let mut settings = Settings { solve_separated: all, ..Settings::default() };
+        let mut settings = Settings::default().with_solve_separated(all);
         settings.gap_tolerance = tolerance.parse().ok()?;
         match way {
             "midway" => {}

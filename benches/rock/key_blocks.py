@@ -1,0 +1,58 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Block theory against the simulation on random cuts of a slope. Run inside YADE by `make rock`; CUTS (1000), TURNS (100); adds to out/rock/summary.json.
+
+Of each cut one block at a free face, most often one that block theory frees, if there is one, lies among its neighbours, which are fixed: it has to move by a millimetre
+in the direction that block theory has, or to stay within a tenth of it. TURNS of them are run again with blocks that may turn, which block theory leaves out.
+"""
+import collections
+import json
+import os
+import sys
+import time
+from pathlib import Path
+
+TOP = Path(sys.argv[0]).resolve().parents[2]
+sys.path[:0] = [str(TOP / "tests/yade"), str(TOP / "studies")]
+
+import slope_cuts  # noqa: E402
+from progress import Progress  # noqa: E402
+
+CUTS, TURNS = int(os.environ.get("CUTS") or 1000), int(os.environ.get("TURNS") or 100)
+begin, rows, seed = time.monotonic(), [], 0
+bar = Progress(CUTS, unit="cut")
+while len(rows) < CUTS:
+    mass, friction, random = slope_cuts.cut(seed)
+    one = slope_cuts.chosen(mass, friction, random)
+    seed += 1
+    if one is None:
+        continue
+    distance, direction = slope_cuts.moved(mass, one, friction)
+    row = {"seed": seed - 1, "mode": one.mode, "factor": one.factor, "moves": one.moves, "distance": distance, "agrees": slope_cuts.agrees(one, distance, direction)}
+    if len(rows) < TURNS:
+        row["distance_with_turns"] = slope_cuts.moved(mass, one, friction, turns=True)[0]
+    rows.append(row)
+    bar.update(len(rows))
+bar.close()
+
+counts = collections.Counter((row["mode"], row["moves"], row["agrees"]) for row in rows)
+print("| mode | block theory | cuts | simulation agrees |\n|---|---|---|---|")
+for mode, moves in sorted({(mode, moves) for mode, moves, _ in counts}):
+    agree, not_so = counts[mode, moves, True], counts[mode, moves, False]
+    print(f"| {mode} | {'moves' if moves else 'stays'} | {agree + not_so} | {agree} |")
+for row in rows:
+    if not row["agrees"]:
+        print(f"cut {row['seed']}: {row['mode']}, factor of safety {row['factor']:.3f}, moved by {row['distance']:.1e} m")
+turned = [row for row in rows if "distance_with_turns" in row and not row["moves"]]
+toppled = int(sum(row["distance_with_turns"] > slope_cuts.MOVED for row in turned))
+print(f"of {len(turned)} that stay, {toppled} move by 1 mm if they may turn; {time.monotonic() - begin:.0f} s")
+file = TOP / "out/rock/summary.json"
+summary = json.loads(file.read_text()) if file.exists() else {"targets": []}
+name = "cuts of a slope where block theory and simulation differ"
+wrong = int(sum(not row["agrees"] for row in rows))
+summary["targets"] = [one for one in summary["targets"] if one["name"] != name] + [
+    {"name": name, "sense": "at most", "target": 0, "measured": wrong, "met": wrong == 0}]
+summary["key_blocks"] = {"cuts": len(rows), "moves": int(sum(row["moves"] for row in rows)), "differ": wrong, "stay": len(turned), "stay_but_turn": toppled,
+                         "modes": {f"{mode}, {'moves' if moves else 'stays'}": sum(row["mode"] == mode and row["moves"] == moves for row in rows)
+                                   for mode, moves in sorted({(row["mode"], row["moves"]) for row in rows})}}
+file.parent.mkdir(parents=True, exist_ok=True)
+file.write_text(json.dumps(summary))

@@ -1,0 +1,96 @@
+# SPDX-License-Identifier: MIT OR Apache-2.0
+"""Files of shapes, as `fix potential/particle/shapes` reads them."""
+import numpy as np
+
+from .library import Particle
+
+# Of the centre of mass over the radius, and of products of inertia over the largest moment.
+CENTRED, ROUNDS = 1e-9, 20
+
+
+def polyhedron(normals, distances, rounding):
+    """A Particle with k = 0 whose faces lie at these distances from the origin along these normals; edges are rounded by `rounding` (length)."""
+    normals = np.asarray(normals, float)
+    normals = normals / np.linalg.norm(normals, axis=1)[:, None]
+    return Particle(np.column_stack([normals, np.asarray(distances, float) - rounding]), rounding, 0.0, np.max(distances))
+
+
+def principal(particle):
+    """The same shape about its centre of mass, in principal axes; and what carries a point of that frame into the old one: (centre, rotation)."""
+    centre, rotation = np.zeros(3), np.eye(3)
+    for _ in range(ROUNDS):
+        size = np.abs(particle.inertia).max()
+        if np.linalg.norm(particle.centroid) <= CENTRED * particle.radius and np.abs(particle.inertia - np.diag(np.diag(particle.inertia))).max() <= CENTRED * size:
+            return particle, (centre, rotation)
+        if particle.k > 0 and np.linalg.norm(particle.centroid) > CENTRED * particle.radius:
+            turn = np.eye(3)  # the shadow sphere stays about the origin: shape and centre change together
+        else:
+            turn = _axes(particle.inertia - particle.volume * (particle.centroid @ particle.centroid * np.eye(3) - np.outer(particle.centroid, particle.centroid)))
+        normals, offsets = particle.planes[:, :3], particle.planes[:, 3]
+        centre, rotation = centre + rotation @ particle.centroid, rotation @ turn
+        particle = Particle(np.column_stack([normals @ turn, offsets - normals @ particle.centroid]), particle.r, particle.k, particle.R)
+    raise ValueError("the shape cannot be centred: choose another origin, nearer to its centre of mass")
+
+
+def _axes(inertia):
+    """Columns: principal axes, each named after the axis of the old frame to which it is nearest."""
+    size = np.abs(inertia).max()
+    if np.abs(inertia - np.diag(np.diag(inertia))).max() <= CENTRED * size:
+        return np.eye(3)
+    _, axes = np.linalg.eigh(inertia)
+    order = []
+    for row in range(3):
+        order.append(max((c for c in range(3) if c not in order), key=lambda c: abs(axes[row, c])))
+    axes = axes[:, order] * np.sign(np.diag(axes[:, order]) + 1e-300)
+    if np.linalg.det(axes) < 0:
+        axes[:, 2] *= -1
+    return axes
+
+
+def write_shapes(path, shapes):
+    """shapes: {name: Particle}. Each is written about its centre of mass and in principal axes; returns {name: (centre, rotation)}, in the old frame."""
+    frames = {}
+    with open(path, "w") as file:
+        for name, particle in shapes.items():
+            if not name or any(c.isspace() or c == "#" for c in name):
+                raise ValueError(f"shape name {name!r}: it must be one word without '#'")
+            own, frames[name] = principal(particle)
+            file.write(f"shape {name}\nr {own.r!r}\nk {own.k!r}\nR {own.R!r}\n")
+            file.writelines("plane " + " ".join(repr(float(x)) for x in row) + "\n" for row in own.planes)
+            file.write("end\n")
+    return frames
+
+
+def read_shapes(path):
+    """{name: Particle} of a file that write_shapes has written, or by hand."""
+    shapes, name = {}, None
+    for line in open(path):
+        words = line.split("#")[0].split()
+        if not words:
+            continue
+        if words[0] == "shape":
+            name, planes, numbers = words[1], [], {}
+        elif words[0] == "plane":
+            planes.append([float(x) for x in words[1:]])
+        elif words[0] == "end":
+            shapes[name] = Particle(planes, numbers["r"], numbers["k"], numbers["R"])
+        else:
+            numbers[words[0]] = float(words[1])
+    return shapes
+
+
+def write_drum(path, radius, length, sides=48):
+    """A closed drum about the y axis as a text STL, its middle at the origin: `sides` flat strips and two ends."""
+    at = 2 * np.pi * np.arange(sides + 1) / sides
+    rim = radius * np.column_stack([np.cos(at), np.zeros(sides + 1), np.sin(at)])
+    near, far = rim - [0, 0.5 * length, 0], rim + [0, 0.5 * length, 0]
+    near[-1], far[-1] = near[0], far[0]
+    triangles = []
+    for i in range(sides):
+        triangles += [(near[i], near[i + 1], far[i]), (near[i + 1], far[i + 1], far[i])]
+        triangles += [((0, s * 0.5 * length, 0), rims[i], rims[i + 1]) for s, rims in ((-1, near), (1, far))]
+    with open(path, "w") as file:
+        file.write("solid drum\n")
+        for triangle in triangles:
+            file.write("facet normal 0 0 0\nouter loop\n" + "".join("vertex %.7g %.7g %.7g\n" % tuple(v) for v in triangle) + "endloop\nendfacet\n")
+        file.write("endsolid drum\n")

@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "contact_memory.hpp"
+#include "pair_potential_particle.hpp"
+
+#include "atom.h"
+#include "comm.h"
+
+#include <algorithm>
+#include <cstring>
+#include <utility>
+
+using namespace LAMMPS_NS;
+
+namespace potential_particles {
+
+ContactMemory::ContactMemory(LAMMPS* lmp, int count, char** arguments)
+    : Fix(lmp, count, arguments)
+{
+    restart_peratom = 1;
+    restart_global = 1; // so that write_restart is called before atoms are packed
+    create_attribute = 1;
+    maxexchange_dynamic = 1;
+    grow_arrays(atom->nmax);
+    atom->add_callback(Atom::GROW);
+    atom->add_callback(Atom::RESTART);
+}
+
+ContactMemory::~ContactMemory()
+{
+    atom->delete_callback(id, Atom::GROW);
+    atom->delete_callback(id, Atom::RESTART);
+}
+
+int ContactMemory::setmask()
+{
+    using namespace FixConst;
+    return PRE_EXCHANGE | POST_NEIGHBOR | MIN_PRE_EXCHANGE | MIN_POST_NEIGHBOR | POST_RUN;
+}
+
+void ContactMemory::collect()
+{
+    if (!pair || !listIsNewer)
+        return;
+    listIsNewer = false;
+    values.clear();
+    std::fill(ranges.begin(), ranges.end(), Range {});
+    const int slots = pair->slotCount(), local = pair->localAtBuild();
+    const auto forEachLocal = [&](int slot, auto&& doWith) {
+        const auto [a, b] = pair->bodiesOf(slot);
+        if (a < local)
+            doWith(a, b);
+        if (b < local)
+            doWith(b, a);
+    };
+    for (int slot = 0; slot < slots; ++slot)
+        forEachLocal(slot, [&](int i, int) { ++ranges[i].count; });
+    int sum = 0, most = 0;
+    for (Range& range : ranges) {
+        range.first = sum;
+        sum += range.count;
+        most = std::max(most, range.count);
+        range.count = 0;
+    }
+    partners.resize(sum);
+    for (int slot = 0; slot < slots; ++slot)
+        forEachLocal(slot, [&](int i, int j) { partners[ranges[i].first + ranges[i].count++] = { pair->tagAtBuild(j), slot }; });
+    maxexchange = 1 + most * (1 + valueCount);
+}
+
+void ContactMemory::post_neighbor()
+{
+    if (!pair)
+        return;
+    pair->rebuild();
+    listIsNewer = true;
+}
+
+void ContactMemory::attach(PairPotentialParticle* style)
+{
+    if (pair == style)
+        return;
+    pair = style;
+    const auto sums = pair->sumsOfRun();
+    for (size_t n = 0; n < sums.size(); ++n)
+        *sums[n] += std::exchange(savedSums[n], 0.0);
+}
+
+// Called before the atoms are packed.
+void ContactMemory::write_restart(FILE* file)
+{
+    collect();
+    std::array<double, 3> own {}, all {};
+    if (pair)
+        for (size_t n = 0; n < own.size(); ++n)
+            own[n] = *pair->sumsOfRun()[n];
+    MPI_Reduce(own.data(), all.data(), static_cast<int>(own.size()), MPI_DOUBLE, MPI_SUM, 0, world);
+    if (comm->me == 0) {
+        const int size = sizeof all;
+        fwrite(&size, sizeof size, 1, file);
+        fwrite(all.data(), sizeof all, 1, file);
+    }
+}
+
+void ContactMemory::restart(char* saved)
+{
+    if (comm->me == 0)
+        std::memcpy(savedSums.data(), saved, sizeof savedSums);
+}
+
+int ContactMemory::find(int i, tagint other) const
+{
+    for (int n = ranges[i].first; n < ranges[i].first + ranges[i].count; ++n)
+        if (partners[n].other == other)
+            return partners[n].where;
+    return nowhere;
+}
+
+void ContactMemory::grow_arrays(int most) { ranges.resize(most); }
+
+void ContactMemory::copy_arrays(int from, int to, int) { ranges[to] = ranges[from]; }
+
+// Contacts alone: pairs that are near, but apart, have no history.
+int ContactMemory::pack(int i, double* buffer) const
+{
+    int m = 1, count = 0;
+    for (int n = ranges[i].first; n < ranges[i].first + ranges[i].count; ++n) {
+        const Partner& partner = partners[n];
+        if (partner.where >= 0 && !pair->touches(partner.where))
+            continue;
+        const Values carried = partner.where >= 0 ? pair->valuesOf(partner.where) : arrived(partner.where);
+        buffer[m++] = ubuf(partner.other).d;
+        m = static_cast<int>(std::copy(carried.begin(), carried.end(), buffer + m) - buffer);
+        ++count;
+    }
+    buffer[0] = count;
+    return m;
+}
+
+int ContactMemory::unpack(int i, const double* buffer)
+{
+    ranges[i] = { static_cast<int>(partners.size()), static_cast<int>(buffer[0]) };
+    int m = 1;
+    for (int n = 0; n < ranges[i].count; ++n) {
+        ubuf other(buffer[m++]);
+        partners.push_back({ static_cast<tagint>(other.i), -1 - static_cast<int>(values.size()) });
+        values.emplace_back();
+        std::copy_n(buffer + m, valueCount, values.back().begin());
+        m += valueCount;
+    }
+    return m;
+}
+
+int ContactMemory::pack_exchange(int i, double* buffer) { return pack(i, buffer); }
+
+int ContactMemory::unpack_exchange(int i, double* buffer) { return unpack(i, buffer); }
+
+int ContactMemory::pack_restart(int i, double* buffer)
+{
+    const int size = 1 + pack(i, buffer + 1);
+    buffer[0] = size;
+    return size;
+}
+
+void ContactMemory::unpack_restart(int i, int nth)
+{
+    const double* extra = atom->extra[i];
+    for (int n = 0; n < nth; ++n)
+        extra += static_cast<int>(extra[0]);
+    unpack(i, extra + 1);
+}
+
+int ContactMemory::size_restart(int i)
+{
+    int touching = 0;
+    for (int n = ranges[i].first; n < ranges[i].first + ranges[i].count; ++n)
+        touching += partners[n].where < 0 || pair->touches(partners[n].where);
+    return 2 + touching * (1 + valueCount);
+}
+
+int ContactMemory::maxsize_restart()
+{
+    int most = 2;
+    for (int i = 0; i < atom->nlocal; ++i)
+        most = std::max(most, size_restart(i));
+    return most;
+}
+
+double ContactMemory::memory_usage()
+{
+    return static_cast<double>(ranges.capacity() * sizeof(Range) + partners.capacity() * sizeof(Partner) + values.capacity() * sizeof(Values));
+}
+
+} // namespace potential_particles

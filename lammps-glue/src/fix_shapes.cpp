@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "fix_shapes.hpp"
+#include "text_file.hpp"
+
+#include "atom.h"
+#include "force.h"
+#include "modify.h"
+#include "utils.h"
+
+#include <cmath>
+#include <cstring>
+#include <random>
+
+using namespace LAMMPS_NS;
+
+namespace potential_particles {
+namespace {
+
+constexpr const char* styleName = "potential/particle/shapes";
+constexpr const char* property = "orientation";
+
+} // namespace
+
+FixShapes::FixShapes(LAMMPS* lmp, int count, char** arguments)
+    : Fix(lmp, count, arguments)
+{
+    create_attribute = 1;
+    if (count < 8)
+        error->all(FLERR, "fix {}: expected FILE type T NAME DENSITY ... [orient random SEED]", styleName);
+    if (!atom->radius_flag || !atom->rmass_flag || !atom->omega_flag || !atom->torque_flag)
+        error->all(FLERR, "fix {}: atoms have no radius, mass, angular velocity or torque of their own: use atom_style sphere", styleName);
+    if (force->ftm2v != 1.0)
+        error->all(FLERR, "fix {}: units in which force is not mass times acceleration: use units si, cgs or lj", styleName);
+    const std::string path = arguments[3];
+    try {
+        shapes = readShapes(fileForAll(lmp, path), path);
+    } catch (const std::runtime_error& refused) {
+        error->all(FLERR, std::string(refused.what()));
+    }
+    ofType.assign(atom->ntypes + 1, -1);
+    densities.assign(atom->ntypes + 1, 0.0);
+    for (int i = 4; i < count;) {
+        if (strcmp(arguments[i], "type") == 0 && i + 3 < count) {
+            int low = 0, high = 0;
+            utils::bounds(FLERR, arguments[i + 1], 1, atom->ntypes, low, high, error);
+            int found = -1;
+            std::string names;
+            for (size_t s = 0; s < shapes.size(); ++s) {
+                names += " " + shapes[s].name;
+                if (shapes[s].name == arguments[i + 2])
+                    found = static_cast<int>(s);
+            }
+            if (found < 0)
+                error->all(FLERR, "fix {}: {} has no shape {}: it has{}", styleName, path, arguments[i + 2], names);
+            const double density = utils::numeric(FLERR, arguments[i + 3], false, lmp);
+            if (!(density > 0 && std::isfinite(density)))
+                error->all(FLERR, "fix {}: density = {}: it must be above 0", styleName, arguments[i + 3]);
+            for (int type = low; type <= high; ++type) {
+                ofType[type] = found;
+                densities[type] = density;
+            }
+            i += 4;
+        } else if (strcmp(arguments[i], "orient") == 0 && i + 2 < count && strcmp(arguments[i + 1], "random") == 0) {
+            random = true;
+            seed = static_cast<unsigned long long>(utils::bnumeric(FLERR, arguments[i + 2], false, lmp));
+            i += 3;
+        } else
+            error->all(FLERR, "fix {}: '{}': expected type T NAME DENSITY, or orient random SEED", styleName, arguments[i]);
+    }
+    for (int type = 1; type <= atom->ntypes; ++type)
+        if (ofType[type] < 0)
+            error->all(FLERR, "fix {}: type {} has no shape: add 'type {} NAME DENSITY'", styleName, type, type);
+    atom->add_callback(Atom::GROW);
+}
+
+FixShapes::~FixShapes() { atom->delete_callback(id, Atom::GROW); }
+
+int FixShapes::setmask() { return FixConst::PRE_NEIGHBOR; }
+
+// Not in the constructor: LAMMPS enters one fix at a time.
+void FixShapes::post_constructor()
+{
+    int isDouble = 0, columns = 0;
+    if (atom->find_custom(property, isDouble, columns) < 0)
+        modify->add_fix(fmt::format("{} all property/atom d2_{} 4 writedata yes", property, property));
+    else if (!isDouble || columns != 4)
+        error->all(FLERR, "fix {}: the property {} is not d2_{} 4: define it as 'fix {} all property/atom d2_{} 4'", styleName, property, property,
+            property, property);
+}
+
+double** FixShapes::orientations() const
+{
+    int isDouble = 0, columns = 0;
+    const int index = atom->find_custom(property, isDouble, columns);
+    if (index < 0)
+        error->all(FLERR, "fix {}: the property {} is gone: leave fix {} where it is", styleName, property, property);
+    return atom->darray[index];
+}
+
+void FixShapes::orient(double* quaternion, tagint tag) const
+{
+    Eigen::Map<Eigen::Vector4d> q(quaternion);
+    if (q.isZero(0)) {
+        q = Eigen::Vector4d(1, 0, 0, 0);
+        if (random) { // from the atom's ID, so that it does not depend on the number of ranks
+            std::mt19937_64 engine(seed * 0x9e3779b97f4a7c15ull + static_cast<unsigned long long>(tag));
+            std::normal_distribution<double> normal;
+            do
+                q = Eigen::Vector4d(normal(engine), normal(engine), normal(engine), normal(engine));
+            while (q.norm() < 1e-3);
+        }
+    }
+    if (!(q.norm() > 1e-150 && q.norm() < 1e150))
+        error->one(FLERR, "fix {}: atom {} has the orientation {} {} {} {}: it must be a quaternion w x y z", styleName, tag, q[0], q[1], q[2], q[3]);
+    if (std::abs(q.squaredNorm() - 1) > 1e-14) // an orientation that was restarted keeps its bits
+        q.normalize();
+}
+
+void FixShapes::init()
+{
+    if (modify->get_fix_by_style(std::string("^") + styleName + "$").size() > 1)
+        error->all(FLERR, "fix {}: there are two of them: give all types in one", styleName);
+    if (ofType.size() != static_cast<size_t>(atom->ntypes) + 1)
+        error->all(FLERR, "fix {}: the number of atom types has changed: give the fix after the box is made", styleName);
+    double** q = orientations();
+    for (int i = 0; i < atom->nlocal; ++i) {
+        atom->radius[i] = shape(atom->type[i]).radius;
+        atom->rmass[i] = density(atom->type[i]) * shape(atom->type[i]).volume;
+        orient(q[i], atom->tag[i]);
+    }
+}
+
+// Atoms that came during a run and had no ID when they were made.
+void FixShapes::pre_neighbor()
+{
+    double** q = orientations();
+    for (int i = 0; i < atom->nlocal; ++i)
+        orient(q[i], atom->tag[i]);
+}
+
+void FixShapes::set_arrays(int i)
+{
+    atom->radius[i] = shape(atom->type[i]).radius;
+    atom->rmass[i] = density(atom->type[i]) * shape(atom->type[i]).volume;
+    // The property may not have been cleared yet: fixes are called in their order.
+    double* q = orientations()[i];
+    for (int n = 0; n < 4; ++n)
+        q[n] = 0;
+    if (atom->tag[i] > 0)
+        orient(q, atom->tag[i]);
+}
+
+double FixShapes::memory_usage() { return static_cast<double>(shapes.size()) * sizeof(Shape); }
+
+FixShapes* FixShapes::of(LAMMPS* lmp, const std::string& asker)
+{
+    const auto found = lmp->modify->get_fix_by_style(std::string("^") + styleName + "$");
+    if (found.empty())
+        lmp->error->all(FLERR, "{}: no shapes are known: give 'fix ID all {} FILE type T NAME DENSITY' before", asker, styleName);
+    return static_cast<FixShapes*>(found.front());
+}
+
+} // namespace potential_particles

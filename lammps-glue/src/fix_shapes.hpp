@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+//
+// fix ID all potential/particle/shapes FILE type T NAME DENSITY ... [orient random SEED]
+//
+// Which shape the atoms of a type have. Gives each atom its mass and the radius of its bounding ball, and keeps orientations, quaternions
+// w x y z, in LAMMPS's own custom property d2_orientation (fix property/atom), which migrates, restarts, and is read and written
+// by read_data, dump and set. An atom whose quaternion is 0 0 0 0 has none yet, and gets one: 1 0 0 0, or a random one.
+#pragma once
+
+#include "shape.hpp"
+
+#include "fix.h"
+
+namespace potential_particles {
+
+class FixShapes : public LAMMPS_NS::Fix {
+public:
+    FixShapes(LAMMPS_NS::LAMMPS* lmp, int count, char** arguments);
+    ~FixShapes() override;
+
+    int setmask() override;
+    void post_constructor() override;
+    void init() override;
+    void pre_neighbor() override;
+    void set_arrays(int i) override;
+    double memory_usage() override;
+
+    const Shape& shape(int type) const { return shapes[ofType[type]]; }
+    double density(int type) const { return densities[type]; }
+    double** orientations() const; // of local atoms, rows w x y z
+
+    // The only one of a simulation; ends LAMMPS, in the name of `asker`, where there is none.
+    static FixShapes* of(LAMMPS_NS::LAMMPS* lmp, const std::string& asker);
+
+private:
+    void orient(double* quaternion, LAMMPS_NS::tagint tag) const;
+
+    std::vector<Shape> shapes;
+    std::vector<int> ofType; // by atom type, from 1
+    std::vector<double> densities;
+    bool random = false;
+    unsigned long long seed = 0;
+};
+
+} // namespace potential_particles

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+//
+// fix ID group wall/potential/particle KN KS FRICTION RESTITUTION
+//     [plane X Y Z NX NY NZ] ... [stl FILE [scale S]] [flat EPS] [linear VX VY VZ] [rotate X Y Z AX AY AZ PERIOD]
+//
+// Planes and one mesh, which may move together as one rigid body: at time 0 they are where the command says. Bodies are put into the frame of the wall,
+// so that its triangles are sorted into cells once, and planes and triangles that are apart sleep until the body has come as far. As a vector: contacts, elastic energy, energy that friction and dashpots took,
+// and the force on the wall.
+#pragma once
+
+#include "contact_law.hpp"
+#include "mesh.hpp"
+#include "seam.hpp"
+
+#include "fix.h"
+
+#include <memory>
+#include <vector>
+
+namespace potential_particles {
+
+class FixShapes;
+struct Shape;
+
+class FixWall : public LAMMPS_NS::Fix {
+public:
+    FixWall(LAMMPS_NS::LAMMPS* lmp, int count, char** arguments);
+    ~FixWall() override;
+
+    int setmask() override;
+    void init() override;
+    void setup(int flags) override { post_force(flags); }
+    void post_force(int) override;
+    double compute_vector(int n) override;
+
+    void grow_arrays(int most) override { around.resize(most); }
+    void copy_arrays(int from, int to, int) override { around[to] = around[from]; }
+    void set_arrays(int i) override { around[i] = {}; }
+    int pack_exchange(int i, double* buffer) override;
+    int unpack_exchange(int i, double* buffer) override;
+    int pack_restart(int i, double* buffer) override;
+    void unpack_restart(int i, int nth) override;
+    int size_restart(int i) override { return 2 + touching(i) * savedSize; }
+    int maxsize_restart() override;
+    void write_restart(FILE* file) override;
+    void restart(char* saved) override;
+    double memory_usage() override;
+
+private:
+    // An element: a plane, or, from planes.size() on, a triangle.
+    struct Known {
+        int element = 0;
+        bool touches = false; // has the contact here, and does not yield at a seam
+        ContactHistory history = {};
+        pp_pair_state state = {};
+    };
+    struct Asleep {
+        int element;
+        double wake; // way of the body from which on it is looked at
+    };
+    // Of an atom: in the wall's frame.
+    struct Surroundings {
+        pp_pose last = {};
+        double way = 0, limit = -1; // come since the elements were looked for; how far they reach
+        std::vector<Asleep> elements;
+        std::vector<Known> known; // those that touch, or nearly do
+    };
+    struct Plane {
+        Eigen::Vector3d point, normal;
+    };
+    struct Frame { // of the wall now
+        Eigen::Quaterniond turn; // from its own frame
+        Eigen::Vector3d origin, velocity, angularVelocity; // of its centre of rotation
+    };
+    static constexpr int savedSize = 1 + 9 + 8;
+    enum Sum { contacts, elastic, slid, damped, forceX, forceY, forceZ, sums };
+
+    double numberAt(char** arguments, int i, const char* what) const;
+    Frame frameNow() const;
+    Eigen::Vector3d intoWall(const Frame& frame, const Eigen::Vector3d& x) const;
+    void meet(int i, const Frame& frame, bool advance);
+    void lookAround(Surroundings& here, double radius);
+    double ballDistance(int element, const Eigen::Vector3d& position, double radius) const; // of a body's ball to the plane of an element
+    void solve(int i, const Shape& shape, Surroundings& here);
+    bool yields(const TriangleContact& one) const;
+    void applyLaw(int i, const Frame& frame, bool advance, const pp_flat_contact& found, Known& contact, Surroundings& here);
+    int touching(int i) const;
+    int pack(int i, double* buffer) const;
+    int unpack(int i, const double* buffer);
+    bool shareVertex(int element, int other) const;
+
+    FixShapes* shapes = nullptr;
+    LawParameters law;
+    pp_settings how;
+    std::vector<Plane> planes;
+    std::unique_ptr<Mesh> mesh;
+    std::string file;
+    Eigen::Vector3d centre = Eigen::Vector3d::Zero(), linear = Eigen::Vector3d::Zero(), axis = Eigen::Vector3d::UnitZ();
+    double rate = 0; // of rotation
+    std::vector<Surroundings> around; // of atoms
+    // Of the atom at work.
+    std::vector<int> candidates;
+    std::vector<Known> now;
+    std::vector<TriangleContact> touched;
+    std::vector<int> slotOf; // in `now`, of each that touches
+    double own[sums] = {};
+};
+
+} // namespace potential_particles

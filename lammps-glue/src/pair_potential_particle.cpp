@@ -1,0 +1,457 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "pair_potential_particle.hpp"
+#include "fix_shapes.hpp"
+#include "motion.hpp"
+
+#include "atom.h"
+#include "comm.h"
+#include "error.h"
+#include "force.h"
+#include "memory.h"
+#include "modify.h"
+#include "neigh_list.h"
+#include "neighbor.h"
+#include "update.h"
+#include "utils.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+using namespace LAMMPS_NS;
+using Eigen::Vector3d;
+
+namespace potential_particles {
+namespace {
+
+constexpr const char* style = "pair_style potential/particle";
+constexpr const char* memoryId = "POTENTIAL_PARTICLE_MEMORY";
+constexpr double lowestRestitution = 0.01;
+
+std::string described(const pp_pose& pose)
+{
+    std::string text = "position";
+    for (double x : pose.position)
+        text += fmt::format(" {:.17g}", x);
+    text += ", orientation";
+    for (double q : pose.orientation)
+        text += fmt::format(" {:.17g}", q);
+    return text;
+}
+
+Vector3d vector(const double* x) { return Vector3d(x); }
+
+void add(double* to, const Vector3d& what)
+{
+    for (int d = 0; d < 3; ++d)
+        to[d] += what[d];
+}
+
+} // namespace
+
+PairPotentialParticle::PairPotentialParticle(LAMMPS* lmp)
+    : Pair(lmp)
+{
+    single_enable = 0;
+    restartinfo = 0;
+    one_coeff = 0;
+    no_virial_fdotr_compute = 1;
+    comm_forward = 4;
+    finitecutflag = 1;
+    nextra = sums;
+    pvector = new double[sums] {};
+    pp_settings_default(&how);
+    how.carry_tolerance = 1e-9;
+}
+
+PairPotentialParticle::~PairPotentialParticle()
+{
+    delete[] pvector;
+    if (allocated) {
+        memory->destroy(setflag);
+        memory->destroy(cutsq);
+    }
+    if (memory_ && modify->get_fix_by_id(memoryId)) {
+        memory_->detach();
+        modify->delete_fix(memoryId);
+    }
+}
+
+void PairPotentialParticle::allocate()
+{
+    allocated = 1;
+    const int n = atom->ntypes + 1;
+    memory->create(setflag, n, n, "pair:setflag");
+    memory->create(cutsq, n, n, "pair:cutsq");
+    for (int i = 0; i < n; ++i)
+        for (int j = 0; j < n; ++j)
+            setflag[i][j] = 0;
+    laws.assign(static_cast<size_t>(n) * n, {});
+}
+
+void PairPotentialParticle::settings(int count, char** arguments)
+{
+    pp_settings_default(&how);
+    how.carry_tolerance = 1e-9;
+    threads = 1;
+    stopAtFailure = true;
+    for (int i = 0; i < count; ++i) {
+        const std::string word = arguments[i];
+        if (word == "closest") {
+            how.formulation = PP_CLOSEST;
+            continue;
+        }
+        if (++i == count)
+            error->all(FLERR, "{}: '{}' is no option, or its value is missing: expected carry TOL, flat EPS, closest, threads N, failures stop or count",
+                style, word);
+        const auto tolerance = [&] {
+            const double value = utils::numeric(FLERR, arguments[i], false, lmp);
+            if (!(value >= 0 && value <= 0.1))
+                error->all(FLERR, "{}: {} = {}: it must lie in [0, 0.1]", style, word, arguments[i]);
+            return value;
+        };
+        if (word == "carry")
+            how.carry_tolerance = tolerance();
+        else if (word == "flat")
+            how.flat_regularisation = tolerance();
+        else if (word == "threads") {
+            const int value = utils::inumeric(FLERR, arguments[i], false, lmp);
+            if (value < 1 || value > 256)
+                error->all(FLERR, "{}: threads = {}: it must lie in [1, 256]", style, value);
+            threads = static_cast<uint32_t>(value);
+        } else if (word == "failures" && (!strcmp(arguments[i], "stop") || !strcmp(arguments[i], "count")))
+            stopAtFailure = !strcmp(arguments[i], "stop");
+        else
+            error->all(FLERR, "{}: '{} {}': expected carry TOL, flat EPS, closest, threads N, failures stop or count", style, word, arguments[i]);
+    }
+}
+
+void PairPotentialParticle::coeff(int count, char** arguments)
+{
+    if (count != 6)
+        error->all(FLERR, "pair_coeff of potential/particle: expected I J KN KS FRICTION RESTITUTION, {} values were given", count);
+    if (!allocated)
+        allocate();
+    int lowI, highI, lowJ, highJ;
+    utils::bounds(FLERR, arguments[0], 1, atom->ntypes, lowI, highI, error);
+    utils::bounds(FLERR, arguments[1], 1, atom->ntypes, lowJ, highJ, error);
+    double value[4];
+    const char* names[] = { "normal stiffness", "shear stiffness", "friction", "restitution" };
+    for (int n = 0; n < 4; ++n) {
+        value[n] = utils::numeric(FLERR, arguments[n + 2], false, lmp);
+        const bool good = n == 0 ? value[n] > 0 : n == 3 ? value[n] >= lowestRestitution && value[n] <= 1 : value[n] >= 0;
+        if (!good || !std::isfinite(value[n]))
+            error->all(FLERR, "pair_coeff of potential/particle: {} = {}: it must {}", names[n], arguments[n + 2],
+                n == 0 ? "be above 0" : n == 3 ? "lie in [0.01, 1]" : "not be below 0");
+    }
+    if (value[1] == 0 && value[2] > 0)
+        error->all(FLERR, "pair_coeff of potential/particle: shear stiffness = 0 with friction = {}: give friction 0 for frictionless contacts", value[2]);
+    for (int i = lowI; i <= highI; ++i)
+        for (int j = std::max(lowJ, i); j <= highJ; ++j) {
+            laws[i * (atom->ntypes + 1) + j] = laws[j * (atom->ntypes + 1) + i] = { value[0], value[1], value[2], dampingRatioOf(value[3]) };
+            setflag[i][j] = 1;
+        }
+}
+
+void PairPotentialParticle::init_style()
+{
+    if (force->newton_pair)
+        error->all(FLERR, "{}: it needs 'newton off' (or 'newton off on'), before the box is made: each rank that has a body of a pair keeps its history", style);
+    if (!comm->ghost_velocity)
+        error->all(FLERR, "{}: it needs velocities of ghosts: give 'comm_modify vel yes'", style);
+    if (!atom->tag_enable)
+        error->all(FLERR, "{}: it needs atom IDs: leave out 'atom_modify id no'", style);
+    shapes = FixShapes::of(lmp, style);
+    const auto memories = modify->get_fix_by_style("^potential/particle/memory$");
+    memory_ = static_cast<ContactMemory*>(
+        memories.empty() ? modify->add_fix(fmt::format("{} all potential/particle/memory", memoryId)) : memories.front());
+    memory_->attach(this);
+    neighbor->add_request(this);
+}
+
+double PairPotentialParticle::init_one(int i, int j)
+{
+    if (!setflag[i][j])
+        error->all(FLERR, "{}: types {} and {} have no coefficients: give 'pair_coeff {} {} KN KS FRICTION RESTITUTION'", style, i, j, i, j);
+    const Shape &a = shapes->shape(i), &b = shapes->shape(j);
+    // Two bodies on one spring are no slower than this, whatever the levers.
+    const double massA = shapes->density(i) * a.volume, massB = shapes->density(j) * b.volume;
+    const double most = 2 * std::sqrt(massA * massB / (massA + massB) / laws[i * (atom->ntypes + 1) + j].normalStiffness);
+    if (update->dt > most)
+        error->all(FLERR, "{}: timestep = {}: a contact of types {} and {} is unstable above {}, and with levers well below: take {} or less", style,
+            update->dt, i, j, most, 0.1 * most);
+    return a.radius + b.radius;
+}
+
+ContactMemory::Values PairPotentialParticle::valuesOf(int slot) const
+{
+    ContactMemory::Values values;
+    const ContactHistory& history = histories[slot];
+    auto to = values.begin();
+    for (const Vector3d* part : { &history.shear, &history.normal, &history.damping })
+        to = std::copy(part->data(), part->data() + 3, to);
+    std::copy(std::begin(states[slot].solution), std::end(states[slot].solution), to);
+    return values;
+}
+
+double PairPotentialParticle::apart(int a, int b) const
+{
+    return (vector(poses[a].position) - vector(poses[b].position)).norm() - radii[a] - radii[b];
+}
+
+void PairPotentialParticle::rebuild()
+{
+    local = atom->nlocal;
+    const int all = local + atom->nghost;
+    tags.assign(atom->tag, atom->tag + all);
+    particles.resize(all);
+    radii.resize(all);
+    for (int i = 0; i < all; ++i) {
+        const Shape& shape = shapes->shape(atom->type[i]);
+        particles[i] = shape.particle.get();
+        radii[i] = shape.radius;
+    }
+    poses.clear(); // gathered anew, with no way between
+    ways.assign(all, 0.0);
+    const bool mayGrowOld = neighbor->every > 1 || neighbor->delay > 0 || !neighbor->dist_check || neighbor->build_once;
+    held.resize(mayGrowOld ? local : 0);
+    for (size_t i = 0; i < held.size(); ++i)
+        std::copy_n(atom->x[i], 3, held[i].begin());
+
+    // Slots in the order of the list, for the caches; those of pairs that have left it are dropped.
+    std::vector<int> from;
+    std::vector<Bodies> newBodies;
+    far.clear();
+    for (int ii = 0; ii < list->inum; ++ii) {
+        const int i = list->ilist[ii];
+        for (int jj = 0; jj < list->numneigh[i]; ++jj) {
+            const int j = list->firstneigh[i][jj] & NEIGHMASK;
+            const bool inOrder = atom->tag[i] <= atom->tag[j];
+            const int a = inOrder ? i : j, b = inOrder ? j : i;
+            const int where = memory_->find(i, atom->tag[j]);
+            if (where == ContactMemory::nowhere)
+                far.push_back({ a, b, -1.0 });
+            else {
+                from.push_back(where);
+                newBodies.push_back({ static_cast<uint32_t>(a), static_cast<uint32_t>(b) });
+            }
+        }
+    }
+    std::vector<pp_pair_state> newStates(from.size());
+    std::vector<ContactHistory> newHistories(from.size());
+    std::vector<pp_contact> newAnswers(from.size());
+    for (size_t n = 0; n < from.size(); ++n) {
+        if (from[n] >= 0) {
+            newStates[n] = states[from[n]];
+            newHistories[n] = histories[from[n]];
+            newAnswers[n] = answers[from[n]];
+            continue;
+        }
+        const ContactMemory::Values& values = memory_->arrived(from[n]);
+        newHistories[n] = { vector(&values[0]), vector(&values[3]), vector(&values[6]), true };
+        newStates[n] = {};
+        std::copy_n(&values[9], ContactMemory::solutionSize, newStates[n].solution);
+        newAnswers[n] = {};
+    }
+    bodies.swap(newBodies);
+    states.swap(newStates);
+    histories.swap(newHistories);
+    answers.swap(newAnswers);
+}
+
+int PairPotentialParticle::pack_forward_comm(int count, int* atoms, double* buffer, int, int*)
+{
+    double** q = shapes->orientations();
+    for (int n = 0; n < count; ++n)
+        // An atom of this rank, or a ghost that is handed on.
+        std::copy_n(atoms[n] < local ? q[atoms[n]] : poses[atoms[n]].orientation, 4, buffer + 4 * n);
+    return 4 * count;
+}
+
+void PairPotentialParticle::unpack_forward_comm(int count, int first, double* buffer)
+{
+    for (int n = 0; n < count; ++n)
+        std::copy_n(buffer + 4 * n, 4, poses[first + n].orientation);
+}
+
+void PairPotentialParticle::gatherPoses()
+{
+    const size_t all = particles.size();
+    const bool first = poses.size() != all;
+    last.swap(poses);
+    poses.resize(all);
+    double** q = shapes->orientations();
+    for (int i = 0; i < local; ++i)
+        std::copy_n(q[i], 4, poses[i].orientation);
+    comm->forward_comm(this);
+    for (size_t i = 0; i < all; ++i) {
+        std::copy_n(atom->x[i], 3, poses[i].position);
+        ways[i] += wayBetween(first ? pp_pose {} : last[i], poses[i], radii[i]);
+        if (!std::isfinite(ways[i]))
+            error->one(FLERR, "{}: atom {} has the pose {}: it must be finite; a smaller timestep or softer contacts may help", style, atom->tag[i],
+                described(poses[i]));
+        if (first)
+            ways[i] = 0;
+    }
+}
+
+void PairPotentialParticle::checkSkin()
+{
+    for (size_t i = 0; i < held.size(); ++i) {
+        const double way = (vector(atom->x[i]) - vector(held[i].data())).norm();
+        if (way > 0.5 * neighbor->skin)
+            error->one(FLERR, "{}: atom {} has moved by {} since the list of neighbours was built {} steps ago, more than half the skin of {}: contacts may be "
+                "missing; give 'neigh_modify delay 0 every 1 check yes', or a skin of {} or more", style, atom->tag[i], way, neighbor->ago, neighbor->skin,
+                3 * way);
+    }
+}
+
+bool PairPotentialParticle::sleeps(const pp_contact& found, int a, int b) const
+{
+    return found.kind == PP_SEPARATED && found.distance > farShare * (radii[a] + radii[b]);
+}
+
+void PairPotentialParticle::addSlot(Bodies pair, const pp_pair_state& state, const pp_contact& found, const ContactHistory& history)
+{
+    bodies.push_back(pair);
+    states.push_back(state);
+    answers.push_back(found);
+    histories.push_back(history);
+}
+
+void PairPotentialParticle::removeSlot(int slot)
+{
+    const auto remove = [slot](auto& of) {
+        of[slot] = of.back();
+        of.pop_back();
+    };
+    remove(bodies);
+    remove(states);
+    remove(answers);
+    remove(histories);
+    remove(statuses);
+}
+
+// A contact that failed keeps the geometry of the last step, if it has one.
+void PairPotentialParticle::fail(int a, int b, pp_status status)
+{
+    const std::string what = fmt::format("{}: the contact of atoms {} and {} failed: {}. Shapes {} and {}; A: {}; B: {}", style, atom->tag[a], atom->tag[b],
+        pp_status_message(status), shapes->shape(atom->type[a]).name, shapes->shape(atom->type[b]).name, described(poses[a]), described(poses[b]));
+    const bool badPose = status == PP_BAD_POSITION || status == PP_BAD_ORIENTATION;
+    if (stopAtFailure || badPose)
+        error->one(FLERR, badPose ? what : what + ". To go on and count failures: pair_style potential/particle failures count");
+    error->warning(FLERR, what);
+    failures += a < local && b < local ? 1.0 : 0.5;
+}
+
+void PairPotentialParticle::solveNear()
+{
+    const size_t count = bodies.size();
+    statuses.resize(count);
+    static_assert(sizeof(Bodies) == 2 * sizeof(uint32_t));
+    const pp_status status = pp_contact_detect_batch(particles.data(), poses.data(), particles.size(), count ? &bodies[0].a : nullptr, count, &how, threads,
+        states.data(), answers.data(), statuses.data());
+    if (status != PP_OK)
+        error->one(FLERR, "{}: {}", style, pp_status_message(status));
+    for (int slot = 0; slot < slotCount();) {
+        const int a = static_cast<int>(bodies[slot].a), b = static_cast<int>(bodies[slot].b);
+        if (statuses[slot] != PP_OK)
+            fail(a, b, statuses[slot]);
+        else if (sleeps(answers[slot], a, b)) {
+            far.push_back({ a, b, ways[a] + ways[b] + answers[slot].distance });
+            removeSlot(slot);
+            continue;
+        }
+        applyLaw(slot++);
+    }
+}
+
+void PairPotentialParticle::lookAtFar()
+{
+    for (size_t n = 0; n < far.size();) {
+        Far& pair = far[n];
+        const double both = ways[pair.a] + ways[pair.b];
+        if (both < pair.wake) {
+            ++n;
+            continue;
+        }
+        const double distance = apart(pair.a, pair.b);
+        if (distance > 0) {
+            pair.wake = both + distance;
+            ++n;
+            continue;
+        }
+        pp_pair_state state = {};
+        pp_contact found = {};
+        const pp_status status = pp_contact_detect(particles[pair.a], &poses[pair.a], particles[pair.b], &poses[pair.b], &how, &state, &found);
+        if (status != PP_OK)
+            fail(pair.a, pair.b, status);
+        else if (sleeps(found, pair.a, pair.b)) {
+            pair.wake = both + found.distance;
+            ++n;
+            continue;
+        }
+        addSlot({ static_cast<uint32_t>(pair.a), static_cast<uint32_t>(pair.b) }, state, found, {});
+        applyLaw(slotCount() - 1);
+        pair = far.back();
+        far.pop_back();
+    }
+}
+
+void PairPotentialParticle::applyLaw(int slot)
+{
+    const pp_contact& found = answers[slot];
+    if (found.kind != PP_OVERLAPPING) {
+        histories[slot].touching = false;
+        return;
+    }
+    const int a = static_cast<int>(bodies[slot].a), b = static_cast<int>(bodies[slot].b);
+    const Vector3d armA = vector(found.branch_a), armB = vector(found.branch_b), turnA = vector(atom->omega[a]), turnB = vector(atom->omega[b]);
+    ContactMotion motion;
+    motion.overlap = found.overlap;
+    motion.normal = vector(found.normal);
+    motion.velocity = vector(atom->v[b]) + turnB.cross(armB) - vector(atom->v[a]) - turnA.cross(armA);
+    motion.spin = 0.5 * motion.normal.dot(turnA + turnB);
+    motion.mass = atom->rmass[a] * atom->rmass[b] / (atom->rmass[a] + atom->rmass[b]);
+    const LawParameters& law = laws[atom->type[a] * (atom->ntypes + 1) + atom->type[b]];
+    const ContactForce force = contactForce(law, motion, update->dt, advance, histories[slot]);
+    if (a < local) {
+        add(atom->f[a], -force.onB);
+        add(atom->torque[a], -armA.cross(force.onB));
+    }
+    if (b < local) {
+        add(atom->f[b], force.onB);
+        add(atom->torque[b], armB.cross(force.onB));
+    }
+    const double share = a < local && b < local ? 1.0 : 0.5; // the other rank adds its half
+    pvector[contacts] += share;
+    pvector[elastic] += share * force.elastic;
+    pvector[slid] += share * force.slid;
+    pvector[damped] += share * force.damped;
+    if (evflag) {
+        const Vector3d between = vector(poses[a].position) - vector(poses[b].position);
+        ev_tally_xyz(a, b, local, 0, force.elastic, 0.0, -force.onB[0], -force.onB[1], -force.onB[2], between[0], between[1], between[2]);
+    }
+}
+
+void PairPotentialParticle::compute(int eflag, int vflag)
+{
+    ev_init(eflag, vflag);
+    advance = !update->setupflag;
+    pvector[contacts] = pvector[elastic] = 0;
+    checkSkin();
+    gatherPoses();
+    solveNear();
+    lookAtFar();
+    pvector[failed] = failures;
+    memory_->listIsNewer = true;
+}
+
+double PairPotentialParticle::memory_usage()
+{
+    const auto bytes = [](const auto& of) { return static_cast<double>(of.capacity() * sizeof(of[0])); };
+    return Pair::memory_usage() + bytes(tags) + bytes(particles) + bytes(radii) + bytes(ways) + bytes(poses) + bytes(last) + bytes(held) + bytes(far) + bytes(bodies) + bytes(states)
+        + bytes(answers) + bytes(histories) + bytes(statuses);
+}
+
+} // namespace potential_particles

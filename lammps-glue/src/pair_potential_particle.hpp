@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+//
+// pair_style potential/particle [carry TOL] [flat EPS] [closest] [threads N] [failures stop|count]
+// pair_coeff I J KN KS FRICTION RESTITUTION
+//
+// A step: poses of all atoms are gathered. Pairs of the list of neighbours are *far* or *near*. A far pair sleeps until both bodies together have
+// come as far as they were apart when they were last looked at; it has no memory. Near pairs have a slot each, with the library's state
+// and the history of the contact, and are solved in one call of the library.
+#pragma once
+
+#include "contact_law.hpp"
+#include "contact_memory.hpp"
+
+#include "pair.h"
+
+#include <potential_particles.h>
+
+#include <array>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace potential_particles {
+
+class FixShapes;
+
+class PairPotentialParticle : public LAMMPS_NS::Pair {
+public:
+    explicit PairPotentialParticle(LAMMPS_NS::LAMMPS* lmp);
+    ~PairPotentialParticle() override;
+
+    void settings(int count, char** arguments) override;
+    void coeff(int count, char** arguments) override;
+    void init_style() override;
+    double init_one(int i, int j) override;
+    void compute(int eflag, int vflag) override;
+    int pack_forward_comm(int count, int* atoms, double* buffer, int, int*) override;
+    void unpack_forward_comm(int count, int first, double* buffer) override;
+    double memory_usage() override;
+
+    // For the fix that carries memories (ContactMemory).
+    void rebuild(); // from the new list of neighbours
+    int slotCount() const { return static_cast<int>(histories.size()); }
+    int localAtBuild() const { return local; }
+    LAMMPS_NS::tagint tagAtBuild(int atom) const { return tags[atom]; } // a fix may have put new atoms in the place of ghosts since
+    std::pair<int, int> bodiesOf(int slot) const { return { bodies[slot].a, bodies[slot].b }; }
+    bool touches(int slot) const { return histories[slot].touching; }
+    ContactMemory::Values valuesOf(int slot) const;
+    // Sums since the first step, of this rank: failures, energy that friction and dashpots took.
+    std::array<double*, 3> sumsOfRun() { return { &failures, &pvector[slid], &pvector[damped] }; }
+
+private:
+    // The body of the lower ID is A, so that both ranks that compute a pair ask the same question.
+    struct Bodies {
+        uint32_t a, b;
+    };
+    struct Far {
+        int a, b;
+        double wake; // sum of both ways from which on the pair is looked at again
+    };
+    enum Sum { contacts, failed, elastic, slid, damped, sums };
+
+    void allocate();
+    void gatherPoses();
+    void checkSkin();
+    double apart(int a, int b) const; // distance of their balls
+    void solveNear();
+    void lookAtFar();
+    bool sleeps(const pp_contact& found, int a, int b) const;
+    void addSlot(Bodies pair, const pp_pair_state& state, const pp_contact& found, const ContactHistory& history);
+    void removeSlot(int slot);
+    void fail(int a, int b, pp_status status);
+    void applyLaw(int slot);
+
+    FixShapes* shapes = nullptr;
+    ContactMemory* memory_ = nullptr;
+    pp_settings how;
+    uint32_t threads = 1;
+    bool stopAtFailure = true;
+    std::vector<LawParameters> laws; // by types, (ntypes + 1)^2
+    bool advance = true; // this step goes on, and does not repeat the last one
+
+    int local = 0; // atoms, when the list of neighbours was built
+    std::vector<LAMMPS_NS::tagint> tags;
+    std::vector<const pp_particle*> particles; // of all atoms, ghosts too
+    std::vector<double> radii, ways; // ways: come since the list was built
+    std::vector<pp_pose> poses, last; // of this step and the last one
+    std::vector<std::array<double, 3>> held; // positions when the list was built, where LAMMPS may let it grow old
+    std::vector<Far> far;
+    // Near pairs: one slot in each.
+    std::vector<Bodies> bodies;
+    std::vector<pp_pair_state> states;
+    std::vector<pp_contact> answers;
+    std::vector<ContactHistory> histories;
+    std::vector<pp_status> statuses;
+    double failures = 0;
+};
+
+} // namespace potential_particles

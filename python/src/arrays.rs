@@ -1,0 +1,71 @@
+//! Numbers and rows from Python, vectors and matrices to it.
+
+use crate::errors::refused;
+use numpy::ndarray::Array2;
+use numpy::{Element, PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2, PyUntypedArrayMethods, ToPyArray};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+/// What numpy makes of any rows of numbers: an array of doubles (n, W), as rows.
+pub fn rows<const W: usize>(values: &Bound<'_, PyAny>, name: &str, meaning: &str) -> PyResult<Vec<[f64; W]>> {
+    let array: PyReadonlyArray2<'_, f64> = two_dimensional(values, "float64", W, name, meaning)?;
+    Ok(array.as_slice()?.chunks_exact(W).map(|row| std::array::from_fn(|i| row[i])).collect())
+}
+
+/// The same of indices.
+pub fn index_rows<const W: usize>(values: &Bound<'_, PyAny>, name: &str, meaning: &str) -> PyResult<Vec<[u32; W]>> {
+    let array: PyReadonlyArray2<'_, u32> = two_dimensional(values, "uint32", W, name, meaning)?;
+    Ok(array.as_slice()?.chunks_exact(W).map(|row| std::array::from_fn(|i| row[i])).collect())
+}
+
+fn two_dimensional<'py, T: Element>(
+    values: &Bound<'py, PyAny>,
+    kind: &str,
+    width: usize,
+    name: &str,
+    meaning: &str,
+) -> PyResult<PyReadonlyArray2<'py, T>> {
+    let py = values.py();
+    let numpy = py.import("numpy")?;
+    let wrong = |reason: String| refused(format!("{name} must be rows of {meaning}: {reason}"));
+    let found =
+        numpy.call_method1("ascontiguousarray", (values,)).map_err(|error| wrong(error.value(py).to_string()))?;
+    let options = PyDict::new(py);
+    options.set_item("casting", "same_kind")?;
+    options.set_item("copy", false)?;
+    // Whole numbers of any kind will do for indices and for doubles; an empty list is of doubles.
+    let size: usize = found.getattr("size")?.extract()?;
+    let is_whole: bool = found.getattr("dtype")?.getattr("kind")?.eq("i")?;
+    if size == 0 || (is_whole && kind == "uint32" && found.call_method0("min")?.ge(0)?) {
+        options.set_item("casting", "unsafe")?;
+    }
+    let found =
+        found.call_method("astype", (kind,), Some(&options)).map_err(|error| wrong(error.value(py).to_string()))?;
+    let found = if size == 0 { found.call_method1("reshape", ((0, width),))? } else { found };
+    let array = found.cast_into::<PyArray2<T>>().map_err(|_| wrong("the array is not two-dimensional".into()))?;
+    if array.shape()[1] != width {
+        return Err(wrong(format!("the array has {} columns", array.shape()[1])));
+    }
+    Ok(array.readonly())
+}
+
+/// So many numbers.
+pub fn vector<const N: usize>(values: &Bound<'_, PyAny>, name: &str) -> PyResult<[f64; N]> {
+    values.extract::<[f64; N]>().map_err(|_| refused(format!("{name} must be {N} numbers")))
+}
+
+/// As an array (n,).
+pub fn to_vector<'py>(py: Python<'py>, values: &[f64]) -> Bound<'py, PyArray1<f64>> {
+    PyArray1::from_slice(py, values)
+}
+
+/// Rows as an array (n, W).
+pub fn to_rows<'py, T: Element + Copy, const W: usize>(
+    py: Python<'py>,
+    rows: impl ExactSizeIterator<Item = [T; W]>,
+) -> Bound<'py, PyArray2<T>> {
+    let count = rows.len();
+    let values: Vec<T> = rows.flatten().collect();
+    let array = Array2::from_shape_vec((count, W), values).expect("so many rows of this width");
+    array.to_pyarray(py)
+}

@@ -1,0 +1,266 @@
+//! Builders of shapes.
+
+use crate::arrays::{index_rows, rows, to_vector, vector};
+use crate::errors::refused;
+use crate::particle::{PyMassProperties, PyParticle, planes};
+use crate::pose::PyPose;
+use numpy::PyArray1;
+use potential_particles::shapes::{self, Rounding, Shape, ShapeError};
+use pyo3::prelude::*;
+use std::collections::HashMap;
+use std::fs::File;
+use std::io::BufReader;
+use std::path::{Path, PathBuf};
+
+/// A particle about its centroid along its principal axes, and where that frame lies in the builder's.
+#[pyclass(name = "Shape", module = "potential_particles.builders", frozen)]
+pub struct PyShape {
+    shape: Shape,
+    particle: Py<PyParticle>,
+}
+
+#[pymethods]
+impl PyShape {
+    #[getter]
+    fn particle(&self, py: Python<'_>) -> Py<PyParticle> {
+        self.particle.clone_ref(py)
+    }
+
+    #[getter]
+    fn mass(&self) -> PyMassProperties {
+        PyMassProperties(self.shape.mass)
+    }
+
+    #[getter]
+    fn volume(&self) -> f64 {
+        self.shape.mass.volume
+    }
+
+    #[getter]
+    fn centroid<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        to_vector(py, self.shape.centroid.as_slice())
+    }
+
+    #[getter]
+    fn orientation<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        to_vector(py, &self.shape.orientation)
+    }
+
+    #[getter]
+    fn pose(&self) -> PyPose {
+        PyPose(self.shape.pose())
+    }
+
+    fn __repr__(&self) -> String {
+        format!("<Shape of {} planes, volume {:.6}>", self.shape.particle.plane_count(), self.shape.mass.volume)
+    }
+}
+
+/// What all builders are told of rounding: r, k and R.
+type Shares = (f64, f64, Option<f64>);
+
+fn built(
+    py: Python<'_>,
+    (r, k, shadow): Shares,
+    make: impl FnOnce(&Rounding) -> Result<Shape, ShapeError> + Send,
+) -> PyResult<PyShape> {
+    let rounding = Rounding::new(r, k);
+    let rounding = shadow.map_or(rounding, |share| rounding.with_shadow_radius(share));
+    let shape = py.detach(|| make(&rounding)).map_err(refused)?;
+    let particle = Py::new(py, PyParticle(shape.particle.clone()))?;
+    Ok(PyShape { shape, particle })
+}
+
+/// Of half-spaces, rows (a, b, c, h) with a x + b y + c z <= h inside, or (normals, offsets): the faces of the particle are where these planes are.
+///
+/// Planes that make no face are left out. r and R: shares of the size, the diameter of the largest ball that fits in the sharp shape; k: sphericity.
+/// ValueError: no volume, or no point inside.
+#[pyfunction]
+#[pyo3(signature = (planes, *, r=0.05, k=0.02, R=None))]
+#[allow(non_snake_case)]
+fn half_spaces(py: Python<'_>, planes: &Bound<'_, PyAny>, r: f64, k: f64, R: Option<f64>) -> PyResult<PyShape> {
+    let planes = self::planes(planes)?;
+    built(py, (r, k, R), |rounding| shapes::half_spaces(&planes, rounding))
+}
+
+/// Of the convex hull of points (n, 3), rounded inwards: no part lies outside the hull.
+///
+/// Triangles that are coplanar to 1e-6 of the extent are one face. r and R: shares of the size, the diameter of the largest ball that fits in the
+/// sharp shape; k: sphericity. ValueError: flat points.
+#[pyfunction]
+#[pyo3(signature = (points, *, r=0.05, k=0.02, R=None))]
+#[allow(non_snake_case)]
+fn hull(py: Python<'_>, points: &Bound<'_, PyAny>, r: f64, k: f64, R: Option<f64>) -> PyResult<PyShape> {
+    let points = rows::<3>(points, "points", "three numbers x, y, z")?;
+    built(py, (r, k, R), |rounding| shapes::hull(&points, rounding))
+}
+
+/// Of a closed convex surface: points (n, 3) and triangles (m, 3), numbers of points.
+///
+/// r and R: shares of the size, the diameter of the largest ball that fits in the sharp shape; k: sphericity. ValueError: a surface that is open,
+/// not convex or crosses itself; hull makes its convex hull.
+#[pyfunction]
+#[pyo3(signature = (points, triangles, *, r=0.05, k=0.02, R=None))]
+#[allow(non_snake_case)]
+fn surface(
+    py: Python<'_>,
+    points: &Bound<'_, PyAny>,
+    triangles: &Bound<'_, PyAny>,
+    r: f64,
+    k: f64,
+    R: Option<f64>,
+) -> PyResult<PyShape> {
+    let points = rows::<3>(points, "points", "three numbers x, y, z")?;
+    let triangles = index_rows::<3>(triangles, "triangles", "three indices of points")?;
+    built(py, (r, k, R), |rounding| shapes::surface(&points, &triangles, rounding))
+}
+
+/// Of a closed convex surface in a file, .stl (binary or text) or .obj, all lengths multiplied by scale.
+///
+/// hull=True takes the convex hull of its points. r and R: shares of the size, the diameter of the largest ball that fits in the sharp shape; k:
+/// sphericity. ValueError: as of surface, and files that cannot be read.
+#[pyfunction]
+#[pyo3(signature = (file, *, hull=false, scale=1.0, r=0.05, k=0.02, R=None))]
+#[allow(non_snake_case)]
+fn mesh(py: Python<'_>, file: PathBuf, hull: bool, scale: f64, r: f64, k: f64, R: Option<f64>) -> PyResult<PyShape> {
+    if !(scale > 0.0 && scale.is_finite()) {
+        return Err(refused(format!("scale={scale:?} must be finite and above 0")));
+    }
+    let name = file.display();
+    let (points, triangles) = read(&file).map_err(|reason| refused(format!("{name}: {reason}")))?;
+    if triangles.is_empty() {
+        return Err(refused(format!("{name} holds no triangles: it is empty, or not what its ending says")));
+    }
+    let points: Vec<[f64; 3]> = points.into_iter().map(|point| point.map(|c| scale * c)).collect();
+    built(py, (r, k, R), |rounding| {
+        if hull { shapes::hull(&points, rounding) } else { shapes::surface(&points, &triangles, rounding) }
+    })
+    .map_err(|error| refused(format!("{name}: {}", error.value(py))))
+}
+
+type Surface = (Vec<[f64; 3]>, Vec<[u32; 3]>);
+
+/// Points, of which equal ones are one, and triangles without those that have lost a corner by that.
+fn read(file: &Path) -> Result<Surface, String> {
+    let opened = || File::open(file).map(BufReader::new).map_err(|error| error.to_string());
+    let ending = file.extension().and_then(|ending| ending.to_str()).unwrap_or_default().to_lowercase();
+    let (points, triangles): (Vec<[f64; 3]>, Vec<[u32; 3]>) = match ending.as_str() {
+        "stl" => {
+            let found =
+                stl_io::read_stl(&mut opened()?).map_err(|error| format!("it cannot be read as .stl: {error}"))?;
+            let points = found.vertices.iter().map(|vertex| [0, 1, 2].map(|i| f64::from(vertex[i]))).collect();
+            (points, found.faces.iter().map(|face| face.vertices.map(|i| i as u32)).collect())
+        }
+        "obj" => {
+            let options =
+                tobj::LoadOptions { triangulate: true, ignore_points: true, ignore_lines: true, ..Default::default() };
+            let none = |_: &Path| Ok(Default::default());
+            let (models, _) = tobj::load_obj_buf(&mut opened()?, &options, none)
+                .map_err(|error| format!("it cannot be read as .obj: {error}"))?;
+            let (mut points, mut triangles) = (Vec::new(), Vec::new());
+            for model in models {
+                let first = points.len() as u32;
+                points.extend(model.mesh.positions.chunks_exact(3).map(|p| [p[0], p[1], p[2]].map(f64::from)));
+                triangles.extend(model.mesh.indices.chunks_exact(3).map(|t| [t[0], t[1], t[2]].map(|i| first + i)));
+            }
+            (points, triangles)
+        }
+        _ => return Err("files that can be read are .stl (binary or text) and .obj".into()),
+    };
+    let mut places = HashMap::new();
+    let mut once = Vec::new();
+    // Adding 0 makes one zero of both.
+    let place: Vec<u32> = points
+        .iter()
+        .map(|point| {
+            *places.entry(point.map(|c| (c + 0.0).to_bits())).or_insert_with(|| {
+                once.push(*point);
+                once.len() as u32 - 1
+            })
+        })
+        .collect();
+    let place = |i: u32| place.get(i as usize).copied().unwrap_or(u32::MAX);
+    let triangles =
+        triangles.into_iter().map(|t| t.map(place)).filter(|[a, b, c]| a != b && b != c && c != a).collect();
+    Ok((once, triangles))
+}
+
+/// A sphere about the origin: k = 1.
+#[pyfunction]
+fn sphere(py: Python<'_>, radius: f64) -> PyResult<PyShape> {
+    built(py, (0.0, 1.0, None), |_| shapes::sphere(radius))
+}
+
+/// A cuboid about the origin with these edges along x, y, z, length.
+///
+/// r and R: shares of the size, the diameter of the largest ball that fits in the sharp shape; k: sphericity.
+#[pyfunction]
+#[pyo3(signature = (edges, *, r=0.05, k=0.02, R=None))]
+#[allow(non_snake_case)]
+fn cuboid(py: Python<'_>, edges: &Bound<'_, PyAny>, r: f64, k: f64, R: Option<f64>) -> PyResult<PyShape> {
+    let edges = vector(edges, "edges")?;
+    built(py, (r, k, R), |rounding| shapes::cuboid(edges, rounding))
+}
+
+/// A regular prism along z from -height/2 to height/2; radius: of the circle within its section; the first side faces x.
+///
+/// top_radius: that at the upper end, a frustum; 0 makes a pyramid. r and R: shares of the size, the diameter of the largest ball that fits in the
+/// sharp shape; k: sphericity.
+#[pyfunction]
+#[pyo3(signature = (sides=6, radius=0.5, height=1.0, top_radius=None, *, r=0.05, k=0.02, R=None))]
+#[allow(non_snake_case, clippy::too_many_arguments)]
+fn prism(
+    py: Python<'_>,
+    sides: usize,
+    radius: f64,
+    height: f64,
+    top_radius: Option<f64>,
+    r: f64,
+    k: f64,
+    R: Option<f64>,
+) -> PyResult<PyShape> {
+    built(py, (r, k, R), |rounding| shapes::frustum(sides, radius, top_radius.unwrap_or(radius), height, rounding))
+}
+
+/// A cylinder along z as a prism of as many sides, whose section has the area pi radius^2.
+///
+/// r and R: shares of the size, the diameter of the largest ball that fits in the sharp shape; k: sphericity.
+#[pyfunction]
+#[pyo3(signature = (radius=0.5, height=1.0, sides=32, *, r=0.05, k=0.02, R=None))]
+#[allow(non_snake_case)]
+fn cylinder(
+    py: Python<'_>,
+    radius: f64,
+    height: f64,
+    sides: usize,
+    r: f64,
+    k: f64,
+    R: Option<f64>,
+) -> PyResult<PyShape> {
+    built(py, (r, k, R), |rounding| shapes::cylinder(radius, height, sides, rounding))
+}
+
+/// The regular solid of 4, 6, 8, 12 or 20 faces with this length of edges, about the origin.
+///
+/// r and R: shares of the size, the diameter of the largest ball that fits in the sharp shape; k: sphericity.
+#[pyfunction]
+#[pyo3(signature = (faces, edge=1.0, *, r=0.05, k=0.02, R=None))]
+#[allow(non_snake_case)]
+fn regular_solid(py: Python<'_>, faces: usize, edge: f64, r: f64, k: f64, R: Option<f64>) -> PyResult<PyShape> {
+    built(py, (r, k, R), |rounding| shapes::regular_solid(faces, edge, rounding))
+}
+
+pub fn add(parent: &Bound<'_, PyModule>) -> PyResult<()> {
+    let module = PyModule::new(parent.py(), "_builders")?;
+    module.add_class::<PyShape>()?;
+    module.add_function(wrap_pyfunction!(half_spaces, &module)?)?;
+    module.add_function(wrap_pyfunction!(hull, &module)?)?;
+    module.add_function(wrap_pyfunction!(surface, &module)?)?;
+    module.add_function(wrap_pyfunction!(mesh, &module)?)?;
+    module.add_function(wrap_pyfunction!(sphere, &module)?)?;
+    module.add_function(wrap_pyfunction!(cuboid, &module)?)?;
+    module.add_function(wrap_pyfunction!(prism, &module)?)?;
+    module.add_function(wrap_pyfunction!(cylinder, &module)?)?;
+    module.add_function(wrap_pyfunction!(regular_solid, &module)?)?;
+    parent.add_submodule(&module)
+}

@@ -1,0 +1,199 @@
+//! One pair: `detect`, `closest_point`, `contact_area`, and the `PairState` that leads from one call to the next.
+
+use crate::arrays::to_vector;
+use crate::errors::{of_contact, refused};
+use crate::particle::PyParticle;
+use crate::pose::PyPose;
+use crate::records::{ContactRecord, contact_type};
+use crate::settings::{PySettings, or_default};
+use numpy::PyArray1;
+use potential_particles::{ClosestPoint, Contact, Kind, PairState, Role, Section};
+use pyo3::prelude::*;
+use pyo3::types::PyBytes;
+
+/// What an ordered pair keeps from call to call. Copied and pickled, it keeps the solution, from which the next call starts.
+#[pyclass(name = "PairState", module = "potential_particles")]
+#[derive(Default)]
+pub struct PyPairState(pub PairState);
+
+#[pymethods]
+impl PyPairState {
+    #[new]
+    #[pyo3(signature = (solution=None))]
+    fn new(solution: Option<[f64; 8]>) -> Self {
+        Self(solution.map_or_else(PairState::default, PairState::from_raw))
+    }
+
+    #[getter]
+    fn solution<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        to_vector(py, &self.0.into_raw())
+    }
+
+    fn __repr__(&self) -> &'static str {
+        if self.0.into_raw()[0] == 1.0 { "<PairState with a solution>" } else { "<PairState, empty>" }
+    }
+
+    fn __getnewargs__(&self) -> ([f64; 8],) {
+        (self.0.into_raw(),)
+    }
+}
+
+/// The answer for one pair, world axes, lengths in the caller's unit. What does not apply is NaN.
+#[pyclass(name = "Contact", module = "potential_particles", frozen)]
+pub struct PyContact(pub Contact);
+
+/// Getters of numbers and of vectors.
+macro_rules! getters {
+    ($class:ident: $($number:ident),*; $($vector:ident),*) => {
+        #[pymethods]
+        impl $class {
+            $(#[getter]
+            fn $number(&self) -> f64 {
+                self.0.$number
+            })*
+            $(#[getter]
+            fn $vector<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+                to_vector(py, self.0.$vector.as_slice())
+            })*
+        }
+    };
+}
+pub(crate) use getters;
+
+getters!(PyContact: s, s_b, weight, gap, point_bound, overlap, distance; normal, point, branch_a, branch_b, point_on_a, point_on_b);
+
+#[pymethods]
+impl PyContact {
+    #[getter]
+    fn kind(&self) -> String {
+        self.0.kind.to_string()
+    }
+
+    #[getter]
+    fn overlapping(&self) -> bool {
+        self.0.kind == Kind::Overlapping
+    }
+
+    #[getter]
+    fn formulation(&self) -> String {
+        self.0.formulation.to_string()
+    }
+
+    #[getter]
+    fn flags(&self) -> Vec<String> {
+        names(self.0.flags.bits(), self.0.flags)
+    }
+
+    #[getter]
+    fn iterations(&self) -> u32 {
+        self.0.iterations
+    }
+
+    fn record<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let record = ContactRecord::of(&self.0);
+        let bytes = PyBytes::new(py, bytemuck::bytes_of(&record));
+        let array = py.import("numpy")?.call_method1("frombuffer", (bytes, contact_type(py)?))?;
+        array.call_method0("copy")?.get_item(0)
+    }
+
+    fn __repr__(&self) -> String {
+        let Contact { s, overlap, normal: n, .. } = self.0;
+        match self.0.kind {
+            Kind::Separated => format!("<Contact: separated, s={s:.6}>"),
+            Kind::Overlapping => {
+                format!(
+                    "<Contact: overlapping by {overlap:.6e}, s={s:.6}, normal ({:.4}, {:.4}, {:.4})>",
+                    n.x, n.y, n.z
+                )
+            }
+        }
+    }
+}
+
+/// The names of the flags that are set.
+pub fn names(bits: u32, flags: impl std::fmt::Display) -> Vec<String> {
+    if bits == 0 { Vec::new() } else { flags.to_string().split(", ").map(String::from).collect() }
+}
+
+/// The contact of particle A at pose_a with particle B at pose_b, as a Contact: world axes, normal from A to B.
+///
+/// Midway: the least t with s_A <= t and s_B <= t; they overlap if it is below 1 (Boon, Houlsby & Utili, eqs 4, 44). Closest: s_A at its least where
+/// s_B <= 1, and the swap (eqs 3, 9). state: a PairState of this ordered pair, read, and updated on success.
+/// ContactError: no solver reached an answer; that does not mean separated.
+#[pyfunction]
+#[pyo3(signature = (a, pose_a, b, pose_b, settings=None, state=None))]
+fn detect(
+    a: &PyParticle,
+    pose_a: &PyPose,
+    b: &PyParticle,
+    pose_b: &PyPose,
+    settings: Option<&PySettings>,
+    state: Option<PyRefMut<'_, PyPairState>>,
+) -> PyResult<PyContact> {
+    let settings = or_default(settings);
+    let mut state = state;
+    let state = state.as_mut().map(|state| &mut state.0);
+    potential_particles::detect(&a.0, &pose_a.0, &b.0, &pose_b.0, &settings, state).map(PyContact).map_err(of_contact)
+}
+
+/// One closest point.
+#[pyclass(name = "ClosestPoint", module = "potential_particles", frozen)]
+pub struct PyClosestPoint(ClosestPoint);
+
+getters!(PyClosestPoint: s, gap, point_bound; point, branch_a, branch_b);
+
+/// The point on one particle, on="a" or "b", where the scale of the other is least (eqs 3, 9), as a ClosestPoint.
+///
+/// None where there is none: the other particle's centre (for k = 0, its core) lies inside this one. ContactError as of detect.
+#[pyfunction]
+#[pyo3(signature = (a, pose_a, b, pose_b, on, settings=None))]
+fn closest_point(
+    a: &PyParticle,
+    pose_a: &PyPose,
+    b: &PyParticle,
+    pose_b: &PyPose,
+    on: &str,
+    settings: Option<&PySettings>,
+) -> PyResult<Option<PyClosestPoint>> {
+    let role = match on {
+        "a" | "A" => Role::A,
+        "b" | "B" => Role::B,
+        _ => return Err(refused(format!("on={on:?} must be \"a\" or \"b\""))),
+    };
+    let found = potential_particles::closest_point(&a.0, &pose_a.0, &b.0, &pose_b.0, role, &or_default(settings));
+    found.map(|point| point.map(PyClosestPoint)).map_err(of_contact)
+}
+
+/// Area, length^2, that the plane through the contact point normal to the contact normal cuts out of both particles; 0 when separated.
+///
+/// It is in closed form; tolerance, in [1e-12, 0.1], counts where rounding forbids that. ValueError: the contact is of other bodies or poses.
+#[pyfunction]
+#[pyo3(signature = (a, pose_a, b, pose_b, contact, tolerance=1e-6))]
+fn contact_area(
+    a: &PyParticle,
+    pose_a: &PyPose,
+    b: &PyParticle,
+    pose_b: &PyPose,
+    contact: &PyContact,
+    tolerance: f64,
+) -> PyResult<f64> {
+    if !(1e-12..=0.1).contains(&tolerance) {
+        return Err(refused(format!("tolerance={tolerance:?} must lie in [1e-12, 0.1]")));
+    }
+    if contact.0.kind == Kind::Separated {
+        return Ok(0.0);
+    }
+    let area = Section::from(&contact.0).area(&a.0, &pose_a.0, &b.0, &pose_b.0, tolerance);
+    area.ok_or_else(|| {
+        refused("the contact point lies outside a particle: take the contact of the same bodies and poses")
+    })
+}
+
+pub fn add(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    module.add_class::<PyPairState>()?;
+    module.add_class::<PyContact>()?;
+    module.add_class::<PyClosestPoint>()?;
+    module.add_function(wrap_pyfunction!(detect, module)?)?;
+    module.add_function(wrap_pyfunction!(closest_point, module)?)?;
+    module.add_function(wrap_pyfunction!(contact_area, module)?)
+}

@@ -1,0 +1,51 @@
+//! Python module `potential_particles._core`: the library with numpy arrays in and out.
+//!
+//! Each file makes Python classes or functions of one part of the library, and only those above it are used:
+//!
+//! | file | holds |
+//! |---|---|
+//! | `errors` | the library's errors as exceptions, in its own sentences |
+//! | `arrays` | numbers and rows from Python, vectors and matrices to it |
+//! | `records` | contacts and poses as records of structured arrays |
+//! | `settings` | `Settings` |
+//! | `particle` | `Particle`, `MassProperties`, `SurfaceMesh` |
+//! | `pose` | `Pose` |
+//! | `contact` | `detect` and its like for one pair |
+//! | `boundary` | planes and triangles |
+//! | `patch` | contact patches |
+//! | `batch` | the pairs of a step |
+//! | `builders` | shapes |
+//! | `rock` | rock masses |
+//! | `planar` | particles of the plane |
+
+mod arrays;
+mod batch;
+mod boundary;
+mod builders;
+mod contact;
+mod errors;
+mod particle;
+mod patch;
+mod planar;
+mod pose;
+mod records;
+mod rock;
+mod settings;
+
+use pyo3::prelude::*;
+
+#[pymodule(gil_used = true)]
+fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    errors::add(module)?;
+    records::add(module)?;
+    settings::add(module)?;
+    particle::add(module)?;
+    pose::add(module)?;
+    contact::add(module)?;
+    boundary::add(module)?;
+    patch::add(module)?;
+    batch::add(module)?;
+    builders::add(module)?;
+    rock::add(module)?;
+    planar::add(module)
+}

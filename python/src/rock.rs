@@ -1,0 +1,196 @@
+//! Rock masses.
+
+use crate::arrays::{to_rows, to_vector, vector};
+use crate::errors::refused;
+use crate::particle::{PyParticle, planes};
+use numpy::{PyArray1, PyArray2};
+use potential_particles::rock::{Block, FaceOf, Joint, JointSet, RockMass, SliceSettings};
+use pyo3::prelude::*;
+use std::sync::Arc;
+
+/// A plane or a disc along which rock has parted.
+#[pyclass(name = "Joint", module = "potential_particles.rock", frozen)]
+pub struct PyJoint(Joint);
+
+#[pymethods]
+impl PyJoint {
+    #[new]
+    #[pyo3(signature = (point, dip, dip_direction, *, radius=f64::INFINITY))]
+    fn new(point: &Bound<'_, PyAny>, dip: f64, dip_direction: f64, radius: f64) -> PyResult<Self> {
+        let joint = Joint::new(vector::<3>(point, "point")?, dip, dip_direction).map_err(refused)?;
+        if radius == f64::INFINITY { Ok(Self(joint)) } else { joint.with_radius(radius).map(Self).map_err(refused) }
+    }
+
+    #[getter]
+    fn point<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        to_vector(py, self.0.point.as_slice())
+    }
+
+    #[getter]
+    fn normal<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        to_vector(py, self.0.normal.as_slice())
+    }
+
+    #[getter]
+    fn radius(&self) -> f64 {
+        self.0.radius
+    }
+
+    fn __repr__(&self) -> String {
+        let (p, n) = (self.0.point, self.0.normal);
+        format!("<Joint through ({}, {}, {}), normal ({:.4}, {:.4}, {:.4})>", p.x, p.y, p.z, n.x, n.y, n.z)
+    }
+}
+
+/// The joints of a set, as a list of Joint: those that cross the line through centre along their mean normal within reach of it.
+///
+/// dip, dip_direction: degrees, from horizontal and clockwise from north. spacing: mean, length; exponential: drawn from that distribution. fisher:
+/// kappa of
+/// Fisher's distribution of normals. The numbers drawn depend on seed alone.
+#[pyfunction]
+#[pyo3(signature = (dip, dip_direction, spacing, *, centre, reach, exponential=false, fisher=f64::INFINITY, seed=0))]
+#[allow(clippy::too_many_arguments)]
+fn joint_set(
+    dip: f64,
+    dip_direction: f64,
+    spacing: f64,
+    centre: &Bound<'_, PyAny>,
+    reach: f64,
+    exponential: bool,
+    fisher: f64,
+    seed: u64,
+) -> PyResult<Vec<PyJoint>> {
+    let set = JointSet { exponential, fisher, seed, ..JointSet::new(dip, dip_direction, spacing) };
+    let joints = set.joints(vector::<3>(centre, "centre")?, reach).map_err(refused)?;
+    Ok(joints.into_iter().map(PyJoint).collect())
+}
+
+/// A convex block.
+#[pyclass(name = "Block", module = "potential_particles.rock", frozen)]
+pub struct PyBlock {
+    mass: Arc<RockMass>,
+    place: usize,
+}
+
+impl PyBlock {
+    fn block(&self) -> &Block {
+        &self.mass.blocks[self.place]
+    }
+}
+
+#[pymethods]
+impl PyBlock {
+    #[getter]
+    fn volume(&self) -> f64 {
+        self.block().volume
+    }
+
+    #[getter]
+    fn centroid<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        to_vector(py, self.block().centroid.as_slice())
+    }
+
+    /// Rows a, b, c, d of the faces, axes and origin of the domain.
+    #[getter]
+    fn planes<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<f64>> {
+        let planes = self.block().faces.iter().map(|face| face.plane);
+        to_rows(py, planes.map(|plane| [plane.normal.x, plane.normal.y, plane.normal.z, plane.offset]))
+    }
+
+    /// What each face comes from: ("domain", i) or ("joint", i).
+    #[getter]
+    fn origins(&self) -> Vec<(&'static str, usize)> {
+        let origin = |of: FaceOf| match of {
+            FaceOf::Domain(i) => ("domain", i),
+            FaceOf::Joint(i) => ("joint", i),
+        };
+        self.block().faces.iter().map(|face| origin(face.of)).collect()
+    }
+
+    #[getter]
+    fn areas<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        to_vector(py, &self.block().faces.iter().map(|face| face.area).collect::<Vec<_>>())
+    }
+
+    /// Corners of each face, counter-clockwise from outside.
+    #[getter]
+    fn polygons<'py>(&self, py: Python<'py>) -> Vec<Bound<'py, PyArray2<f64>>> {
+        let faces = self.block().faces.iter();
+        faces.map(|face| to_rows(py, face.corners.iter().map(|&corner| <[f64; 3]>::from(corner)))).collect()
+    }
+
+    /// As a particle about its centroid, edges rounded by r, length.
+    fn particle(&self, r: f64) -> PyResult<PyParticle> {
+        self.block().particle(r).map(PyParticle).map_err(refused)
+    }
+
+    fn __repr__(&self) -> String {
+        format!("<Block of {} faces, volume {:.6}>", self.block().faces.len(), self.block().volume)
+    }
+}
+
+/// What a domain was cut into.
+#[pyclass(name = "RockMass", module = "potential_particles.rock", frozen)]
+pub struct PyRockMass(Arc<RockMass>);
+
+#[pymethods]
+impl PyRockMass {
+    #[getter]
+    fn blocks(&self) -> Vec<PyBlock> {
+        (0..self.0.blocks.len()).map(|place| PyBlock { mass: self.0.clone(), place }).collect()
+    }
+
+    #[getter]
+    fn volumes<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        to_vector(py, &self.0.blocks.iter().map(|block| block.volume).collect::<Vec<_>>())
+    }
+
+    #[getter]
+    fn missing(&self) -> Vec<usize> {
+        self.0.missing.clone()
+    }
+
+    #[getter]
+    fn too_small(&self) -> usize {
+        self.0.too_small
+    }
+
+    #[getter]
+    fn unclosed(&self) -> usize {
+        self.0.unclosed
+    }
+
+    fn __repr__(&self) -> String {
+        format!("<RockMass of {} blocks>", self.0.blocks.len())
+    }
+}
+
+/// A convex domain {a x + b y + c z <= d}, planes (n, 4), cut by joints in their order, as a RockMass.
+///
+/// A joint cuts each block that it meets in two, but for parts of less than least_volume. ValueError: a domain that is empty or open, or more than
+/// most_blocks.
+#[pyfunction]
+#[pyo3(signature = (domain, joints, *, least_volume=0.0, most_blocks=1_000_000))]
+fn slice(
+    py: Python<'_>,
+    domain: &Bound<'_, PyAny>,
+    joints: Vec<PyRef<'_, PyJoint>>,
+    least_volume: f64,
+    most_blocks: usize,
+) -> PyResult<PyRockMass> {
+    let domain = planes(domain)?;
+    let joints: Vec<Joint> = joints.iter().map(|joint| joint.0).collect();
+    let settings = SliceSettings { least_volume, most_blocks };
+    let mass = py.detach(|| potential_particles::rock::slice(&domain, &joints, &settings)).map_err(refused)?;
+    Ok(PyRockMass(Arc::new(mass)))
+}
+
+pub fn add(parent: &Bound<'_, PyModule>) -> PyResult<()> {
+    let module = PyModule::new(parent.py(), "_rock")?;
+    module.add_class::<PyJoint>()?;
+    module.add_class::<PyBlock>()?;
+    module.add_class::<PyRockMass>()?;
+    module.add_function(wrap_pyfunction!(joint_set, &module)?)?;
+    module.add_function(wrap_pyfunction!(slice, &module)?)?;
+    parent.add_submodule(&module)
+}

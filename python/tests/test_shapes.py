@@ -1,0 +1,161 @@
+# SPDX-License-Identifier: MIT OR Apache-2.0
+"""Builders, mass properties, meshes, rock and the plane against closed forms; files; the stubs against the module."""
+import ast
+import math
+import pickle
+import struct
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+import numpy as np
+import potential_particles as pp
+from potential_particles import builders, planar, rock
+
+BOX = [(1, 0, 0, 5), (-1, 0, 0, 5), (0, 1, 0, 5), (0, -1, 0, 5), (0, 0, 1, 5), (0, 0, -1, 5)]
+
+
+def write_stl(file, points, triangles):
+    """As binary STL."""
+    with open(file, "wb") as opened:
+        opened.write(bytes(80) + struct.pack("<I", len(triangles)))
+        for triangle in triangles:
+            opened.write(struct.pack("<12fH", 0, 0, 0, *points[triangle].ravel(), 0))
+
+
+class Builders(unittest.TestCase):
+    def test_volumes(self):
+        cases = [(builders.cuboid((2, 1, 0.5), r=1e-4, k=0), 1.0), (builders.prism(4, 0.5, 3, 0, r=1e-4, k=0), 1.0),
+                 (builders.cylinder(1, 2, 64, r=1e-4, k=0), 2 * math.pi), (builders.regular_solid(8, r=1e-4, k=0), math.sqrt(2) / 3),
+                 (builders.sphere(2), 32 / 3 * math.pi),
+                 (builders.half_spaces([(1, 1, 1, 1), (-1, 0, 0, 0), (0, -1, 0, 0), (0, 0, -1, 0)], r=1e-4, k=0), 1 / 6)]
+        for shape, volume in cases:
+            self.assertAlmostEqual(shape.volume / volume, 1, delta=2e-5)
+            mass = shape.mass
+            self.assertLess(np.abs(mass.centroid).max(), 1e-5)
+            self.assertLess(np.abs(mass.inertia - np.diag(np.diag(mass.inertia))).max(), 1e-4 * mass.inertia.max())
+
+    def test_a_hull_stands_where_its_points_are(self):
+        points = np.random.default_rng(5).normal(size=(60, 3)) + 10
+        shape = builders.hull(points, r=1e-3, k=0)
+        local = np.array([shape.pose.to_local(point) for point in points])
+        heights = local @ shape.particle.planes[:, :3].T - shape.particle.planes[:, 3]
+        # No point lies above a face, and each face has a corner.
+        self.assertLess(heights.max(), shape.particle.r * (1 + 1e-6) + 1e-9)
+        self.assertGreater(heights.max(0).min(), shape.particle.r * (1 - 1e-6) - 1e-9)
+
+    def test_files(self):
+        ball = builders.sphere(1.0).particle.mesh(0.1)
+        points, triangles = ball.vertices, ball.triangles
+        with tempfile.TemporaryDirectory() as folder:
+            stl, obj = Path(folder, "ball.stl"), Path(folder, "ball.obj")
+            write_stl(stl, points, triangles)
+            obj.write_text("".join("v %r %r %r\n" % tuple(map(float, p)) for p in points)
+                           + "".join("f %d %d %d\n" % tuple(t + 1) for t in triangles))
+            read = [builders.mesh(file, scale=2.0, r=1e-4, k=0) for file in (stl, str(obj))]
+            a, b, c = (points[triangles[:, i]] for i in range(3))
+            volume = 8 * np.einsum("ij,ij->", a, np.cross(b, c)) / 6
+            for shape in read:
+                self.assertAlmostEqual(shape.volume / volume, 1, delta=5e-4)
+            write_stl(stl, points, triangles[1:])
+            with self.assertRaisesRegex(ValueError, "ball.stl: the surface is open"):
+                builders.mesh(stl)
+            self.assertAlmostEqual(builders.mesh(stl, hull=True, r=1e-4, k=0).volume * 8 / volume, 1, delta=5e-4)
+            for name, text in (("none.stl", None), ("empty.obj", ""), ("bad.stl", "no mesh"), ("wrong.ply", "ply")):
+                if text is not None:
+                    Path(folder, name).write_text(text)
+                with self.assertRaisesRegex(ValueError, name):
+                    builders.mesh(Path(folder, name))
+
+    def test_bad_input_is_told(self):
+        for make, sentence in [
+                (lambda: builders.cuboid((1, -1, 1)), "edge y=-1.0 must be finite and above 0"),
+                (lambda: builders.cuboid((1, 1, 1), r=0.6), "r=0.6 must be a share of the size"),
+                (lambda: builders.regular_solid(7), "4, 6, 8, 12 or 20"),
+                (lambda: builders.prism(2), "sides=2 must be at least 3"),
+                (lambda: builders.hull([(0, 0, 0), (1, 0, 0), (0, 1, 0), (1, 1, 0)]), "flat"),
+                (lambda: builders.half_spaces(BOX[:5]), "enclose no volume")]:
+            with self.assertRaisesRegex(ValueError, sentence):
+                make()
+
+    def test_a_mesh_is_closed_and_near_the_surface(self):
+        particle = builders.cuboid((2, 1, 0.5), r=0.1).particle
+        mesh = particle.mesh(1e-3)
+        edges = np.sort(mesh.triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
+        self.assertTrue((np.unique(edges, axis=0, return_counts=True)[1] == 2).all())
+        self.assertLess(max(abs(particle.potential(vertex)) for vertex in mesh.vertices[:100]), 1e-9)
+        self.assertLess(mesh.error, 1e-3 * particle.bounding_radius)
+
+
+class Rock(unittest.TestCase):
+    def test_blocks_fill_the_domain(self):
+        joints = (rock.joint_set(30, 90, 1.5, centre=(0, 0, 0), reach=9, exponential=True)
+                  + rock.joint_set(80, 280, 2.0, centre=(0, 0, 0), reach=9, fisher=50, seed=1))
+        mass = rock.slice(BOX, joints)
+        self.assertAlmostEqual(mass.volumes.sum(), 1000, delta=1e-9)
+        block = mass.blocks[0]
+        for corners, plane in zip(block.polygons, block.planes):
+            np.testing.assert_allclose(corners @ plane[:3], plane[3], atol=1e-9)
+        self.assertEqual(len(block.origins), len(block.planes))
+        self.assertAlmostEqual(block.particle(1e-4).mass_properties().volume / block.volume, 1, delta=1e-3)
+        with self.assertRaisesRegex(ValueError, "dip = 95 must be an angle"):
+            rock.Joint((0, 0, 0), 95, 0)
+
+
+class Plane(unittest.TestCase):
+    def test_discs_and_squares(self):
+        disc = planar.Particle.circle(1.0)
+        poses = planar.Pose((0, 0)), planar.Pose((1.2, 0), 0.3)
+        contact = planar.detect(disc, poses[0], disc, poses[1])
+        self.assertAlmostEqual(contact.overlap, 0.8, delta=1e-12)
+        self.assertAlmostEqual(planar.contact_length(disc, poses[0], disc, poses[1], contact), 1.6, delta=1e-12)
+        square = planar.Particle.rectangle(2, 1, 1e-4)
+        self.assertAlmostEqual(square.area_properties().area, 2, delta=1e-6)
+        again = pickle.loads(pickle.dumps(square))
+        np.testing.assert_array_equal(again.lines, square.lines)
+        self.assertEqual(pickle.loads(pickle.dumps(poses[1])).angle, 0.3)
+
+
+class Package(unittest.TestCase):
+    def test_stubs_name_what_is_there(self):
+        folder = Path(pp.__file__).parent
+        self.assertTrue((folder / "py.typed").is_file())
+        for name, module in (("_core", pp._core), ("builders", builders), ("rock", rock), ("planar", planar)):
+            tree = ast.parse((folder / f"{name}.pyi").read_text())
+            told = {}
+            for node in tree.body:
+                if isinstance(node, (ast.ClassDef, ast.FunctionDef)):
+                    told[node.name] = node
+                elif isinstance(node, ast.AnnAssign):
+                    told[node.target.id] = node
+            there = {one for one in dir(module) if not one.startswith("_")}
+            self.assertEqual(set(told), there, name)
+            for one, node in told.items():
+                if isinstance(node, ast.ClassDef) and one != "ContactError":
+                    members = {item.name if isinstance(item, ast.FunctionDef) else item.target.id for item in node.body
+                               if isinstance(item, (ast.FunctionDef, ast.AnnAssign))}
+                    found = {member for member in dir(getattr(module, one)) if not member.startswith("_")}
+                    self.assertEqual({member for member in members if not member.startswith("_")}, found, f"{name}.{one}")
+
+    def test_what_is_public_says_what_it_does(self):
+        for module in (pp, builders, rock, planar):
+            for name in module.__all__:
+                thing = getattr(module, name)
+                if callable(thing):
+                    self.assertTrue((thing.__doc__ or "").strip(), f"{module.__name__}.{name}")
+
+    def test_demo(self):
+        with tempfile.TemporaryDirectory() as folder:
+            file = Path(folder, "contact.png")
+            done = subprocess.run([sys.executable, "-m", "potential_particles", "demo", str(file)], capture_output=True, text=True)
+            self.assertIn("overlap", done.stdout)
+            if done.returncode == 0:
+                self.assertGreater(file.stat().st_size, 10_000)
+            else:
+                self.assertIn("pip install matplotlib", done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()

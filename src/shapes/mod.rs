@@ -1,0 +1,40 @@
+//! Builders of particles: from half-spaces, points, closed surfaces and names of solids, with rounded edges and faces where they are.
+//!
+//! A particle stands about its centroid along its principal axes of inertia, as codes want the frame of a body; [`Shape::centroid`] and
+//! [`Shape::orientation`] say where that frame lies in that of the builder. [`Rounding`] says how far edges and corners are rounded, in shares of
+//! the *size*: the diameter of the largest ball that fits into the sharp body. Each file uses only those above it:
+//!
+//! | file | holds |
+//! |---|---|
+//! | `error` | why input makes no shape |
+//! | `largest_ball` | the largest ball within half-spaces, by the simplex method |
+//! | `hull` | the convex hull of points, as half-spaces |
+//! | `surface` | whether triangles are the whole surface of their convex hull |
+//! | `principal_frame` | principal axes as near to the given ones as they can be |
+//! | `rounding` | from a sharp body to a particle about its own centroid |
+//! | `solids` | the builders |
+//!
+//! ```
+//! use potential_particles::shapes::{self, Rounding};
+//! let rounding = Rounding::new(0.05, 0.0); // r is a twentieth of the size, faces are flat
+//! let brick = shapes::cuboid([2.0, 1.0, 0.5], &rounding)?;
+//! assert!(brick.mass.volume < 1.0 && brick.mass.volume > 0.97);
+//! // Of points in any order; those inside do not matter.
+//! let points = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [0.2, 0.2, 0.2]];
+//! let corner = shapes::hull(&points, &rounding)?;
+//! assert_eq!(corner.particle.plane_count(), 4);
+//! assert!((corner.centroid - nalgebra::Vector3::repeat(0.25)).norm() < 0.02);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod error;
+mod hull;
+mod largest_ball;
+mod principal_frame;
+mod rounding;
+mod solids;
+mod surface;
+
+pub use error::ShapeError;
+pub use rounding::{Rounding, Shape};
+pub use solids::{cuboid, cylinder, frustum, half_spaces, hull, prism, regular_solid, sphere, surface};

@@ -1,0 +1,275 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Rock masses: blocks and their bodies, files, water, excavation, key blocks against linear programs, closed forms and the simulation.
+import numpy as np
+import potential_particles
+import slope_cuts
+import yade
+from harness import *
+from potential_particles import rock
+from pathlib import Path
+from scipy.optimize import linprog, nnls
+
+check = Checks()
+Domain = rock.Domain
+cube = Domain.box((-1, -1, -1), (1, 1, 1))
+
+
+def start(**material):
+    O.reset()
+    O.materials.append(yade.ConicJointMat(**{**dict(young=1e9, poisson=0.3, frictionAngle=0.5, density=2000.0), **material}))
+    O.engines = [
+        yade.ForceResetter(), yade.InsertionSortCollider([yade.PotentialParticle2AABB()], verletDist=0, avoidSelfInteractionMask=2),
+        yade.ConicInteractionLoop([yade.Ig2_ConicPP_ConicPP_ScGeom(patch=True)], [yade.Ip2_ConicJointMat_ConicJointMat_ConicJointPhys()],
+                                  [yade.Law2_ScGeomConicPP_ConicJointPhys()]),
+        yade.NewtonIntegrator(damping=0.3, gravity=(0, 0, -9.81), exactAsphericalRot=True)]
+
+
+# Slicing: a slope of which everything is known by sums. The volume of a box less the prism before its face is a closed form.
+slope = Domain.box((0, 0, 0), (20, 10, 8)).below((18, 0, 0), 60, 90)
+sets = [rock.JointSet(35, 90, 2.0, seed=1), rock.JointSet(80, 265, 3.0, exponential=True, fisher=100, seed=2), rock.JointSet(85, 0, 2.5, seed=3),
+        rock.JointSet(50, 20, 4.0, radius=2.0, seed=4)]
+mass = rock.slice(slope, sets, progress=False)
+volume = 10 * (20 * 8 - 2 * 8 - 0.5 * 8 * 8 / math.tan(math.radians(60)))
+check.close(mass.volume / volume, 1.0, 1e-12, "the volumes of the blocks sum to that of the domain")
+check.true(len(mass) > 200 and mass.complete and "blocks" in repr(mass), f"{mass!r}")
+sums = np.zeros(len(mass.faces))
+for side in (0, 1):
+    np.add.at(sums, mass.partners["faces"][:, side].astype(int), mass.partners["area"])
+of_joints = mass.faces["of"] == 1
+check.close(np.abs(sums - mass.faces["area"])[of_joints].max(), 0.0, 1e-8, "the areas that a face shares sum to its own")
+check.true(set(mass.set_of_face[of_joints]) == {0, 1, 2, 3} and set(mass.set_of_face[~of_joints]) == {-1}, "faces know their set")
+block = mass[17]
+check.close(np.abs(block.planes[:, :3] @ block.corners.T - block.planes[:, 3:]).min(1).max(), 0.0, 1e-12, "planes hold corners")
+check.close(sum(mass[i].volume for i in range(len(mass))), mass.volume, 1e-9, "blocks one by one")
+outer = sum(mass.faces["area"][mass.faces_on(Domain.TOP)])
+check.close(outer, 10 * (18 - 8 / math.tan(math.radians(60))), 1e-9, "area of the top")
+check.equal(rock.slice(slope, sets, progress=False).blocks.tobytes(), mass.blocks.tobytes(), "the same seeds")
+few = rock.slice(slope, sets[:3], least_volume=2.0, least_thickness=0.1, progress=False)
+check.true(few.too_small > 0 and few.blocks["volume"].min() >= 2.0 and abs(few.volume / volume - 1) < 1e-12, "small parts stay with their block")
+check.equal(list(rock.slice(cube, [rock.joint((0, 0, 0), 0, 0), rock.joint((0, 0, 5), 0, 0)], progress=False).missing), [1], "a plane that misses is told")
+# Regions: a tunnel, which is a prism, and what a domain leaves out.
+tunnel = Domain.cylinder((10, -1, 3), (10, 11, 3), 1.5, sides=8)
+section = 8 * 1.5**2 * math.tan(math.pi / 8)
+dug = rock.slice(slope, sets, regions=[tunnel], progress=False)
+check.close(dug.blocks["volume"][dug.inside(0)].sum() / (10 * section), 1.0, 1e-12, "volume of a tunnel")
+check.close(dug.volume / volume, 1.0, 1e-12, "and of all")
+left = rock.slice(slope.without(tunnel), sets, progress=False)
+check.close(left.volume / (volume - 10 * section), 1.0, 1e-12, "a domain that leaves it out")
+check.true(len(np.unique(left.pieces)) < len(left) and set(left.blocks["region"]) == {-1}, "pieces of a block stay one")
+check.equal(len(np.unique(mass.pieces)), len(mass), "without regions each block is a piece")
+# A block that the tunnel cuts through from side to side is two.
+halved = rock.slice(cube.without(Domain.box((-0.2, -2, -2), (0.2, 2, 2))), [], progress=False)
+check.true(len(halved) == 2 and len(set(halved.pieces)) == 2, "a block that is parted for good")
+notched = rock.slice(cube.without(Domain.box((-0.2, -2, 0), (0.2, 2, 2))), [], progress=False)
+check.true(len(notched) == 3 and len(set(notched.pieces)) == 1, "one that is notched stays one")
+
+# Bad input is one sentence.
+for text, action in (
+        ("dip=95", lambda: rock.JointSet(95, 0, 1)), ("spacing=0", lambda: rock.JointSet(5, 0, 0)), ("fisher=-1", lambda: rock.JointSet(5, 0, 1, fisher=-1)),
+        ("radius=0", lambda: rock.joint((0, 0, 0), 5, 0, 0)), ("must be finite", lambda: rock.joint((0, 0, math.nan), 5, 0)),
+        ("the domain is open", lambda: rock.slice(Domain([(0, 0, 1, 1)]), sets)), ("the domain is empty", lambda: rock.slice(cube.below((0, 0, -5), 0, 0), sets)),
+        ("more than 7 blocks", lambda: rock.slice(slope, sets, most_blocks=7)), ("not a rock.Domain", lambda: rock.slice([(0, 0, 1, 1)], sets)),
+        ("joints[0] holds float", lambda: rock.slice(cube, [[1.5]])), ("least_volume=-1", lambda: rock.slice(cube, [], least_volume=-1)),
+        ("must lie below", lambda: Domain.box((0, 0, 0), (1, 0, 1))), ("a region is list", lambda: rock.slice(cube, [], regions=[[1]])),
+        ("at most 10 million joints", lambda: rock.slice(cube, [rock.JointSet(5, 0, 1e-8)])), ("r=0.7", lambda: rock.bodies(mass, r=0.7)),
+        ("numbers of blocks", lambda: rock.bodies(mass, fixed=[99999])), ("friction has no key None", lambda: rock.key_blocks(mass, (), friction={0: 3}))):
+    check.raises(ValueError, action, text, text)
+
+# Files.
+Path("dfn.csv").write_text("x,y,z,dip,dip direction,radius\n# by hand\n0,0,0,30,90,inf\n\n1, 2, 3, 45, 200, 0.5\n")
+read = rock.read_dfn("dfn.csv")
+check.equal(read, [rock.joint((0, 0, 0), 30, 90), rock.joint((1, 2, 3), 45, 200, 0.5)], "a fracture network")
+Path("bad.csv").write_text("0,0,0,30,90,1\n0,0,0,thirty,90,1\n")
+check.raises(ValueError, lambda: rock.read_dfn("bad.csv"), "a word", "bad.csv, line 2, column 4: 'thirty'")
+Path("bad.csv").write_text("0,0,0,30,90,1\n0,0,0,30,90\n")
+check.raises(ValueError, lambda: rock.read_dfn("bad.csv"), "a short line", "bad.csv, line 2: 5 numbers, and 6")
+Path("bad.csv").write_text("0,0,0,95,90,1\n")
+check.raises(ValueError, lambda: rock.read_dfn("bad.csv"), "a dip", "bad.csv, line 1: dip=95")
+Path("empty.csv").write_text("x,y\n")
+check.raises(ValueError, lambda: rock.read_dfn("empty.csv"), "no rows", "no row of numbers")
+# BlockGen's: x north, y east, z downwards; a plane that dips to the east descends, with z downwards, along y.
+Path("joints.csv").write_text("dip;dipdir;x;y;z;a;b;phi_b;phi_r;\n30;90;1;2;3;4;5;30;25;\n")
+one, = rock.read_blockgen("joints.csv", "probabilistic")
+check.close(abs(np.dot(one.normal, (0, math.cos(math.radians(30)), math.sin(math.radians(30))))), 0.0, 1e-15, "the plane of BlockGen descends along its dip")
+check.true(one.point == (1, 2, 3) and abs(math.pi * one.radius**2 - 80) < 1e-12, "its place and area")
+Path("planes.csv").write_text("dip;dipdir;spacing;phi\n0;0;0.5;30;\n")
+check.equal([round(one.point[2], 12) for one in rock.read_blockgen("planes.csv", "persistent", size=2)], [-1, -0.5, 0, 0.5, 1], "planes of a spacing")
+check.raises(ValueError, lambda: rock.read_blockgen("planes.csv", "persistent"), "no size", "size is missing")
+check.equal(len(rock.slice(cube, rock.read_blockgen("planes.csv", "persistent", size=2), progress=False)), 4, "which cut")
+
+# Bodies: where the blocks are, with their mass, and the inertia that the library finds for the shape by itself.
+start()
+ids = rock.bodies(few, r=0.01, fixed=few.on_domain(Domain.BOTTOM))
+check.close(sum(O.bodies[int(i)].state.mass for i in ids) / (2000 * volume), 1.0, 1e-12, "masses sum to that of the domain")
+for number in (0, 5, 11):
+    body, block = O.bodies[int(ids[number])], few[number]
+    found, _, inertia, _ = body.shape.massProperties(1e-5)
+    check.true(0.98 < found / block.volume <= 1.0, f"the particle is the block but for its edges: {found / block.volume}")
+    check.close(np.abs(np.array([inertia[i, i] for i in range(3)]) * 2000 / np.array(body.state.inertia) - 1).max(), 0.0, 0.04, "inertia")
+    turn = np.array(body.state.ori.toRotationMatrix())
+    check.close(np.abs(turn @ np.diag(np.array(body.state.inertia)) @ turn.T / 2000 - block.inertia).max() / block.inertia.max(), 0.0, 1e-9, "in its axes")
+    planes = np.array(body.shape.planes)
+    moved = planes[:, :3] @ turn.T
+    check.close(np.abs(moved - block.planes[:, :3]).max(), 0.0, 1e-12, "its faces")
+    check.close(np.abs(planes[:, 3] + body.shape.r + moved @ np.array(body.state.pos) - block.planes[:, 3]).max(), 0.0, 1e-9, "lie where they were cut")
+check.equal([set(O.bodies[int(i)].state.blockedDOFs) == set("xyzXYZ") for i in ids], few.on_domain(Domain.BOTTOM).tolist(), "fixed ones")
+# Neighbours touch, and nothing overlaps by more than that.
+O.dt = 1e-9
+run(1)
+depths = [i.geom.penetrationDepth for i in O.interactions if i.isReal]
+check.true(0 < min(depths) and max(depths) < 1e-9, f"blocks touch and do not overlap: {max(depths)}")
+owners = few.faces["block"].astype(int)[few.partners["faces"].astype(int)]
+still = few.on_domain(Domain.BOTTOM)
+pairs = [(tuple(sorted((int(ids[a]), int(ids[b])))), area) for (a, b), area in zip(owners, few.partners["area"]) if not (still[a] and still[b])]
+found = {tuple(sorted((i.id1, i.id2))) for i in O.interactions if i.isReal}
+# Of faces that share little, rounded edges may be apart.
+check.true({pair for pair, area in pairs if area > 0.05} <= found, "partners are contacts")
+check.equal(found - {pair for pair, _ in pairs}, set(), "and no others")
+# Pieces of a block are a clump of its mass and inertia.
+start()
+ids = rock.bodies(notched, r=0.01)
+clumps = [body for body in O.bodies if body.isClump]
+check.equal(len(clumps), 1, "one clump")
+removed = 2000 * 0.4 * 2 * 1
+check.close(clumps[0].state.mass, 16000 - removed, 1e-4, "its mass")
+centre = -removed * 0.5 / (16000 - removed)
+check.close(clumps[0].state.pos, Vector3(0, 0, centre), 1e-9, "its centre")
+about_y = 16000 * (8 / 12 + centre**2) - removed * ((0.16 + 1) / 12 + (0.5 - centre)**2)
+turn = np.array(clumps[0].state.ori.toRotationMatrix())
+moments = turn @ np.diag(np.array(clumps[0].state.inertia)) @ turn.T
+check.close(moments[1, 1] / about_y, 1.0, 1e-9, "its inertia, by Steiner")
+start()
+rock.bodies(notched, fixed=[0])
+check.equal([body.isClumpMember for body in O.bodies], [False] * 3, "where one piece is fixed all are")
+
+# Joints by set: of two blocks on fixed ones, on planes of 35 degrees, the one whose set has less friction slides.
+ramp = Domain.box((0, 0, 0), (4, 4, 4))
+two = rock.slice(ramp, [rock.joint((2, 2, 1.9), 35, 90), rock.joint((2, 2, 2), 90, 0)], progress=False)
+start(normalStiffness=1e9, shearStiffness=1e9, frictionAngle=1.2, restitution=0.1)
+O.engines[-1].damping = 0.0
+upper = two.blocks["centroid"][:, 2] > 1.9
+ids = rock.bodies(two, r=0.01, fixed=~upper)
+O.engines = O.engines[:3] + [rock.joint_engine(two, ids, {0: yade.ConicJointMat(frictionAngle=0.35, cohesion=7.0, residualCohesion=7.0), 1: yade.ConicJointMat(frictionAngle=0.0)})] + O.engines[3:]
+O.dt = potential_particles.critical_time_step()
+run(2)
+physics = [i.phys for i in O.interactions if i.isReal]
+check.true({round(p.tangensOfFrictionAngle, 9) for p in physics} == {round(math.tan(0.35), 9), 0.0} and {p.cohesion for p in physics} >= {7.0},
+           f"each contact has its set's: {[(i.id1, i.id2, i.phys.tangensOfFrictionAngle, i.phys.cohesion, i.iterMadeReal) for i in O.interactions if i.isReal]}")
+run(int(0.3 / O.dt))
+slides = [O.bodies[int(i)].state.pos[0] - c[0] for i, c in zip(ids[upper], two.blocks["centroid"][upper])]
+acceleration = 9.81 * (math.sin(math.radians(35)) - math.tan(0.35) * math.cos(math.radians(35)))
+way = 0.5 * acceleration * math.cos(math.radians(35)) * O.time**2
+check.true(all(abs(one / way - 1) < 0.02 for one in slides), f"they slide as their friction says: {slides}, {way}")
+check.raises(ValueError, lambda: rock.joint_engine(two, ids, {0: 3}), "no material", "give a ConicJointMat")
+# Saved and loaded, as in another process, the engine goes on: contacts that are made anew have the friction of their set.
+O.save("joints.yade.gz")
+O.load("joints.yade.gz")
+potential_particles.rock.scene._known.clear()
+O.interactions.clear()
+for number in ids[upper]:
+    O.bodies[int(number)].state.vel = Vector3.Zero
+    O.bodies[int(number)].state.pos -= Vector3(0, 0, 1e-4)
+run(3)
+check.equal({round(i.phys.tangensOfFrictionAngle, 9) for i in O.interactions if i.isReal and i.id1 + 1 == i.id2}, {round(math.tan(0.35), 9)}, "after loading")
+
+# Loads: water all around a block is buoyancy (Archimedes), half of it where the water reaches half way up a cube; a surcharge on the top.
+water = rock.water_pressure(mass, np.ones(len(mass.faces), bool), level=20.0)
+check.close(np.abs(water[:, :3] - np.outer(9810 * mass.blocks["volume"], (0, 0, 1))).max(), 0.0, 1e-6 * 9810, "buoyancy")
+check.close(np.abs(water[:, 3:]).max(), 0.0, 1e-6 * 9810, "has no torque about the centroid")
+one = rock.slice(cube, [], progress=False)
+side = rock.water_pressure(one, one.faces_on(Domain.EAST), level=0.5)
+check.close(side[0, 0], -9810 * 2 * 1.5**2 / 2, 1e-9, "hydrostatic force on a wall")
+check.close(side[0, 4], 9810 * 2.25 * 0.5, 1e-9, "at a third of the depth: its torque")
+load = rock.face_pressure(mass, mass.faces_on(Domain.TOP), 1e4)
+check.close(load[:, 2].sum(), -1e4 * outer, 1e-6, "a surcharge")
+start()
+ids = rock.bodies(notched, r=0.01)
+rock.apply_loads(ids, rock.face_pressure(notched, notched.faces_on(Domain.EAST), 100.0))
+clump = next(body for body in O.bodies if body.isClump)
+O.engines[-1].gravity, O.engines[-1].damping, O.dt = (0, 0, 0), 0.0, 1e-6
+run(1)
+check.close(clump.state.vel * clump.state.mass / O.dt, Vector3(-100 * 4, 0, 0), 1e-6, "on a clump: its force")
+check.close(clump.state.angMom / O.dt, Vector3(0, 400 * centre, 0), 1e-6, "and torque")
+
+# Excavation: the lower of two blocks is taken out, the upper one falls.
+column = rock.slice(Domain.box((0, 0, 0), (1, 1, 3)), [rock.joint((0, 0, 1), 0, 0)], regions=[Domain.box((-1, -1, 1), (2, 2, 2))], progress=False)
+start()
+ids = rock.bodies(column, r=0.01, fixed=column.on_domain(Domain.BOTTOM))
+O.dt = 1e-4
+top = O.bodies[int(ids[column.blocks["centroid"][:, 2] > 2][0])]
+run(500)
+check.close(top.state.pos[2], 2.5, 1e-3, "it rests")
+check.equal(rock.excavate(ids[column.inside(0)], settle=1000), 1000, "and is undermined")
+check.true(len([body for body in O.bodies if body]) == 2 and top.state.pos[2] < 2.49, f"it falls: {top.state.pos[2]}")
+check.equal(rock.excavate(ids[column.inside(0)]), 0, "once more: nothing is left to take out")
+
+# Key blocks: closed forms. A block on a plane: tan(phi)/tan(dip) + c A/(W sin(dip)).
+bench = Domain.box((0, 0, 0), (4, 2, 3)).below((3.9, 0, 0), 75, 90)
+plane = rock.slice(bench, [rock.joint((3, 0, 1), 35, 90), rock.joint((1, 1, 1), 90, 90)], progress=False)
+free = (Domain.TOP, Domain.NORTH, Domain.SOUTH, 6)
+found = rock.key_blocks(plane, free, friction={0: 30, None: 5}, cohesion={0: 2e3, None: 0})
+slid, = [one for one in found if one.mode == "sliding"]
+area = plane.faces["area"][slid.faces[0]]
+weight = 2600 * 9.81 * slid.volume
+exact = math.tan(math.radians(30)) / math.tan(math.radians(35)) + 2e3 * area / (weight * math.sin(math.radians(35)))
+check.close(slid.factor, exact, 1e-12, "a block on a plane")
+check.close(np.abs(np.array(slid.direction) - (math.cos(math.radians(35)), 0, -math.sin(math.radians(35)))).max(), 0.0, 1e-12, "slides down its dip")
+check.true(slid.removable and slid.color == rock.COLOURS["held" if exact > 1 else "sliding"], "its colour")
+# The wedge of Hoek & Bray: by the closed form of the wedge study, for one friction angle.
+first, second = (50, 140), (60, 230)
+normals = [np.array(rock.joint((0, 0, 0), *one).normal) for one in (first, second)]
+line = np.cross(*normals)
+line *= -np.sign(line[2]) / np.linalg.norm(line)
+trend = math.degrees(math.atan2(line[0], line[1]))
+block = Domain.box((-9, -9, -9), (9, 9, 1)).below((0, 0, 0), 80, trend)
+wedge = rock.slice(block, [rock.joint((0, 0, 0), *one) for one in (first, second)], progress=False)
+found = [one for one in rock.key_blocks(wedge, (Domain.TOP, 6), friction=33) if one.mode == "wedge"]
+check.equal(len(found), 1, "one wedge")
+cosine = normals[0] @ normals[1]
+forces = np.linalg.solve([[1, cosine], [cosine, 1]], [normals[0][2], normals[1][2]])
+check.close(found[0].factor, math.tan(math.radians(33)) * forces.sum() / -line[2], 1e-9, "factor of safety of the wedge")
+check.close(np.abs(np.array(found[0].direction) - line).max(), 0.0, 1e-9, "along the line of both")
+# Undermined: what rests on an excavated block falls. Water behind a block drives it.
+hung = rock.slice(cube, [rock.joint((0, 0, 0), 0, 0)], regions=[Domain.box((-2, -2, -2), (2, 2, -0.5))], progress=False)
+modes = [one.mode for one in rock.key_blocks(hung, (), removed=hung.inside(0))]
+check.equal(sorted(modes), ["falling", "inner"], "walls hold, and what they do not hold falls")
+dry, = [one for one in rock.key_blocks(plane, free, friction=40) if one.mode == "sliding"]
+behind = plane.faces_of(1)
+wet, = [one for one in rock.key_blocks(plane, free, friction=40, loads=rock.water_pressure(plane, behind, level=3.0)) if one.blocks == dry.blocks]
+check.true(wet.factor < dry.factor, f"water in the crack behind: {wet.factor} < {dry.factor}")
+print(rock.summary(found))
+
+# Against linear programs and non-negative least squares, on slopes cut at random: the same removable blocks, the same way.
+for seed in range(15):
+    mass, friction, _ = slope_cuts.cut(1000 + seed)
+    for one in rock.key_blocks(mass, slope_cuts.FREE, friction):
+        if one.mode == "inner":
+            continue
+        faces = mass[one.blocks[0]].faces
+        holding = faces[~((mass.faces["of"][faces] == 0) & np.isin(mass.faces["index"][faces].astype(int), slope_cuts.FREE))]
+        inward = -mass.faces["plane"][holding, :3]
+        reach = max(-linprog(-sign * np.eye(3)[axis], -inward, np.zeros(len(inward)), bounds=[(-1, 1)] * 3).fun for axis in range(3) for sign in (1, -1))
+        check.equal(one.removable, reach > 1e-7, f"seed {seed}: removable, {one.mode}, {reach}")
+        # The projection of the pull on the cone.
+        pull = np.array([0.0, 0.0, -1.0])
+        pressing, _ = nnls(inward.T, -pull)
+        along = pull + inward.T @ pressing
+        check.equal(one.direction is not None, np.linalg.norm(along) > 1e-6, f"seed {seed}: moves without friction, {one.mode}")
+        if one.direction is not None:
+            check.close(np.abs(along / np.linalg.norm(along) - one.direction).max(), 0.0, 1e-6, f"seed {seed}: direction")
+            held = math.tan(math.radians(friction)) * pressing.sum() / np.linalg.norm(along)
+            check.close(one.factor, held, 1e-6 * (1 + held), f"seed {seed}: factor of safety")
+
+# Against the simulation: what block theory frees moves by a millimetre, and nothing else does.
+tried, moving = 0, 0
+for seed in range(40):
+    mass, friction, random = slope_cuts.cut(seed)
+    one = slope_cuts.chosen(mass, friction, random)
+    if one is None or tried == 20:
+        continue
+    tried, moving = tried + 1, moving + one.moves
+    distance, direction = slope_cuts.moved(mass, one, friction)
+    check.true(slope_cuts.agrees(one, distance, direction), f"seed {seed}: {one.mode}, factor {one.factor:.3f}, moved by {distance:.2e} m along {direction}, not {one.direction}")
+check.true(tried == 20 and 5 <= moving <= 15, f"{tried} cuts, {moving} that move")
+
+check.finish()

@@ -1,0 +1,98 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Joints from files: discrete fracture networks, and the tables of YADE's BlockGen."""
+import math
+
+
+from .joints import Joint, JointSet, joint
+
+
+def read_dfn(file):
+    """Joints as discs from a table of the columns x, y, z of the centre, dip, dip direction and radius; a list of Joint.
+
+    Separated by commas or semicolons, in degrees and the script's unit; a first line that holds names is passed over, and so are empty lines and those that begin with #. A
+    radius of inf is a joint without end. ValueError with file, line and value for what is no such table.
+    """
+    found = []
+    for number, values in _rows(file, 6, "x, y, z, dip, dip direction, radius"):
+        found.append(_told(file, number, lambda: joint(values[:3], values[3], values[4], values[5])))
+    return found
+
+
+def read_blockgen(file, kind, size=None):
+    """The joints of a table of YADE's BlockGen, as it reads them; a list of Joint.
+
+    kind: "probabilistic" (filenameProbabilistic) has dip; dip direction; x; y; z; half lengths along strike and dip in each row; "persistent"
+    (filenamePersistentPlanes) dip; dip direction; spacing, and joints through the origin and on both sides of it as far as `size`/2, the boundarySize of
+    BlockGen; "boundary" (filenameBoundaries) dip; dip direction; x; y; z. Further columns are passed over: friction and strength are for
+    joint_engine(). In BlockGen's axes the normal of a plane is (-sin d cos a, -sin d sin a, cos d), d the dip and a the dip direction: x is north and y east
+    where z points downwards. The rectangle of a joint that ends becomes the disc of the same area.
+    """
+    kinds = {"probabilistic": 7, "persistent": 3, "boundary": 5}
+    if kind not in kinds:
+        raise ValueError(f"kind={kind!r} must be one of {', '.join(kinds)}")
+    if kind == "persistent" and size is None:
+        raise ValueError("size is missing: planes of a spacing are laid over a domain of that size (boundarySize)")
+    found = []
+    for number, values in _rows(file, kinds[kind], "the columns of BlockGen", exactly=False):
+        dip, direction = values[:2]
+        # BlockGen takes dips above 90, as of planes that overhang.
+        normal = _told(file, number, lambda: _blockgen_normal(dip, direction))
+        if kind == "persistent":
+            _told(file, number, lambda: JointSet(min(dip, 180 - dip), direction, values[2]))
+            half = round(size / values[2]) // 2
+            found += [Joint(tuple(step * values[2] * one for one in normal), normal) for step in range(-half, half + 1)]
+            continue
+        radius = math.inf
+        if kind == "probabilistic":
+            radius = math.sqrt(4.0 * values[5] * values[6] / math.pi)
+            if not radius > 0.0:
+                raise ValueError(f"{file}, line {number}: half lengths {values[5]:g} and {values[6]:g} must be above 0")
+        found.append(Joint(tuple(values[2:5]), normal, radius))
+    return found
+
+
+def _blockgen_normal(dip, direction):
+    if not 0.0 <= dip <= 180.0:
+        raise ValueError(f"dip={dip:g} must lie between 0 and 180")
+    dip, direction = math.radians(dip), math.radians(direction)
+    return -math.sin(dip) * math.cos(direction), -math.sin(dip) * math.sin(direction), math.cos(dip)
+
+
+def _rows(file, width, meaning, exactly=True):
+    """(line, numbers) of each row."""
+    found = []
+    with open(file, encoding="utf-8-sig") as lines:
+        for number, line in enumerate(lines, 1):
+            line = line.split("#")[0].strip()
+            if not line:
+                continue
+            words = [word.strip() for word in line.split(";" if ";" in line else ",")]
+            # BlockGen's lines end with a separator.
+            while words and not words[-1]:
+                words.pop()
+            if not found and number == 1 and not all(map(_is_number, words)):
+                continue
+            for column, word in enumerate(words[:width], 1):
+                if not _is_number(word) or math.isnan(float(word)):
+                    raise ValueError(f"{file}, line {number}, column {column}: {word!r} is no number")
+            if len(words) < width or exactly and len(words) != width:
+                raise ValueError(f"{file}, line {number}: {len(words)} numbers, and {width} are needed: {meaning}")
+            found.append((number, [float(word) for word in words[:width]]))
+    if not found:
+        raise ValueError(f"{file}: there is no row of numbers: {meaning}")
+    return found
+
+
+def _is_number(word):
+    try:
+        float(word)
+    except ValueError:
+        return False
+    return True
+
+
+def _told(file, line, make):
+    try:
+        return make()
+    except ValueError as error:
+        raise ValueError(f"{file}, line {line}: {error}") from None

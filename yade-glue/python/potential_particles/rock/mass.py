@@ -1,0 +1,234 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Slicing, and the blocks that it makes, as arrays."""
+import dataclasses
+import functools
+import math
+import sys
+import typing
+
+import numpy as np
+
+from ..arguments import number, whole
+from .domain import Domain
+from .joints import Joint, JointSet
+
+# The structs of potential_particles.h.
+BLOCK = np.dtype([("volume", "f8"), ("centroid", "f8", 3), ("inertia", "f8", 6), ("first_face", "u8"), ("face_count", "u8"), ("parent", "u8"),
+                  ("region", "i8")])
+FACE = np.dtype([("of", "u4"), ("region", "u4"), ("index", "u8"), ("plane", "f8", 4), ("area", "f8"), ("first_corner", "u8"), ("corner_count", "u8"),
+                 ("block", "u8")])
+PARTNERS = np.dtype([("faces", "u8", 2), ("area", "f8")])
+OF_DOMAIN, OF_JOINT, OF_REGION = range(3)
+
+# A face, or a part of it, this much smaller than the whole is none.
+LEAST_SHARE = 1e-8
+
+
+@dataclasses.dataclass(frozen=True)
+class Block:
+    """One block of a RockMass: volume, centroid (3,), inertia (3, 3) about it for density 1, planes (n, 4) with unit outward normals and offsets
+    from the origin, corners (m, 3), all in the axes of the domain; the faces are those of the mass with these numbers."""
+
+    number: int
+    volume: float
+    centroid: np.ndarray
+    inertia: np.ndarray
+    planes: np.ndarray
+    corners: np.ndarray
+    faces: np.ndarray
+
+
+@dataclasses.dataclass(eq=False)
+class RockMass:
+    """Blocks and their faces as numpy arrays, one row each; mass[i] is a Block, len(mass) their number.
+
+    blocks: volume, centroid, inertia (xx, yy, zz, xy, xz, yz for density 1), parent, region (-1: none) ...
+    faces: block, area, plane (unit outward normal, offset), `of` (0: a plane of the domain, 1: a joint, 2: a plane of a region), index (of that plane or joint) ...
+    partners: pairs of faces that lie on each other, with the area that they share.
+    joints: the Joints that have cut; set_of_joint: for each, the number of its entry in the `joints` of slice().
+    missing: numbers of joints that met no block. too_small, unclosed: cuts that were left out because of the limits, or of rounding.
+    complete: False if Ctrl-C ended the cuts before the last joint.
+    """
+
+    blocks: np.ndarray
+    faces: np.ndarray
+    corners: np.ndarray
+    partners: np.ndarray
+    joints: list
+    set_of_joint: np.ndarray
+    missing: np.ndarray
+    too_small: int
+    unclosed: int
+    complete: bool
+
+    def __len__(self):
+        return len(self.blocks)
+
+    def __repr__(self):
+        return f"<RockMass: {len(self):,} blocks by {len(self.joints):,} joints, {self.volume:.4g} in volume>"
+
+    def __getitem__(self, number):
+        row = self.blocks[number]
+        number = int(number) % len(self)
+        faces = np.arange(row["first_face"], row["first_face"] + row["face_count"]).astype(int)
+        xx, yy, zz, xy, xz, yz = row["inertia"]
+        corners = np.concatenate([self.outline(face) for face in faces])
+        return Block(number, float(row["volume"]), row["centroid"], np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]),
+                     self.faces["plane"][faces], np.unique(corners, axis=0), faces)
+
+    @property
+    def volume(self):
+        """Of all blocks."""
+        return float(self.blocks["volume"].sum())
+
+    def outline(self, face):
+        """Corners (n, 3) of a face, counter-clockwise from outside."""
+        first = int(self.faces["first_corner"][face])
+        return self.corners[first:first + int(self.faces["corner_count"][face])]
+
+    @functools.cached_property
+    def set_of_face(self):
+        """For each face the number of its joint's entry in the `joints` of slice(), -1 for what is no joint."""
+        return np.where(self.faces["of"] == OF_JOINT, np.append(self.set_of_joint, -1)[np.minimum(self.faces["index"].astype(int), len(self.set_of_joint))], -1)
+
+    def on_domain(self, planes):
+        """Which blocks have a face on one of these planes of the domain (numbers; a single one, too), (blocks,) of bool."""
+        return self._blocks_of(self.faces_on(planes))
+
+    def faces_on(self, planes):
+        """Which faces lie on one of these planes of the domain, (faces,) of bool."""
+        return (self.faces["of"] == OF_DOMAIN) & np.isin(self.faces["index"].astype(int), np.atleast_1d(planes))
+
+    def faces_of(self, sets):
+        """Which faces are on joints of these entries of the `joints` of slice(), (faces,) of bool."""
+        return np.isin(self.set_of_face, np.atleast_1d(sets)) & (self.faces["of"] == OF_JOINT)
+
+    def inside(self, region):
+        """Which blocks lie in this region (its number among the `regions` of slice()), (blocks,) of bool."""
+        return self.blocks["region"] == whole(region, 0, "region")
+
+    @functools.cached_property
+    def pieces(self):
+        """For each block the number of the piece of rock to which it belongs: blocks that regions alone have parted, and that still touch, are one."""
+        from scipy.sparse import coo_matrix
+        from scipy.sparse.csgraph import connected_components
+        first, second = self._partner_blocks
+        parents, regions = self.blocks["parent"], self.blocks["region"]
+        of_region = self.faces["of"][self.partners["faces"][:, 0].astype(int)] == OF_REGION
+        glued = of_region & (parents[first] == parents[second]) & (regions[first] == regions[second])
+        size = len(self)
+        graph = coo_matrix((np.ones(glued.sum()), (first[glued], second[glued])), shape=(size, size))
+        return connected_components(graph, directed=False)[1]
+
+    @property
+    def _partner_blocks(self):
+        return self.faces["block"].astype(int)[self.partners["faces"].astype(int).T]
+
+    def _blocks_of(self, faces):
+        marked = np.zeros(len(self), bool)
+        marked[self.faces["block"][faces].astype(int)] = True
+        return marked
+
+    def _with(self, kept):
+        """The same with some of its blocks alone, (blocks,) of bool."""
+        new_block = np.cumsum(kept) - 1
+        faces = kept[self.faces["block"].astype(int)]
+        new_face = np.cumsum(faces) - 1
+        blocks, left = self.blocks[kept].copy(), self.faces[faces].copy()
+        left["block"] = new_block[left["block"].astype(int)]
+        blocks["first_face"] = new_face[blocks["first_face"].astype(int)]
+        pairs = self.partners[faces[self.partners["faces"].astype(int)].all(1)].copy()
+        pairs["faces"] = new_face[pairs["faces"].astype(int)]
+        return dataclasses.replace(self, blocks=blocks, faces=left, partners=pairs)
+
+
+def slice(domain, joints, regions=(), least_volume=0.0, least_thickness=0.0, most_blocks=1_000_000, progress=True):
+    """Cuts a Domain by joints, in their order, into a RockMass (Boon, Houlsby & Utili 2015, Computers and Geotechnics 65).
+
+    joints: JointSets, Joints and lists of Joints. A joint cuts each block that it meets in two, a disc all of a block that it reaches.
+    regions: convex Domains, as the steps of an excavation, that cut the blocks that they meet, after all joints; `inside` tells which blocks lie in one.
+    What `domain` leaves out is taken out.
+    least_volume: a joint leaves a block whole if a part would be smaller than this (length^3), or thinner than least_thickness in the mean, 2V/A of
+    volume and surface (length): of a wide slab its thickness, of a cube a third of its edge. Such cuts are counted.
+    most_blocks: more are a ValueError. progress: a bar on a terminal. Ctrl-C ends the cuts, and the blocks that there are come back.
+    """
+    from .. import _glue
+    if not isinstance(domain, Domain):
+        raise ValueError(f"domain is {type(domain).__name__}, not a rock.Domain: Domain.box(lower, upper) makes one")
+    for region in regions:
+        if not isinstance(region, Domain) or region.left_out:
+            raise ValueError(f"a region is {type(region).__name__}: give convex Domains that leave nothing out themselves")
+    limits = {"least_volume": _not_negative(least_volume, "least_volume"), "least_thickness": _not_negative(least_thickness, "least_thickness"),
+              "most_blocks": whole(most_blocks, 1, "most_blocks")}
+    centre, reach = domain.ball()
+    cutting, numbers = [], []
+    for entry, given in enumerate([joints] if isinstance(joints, (JointSet, Joint)) else joints):
+        made = _joints_of(given, entry, centre, reach)
+        cutting += made
+        numbers += [entry] * len(made)
+    rows = np.array([(*one.point, *one.normal, one.radius) for one in cutting], float)
+    cut_out = [*domain.left_out, *regions]
+    with _Report(len(cutting), progress) as report:
+        read = _glue.slice_rock(domain.planes.tobytes(), rows.tobytes(), b"".join(one.planes.tobytes() for one in cut_out),
+                                [len(one.planes) for one in cut_out], limits, report.told)
+    done = int(read["joints"])
+    mass = RockMass(blocks=np.frombuffer(read["blocks"], BLOCK), faces=np.frombuffer(read["faces"], FACE), corners=np.frombuffer(read["corners"]).reshape(-1, 3),
+                    partners=np.frombuffer(read["partners"], PARTNERS), joints=cutting, set_of_joint=np.array(numbers, int),
+                    missing=np.frombuffer(read["missing"], "u8").astype(int), too_small=int(read["too_small"]), unclosed=int(read["unclosed"]),
+                    complete=done == len(cutting))
+    if not mass.complete:
+        print(f"slicing was stopped by Ctrl-C after {done:,} of {len(cutting):,} joints: {len(mass):,} blocks", file=sys.stderr)
+    count = len(domain.left_out)
+    if count:
+        blocks = mass.blocks.copy()
+        kept = (blocks["region"] < 0) | (blocks["region"] >= count)
+        blocks["region"] = np.where(blocks["region"] < 0, -1, blocks["region"] - count)
+        faces = mass.faces.copy()
+        # What was left out comes before the regions of slice().
+        faces["region"] = np.where(faces["region"] >= count, faces["region"] - count, 0)
+        mass = dataclasses.replace(mass, blocks=blocks, faces=faces)._with(kept)
+    return mass
+
+
+def _joints_of(given, entry, centre, reach) -> typing.List[Joint]:
+    if isinstance(given, JointSet):
+        return given.joints(centre, reach)
+    made = [given] if isinstance(given, Joint) else list(given)
+    for one in made:
+        if not isinstance(one, Joint):
+            raise ValueError(f"joints[{entry}] holds {type(one).__name__}: give a JointSet, a Joint or a list of Joints")
+    return made
+
+
+def _not_negative(value, name):
+    found = number(value, name)
+    if found < 0.0:
+        raise ValueError(f"{name}={found:g} must be 0 or above")
+    return found
+
+
+class _Report:
+    """A bar on a terminal for what takes longer than an instant; Ctrl-C is noted."""
+
+    def __init__(self, total, shown):
+        from ..packing import _Interrupts
+        self.total, self.shown, self.bar, self.interrupts = total, shown and sys.stderr.isatty(), None, _Interrupts()
+
+    def __enter__(self):
+        self.noted = self.interrupts.__enter__()
+        if self.shown:
+            from tqdm import tqdm
+            self.bar = tqdm(total=self.total, unit=" joints", desc="slicing", leave=False, delay=0.5)
+        return self
+
+    def told(self, joints, blocks):
+        if self.bar is not None:
+            self.bar.update(joints - self.bar.n)
+        return not self.noted
+
+    def __exit__(self, *error):
+        if self.bar is not None:
+            self.bar.close()
+        self.interrupts.__exit__(*error)
+
+

@@ -1,0 +1,172 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Bodies of blocks, joints with the materials of their sets, excavation."""
+import json
+import math
+
+import numpy as np
+
+from ..arguments import number, positive, whole, within
+from ..shape import Shape
+
+TAG = "potential_particles.rock"
+
+#: Mask of fixed blocks; with avoidSelfInteractionMask=2 a collider passes over contacts between them.
+FIXED_MASK = 3
+
+# Of the size of a block, and of the distance from the origin: faces that touch to rounding alone have no patch, and to look for one takes long.
+TOUCH, ROUNDING = 1e-10, 1e-13
+
+
+def bodies(mass, material=None, r=0.05, fixed=(), overlap=None, color=None, **more):
+    """Appends the blocks of a RockMass to O.bodies; an array (blocks,) of the ids of their bodies.
+
+    material: a Material, or the number or label of one in O.materials (None: the last). r: rounding of edges and corners as a share of twice the distance of
+    the nearest face from the centroid; faces are flat (k = 0) and stay where they are, but for `overlap`, length, by which each is moved out, so that
+    neighbours touch from the start: by default 1e-10 of the size of a block, and above rounding. Mass and inertia are those of the sharp blocks, so that masses sum to that of the domain.
+    fixed: blocks that no force moves, as numbers or (blocks,) of bool, as mass.on_domain gives them. Pieces of a block that regions parted are a clump, with
+    the mass of their sum, and all fixed where one is. color: one for all, or a function of the number of a block; by default a shade for each.
+    The mask of fixed blocks is 3: InsertionSortCollider(..., avoidSelfInteractionMask=2) leaves out contacts between them.
+    more: further arguments of potential_particles.body.
+    """
+    import yade
+    from ..bodies import body
+    from ..clumps import clump
+    r = number(r, "r")
+    if not 0.0 < r < 0.5:
+        raise ValueError(f"r={r:g} is a share of the thickness of a block and must lie between 0 and 0.5")
+    size = np.median(np.cbrt(mass.blocks["volume"]))
+    overlap = max(TOUCH * size, ROUNDING * np.abs(mass.corners).max()) if overlap is None else within(overlap, 0.0, math.inf, "overlap")
+    still = _marked(fixed, len(mass), "fixed")
+    held = np.zeros(mass.pieces.max(initial=-1) + 1, bool)
+    held[mass.pieces[still]] = True
+    made = []
+    for one in range(len(mass)):
+        block = mass[one]
+        shape, orientation = _shape(block, r, overlap)
+        shade = _shade(one) if color is None else color(one) if callable(color) else color
+        is_held = bool(held[mass.pieces[one]])
+        made.append(body(shape, material, block.centroid, orientation, fixed=is_held, color=shade, **{**({"mask": FIXED_MASK} if is_held else {}), **more}))
+    ids = np.array(yade.O.bodies.append(made), int)
+    counts = np.bincount(mass.pieces, minlength=len(held))
+    for piece in np.flatnonzero((counts > 1) & ~held):
+        clump(ids[mass.pieces == piece].tolist(), lines=400)
+    return ids
+
+
+def joint_engine(mass, ids, materials, period=1):
+    """An engine that gives contacts the friction, strength and stiffness of the joint on which they lie, to stand behind the contact loop.
+
+    mass, ids: as of bodies(). materials: for entries of the `joints` of slice() a Material: of a ConicJointMat friction angles, cohesion, tensile
+    strength, softening and, where they are above 0, both stiffnesses count; of another FrictMat the friction angle. Contacts between blocks that were
+    neighbours on a joint of these sets take them in the first step after they are made, looked for every `period` steps; all others keep what their bodies give them.
+    Saved with the scene, in O.tags; a script that loads it imports potential_particles.
+    """
+    import yade
+    period = whole(period, 1, "period")
+    largest = {}
+    sets, owners = mass.set_of_face, mass.faces["block"].astype(int)
+    for (first, second), area in zip(mass.partners["faces"].astype(int), mass.partners["area"]):
+        pair = tuple(sorted((int(ids[owners[first]]), int(ids[owners[second]]))))
+        if int(sets[first]) in materials and area > largest.get(pair, (0.0,))[0]:
+            largest[pair] = float(area), int(sets[first])
+    for entry, material in materials.items():
+        if not isinstance(material, yade.FrictMat):
+            raise ValueError(f"materials[{entry!r}] is {type(material).__name__}: give a ConicJointMat or another FrictMat")
+    table = {"pairs": [[*pair, entry] for pair, (_, entry) in largest.items()],
+             "values": {str(int(entry)): _values(material) for entry, material in materials.items()}}
+    yade.O.tags[TAG] = json.dumps(table)
+    return yade.PyRunner(command="import potential_particles.rock.scene; potential_particles.rock.scene.follow()", iterPeriod=period, initRun=True)
+
+
+_VALUES = ("frictionAngle", "residualFrictionAngle", "cohesion", "residualCohesion", "tensileStrength", "softening", "normalStiffness", "shearStiffness")
+_known = {}
+
+
+def _values(material):
+    found = {name: getattr(material, name) for name in _VALUES if hasattr(material, name)}
+    if found.get("residualFrictionAngle", -1.0) < 0.0:
+        found["residualFrictionAngle"] = found["frictionAngle"]
+    return found
+
+
+def follow():
+    """What joint_engine() does when it runs."""
+    import yade
+    text = yade.O.tags[TAG]
+    if _known.get("text") != text:
+        table = json.loads(text)
+        _known.update(text=text, since=-1, pairs={(a, b): table["values"][str(entry)] for a, b, entry in table["pairs"]})
+    if _known["since"] > yade.O.iter:
+        _known["since"] = -1
+    since, pairs = _known["since"], _known["pairs"]
+    for contact in yade.O.interactions:
+        if contact.isReal and contact.iterMadeReal >= since:
+            values = pairs.get((min(contact.id1, contact.id2), max(contact.id1, contact.id2)))
+            if values is not None:
+                _give(contact.phys, values)
+    _known["since"] = yade.O.iter
+
+
+def _give(physics, values):
+    physics.tangensOfFrictionAngle = math.tan(values["frictionAngle"])
+    if hasattr(physics, "tangensOfResidualFrictionAngle"):
+        physics.tangensOfResidualFrictionAngle = math.tan(values["residualFrictionAngle"])
+    for name in _VALUES[2:]:
+        if name in values and hasattr(physics, name) and not (name.endswith("Stiffness") and values[name] <= 0.0):
+            setattr(physics, name, values[name])
+
+
+def excavate(ids, settle=0, slow=1e-3, check_every=100):
+    """Takes bodies out of the scene, clumps with all their members, and runs up to `settle` steps until none is faster than `slow` (length per time).
+
+    ids: of the bodies, as ids[mass.inside(0)]; one that is gone already is passed over. Returns the steps that were run. A sequence is a loop over regions.
+    """
+    import yade
+    scene = yade.O
+    chosen = [body for body in (scene.bodies[one] for one in sorted({int(one) for one in np.atleast_1d(ids)}) if one < len(scene.bodies)) if body is not None]
+    carriers = {body.clumpId if body.isClumpMember else body.id for body in chosen}
+    gone = carriers | {member for one in carriers if scene.bodies[one].isClump for member in scene.bodies[one].shape.members}
+    # YADE would leave their contacts until the next step.
+    for pair in [(contact.id1, contact.id2) for contact in scene.interactions if not gone.isdisjoint((contact.id1, contact.id2))]:
+        scene.interactions.erase(*pair)
+    for one in carriers:
+        scene.bodies.erase(one, True)
+    slow, done = positive(slow, "slow"), 0
+    while done < whole(settle, 0, "settle"):
+        scene.run(min(check_every, settle - done), True)
+        done += min(check_every, settle - done)
+        if max((body.state.vel.norm() for body in scene.bodies if body.state.mass > 0.0), default=0.0) < slow:
+            break
+    return done
+
+
+def _shape(block, r, overlap):
+    """The Shape of a block in its principal axes, and the orientation of these."""
+    from ..principal_frame import principal_axes, quaternion
+    axes, moments = principal_axes(block.inertia)
+    heights = block.planes[:, 3] - block.planes[:, :3] @ block.centroid
+    rounding = 2.0 * r * float(heights.min())
+    planes = np.column_stack([block.planes[:, :3] @ axes, heights + overlap - rounding])
+    reach = float(np.linalg.norm(block.corners - block.centroid, axis=1).max())
+    shape = Shape(planes=tuple(map(tuple, planes.tolist())), r=rounding, k=0.0, R=reach, volume=block.volume, inertia=tuple(map(float, moments)), error=1e-12,
+                  centroid=(0.0, 0.0, 0.0), orientation=(1.0, 0.0, 0.0, 0.0), bounding_radius=reach, name=f"block {block.number}")
+    return shape, quaternion(axes)
+
+
+def _marked(chosen, count, name):
+    """(count,) of bool from numbers or from that."""
+    given = np.asarray(chosen)
+    if given.dtype == bool and given.shape == (count,):
+        return given
+    marked = np.zeros(count, bool)
+    try:
+        marked[given.astype(int)] = True
+    except (IndexError, ValueError, TypeError):
+        raise ValueError(f"{name} must be numbers of blocks below {count}, or {count} of bool") from None
+    return marked
+
+
+def _shade(number):
+    """Of stone; a little lighter or darker from block to block."""
+    shift = 0.14 * ((number * 0.618034) % 1.0 - 0.5)
+    return tuple(one + shift for one in (0.72, 0.68, 0.6))
