@@ -15,7 +15,7 @@
 //! | `patch` | contact patches |
 //! | `batch` | the pairs of a step |
 //! | `builders` | shapes |
-//! | `rock` | rock masses |
+//! | `slicing` | rock masses |
 //! | `planar` | particles of the plane |
 
 mod arrays;
@@ -29,7 +29,7 @@ mod patch;
 mod planar;
 mod pose;
 mod records;
-mod rock;
+mod slicing;
 mod settings;
 
 use pyo3::prelude::*;
@@ -46,6 +46,6 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     patch::add(module)?;
     batch::add(module)?;
     builders::add(module)?;
-    rock::add(module)?;
+    slicing::add(module)?;
     planar::add(module)
 }
