@@ -185,7 +185,7 @@ impl Spread {
             let alike = rays[..count].iter().flatten().all(|ray| ray.is_like(first));
             let least = if alike { 0.02 } else { 1.0 };
             let of = |off: f64, size: f64| if off > 0.0 { off * (2.0 * off / size).clamp(least, 1.0) } else { 0.0 };
-            let reach = first.event(first.count.max(1) - 1).map_or(0.0, |event| event.rho);
+            let reach = first.length();
             let radial = radial + CHANGED * self.skew * reach * first.sums[2];
             error = if count == 1 {
                 (radial + SINGLE * size, SINGLE * fine[3])

@@ -27,16 +27,16 @@ pub(super) fn flattest_axis(field: &Field) -> [f64; 2] {
 }
 
 /// A point of the patch in its middle: from a point of it to the middle of the load on the line along an axis, and from there on that
-/// across. And ∫ p ρ dρ over the four rays from there along both, roughly.
-pub(super) fn middle(walker: &mut Walker, start: [f64; 3], axis: [f64; 2]) -> ([f64; 3], f64) {
-    let (mut at, mut rough) = (start, 0.0);
-    for direction in [axis, [-axis[1], axis[0]]] {
+/// across. And ∫ p ρ dρ over the four rays from there along both, roughly, and how long the patch is on both.
+pub(super) fn middle(walker: &mut Walker, start: [f64; 3], axis: [f64; 2]) -> ([f64; 3], f64, [f64; 2]) {
+    let (mut at, mut rough, mut lengths) = (start, 0.0, [0.0; 2]);
+    for (direction, whole) in [axis, [-axis[1], axis[0]]].into_iter().zip(&mut lengths) {
         let (mut load, mut moment, mut length) = (0.0, 0.0, 0.0);
         walker.nodes.clear();
         for sign in [1.0, -1.0] {
             let line = Line { origin: at, direction: direction.map(|c| sign * c), is_polar: false };
             let ray = walker.walk(&line);
-            length += ray.events[ray.count.max(1) - 1].rho;
+            length += ray.length();
             for node in &walker.nodes[ray.nodes.0 as usize..ray.nodes.1 as usize] {
                 let along = direction[0] * (node.x[0] - at[0]) + direction[1] * (node.x[1] - at[1]);
                 load += node.weight * node.pressure;
@@ -44,6 +44,7 @@ pub(super) fn middle(walker: &mut Walker, start: [f64; 3], axis: [f64; 2]) -> ([
             }
         }
         rough += 0.25 * load * length;
+        *whole = length;
         if load > 0.0 {
             let nearest = walker.nodes.iter().min_by(|a, b| {
                 let off = |x: &[f64; 3]| {
@@ -56,7 +57,7 @@ pub(super) fn middle(walker: &mut Walker, start: [f64; 3], axis: [f64; 2]) -> ([
             at = on_patch(walker.field, u, v, nearest.map_or(at[2], |node| node.x[2])).unwrap_or(at);
         }
     }
-    (at, rough)
+    (at, rough, lengths)
 }
 
 /// The point of the patch above a point of the plane of the frame.

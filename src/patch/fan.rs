@@ -184,7 +184,7 @@ impl<'w, 'f, 'a, 's> Fan<'w, 'f, 'a, 's> {
     /// Walks over a ray and keeps it.
     fn cast(&mut self, direction: [f64; 2]) -> usize {
         let ray = self.walker.walk(&self.line(direction));
-        self.extent = self.extent.max(last(&ray).rho);
+        self.extent = self.extent.max(ray.length());
         self.rays.push(ray);
         if self.rays.len() >= MOST_RAYS || self.walker.nodes.len() >= MOST_NODES {
             // What is left is done as cheaply as it can be.
@@ -430,12 +430,8 @@ impl<'w, 'f, 'a, 's> Fan<'w, 'f, 'a, 's> {
     /// Distance to an event, or to the end.
     fn reach(&self, ray: usize, place: usize) -> f64 {
         let ray = &self.rays[ray];
-        ray.event(place).unwrap_or(last(ray)).rho
+        ray.event(place).map_or_else(|| ray.length(), |event| event.rho)
     }
-}
-
-fn last(ray: &Ray) -> &Event {
-    &ray.events[ray.count.max(1) - 1]
 }
 
 fn unit([e, f]: [f64; 2]) -> [f64; 2] {

@@ -5,8 +5,9 @@ use super::cell::RayPlane;
 use super::centre::{flattest_axis, middle, on_patch};
 use super::fan::{Fan, Integral};
 use super::field::{Field, FramePlane, Placed};
+use super::oval::oval;
 use super::patch::{Patch, PatchFlags, PatchPoint};
-use super::pieces::{PieceScratch, pieces};
+use super::pieces::{Estimate, PieceScratch, pieces};
 use super::ray::{Line, Node, Walker};
 use super::rules::order_of;
 use super::scratch::PatchScratch;
@@ -117,13 +118,20 @@ fn in_parts(
         let mut walker = Walker { field, planes: ray_planes, nodes, order, with_energy, budget };
         around(&mut walker, level, polygon, tolerance, points)
     })?;
-    let force = points.iter().map(|node| node.weight * node.pressure * vector(node)).sum::<Vector3<f64>>().norm();
-    Some(Outcome {
-        error: estimate.force / force,
-        area_error: estimate.area / points.iter().map(|node| node.weight).sum::<f64>(),
-        rays: estimate.rays,
-        ..Outcome::default()
-    })
+    Some(Outcome::of(&estimate, points))
+}
+
+impl Outcome {
+    /// Of points whose errors are estimated.
+    fn of(estimate: &Estimate, points: &[Node]) -> Self {
+        let force = points.iter().map(|node| node.weight * node.pressure * vector(node)).sum::<Vector3<f64>>().norm();
+        Self {
+            error: estimate.force / force,
+            area_error: estimate.area / points.iter().map(|node| node.weight).sum::<f64>(),
+            rays: estimate.rays,
+            ..Self::default()
+        }
+    }
 }
 
 /// Integrates by a fan of rays and copies its points.
@@ -137,7 +145,13 @@ fn spread(task: &Task, fan: &mut Fan, start: [f64; 3], points: &mut Vec<Node>) -
         8
     };
     let start = inwards(&mut fan.walker, start, task.inside);
-    let (centre, rough) = middle(&mut fan.walker, start, axis);
+    let (centre, rough, lengths) = middle(&mut fan.walker, start, axis);
+    if !task.settings.with_energy && fan.tolerance >= FINEST_OF_PIECES {
+        fan.walker.order = order;
+        if let Some(estimate) = oval(&mut fan.walker, centre, (axis, lengths), rough, fan.tolerance, points) {
+            return Outcome::of(&estimate, points);
+        }
+    }
     fan.centre = centre;
     let mut integral = Integral::default();
     for starts in 0.. {
@@ -193,7 +207,7 @@ fn inwards(walker: &mut Walker, start: [f64; 3], inside: Option<[f64; 2]>) -> [f
     }
     let direction = way.map(|c| c / length);
     let ray = walker.walk(&Line { origin: start, direction, is_polar: false });
-    let half = 0.5 * ray.events[ray.count.max(1) - 1].rho.min(length);
+    let half = 0.5 * ray.length().min(length);
     [start[0] + half * direction[0], start[1] + half * direction[1], start[2]]
 }
 

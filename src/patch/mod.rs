@@ -16,6 +16,7 @@
 //! | `zone` | the parts about edges and corners |
 //! | `pieces` | the patch in such parts |
 //! | `border` | a flat part with rays around it |
+//! | `oval` | rays at equal steps around a smooth rim |
 //! | `centre` | where the rays start |
 //! | `smoothness` | how far off a rule over a sector is |
 //! | `fan` | sectors of rays, refined |
@@ -35,6 +36,7 @@ mod energy;
 mod fan;
 mod field;
 mod integration;
+mod oval;
 #[allow(clippy::module_inception)]
 mod patch;
 mod patch_state;

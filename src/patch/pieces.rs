@@ -31,7 +31,7 @@ const FEW: usize = 48;
 const SINGLE: f64 = 0.3;
 
 /// Factor by which a zone reaches farther from its middle than the places of its border that are computed, at most.
-const BETWEEN: f64 = 1.1;
+pub(super) const BETWEEN: f64 = 1.1;
 
 /// A part of the patch.
 #[derive(Clone, Copy, Debug)]

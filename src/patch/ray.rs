@@ -91,6 +91,11 @@ impl Ray {
         (0..both).find(|i| self.events[*i].id != other.events[*i].id).unwrap_or(both)
     }
 
+    /// From the origin to the end.
+    pub fn length(&self) -> f64 {
+        self.events[self.count.max(1) - 1].rho
+    }
+
     /// ∫ p beyond event `i` − 1.
     pub fn tail(&self, i: usize) -> f64 {
         self.sums[2] - if i == 0 { 0.0 } else { self.event(i - 1).map_or(0.0, |event| event.before) }

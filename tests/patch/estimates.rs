@@ -166,3 +166,16 @@ fn faces_that_touch_to_rounding_take_no_more_than_others() {
     }
     assert!(count > 400, "{count}");
 }
+
+/// Round bodies and corners have smooth rims, on which equal steps converge at once.
+#[test]
+fn a_smooth_rim_takes_few_rays() {
+    let mut chance = Chance::new(31);
+    for k in [0.02, 0.3, 1.0] {
+        for depth in [0.001, 0.03, 0.3] {
+            let pair = Pair::random(["ball", "ball"], [k, k], 1.0, depth, &mut chance);
+            let found = patch(&pair, 1e-4, false);
+            assert!(found.rays <= 16 && found.error < 1e-4, "k {k}, depth {depth}: {} rays", found.rays);
+        }
+    }
+}
