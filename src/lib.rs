@@ -100,7 +100,7 @@ pub use contact::contact::{Contact, Kind};
 pub use contact::detect::{DetectError, detect};
 pub use derivative::{
     ContactDerivatives, ContactWeights, DerivativeError, DerivativeFlags, PoseGradient, PoseRow, PoseRows, ShapeGradient,
-    contact_derivatives, contact_gradient,
+    boundary_derivatives, boundary_gradient, contact_derivatives, contact_gradient,
 };
 pub use flags::Flags;
 pub use pair::pair_state::PairState;

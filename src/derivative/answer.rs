@@ -153,6 +153,9 @@ pub enum DerivativeError {
     /// The curvature across the normal vanishes in spite of the regularisation, or leaves the range of numbers.
     #[error("the curvature of the potentials across the normal vanishes or is not finite")]
     NoCurvature,
+    /// A contact with an edge was given without its triangle.
+    #[error("the contact is with an edge of a triangle, whose direction is not known: give the triangle")]
+    NoTriangle,
     /// Closest points of a separated pair, which the contact does not hold, could not be found again.
     #[error(transparent)]
     Detect(#[from] DetectError),

@@ -33,7 +33,7 @@ impl AlongNormal<'_> {
             normal: vector(axes, &[moved.normal[0], moved.normal[1], Row::ZERO]),
             point: at_optimum,
             point_on_a: NO_ROWS,
-            point_on_b: NO_ROWS,
+            point_on_b: if self.optimum.places[1].is_none() { at_optimum } else { NO_ROWS },
             flags: self.optimum.flags,
         };
         let Some((on_a, on_b)) = &self.surfaces else { return derivatives };
@@ -81,6 +81,8 @@ impl AlongNormal<'_> {
                 Some(surface_b) => add(1, surface_b, &on_b),
                 None => point += on_b,
             }
+        } else if self.optimum.places[1].is_none() {
+            point += on_b;
         }
         let mut fields = self.optimum.pulled_back(&point, &normal);
         let of_value = 0.5 * weights.s / self.s * self.optimum.of_value();

@@ -42,6 +42,7 @@
 //! | `patch` | derivatives of force and torque of a patch |
 
 mod answer;
+mod boundary;
 mod closest;
 mod contact;
 mod field;
@@ -53,4 +54,5 @@ mod surface;
 pub use answer::{
     ContactDerivatives, ContactWeights, DerivativeError, DerivativeFlags, PoseGradient, PoseRow, PoseRows, ShapeGradient,
 };
+pub use boundary::{boundary_derivatives, boundary_gradient};
 pub use contact::{contact_derivatives, contact_gradient};
