@@ -68,7 +68,7 @@ pub fn boundary_gradient(
     flags.set(DerivativeFlags::SEPARATED, contact.kind == Kind::Separated);
     // Where both move alike, points and normal go with them.
     let mut both = PoseGradient { shift: weights.point + weights.point_on_b, turn: contact.normal.cross(&weights.normal) };
-    both.turn += contact.branch.cross(&weights.point) + linearised.branches[0].cross(&weights.point_on_b);
+    both.turn += contact.branch.cross(&weights.point) + (contact.on_boundary - pose.position()).cross(&weights.point_on_b);
     if contact.kind == Kind::Overlapping {
         both.shift += weights.point_on_a;
         both.turn += (contact.on_particle - pose.position()).cross(&weights.point_on_a);
@@ -93,7 +93,8 @@ fn linearised<'a>(
     }
     let is_overlap = contact.kind == Kind::Overlapping;
     let to_optimum = if is_overlap { contact.branch - 0.5 * contact.overlap * contact.normal } else { contact.branch };
-    let place = Place::new(a, pose, to_optimum, contact.point_bound, least_sphericity(settings, contact.flags));
+    let least = least_sphericity(settings, contact.flags);
+    let place = Place::new((a, pose), to_optimum, [contact.point_bound, 0.0], least);
     let (dimensions, along) = match (contact.feature, triangle) {
         (Feature::Interior, _) => (2, None),
         (Feature::Edge(i), Some(triangle)) => {
@@ -109,5 +110,5 @@ fn linearised<'a>(
     } else {
         None
     };
-    Ok(AlongNormal { optimum, s: contact.s, branches: [to_optimum; 2], surfaces })
+    Ok(AlongNormal { optimum, s: contact.s, surfaces })
 }

@@ -6,12 +6,15 @@ use super::answer::{
 use super::closest::ClosestPoints;
 use super::field::Place;
 use super::midway::AlongNormal;
-use super::optimum::{FieldWeights, Kind as Problem, Optimum};
+use super::optimum::{FieldWeights, Kind as Problem, Optimum, normal_at};
 use super::surface::SurfacePoint;
 use crate::contact::closest_point::closest_point;
 use crate::contact::contact::{Contact, Kind};
 use crate::contact::detect::DetectError;
 use crate::flags::Flags;
+use crate::linalg::double_double::DoubleDouble;
+use crate::linalg::number::Single;
+use crate::linalg::wide::{difference, wide};
 use crate::pair::role::Role;
 use crate::particle::particle::Particle;
 use crate::pose::Pose;
@@ -20,8 +23,10 @@ use nalgebra::Vector3;
 
 /// A contact with its linearised optimality conditions.
 enum Linearised<'a> {
-    AlongNormal(Box<AlongNormal<'a>>),
-    Closest(Box<ClosestPoints<'a>>),
+    Midway(AlongNormal<'a>),
+    Closest(ClosestPoints<'a>),
+    PreciseMidway(Box<AlongNormal<'a, DoubleDouble>>),
+    PreciseClosest(Box<ClosestPoints<'a, DoubleDouble>>),
 }
 
 /// The derivatives of a contact in the poses of both bodies.
@@ -53,8 +58,10 @@ pub fn contact_derivatives(
     settings: &Settings,
 ) -> Result<ContactDerivatives, DerivativeError> {
     let mut derivatives = match linearised((a, pose_a), (b, pose_b), contact, settings)? {
-        Linearised::AlongNormal(contact) => contact.derivatives(),
+        Linearised::Midway(contact) => contact.derivatives(),
         Linearised::Closest(contact) => contact.derivatives(),
+        Linearised::PreciseMidway(contact) => contact.derivatives(),
+        Linearised::PreciseClosest(contact) => contact.derivatives(),
     };
     derivatives.flags.set(DerivativeFlags::SEPARATED, contact.kind == Kind::Separated);
     Ok(derivatives)
@@ -99,15 +106,10 @@ pub fn contact_gradient(
     let mut sum = Gradient { poses: Default::default(), shapes: [shape_a, shape_b] };
     sum.check([a, b])?;
     let mut flags = match linearised((a, pose_a), (b, pose_b), contact, settings)? {
-        Linearised::AlongNormal(contact) => sum.add_along_normal(&contact, weights),
-        Linearised::Closest(contact) => {
-            let mut flags = DerivativeFlags::default();
-            for (optimum, fields) in &contact.pulled_back(weights) {
-                sum.add_optimum(optimum, fields);
-                flags.set(optimum.flags, true);
-            }
-            flags
-        }
+        Linearised::Midway(contact) => sum.add_along_normal(&contact, weights),
+        Linearised::Closest(contact) => sum.add_closest(&contact, weights),
+        Linearised::PreciseMidway(contact) => sum.add_along_normal(&contact, weights),
+        Linearised::PreciseClosest(contact) => sum.add_closest(&contact, weights),
     };
     flags.set(DerivativeFlags::SEPARATED, contact.kind == Kind::Separated);
     Ok((sum.poses, flags))
@@ -130,13 +132,17 @@ impl Gradient<'_> {
         Ok(())
     }
 
-    pub fn add_along_normal(&mut self, contact: &AlongNormal, weights: &ContactWeights) -> DerivativeFlags {
+    pub fn add_along_normal<N: Single>(
+        &mut self,
+        contact: &AlongNormal<N>,
+        weights: &ContactWeights,
+    ) -> DerivativeFlags {
         let (fields, sigmas) = contact.pulled_back(weights);
         self.add_optimum(&contact.optimum, &fields);
         if let Some((surface_a, surface_b)) = &contact.surfaces {
             for (i, surface) in [Some(surface_a), surface_b.as_ref()].into_iter().enumerate() {
                 let Some(surface) = surface else { continue };
-                let velocity = -sigmas[i] * (contact.optimum.axes * surface.gradient());
+                let velocity = contact.optimum.axes * surface.gradient() * -sigmas[i];
                 self.add_motion(i, &surface.place, [velocity, Vector3::zeros()]);
                 self.add_shape(i, &surface.place, &FieldWeights { sigma: sigmas[i], gamma: Vector3::zeros() });
             }
@@ -144,7 +150,20 @@ impl Gradient<'_> {
         contact.optimum.flags
     }
 
-    fn add_optimum(&mut self, optimum: &Optimum, fields: &[FieldWeights; 2]) {
+    fn add_closest<N: Single>(
+        &mut self,
+        contact: &ClosestPoints<N>,
+        weights: &ContactWeights,
+    ) -> DerivativeFlags {
+        let mut flags = DerivativeFlags::default();
+        for (optimum, fields) in &contact.pulled_back(weights) {
+            self.add_optimum(optimum, fields);
+            flags.set(optimum.flags, true);
+        }
+        flags
+    }
+
+    fn add_optimum<N: Single>(&mut self, optimum: &Optimum<N>, fields: &[FieldWeights<N>; 2]) {
         for (i, (place, weights)) in optimum.places.iter().zip(fields).enumerate() {
             if let Some(place) = place {
                 self.add_motion(i, place, optimum.on_motion(i, weights));
@@ -154,12 +173,12 @@ impl Gradient<'_> {
     }
 
     /// Weights on velocity and turn at a point.
-    fn add_motion(&mut self, i: usize, place: &Place, [velocity, turn]: [Vector3<f64>; 2]) {
-        self.poses[i].shift += velocity;
-        self.poses[i].turn += turn + place.branch.cross(&velocity);
+    fn add_motion<N: Single>(&mut self, i: usize, place: &Place<N>, [velocity, turn]: [Vector3<N>; 2]) {
+        self.poses[i].shift += velocity.map(N::approximate);
+        self.poses[i].turn += (turn + place.branch.cross(&velocity)).map(N::approximate);
     }
 
-    fn add_shape(&mut self, i: usize, place: &Place, weights: &FieldWeights) {
+    fn add_shape<N: Single>(&mut self, i: usize, place: &Place<N>, weights: &FieldWeights<N>) {
         if let Some(shape) = self.shapes[i].as_deref_mut() {
             place.add_to_shape(weights.sigma, &weights.gamma, shape);
         }
@@ -176,6 +195,113 @@ pub(super) fn is_finite(v: &Vector3<f64>) -> bool {
     v.iter().all(|c| c.is_finite())
 }
 
+/// A contact whose optimality conditions are to be linearised.
+struct Task<'a, 'c> {
+    bodies: [(&'a Particle, &'a Pose); 2],
+    contact: &'c Contact,
+    settings: &'c Settings,
+    least_sphericity: f64,
+}
+
+impl<'a> Task<'a, '_> {
+    fn is_overlap(&self) -> bool {
+        self.contact.kind == Kind::Overlapping
+    }
+
+    /// Guesses of the ways along the normal to both surfaces.
+    fn guesses(&self) -> [f64; 2] {
+        let Contact { point_on_a, point_on_b, point, normal, .. } = self.contact;
+        [point_on_a, point_on_b].map(|on_surface| (on_surface - point).dot(normal))
+    }
+
+    /// In doubles, or `None` where these have lost too many digits.
+    fn midway(&self) -> Result<Option<AlongNormal<'a>>, DerivativeError> {
+        let contact = self.contact;
+        let branches = [contact.branch_a, contact.branch_b];
+        let error = [contact.point_bound, 0.0];
+        let places = [0, 1].map(|i| Place::new(self.bodies[i], branches[i], error, self.least_sphericity));
+        let optimum = Optimum::new(Problem::Midway, places.map(Some), &contact.normal, None)?;
+        if optimum.wants_more() { Ok(None) } else { self.along_normal(optimum, places).map(Some) }
+    }
+
+    fn along_normal<N: Single>(
+        &self,
+        optimum: Optimum<'a, N>,
+        places: [Place<'a, N>; 2],
+    ) -> Result<AlongNormal<'a, N>, DerivativeError> {
+        let guesses = self.guesses();
+        let surface = |i: usize| SurfacePoint::new(&places[i], &optimum.axes, guesses[i]);
+        let surfaces = if self.is_overlap() { Some((surface(0)?, Some(surface(1)?))) } else { None };
+        Ok(AlongNormal { s: self.contact.s, surfaces, optimum })
+    }
+
+    /// Branches of P1 and of P2 from both bodies, with the bound on their error and the lengths that their rounding comes from.
+    fn closest_branches(&self) -> Result<[([Vector3<f64>; 2], [f64; 2]); 2], DerivativeError> {
+        let [a, b] = self.bodies;
+        let positions = [*a.1.position(), *b.1.position()];
+        if self.is_overlap() {
+            let from = positions[0].norm().max(positions[1].norm());
+            let error = [self.contact.point_bound + 2.0 * f64::EPSILON * from, from];
+            let points = [self.contact.point_on_a, self.contact.point_on_b];
+            return Ok(points.map(|point| (positions.map(|position| point - position), error)));
+        }
+        let found = |on: Role| -> Result<_, DerivativeError> {
+            let found = closest_point(a.0, a.1, b.0, b.1, on, self.settings)?.ok_or(DetectError::no_surface())?;
+            Ok(([found.branch_a, found.branch_b], [found.point_bound, 0.0]))
+        };
+        Ok([found(Role::A)?, found(Role::B)?])
+    }
+
+    fn closest(
+        &self,
+        branches: &[([Vector3<f64>; 2], [f64; 2]); 2],
+    ) -> Result<Option<ClosestPoints<'a>>, DerivativeError> {
+        let optimum = |j: usize| -> Result<_, DerivativeError> {
+            let (branches, error) = branches[j];
+            let places = [0, 1].map(|i| Place::new(self.bodies[i], branches[i], error, self.least_sphericity));
+            Optimum::new(ON[j], places.map(Some), &normal_at(&places), None)
+        };
+        let optima = [optimum(0)?, optimum(1)?];
+        let wants_more = optima.iter().any(Optimum::wants_more);
+        Ok(if wants_more { None } else { Some(self.closest_points(optima)) })
+    }
+
+    fn closest_points<N: Single>(&self, optima: [Optimum<'a, N>; 2]) -> ClosestPoints<'a, N> {
+        let scales = [self.contact.s_b, self.contact.s];
+        ClosestPoints::new(optima, scales, self.settings.weight_on_a, self.is_overlap())
+    }
+
+    /// An optimum in 32 digits, from how far it lies from B.
+    #[cold]
+    fn precise(&self, kind: Problem, branch_b: &Vector3<f64>) -> Result<Optimum<'a, DoubleDouble>, DerivativeError> {
+        let [pose_a, pose_b] = self.bodies.map(|body| body.1);
+        let branch_b = wide(branch_b);
+        let branch_a = branch_b + difference(pose_b.position(), pose_a.position());
+        let place = |i: usize, branch| Place::precise(self.bodies[i], branch, self.least_sphericity);
+        Optimum::refined(kind, [place(0, branch_a), place(1, branch_b)])
+    }
+
+    fn linearised(&self) -> Result<Linearised<'a>, DerivativeError> {
+        if self.contact.formulation == Formulation::Midway {
+            if let Some(contact) = self.midway()? {
+                return Ok(Linearised::Midway(contact));
+            }
+            let optimum = self.precise(Problem::Midway, &self.contact.branch_b)?;
+            let [Some(a), Some(b)] = optimum.places else { return Err(DerivativeError::NoPoint) };
+            return Ok(Linearised::PreciseMidway(Box::new(self.along_normal(optimum, [a, b])?)));
+        }
+        let branches = self.closest_branches()?;
+        if let Some(contact) = self.closest(&branches)? {
+            return Ok(Linearised::Closest(contact));
+        }
+        let optimum = |j: usize| self.precise(ON[j], &branches[j].0[1]);
+        Ok(Linearised::PreciseClosest(Box::new(self.closest_points([optimum(0)?, optimum(1)?]))))
+    }
+}
+
+/// What P1 and P2 are.
+const ON: [Problem; 2] = [Problem::OnA, Problem::OnB];
+
 /// The optimality conditions at the optimum or optima of a contact.
 fn linearised<'a>(
     a: (&'a Particle, &'a Pose),
@@ -190,39 +316,6 @@ fn linearised<'a>(
     if contact.flags.contains(Flags::NORMAL_BY_CENTRES) {
         return Err(DerivativeError::NoGradient);
     }
-    let least = least_sphericity(settings, contact.flags);
-    let place = |body: (&'a Particle, &'a Pose), branch: Vector3<f64>, error: f64| {
-        Place::new(body.0, body.1, branch, error, least)
-    };
-    let is_overlap = contact.kind == Kind::Overlapping;
-    let on_surface = [contact.point_on_a, contact.point_on_b];
-    if contact.formulation == Formulation::Midway {
-        let places = [place(a, contact.branch_a, contact.point_bound), place(b, contact.branch_b, contact.point_bound)];
-        let optimum = Optimum::new(Problem::Midway, places.map(Some), &contact.normal, None)?;
-        let surface = |i: usize| {
-            let guess = (on_surface[i] - contact.point).dot(&contact.normal);
-            SurfacePoint::new(&places[i], &optimum.axes, guess)
-        };
-        let surfaces = if is_overlap { Some((surface(0)?, Some(surface(1)?))) } else { None };
-        let branches = [contact.branch_a, contact.branch_b];
-        return Ok(Linearised::AlongNormal(Box::new(AlongNormal { optimum, s: contact.s, branches, surfaces })));
-    }
-    let places = if is_overlap {
-        on_surface.map(|point| {
-            [a, b].map(|body| {
-                let error = contact.point_bound + 2.0 * f64::EPSILON * body.1.position().norm();
-                place(body, point - body.1.position(), error)
-            })
-        })
-    } else {
-        let mut places = [[place(a, contact.branch_a, 0.0), place(b, contact.branch_b, 0.0)]; 2];
-        for (places, on) in places.iter_mut().zip([Role::A, Role::B]) {
-            let found = closest_point(a.0, a.1, b.0, b.1, on, settings)?.ok_or(DetectError::no_surface())?;
-            *places = [place(a, found.branch_a, found.point_bound), place(b, found.branch_b, found.point_bound)];
-        }
-        places
-    };
-    let scales = [contact.s_b, contact.s];
-    let points = ClosestPoints::new(places, scales, settings.weight_on_a, is_overlap)?;
-    Ok(Linearised::Closest(Box::new(points)))
+    let least_sphericity = least_sphericity(settings, contact.flags);
+    Task { bodies: [a, b], contact, settings, least_sphericity }.linearised()
 }

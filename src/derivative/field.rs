@@ -1,114 +1,205 @@
-//! A potential at a point, and its derivatives in the pose and the shape of its body.
+//! A potential at a point, and its derivatives in the pose and the shape of its body: in doubles, or in numbers of 32 digits.
 
 use super::answer::ShapeGradient;
+use crate::linalg::double_double::DoubleDouble;
+use crate::linalg::number::{Single, smaller};
 use crate::linalg::symmetric::Symmetric;
+use crate::linalg::wide::Wide;
 use crate::pair::body::shift_in_a;
+use crate::pair::extended_body;
 use crate::particle::particle::Particle;
-use crate::particle::potential;
+use crate::particle::plane::Plane;
 use crate::pose::Pose;
 use nalgebra::{Matrix3, Vector3};
 
 /// A body and a point, seen from its centre.
 #[derive(Clone, Copy)]
-pub(super) struct Place<'a> {
+pub(super) struct Place<'a, N: Single = f64> {
     pub particle: &'a Particle,
     /// Local to world.
-    pub rotation: &'a Matrix3<f64>,
+    rotation: Matrix3<N>,
     /// From the centre to the point, world axes.
-    pub branch: Vector3<f64>,
-    /// Bound on the error of the point, length.
-    pub error: f64,
+    pub branch: Vector3<N>,
+    /// Bound on the distance of the point to the optimum, and on what it has lost to rounding, lengths.
+    error: f64,
+    rounding: f64,
+    plane_weight: N,
     /// Weight of the shadow sphere that the solver used.
-    pub sphere_weight: f64,
+    pub sphere_weight: N,
 }
 
 /// (Regularised) S about a point, in given axes.
 #[derive(Clone, Copy)]
-pub(super) struct Field {
-    pub gradient: Vector3<f64>,
-    pub hessian: Symmetric,
+pub(super) struct Field<N> {
+    pub value: N,
+    pub gradient: Vector3<N>,
+    pub hessian: Symmetric<N>,
     /// Whether no plane is within the doubt about the point of being switched.
     pub clear: bool,
-    /// Whether the active planes, by which the gradient is made, have lost most of their digits.
-    pub imprecise: bool,
+    /// Bound on the relative rounding of the depths by which the gradient is made.
+    pub lost: f64,
     /// Whether the particle's own potential has a slope, and not that of the regularisation alone.
     pub sloped: bool,
 }
 
-/// Share of the pull of the planes that their rounding may be, for four digits.
-const IMPRECISE: f64 = 1e-5;
+/// The sphericity below which a particle counts as so round, as a weight of its sphere.
+fn regularised(particle: &Particle, least_sphericity: f64) -> f64 {
+    least_sphericity / particle.bounding_radius().powi(2)
+}
 
 impl<'a> Place<'a> {
-    pub fn new(particle: &'a Particle, pose: &'a Pose, branch: Vector3<f64>, error: f64, least_sphericity: f64) -> Self {
-        let regularised = least_sphericity / particle.bounding_radius().powi(2);
-        let sphere_weight = particle.sphere_weight.max(regularised);
-        Self { particle, rotation: pose.rotation(), branch, error, sphere_weight }
+    /// A point that is known to within `error`, and in which lengths of `from` were rounded.
+    pub fn new(
+        (particle, pose): (&'a Particle, &'a Pose),
+        branch: Vector3<f64>,
+        [error, from]: [f64; 2],
+        least_sphericity: f64,
+    ) -> Self {
+        Self {
+            particle,
+            rotation: *pose.rotation(),
+            branch,
+            error,
+            rounding: f64::EPSILON * (branch.norm() + from),
+            plane_weight: particle.plane_weight,
+            sphere_weight: particle.sphere_weight.max(regularised(particle, least_sphericity)),
+        }
     }
+}
 
+impl<'a> Place<'a, DoubleDouble> {
+    /// The same with the digits of the pose and the weights as they were given.
+    pub fn precise((particle, pose): (&'a Particle, &'a Pose), branch: Wide, least_sphericity: f64) -> Self {
+        let (plane_weight, own) = extended_body::weights(particle);
+        let least = regularised(particle, least_sphericity);
+        Self {
+            particle,
+            rotation: Matrix3::from_columns(&extended_body::axes(pose)),
+            branch,
+            error: 0.0,
+            rounding: 0.0,
+            plane_weight,
+            sphere_weight: if particle.sphere_weight >= least { own } else { DoubleDouble::from(least) },
+        }
+    }
+}
+
+impl<'a, N: Single> Place<'a, N> {
     /// The same body and another point, so far from this one.
-    pub fn moved(&self, way: &Vector3<f64>) -> Self {
+    pub fn moved(&self, way: &Vector3<N>) -> Self {
         Self { branch: self.branch + way, ..*self }
     }
 
     /// The point in the local frame.
-    pub fn local(&self) -> Vector3<f64> {
+    fn local(&self) -> Vector3<N> {
         self.rotation.tr_mul(&self.branch)
     }
 
-    /// How far the point may be off, and the excess of a plane with it.
-    fn doubt(&self) -> [f64; 2] {
+    /// Calls `visit` with place, normal and depth of each active plane. Returns the least |depth| of any plane.
+    #[inline(always)]
+    fn visit_active(&self, y: &Vector3<N>, mut visit: impl FnMut(usize, Vector3<N>, N)) -> f64 {
+        let near = y.map(N::approximate);
+        let shape = self.particle;
+        let mut least = f64::INFINITY;
+        let others = shape.visit_near(&near, self.blur(near.norm()), |place, n, excess| {
+            let normal = n.map(N::of);
+            let depth = N::refined(excess, || normal.dot(y) - N::of(shape.offset(place)));
+            least = smaller(depth.approximate().abs(), least);
+            if depth.is_positive() {
+                visit(place, normal, depth);
+            }
+        });
+        smaller(least, -others)
+    }
+
+    /// Bound on the rounding of a depth in doubles at this distance from the centre; 0 for doubles, which have no better.
+    fn blur(&self, length: f64) -> f64 {
         let bounds = &self.particle.bounds;
-        let length = self.branch.norm();
-        let shift = self.error + shift_in_a(length, length);
-        [shift, bounds.longest_normal * shift + f64::EPSILON * bounds.offset_within(length)]
+        if N::UNIT < f64::EPSILON * f64::EPSILON { bounds.longest_normal * shift_in_a(length, length) } else { 0.0 }
     }
 
     /// S about the point in the axes that are the columns of a matrix, world axes.
-    pub fn field(&self, axes: &Matrix3<f64>) -> Field {
-        let turn = axes.tr_mul(self.rotation);
-        let (y, [_, doubt]) = (self.local(), self.doubt());
-        let q = potential::turned(self.particle, self.sphere_weight, |n| turn * n, &y, 0.0, |_, excess| excess > 0.0);
-        let rounding = f64::EPSILON * (self.particle.bounds.longest_normal * self.branch.norm() + doubt);
+    #[inline(always)]
+    pub fn field(&self, axes: &Matrix3<N>) -> Field<N> {
+        let turn = axes.tr_mul(&self.rotation);
+        let y = self.local();
+        let (mut square, mut pull, mut count) = (N::of(0.0), N::of(0.0), 0.0);
+        let mut g = Vector3::zeros();
+        let mut squares = Symmetric::default();
+        let clear = self.visit_active(&y, |_, n, depth| {
+            let n = turn * n;
+            square += depth * depth;
+            pull += depth;
+            count += 1.0;
+            g += n * depth;
+            squares.add_square(&n);
+        });
+        let (w, m) = (self.plane_weight, self.sphere_weight);
+        let two = N::of(2.0);
+        let mut hessian = squares.weighted(two * w, &Symmetric::default(), N::of(0.0));
+        for entry in [&mut hessian.xx, &mut hessian.yy, &mut hessian.zz] {
+            *entry += two * m;
+        }
+        let bounds = &self.particle.bounds;
+        let length = self.branch.map(N::approximate).norm();
+        let of_offset = f64::EPSILON * bounds.offset_within(length);
+        let doubt = bounds.longest_normal * (self.error + shift_in_a(length, length)) + of_offset;
         Field {
-            gradient: q.gradient,
-            hessian: q.hessian,
-            clear: q.clear > doubt,
-            imprecise: 2.0 * self.particle.plane_weight * f64::from(q.count) * rounding > IMPRECISE * q.pull,
-            sloped: q.count > 0 || self.particle.sphere_weight > 0.0,
+            value: w * square + m * self.branch.dot(&self.branch),
+            gradient: g * (two * w) + turn * y * (two * m),
+            hessian,
+            clear: self.rounding == 0.0 || clear > doubt,
+            lost: if count == 0.0 { 0.0 } else { count * bounds.longest_normal * self.rounding / pull.approximate() },
+            sloped: count > 0.0 || self.particle.sphere_weight > 0.0,
         }
     }
 
     /// S and ∇S at the point, world axes, of the particle itself.
-    pub fn tangent(&self) -> (f64, Vector3<f64>) {
-        let tangent = potential::tangent(self.particle, &self.local());
-        (tangent.value, self.rotation * tangent.gradient)
+    pub fn tangent(&self) -> (N, Vector3<N>) {
+        let y = self.local();
+        let (mut square, mut g) = (N::of(0.0), Vector3::zeros());
+        self.visit_active(&y, |_, n, depth| {
+            square += depth * depth;
+            g += n * depth;
+        });
+        let own = self.particle.sphere_weight;
+        // The sphere of a regularised particle is its own to a double, which is enough of it.
+        let m = if self.sphere_weight.approximate() > own { N::of(own) } else { self.sphere_weight };
+        let w = self.plane_weight;
+        (w * square + m * y.dot(&y), self.rotation * ((g * w + y * m) * N::of(2.0)))
     }
 
     /// Adds the derivative of σ·S + Γ·∇S at the point, Γ in world axes, in the shape.
-    pub fn add_to_shape(&self, sigma: f64, gamma: &Vector3<f64>, sum: &mut ShapeGradient) {
+    pub fn add_to_shape(&self, sigma: N, gamma: &Vector3<N>, sum: &mut ShapeGradient) {
         let shape = self.particle;
         let (y, gamma) = (self.local(), self.rotation.tr_mul(gamma));
-        let w2 = 2.0 * shape.plane_weight;
-        let mut of_weight = 0.0;
-        let mut add = |place: usize, n: Vector3<f64>, excess: f64| {
-            if excess > 0.0 {
-                let (pull, along) = (sigma * excess + gamma.dot(&n), excess * gamma);
-                let plane = &mut sum.planes[shape.given_index(place)];
-                plane.normal += w2 * (pull * y + along);
-                plane.offset -= w2 * pull;
-                of_weight += excess * (sigma * excess + 2.0 * gamma.dot(&n));
-            }
+        let w2 = N::of(2.0) * self.plane_weight;
+        let mut of_weight = N::of(0.0);
+        let mut add = |place: usize, n: Vector3<N>, depth: N| {
+            let turned = gamma.dot(&n);
+            let pull = sigma * depth + turned;
+            let Plane { normal, offset } = &mut sum.planes[shape.given_index(place)];
+            *normal += ((y * pull + gamma * depth) * w2).map(N::approximate);
+            *offset -= (w2 * pull).approximate();
+            of_weight += depth * (pull + turned);
         };
         let (r, k, shadow) = (shape.rounding_radius(), shape.sphericity(), shape.shadow_radius());
         if shape.plane_weight > 0.0 {
-            shape.visit_near(&y, 0.0, &mut add);
+            self.visit_active(&y, &mut add);
         } else if r > 0.0 {
             // At k = 1 the planes come on with the first step below it.
-            (0..shape.len()).for_each(|i| add(i, shape.normal(i), shape.normal(i).dot(&y) - shape.offset(i)));
+            for place in 0..shape.len() {
+                let n = shape.normal(place).map(N::of);
+                let depth = n.dot(&y) - N::of(shape.offset(place));
+                if depth.is_positive() {
+                    add(place, n, depth);
+                }
+            }
         }
-        let of_sphere = sigma * y.norm_squared() + 2.0 * gamma.dot(&y);
+        let of_weight = of_weight.approximate();
+        let of_sphere = (sigma * y.dot(&y) + N::of(2.0) * gamma.dot(&y)).approximate();
         if r > 0.0 {
-            sum.r -= w2 / r * of_weight;
+            sum.r -= w2.approximate() / r * of_weight;
             sum.k -= of_weight / (r * r);
         }
         if shadow > 0.0 {

@@ -4,51 +4,46 @@ use super::answer::{ContactDerivatives, ContactWeights, PoseRow, PoseRows};
 use super::optimum::{FieldWeights, Optimum};
 use super::rows::{Moved, Row, ToWorld, vector};
 use super::surface::SurfacePoint;
-use nalgebra::Vector3;
+use crate::linalg::number::Single;
+use nalgebra::{ArrayStorage, Vector3};
 
 /// A contact along the normal from its optimum.
-pub(super) struct AlongNormal<'a> {
-    pub optimum: Optimum<'a>,
+pub(super) struct AlongNormal<'a, N: Single = f64> {
+    pub optimum: Optimum<'a, N>,
     pub s: f64,
-    /// From the centres of both bodies to the optimum; of a boundary from that of A.
-    pub branches: [Vector3<f64>; 2],
     /// Of A and of B; a boundary has none. `None` where they are separated.
-    pub surfaces: Option<(SurfacePoint<'a>, Option<SurfacePoint<'a>>)>,
+    pub surfaces: Option<(SurfacePoint<'a, N>, Option<SurfacePoint<'a, N>>)>,
 }
 
 /// Of what does not apply.
-pub(super) const NO_ROW: PoseRow = PoseRow::from_array_storage(nalgebra::ArrayStorage([[f64::NAN]; 12]));
-pub(super) const NO_ROWS: PoseRows = PoseRows::from_array_storage(nalgebra::ArrayStorage([[f64::NAN; 3]; 12]));
+pub(super) const NO_ROW: PoseRow = PoseRow::from_array_storage(ArrayStorage([[f64::NAN]; 12]));
+pub(super) const NO_ROWS: PoseRows = PoseRows::from_array_storage(ArrayStorage([[f64::NAN; 3]; 12]));
 
-impl AlongNormal<'_> {
+impl<N: Single> AlongNormal<'_, N> {
     pub fn derivatives(&self) -> ContactDerivatives {
         let axes = &self.optimum.axes;
-        let to_world = ToWorld::of(&self.optimum, self.branches);
+        let to_world = ToWorld::of(&self.optimum);
         let (moved, point, normal) = Moved::of(&self.optimum, &to_world, self.s);
         let at_optimum = vector(axes, &moved.point);
         let derivatives = ContactDerivatives {
-            s: moved.value.pose_row(),
+            s: moved.s.pose_row(),
             s_b: NO_ROW,
             overlap: NO_ROW,
-            normal: vector(axes, &[moved.normal[0], moved.normal[1], Row::ZERO]),
+            normal: vector(axes, &[moved.normal[0], moved.normal[1], Row::zero()]),
             point: at_optimum,
             point_on_a: NO_ROWS,
             point_on_b: if self.optimum.places[1].is_none() { at_optimum } else { NO_ROWS },
             flags: self.optimum.flags,
         };
         let Some((on_a, on_b)) = &self.surfaces else { return derivatives };
-        let on_surface = |surface: &SurfacePoint, is_of_a: bool| {
-            let across = |i: usize| moved.point[i] + surface.way() * moved.normal[i];
+        let on_surface = |surface: &SurfacePoint<N>, is_of_a: bool| {
+            let across = |i: usize| moved.point[i] + moved.normal[i] * surface.way();
             let along = to_world.of_point(surface.along_normal(&point, &normal, is_of_a), 2);
-            ([across(0), across(1), along], along)
+            (vector(axes, &[across(0), across(1), along]), along)
         };
-        let (rows_a, along_a) = on_surface(on_a, true);
-        let point_on_a = vector(axes, &rows_a);
+        let (point_on_a, along_a) = on_surface(on_a, true);
         let (point_on_b, along_b) = match on_b {
-            Some(on_b) => {
-                let (rows_b, along_b) = on_surface(on_b, false);
-                (vector(axes, &rows_b), along_b)
-            }
+            Some(on_b) => on_surface(on_b, false),
             None => (at_optimum, moved.point[2]),
         };
         let point = if on_b.is_some() { at_optimum } else { 0.5 * (point_on_a + at_optimum) };
@@ -57,35 +52,36 @@ impl AlongNormal<'_> {
     }
 
     /// The weights on the potentials at the optimum, and on S at both surface points.
-    pub fn pulled_back(&self, weights: &ContactWeights) -> ([FieldWeights; 2], [f64; 2]) {
-        let own = |v: &Vector3<f64>| self.optimum.axes.tr_mul(v);
+    pub fn pulled_back(&self, weights: &ContactWeights) -> ([FieldWeights<N>; 2], [N; 2]) {
+        let own = |v: &Vector3<f64>| self.optimum.axes.tr_mul(&v.map(N::of));
         let (mut point, mut normal) = (own(&weights.point), own(&weights.normal));
         let (mut on_a, mut on_b) = (own(&weights.point_on_a), own(&weights.point_on_b));
-        on_a.z += weights.overlap;
-        on_b.z -= weights.overlap;
-        let mut sigmas = [0.0; 2];
-        if let Some((surface_a, surface_b)) = &self.surfaces {
-            if surface_b.is_none() {
-                // The point is half way between the optimum and the surface.
-                point *= 0.5;
+        on_a.z += N::of(weights.overlap);
+        on_b.z -= N::of(weights.overlap);
+        let mut sigmas = [N::of(0.0); 2];
+        let mut add = |i: usize, surface: &SurfacePoint<N>, weight: &Vector3<N>, point: &mut Vector3<N>| {
+            let (of_point, of_normal, sigma) = surface.pulled_back(weight);
+            *point += of_point;
+            normal += of_normal;
+            sigmas[i] = sigma;
+        };
+        match &self.surfaces {
+            Some((surface_a, Some(surface_b))) => {
+                add(0, surface_a, &on_a, &mut point);
+                add(1, surface_b, &on_b, &mut point);
+            }
+            // The contact point is half way between the boundary and the surface.
+            Some((surface_a, None)) => {
+                point *= N::of(0.5);
                 on_a += point;
+                add(0, surface_a, &on_a, &mut point);
+                point += on_b;
             }
-            let mut add = |i: usize, surface: &SurfacePoint, weight: &Vector3<f64>| {
-                let (of_point, of_normal, sigma) = surface.pulled_back(weight);
-                point += of_point;
-                normal += of_normal;
-                sigmas[i] = sigma;
-            };
-            add(0, surface_a, &on_a);
-            match surface_b {
-                Some(surface_b) => add(1, surface_b, &on_b),
-                None => point += on_b,
-            }
-        } else if self.optimum.places[1].is_none() {
-            point += on_b;
+            None if self.optimum.places[1].is_none() => point += own(&weights.point_on_b),
+            None => {}
         }
         let mut fields = self.optimum.pulled_back(&point, &normal);
-        let of_value = 0.5 * weights.s / self.s * self.optimum.of_value();
+        let of_value = N::of(weights.s) * self.optimum.of_value() / N::of(2.0 * self.s);
         (0..2).for_each(|i| fields[i].sigma += of_value * self.optimum.weights[i]);
         (fields, sigmas)
     }

@@ -5,7 +5,9 @@
 
 use super::answer::{DerivativeError, DerivativeFlags};
 use super::field::{Field, Place};
+use crate::linalg::double_double::DoubleDouble;
 use crate::linalg::graded_basis::any_across;
+use crate::linalg::number::Single;
 use crate::linalg::symmetric::Symmetric;
 use nalgebra::{Matrix2, Matrix2x3, Matrix2x6, Matrix3, Matrix3x6, Vector2, Vector3};
 
@@ -25,106 +27,138 @@ pub(super) enum Kind {
 /// Where the least curvature across the normal is below this share of the sum, the axes are aligned with the curvatures, so that it keeps its digits.
 const GRADED: f64 = 1e-4;
 
+/// Relative rounding of depths from which on numbers of 32 digits are taken, and from which few digits are right.
+const LOST: f64 = 3e-13;
+const IMPRECISE: f64 = 1e-5;
+
+/// Most steps of Newton's method in 32 digits, from a point that is right to the digits of a double.
+const MOST_STEPS: usize = 10;
+
+/// Change of the normal at which these have converged.
+const CONVERGED: f64 = 1e-25;
+
 /// An optimum with its linearised optimality conditions.
-pub(super) struct Optimum<'a> {
+pub(super) struct Optimum<'a, N: Single = f64> {
     /// The bodies at this point; none in place of a boundary.
-    pub places: [Option<Place<'a>>; 2],
+    pub places: [Option<Place<'a, N>>; 2],
     /// Columns, world axes: across the normal, and the normal from A to B.
-    pub axes: Matrix3<f64>,
-    fields: [Field; 2],
+    pub axes: Matrix3<N>,
+    fields: [Field<N>; 2],
     kind: Kind,
     /// Weights a and b, whose sum is 1.
-    pub weights: [f64; 2],
+    pub weights: [N; 2],
     /// Slopes g·n along the normal; of a boundary −1.
-    slopes: [f64; 2],
+    slopes: [N; 2],
     /// c: shares of the bodies in how far the point moves along the normal.
-    shares: [f64; 2],
+    shares: [N; 2],
     /// (TᵀHT)⁻¹, zero along directions in which the point is held.
-    inverse: Matrix2<f64>,
+    inverse: Matrix2<N>,
     /// TᵀHn.
-    bend: Vector2<f64>,
+    bend: Vector2<N>,
     /// The body from whose gradient the derivative of the normal is taken: the one with the flatter level surface.
     flatter: usize,
     pub flags: DerivativeFlags,
 }
 
-/// Weights σ on δS and Γ on δg of each body, Γ in world axes.
-#[derive(Clone, Copy, Default)]
-pub(super) struct FieldWeights {
-    pub sigma: f64,
-    pub gamma: Vector3<f64>,
+/// Weights σ on δS and Γ on δg of a body, Γ in world axes.
+#[derive(Clone, Copy)]
+pub(super) struct FieldWeights<N> {
+    pub sigma: N,
+    pub gamma: Vector3<N>,
 }
 
-const FLAT: Field = Field {
-    gradient: Vector3::new(0.0, 0.0, -1.0),
-    hessian: Symmetric { xx: 0.0, yx: 0.0, yy: 0.0, zx: 0.0, zy: 0.0, zz: 0.0 },
-    clear: true,
-    imprecise: false,
-    sloped: true,
-};
+/// At unit length.
+pub(super) fn unit<N: Single>(v: &Vector3<N>) -> Vector3<N> {
+    // In units of the largest component no square leaves the range of numbers.
+    let scaled = v * (N::of(1.0) / N::of(v.map(N::approximate).amax()));
+    scaled * (N::of(1.0) / scaled.dot(&scaled).root())
+}
 
-impl<'a> Optimum<'a> {
+/// The normal where both gradients are opposed.
+pub(super) fn normal_at<N: Single>(places: &[Place<N>; 2]) -> Vector3<N> {
+    let [of_a, of_b] = places.each_ref().map(|place| unit(&place.tangent().1));
+    unit(&(of_a - of_b))
+}
+
+fn flat<N: Single>() -> Field<N> {
+    let zero = N::of(0.0);
+    Field {
+        value: zero,
+        gradient: Vector3::new(zero, zero, N::of(-1.0)),
+        hessian: Symmetric::default(),
+        clear: true,
+        lost: 0.0,
+        sloped: true,
+    }
+}
+
+impl<'a, N: Single> Optimum<'a, N> {
     /// With the normal there, world axes, and on an edge its direction.
     pub fn new(
         kind: Kind,
-        places: [Option<Place<'a>>; 2],
-        normal: &Vector3<f64>,
-        along: Option<Vector3<f64>>,
+        places: [Option<Place<'a, N>>; 2],
+        normal: &Vector3<N>,
+        along: Option<Vector3<N>>,
     ) -> Result<Self, DerivativeError> {
-        let first = along.unwrap_or_else(|| any_across(normal));
-        let axes = |first: Vector3<f64>| Matrix3::from_columns(&[first, normal.cross(&first), *normal]);
+        let axes = |near: Vector3<N>| {
+            let first = unit(&(near - normal * normal.dot(&near)));
+            Matrix3::from_columns(&[first, normal.cross(&first), *normal])
+        };
+        let first = along.unwrap_or_else(|| any_across(&normal.map(N::approximate)).map(N::of));
         let mut optimum = Self::in_axes(kind, places, axes(first))?;
-        if along.is_none() {
-            if let Some(stiffest) = optimum.graded() {
-                let first = optimum.axes.column(0) * stiffest.x + optimum.axes.column(1) * stiffest.y;
-                optimum = Self::in_axes(kind, places, axes(first))?;
-            }
+        if let Some(stiffest) = optimum.graded().filter(|_| along.is_none()) {
+            let across = optimum.axes.fixed_columns::<2>(0) * stiffest.map(N::of);
+            optimum = Self::in_axes(kind, places, axes(across))?;
         }
         optimum.invert()?;
         Ok(optimum)
     }
 
-    fn in_axes(kind: Kind, places: [Option<Place<'a>>; 2], axes: Matrix3<f64>) -> Result<Self, DerivativeError> {
-        let fields = places.map(|place| place.map_or(FLAT, |place| place.field(&axes)));
-        let slopes = fields.map(|field| field.gradient.z);
-        let opposed = slopes[0] > 0.0 && slopes[1] < 0.0 && fields.iter().all(|field| field.sloped);
+    fn in_axes(kind: Kind, places: [Option<Place<'a, N>>; 2], axes: Matrix3<N>) -> Result<Self, DerivativeError> {
+        let fields = places.map(|place| place.map_or_else(flat, |place| place.field(&axes)));
+        let slopes = [fields[0].gradient.z, fields[1].gradient.z];
+        let opposed = slopes[0].is_positive() && (-slopes[1]).is_positive() && fields.iter().all(|field| field.sloped);
         if !(opposed && slopes[0].is_finite() && slopes[1].is_finite()) {
             return Err(DerivativeError::NoGradient);
         }
-        // Of both sides of a quotient the smaller share is exact, and so their sum is 1.
-        let part = |of: f64, beside: f64| of / (of + beside);
-        let share = match kind {
-            Kind::Midway => part(slopes[0], -slopes[1]),
-            Kind::OnA => 1.0,
-            Kind::OnB | Kind::OnBoundary(_) => 0.0,
-        };
-        let weights = match kind {
-            Kind::OnBoundary(_) => [1.0, 0.0],
-            _ => [part(-slopes[1], slopes[0]), part(slopes[0], -slopes[1])],
+        // The smaller part keeps its digits, and both add up to 1.
+        let part = |of: N, beside: N| of / (of + beside);
+        let (of_a, of_b) = (part(slopes[0], -slopes[1]), part(-slopes[1], slopes[0]));
+        let (zero, one) = (N::of(0.0), N::of(1.0));
+        let (weights, shares) = match kind {
+            Kind::Midway => ([of_b, of_a], [of_a, of_b]),
+            Kind::OnA => ([of_b, of_a], [one, zero]),
+            Kind::OnB => ([of_b, of_a], [zero, one]),
+            Kind::OnBoundary(_) => ([one, zero], [zero, one]),
         };
         let hessian = fields[0].hessian.weighted(weights[0], &fields[1].hessian, weights[1]);
-        let curved = |i: usize| (fields[i].hessian.xx + fields[i].hessian.yy) / slopes[i].abs();
+        let curved = |i: usize| ((fields[i].hessian.xx + fields[i].hessian.yy) / slopes[i]).magnitude().approximate();
         let mut flags = DerivativeFlags::default();
         flags.set(DerivativeFlags::SWITCHING, !fields.iter().all(|field| field.clear));
-        flags.set(DerivativeFlags::IMPRECISE, fields.iter().any(|field| field.imprecise));
+        flags.set(DerivativeFlags::IMPRECISE, fields.iter().any(|field| field.lost > IMPRECISE));
         Ok(Self {
             places,
             axes,
-            fields,
             kind,
             weights,
             slopes,
-            shares: [share, 1.0 - share],
+            shares,
             inverse: Matrix2::new(hessian.xx, hessian.yx, hessian.yx, hessian.yy),
             bend: Vector2::new(hessian.zx, hessian.zy),
             flatter: usize::from(places[1].is_some() && curved(1) < curved(0)),
+            fields,
             flags,
         })
     }
 
+    /// Whether doubles have lost too many digits.
+    pub fn wants_more(&self) -> bool {
+        self.fields.iter().any(|field| field.lost > LOST)
+    }
+
     /// The direction of the largest curvature across the normal, where the other one is so small beside it that it has lost digits.
     fn graded(&self) -> Option<Vector2<f64>> {
-        let h = &self.inverse;
+        let h = self.inverse.map(N::approximate);
         let (sum, half, mixed) = (h.m11 + h.m22, 0.5 * (h.m11 - h.m22), h.m12);
         if !(h.m11 * h.m22 - mixed * mixed < GRADED * sum * sum) || mixed == 0.0 {
             return None;
@@ -139,45 +173,43 @@ impl<'a> Optimum<'a> {
     fn invert(&mut self) -> Result<(), DerivativeError> {
         let h = self.inverse;
         let dimensions = if let Kind::OnBoundary(dimensions) = self.kind { dimensions } else { 2 };
-        let least = match dimensions {
-            0 => f64::INFINITY,
-            1 => h.m11,
-            // The stiffer axis is eliminated first.
-            _ if h.m11 >= h.m22 => h.m22 - h.m12 * h.m12 / h.m11,
-            _ => h.m11 - h.m12 * h.m12 / h.m22,
+        // The stiffer axis is eliminated first.
+        let swapped = h.m11.approximate() < h.m22.approximate();
+        let (stiff, soft) = if swapped { (h.m22, h.m11) } else { (h.m11, h.m22) };
+        let ratio = h.m12 / stiff;
+        let least = if dimensions == 2 { soft - ratio * h.m12 } else { h.m11 };
+        // Of the two spheres, in all and by regularisation.
+        let weighted = |of: fn(&Place<N>) -> N| -> N {
+            let weight = |i: usize| self.places[i].as_ref().map_or(N::of(0.0), |place| self.weights[i] * of(place));
+            N::of(2.0) * (weight(0) + weight(1))
         };
-        // Of the two spheres, by regularisation and in all.
-        let weighted = |of: fn(&Place) -> f64| -> f64 {
-            let weight = |i: usize| self.places[i].as_ref().map_or(0.0, |place| 2.0 * self.weights[i] * of(place));
-            weight(0) + weight(1)
-        };
-        let added = weighted(|place| place.sphere_weight - place.particle.sphere_weight);
-        let least = least.max(weighted(|place| place.sphere_weight));
-        if dimensions > 0 && !(least > 0.0 && least.is_finite()) {
+        let least = least.larger(weighted(|place| place.sphere_weight));
+        let added = weighted(|place| place.sphere_weight - N::of(place.particle.sphere_weight)).approximate();
+        if dimensions == 0 {
+            self.inverse = Matrix2::zeros();
+            return Ok(());
+        }
+        if !(least.is_positive() && least.is_finite()) {
             return Err(DerivativeError::NoCurvature);
         }
-        self.flags.set(DerivativeFlags::FREE, least < 2.0 * added);
+        self.flags.set(DerivativeFlags::FREE, least.approximate() < 2.0 * added);
+        let (zero, one) = (N::of(0.0), N::of(1.0));
+        let (of_soft, mixed) = (one / least, -ratio / least);
+        let of_stiff = one / stiff - ratio * mixed;
         self.inverse = match dimensions {
-            0 => Matrix2::zeros(),
-            1 => Matrix2::new(1.0 / least, 0.0, 0.0, 0.0),
-            _ if h.m11 >= h.m22 => {
-                let ratio = h.m12 / h.m11;
-                Matrix2::new(1.0 / h.m11 + ratio * ratio / least, -ratio / least, -ratio / least, 1.0 / least)
-            }
-            _ => {
-                let ratio = h.m12 / h.m22;
-                Matrix2::new(1.0 / least, -ratio / least, -ratio / least, 1.0 / h.m22 + ratio * ratio / least)
-            }
+            1 => Matrix2::new(of_soft, zero, zero, zero),
+            _ if swapped => Matrix2::new(of_soft, mixed, mixed, of_stiff),
+            _ => Matrix2::new(of_stiff, mixed, mixed, of_soft),
         };
         Ok(())
     }
 
     /// The factor of a·δS_A + b·δS_B in the derivative of the least S, and hence of its root s: that of the body whose S is sought.
-    pub fn of_value(&self) -> f64 {
+    pub fn of_value(&self) -> N {
         match self.kind {
-            Kind::Midway => 1.0,
-            Kind::OnA => 1.0 / self.weights[1],
-            Kind::OnB | Kind::OnBoundary(_) => 1.0 / self.weights[0],
+            Kind::Midway => N::of(1.0),
+            Kind::OnA => N::of(1.0) / self.weights[1],
+            Kind::OnB | Kind::OnBoundary(_) => N::of(1.0) / self.weights[0],
         }
     }
 
@@ -187,22 +219,23 @@ impl<'a> Optimum<'a> {
     }
 
     /// Rows T of the Hessian of a body.
-    fn across(&self, i: usize) -> Matrix2x3<f64> {
+    fn across(&self, i: usize) -> Matrix2x3<N> {
         let h = &self.fields[i].hessian;
         Matrix2x3::new(h.xx, h.yx, h.zx, h.yx, h.yy, h.zy)
     }
 
-    /// How the point moves with a body, of which the other one is held.
-    pub fn moved_by(&self, i: usize) -> Matrix3x6<f64> {
-        let along = self.shares[i];
+    /// How the point moves with A, while B is held.
+    pub fn moved_by_a(&self) -> Matrix3x6<N> {
+        let (weight, along) = (self.weights[0], self.shares[0]);
         // a(ω × g − H v) + ζ H n for the six columns.
-        let weight = self.weights[i];
-        let mut slope = Matrix2x6::zeros();
-        slope.fixed_view_mut::<2, 3>(0, 0).copy_from(&(self.across(i) * -weight));
-        slope[(0, 2)] += along * self.bend.x;
-        slope[(1, 2)] += along * self.bend.y;
-        let turned = weight * self.slopes[i];
-        (slope[(0, 4)], slope[(1, 3)]) = (turned, -turned);
+        let h = self.across(0) * weight;
+        let (turned, zero) = (weight * self.slopes[0], N::of(0.0));
+        let bent = self.bend * along;
+        #[rustfmt::skip]
+        let slope = Matrix2x6::new(
+            -h.m11, -h.m12, bent.x - h.m13, zero, turned, zero,
+            -h.m21, -h.m22, bent.y - h.m23, -turned, zero, zero,
+        );
         let across = -self.inverse * slope;
         let mut moved = Matrix3x6::zeros();
         moved.fixed_view_mut::<2, 6>(0, 0).copy_from(&across);
@@ -211,30 +244,29 @@ impl<'a> Optimum<'a> {
     }
 
     /// How the normal turns with A, along the axes across it, where its point moves so.
-    pub fn normal_by_a(&self, moved: &Matrix3x6<f64>) -> Matrix2x6<f64> {
+    pub fn normal_by_a(&self, moved: &Matrix3x6<N>) -> Matrix2x6<N> {
         let flatter = self.flatter;
-        let slope = self.slopes[flatter];
-        let mut turned = self.across(flatter) / slope * moved;
+        let hessian = self.across(flatter) * (N::of(1.0) / self.slopes[flatter]);
+        let mut turned = hessian * moved;
         if flatter == 0 {
-            let hessian = self.across(0) / slope;
             for (column, h) in hessian.column_iter().enumerate() {
-                turned[(0, column)] -= h.x;
-                turned[(1, column)] -= h.y;
+                turned[(0, column)] -= h[0];
+                turned[(1, column)] -= h[1];
             }
-            turned[(0, 4)] += 1.0;
-            turned[(1, 3)] -= 1.0;
+            turned[(0, 4)] += N::of(1.0);
+            turned[(1, 3)] -= N::of(1.0);
         }
         // On a boundary it stays at right angles to that.
-        (0..self.held()).for_each(|i| turned.row_mut(i).fill(0.0));
+        (0..self.held()).for_each(|i| turned.row_mut(i).fill(N::of(0.0)));
         turned
     }
 
     /// The weights on the potentials that weights on the point and on the normal (own axes) come to.
-    pub fn pulled_back(&self, point: &Vector3<f64>, normal: &Vector3<f64>) -> [FieldWeights; 2] {
+    pub fn pulled_back(&self, point: &Vector3<N>, normal: &Vector3<N>) -> [FieldWeights<N>; 2] {
         let mut normal = normal.xy();
-        (0..self.held()).for_each(|i| normal[i] = 0.0);
+        (0..self.held()).for_each(|i| normal[i] = N::of(0.0));
         let carrier = self.flatter;
-        let of_normal = normal / self.slopes[carrier];
+        let of_normal = normal * (N::of(1.0) / self.slopes[carrier]);
         let point = point + self.across(carrier).tr_mul(&of_normal);
         let across = self.inverse * point.xy();
         let along = point.z - across.dot(&self.bend);
@@ -245,23 +277,60 @@ impl<'a> Optimum<'a> {
             }
             FieldWeights {
                 sigma: -self.shares[i] * along / self.slopes[i],
-                gamma: self.axes * Vector3::new(gamma.x, gamma.y, 0.0),
+                gamma: self.axes.fixed_columns::<2>(0) * gamma,
             }
         })
     }
 
     /// The weights on velocity and turn of a body, world axes, at this point, that weights on its potential come to.
-    pub fn on_motion(&self, i: usize, weights: &FieldWeights) -> [Vector3<f64>; 2] {
+    pub fn on_motion(&self, i: usize, weights: &FieldWeights<N>) -> [Vector3<N>; 2] {
         let field = &self.fields[i];
         let gamma = self.axes.tr_mul(&weights.gamma);
-        let velocity = -(weights.sigma * field.gradient + field.hessian.times(&gamma));
-        // Gradients beside the normal are rounding.
-        let turn = Vector3::new(0.0, 0.0, self.slopes[i]).cross(&gamma);
+        let velocity = -(field.gradient * weights.sigma + field.hessian.times(&gamma));
+        // What the gradient has beside the normal is rounding.
+        let turn = Vector3::new(N::of(0.0), N::of(0.0), self.slopes[i]).cross(&gamma);
         [self.axes * velocity, self.axes * turn]
     }
 
     /// The slope of the potential of a body along the normal.
-    pub fn slope(&self, i: usize) -> f64 {
+    pub fn slope(&self, i: usize) -> N {
         self.slopes[i]
+    }
+
+    /// From here to the optimum, world axes: a step of Newton's method.
+    fn step(&self) -> Vector3<N> {
+        let [a, b] = &self.fields;
+        let one = N::of(1.0);
+        let along = match self.kind {
+            Kind::Midway => (b.value - a.value) / (self.slopes[0] - self.slopes[1]),
+            Kind::OnA => (one - a.value) / self.slopes[0],
+            Kind::OnB => (one - b.value) / self.slopes[1],
+            Kind::OnBoundary(_) => N::of(0.0),
+        };
+        let slope = a.gradient.xy() * self.weights[0] + b.gradient.xy() * self.weights[1];
+        let across = -self.inverse * (slope + self.bend * along);
+        self.axes * Vector3::new(across.x, across.y, along)
+    }
+}
+
+impl<'a> Optimum<'a, DoubleDouble> {
+    /// The optimum near the places, to the digits that its bodies have.
+    pub fn refined(kind: Kind, mut places: [Place<'a, DoubleDouble>; 2]) -> Result<Self, DerivativeError> {
+        for _ in 0..MOST_STEPS {
+            let normal = normal_at(&places);
+            let optimum = Self::new(kind, places.map(Some), &normal, None)?;
+            let step = optimum.step();
+            // Relative to the lengths in which the gradients turn and change.
+            let change = [0, 1].map(|i| {
+                let of = optimum.fields[i].hessian.times(&optimum.axes.tr_mul(&step));
+                of.map(Single::approximate).norm() / optimum.slopes[i].approximate().abs()
+            });
+            if change[0] + change[1] <= CONVERGED {
+                return Ok(optimum);
+            }
+            places = places.each_ref().map(|place| place.moved(&step));
+        }
+        // Between planes that switch by rounding it may not settle; what is left is far below the digits of a double.
+        Self::new(kind, places.map(Some), &normal_at(&places), None)
     }
 }

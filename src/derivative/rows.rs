@@ -2,22 +2,25 @@
 
 use super::answer::{PoseRow, PoseRows};
 use super::optimum::Optimum;
+use crate::linalg::number::Single;
 use nalgebra::{Matrix2x6, Matrix3, RowVector6, Vector3};
 use std::ops::{Add, Mul, Sub};
 
 /// The derivative of a number: in the shift and turn of A, and in those of B.
 #[derive(Clone, Copy)]
-pub(super) struct Row(pub [Vector3<f64>; 4]);
+pub(super) struct Row<N>(pub [Vector3<N>; 4]);
 
-impl Row {
-    pub const ZERO: Self = Self([Vector3::new(0.0, 0.0, 0.0); 4]);
+impl<N: Single> Row<N> {
+    pub fn zero() -> Self {
+        Self([Vector3::zeros(); 4])
+    }
 
     pub fn pose_row(&self) -> PoseRow {
-        PoseRow::from_fn(|_, column| self.0[column / 3][column % 3])
+        PoseRow::from_fn(|_, column| self.0[column / 3][column % 3].approximate())
     }
 }
 
-impl Add for Row {
+impl<N: Single> Add for Row<N> {
     type Output = Self;
 
     fn add(self, other: Self) -> Self {
@@ -25,7 +28,7 @@ impl Add for Row {
     }
 }
 
-impl Sub for Row {
+impl<N: Single> Sub for Row<N> {
     type Output = Self;
 
     fn sub(self, other: Self) -> Self {
@@ -33,85 +36,91 @@ impl Sub for Row {
     }
 }
 
-impl Mul<Row> for f64 {
-    type Output = Row;
+impl<N: Single> Mul<N> for Row<N> {
+    type Output = Self;
 
-    fn mul(self, row: Row) -> Row {
-        Row(row.0.map(|v| self * v))
+    fn mul(self, factor: N) -> Self {
+        Self(self.0.map(|v| v * factor))
     }
 }
 
 /// The derivative of a vector from those of its components along axes (columns).
-pub(super) fn vector(axes: &Matrix3<f64>, components: &[Row; 3]) -> PoseRows {
+pub(super) fn vector<N: Single>(axes: &Matrix3<N>, components: &[Row<N>; 3]) -> PoseRows {
     let mut rows = PoseRows::zeros();
     for part in 0..4 {
-        let of = |i: usize| axes.column(i) * components[i].0[part].transpose();
-        rows.fixed_view_mut::<3, 3>(0, 3 * part).copy_from(&(of(0) + of(1) + of(2)));
+        for column in 0..3 {
+            let [x, y, z] = [0, 1, 2].map(|i| components[i].0[part][column]);
+            let v = axes * Vector3::new(x, y, z);
+            rows.set_column(3 * part + column, &v.map(N::approximate));
+        }
     }
     rows
 }
 
 /// How an optimum, and the normal there, move with both poses; components along its axes.
-pub(super) struct Moved {
+pub(super) struct Moved<N> {
     /// Across the normal, and along it.
-    pub point: [Row; 3],
+    pub point: [Row<N>; 3],
     /// Across the normal.
-    pub normal: [Row; 2],
-    /// The least S over √S: that of s.
-    pub value: Row,
+    pub normal: [Row<N>; 2],
+    /// Of the root of the least S.
+    pub s: Row<N>,
 }
 
 /// From motions at the optimum in its axes to those of both bodies in the world.
-pub(super) struct ToWorld {
-    axes: Matrix3<f64>,
-    /// From the centres to the optimum.
-    branches: [Vector3<f64>; 2],
+pub(super) struct ToWorld<N> {
+    axes: Matrix3<N>,
+    /// From the centres to the optimum; of a boundary from that of A.
+    branches: [Vector3<N>; 2],
 }
 
-impl ToWorld {
-    pub fn of(optimum: &Optimum, branches: [Vector3<f64>; 2]) -> Self {
-        Self { axes: optimum.axes, branches }
+impl<N: Single> ToWorld<N> {
+    pub fn of(optimum: &Optimum<N>) -> Self {
+        let of_a = optimum.places[0].as_ref().map_or_else(Vector3::zeros, |place| place.branch);
+        let of_b = optimum.places[1].as_ref().map_or(of_a, |place| place.branch);
+        Self { axes: optimum.axes, branches: [of_a, of_b] }
     }
 
-    /// From the derivative in the motion of A, and in that of both together: in the velocity, and in the turn, world axes.
-    fn row(&self, by_a: RowVector6<f64>, together: [Vector3<f64>; 2]) -> Row {
+    /// From the derivative in the motion of A, and that of both together: in the velocity, and in the turn, world axes.
+    fn row(&self, by_a: RowVector6<N>, together: [Vector3<N>; 2]) -> Row<N> {
         let velocity = self.axes * by_a.fixed_columns::<3>(0).transpose();
         let turn = self.axes * by_a.fixed_columns::<3>(3).transpose();
         self.of_both([velocity, turn], [together[0] - velocity, together[1] - turn])
     }
 
     /// A body turned about its centre moves the point as well.
-    fn of_both(&self, a: [Vector3<f64>; 2], b: [Vector3<f64>; 2]) -> Row {
+    fn of_both(&self, a: [Vector3<N>; 2], b: [Vector3<N>; 2]) -> Row<N> {
         Row([a[0], a[1] + self.branches[0].cross(&a[0]), b[0], b[1] + self.branches[1].cross(&b[0])])
     }
 
     /// Of a component that a motion of both moves with the bodies along this axis.
-    pub fn of_point(&self, by_a: RowVector6<f64>, axis: usize) -> Row {
+    pub fn of_point(&self, by_a: RowVector6<N>, axis: usize) -> Row<N> {
         self.row(by_a, [self.axes.column(axis).into_owned(), Vector3::zeros()])
     }
 
     /// Of a component of the normal along this axis.
-    fn of_normal(&self, by_a: RowVector6<f64>, axis: usize) -> Row {
+    fn of_normal(&self, by_a: RowVector6<N>, axis: usize) -> Row<N> {
         let turn = self.axes.column(2).cross(&self.axes.column(axis));
         self.row(by_a, [Vector3::zeros(), turn])
     }
 
     /// Of a number that is the same wherever both bodies are, and changes with how far A moves along the normal alone.
-    fn of_invariant(&self, by_approach: f64) -> Row {
-        let along = by_approach * self.axes.column(2);
+    fn of_invariant(&self, by_approach: N) -> Row<N> {
+        let along = self.axes.column(2) * by_approach;
         self.of_both([along, Vector3::zeros()], [-along, Vector3::zeros()])
     }
 }
 
-impl Moved {
-    /// `s` is the root of the least S; also gives the derivatives with A alone, own axes: across the normal of the point, and of the normal.
-    pub fn of(optimum: &Optimum, to_world: &ToWorld, s: f64) -> (Self, Matrix2x6<f64>, Matrix2x6<f64>) {
-        let by_a = optimum.moved_by(0);
+impl<N: Single> Moved<N> {
+    /// `s` is the root of the least S. Also gives how the point moves across the normal, and the normal, with A alone: own axes.
+    pub fn of(optimum: &Optimum<N>, to_world: &ToWorld<N>, s: f64) -> (Self, Matrix2x6<N>, Matrix2x6<N>) {
+        let by_a = optimum.moved_by_a();
         let normal = optimum.normal_by_a(&by_a);
+        let slope = -optimum.of_value() * optimum.weights[0] * optimum.slope(0) / N::of(2.0 * s);
         let moved = Self {
             point: [0, 1, 2].map(|axis| to_world.of_point(by_a.row(axis).into_owned(), axis)),
             normal: [0, 1].map(|axis| to_world.of_normal(normal.row(axis).into_owned(), axis)),
-            value: to_world.of_invariant(-0.5 / s * optimum.of_value() * optimum.weights[0] * optimum.slope(0)),
+            s: to_world.of_invariant(slope),
         };
         (moved, by_a.fixed_rows::<2>(0).into_owned(), normal)
     }

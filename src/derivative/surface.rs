@@ -2,70 +2,74 @@
 
 use super::answer::DerivativeError;
 use super::field::Place;
+use crate::linalg::number::Single;
 use nalgebra::{Matrix2x6, Matrix3, RowVector6, Vector3};
 
 /// Most corrections of a surface point that is given to the rounding of its position in the world.
-const MOST_CORRECTIONS: usize = 4;
+const MOST_CORRECTIONS: usize = 6;
 
 /// A surface point P = x + way·n of a body: S(P) = 1. Components along the axes of the optimum x.
-pub(super) struct SurfacePoint<'a> {
-    pub place: Place<'a>,
-    way: f64,
+pub(super) struct SurfacePoint<'a, N: Single = f64> {
+    pub place: Place<'a, N>,
+    way: N,
     /// ∇S at P.
-    gradient: Vector3<f64>,
+    gradient: Vector3<N>,
 }
 
-impl<'a> SurfacePoint<'a> {
+impl<'a, N: Single> SurfacePoint<'a, N> {
     /// Of a body at an optimum, near a guess.
-    pub fn new(place: &Place<'a>, axes: &Matrix3<f64>, guess: f64) -> Result<Self, DerivativeError> {
-        let normal = axes.column(2);
-        let (mut way, rounding) = (guess, 4.0 * f64::EPSILON * (place.branch.norm() + guess.abs()));
-        for _ in 0..MOST_CORRECTIONS {
-            let place = place.moved(&(way * normal));
+    pub fn new(place: &Place<'a, N>, axes: &Matrix3<N>, guess: f64) -> Result<Self, DerivativeError> {
+        let normal = axes.column(2).into_owned();
+        let mut way = N::of(guess);
+        let rounding = 8.0 * N::UNIT * (place.branch.map(N::approximate).norm() + guess.abs());
+        let mut corrections = 0;
+        loop {
+            let place = place.moved(&(normal * way));
             let (value, gradient) = place.tangent();
             let gradient = axes.tr_mul(&gradient);
-            let correction = (1.0 - value) / gradient.z;
+            let correction = (N::of(1.0) - value) / gradient.z;
             if !correction.is_finite() {
                 return Err(DerivativeError::NoGradient);
             }
-            if correction.abs() <= rounding {
+            if correction.approximate().abs() <= rounding || corrections == MOST_CORRECTIONS {
                 return Ok(Self { place, way, gradient });
             }
             way += correction;
+            corrections += 1;
         }
-        let place = place.moved(&(way * normal));
-        let (_, gradient) = place.tangent();
-        Ok(Self { place, way, gradient: axes.tr_mul(&gradient) })
     }
 
     /// Signed distance from the optimum, along the normal.
-    pub fn way(&self) -> f64 {
+    pub fn way(&self) -> N {
         self.way
     }
 
     /// ∇S there.
-    pub fn gradient(&self) -> Vector3<f64> {
+    pub fn gradient(&self) -> Vector3<N> {
         self.gradient
     }
 
     /// How it moves along the normal with A, where optimum and normal move so across it.
-    pub fn along_normal(&self, point: &Matrix2x6<f64>, normal: &Matrix2x6<f64>, is_of_a: bool) -> RowVector6<f64> {
+    pub fn along_normal(&self, point: &Matrix2x6<N>, normal: &Matrix2x6<N>, is_of_a: bool) -> RowVector6<N> {
         let mut across = point + normal * self.way;
         let mut along = RowVector6::zeros();
         if is_of_a {
             // Beside what the body moves by itself at P, v + ω × way·n.
-            along[2] = 1.0;
-            (across[(0, 0)], across[(1, 1)]) = (across[(0, 0)] - 1.0, across[(1, 1)] - 1.0);
-            (across[(0, 4)], across[(1, 3)]) = (across[(0, 4)] - self.way, across[(1, 3)] + self.way);
+            let one = N::of(1.0);
+            along[2] = one;
+            across[(0, 0)] -= one;
+            across[(1, 1)] -= one;
+            across[(0, 4)] -= self.way;
+            across[(1, 3)] += self.way;
         }
-        along - self.gradient.xy().transpose() * across / self.gradient.z
+        along - self.gradient.xy().transpose() * across * (N::of(1.0) / self.gradient.z)
     }
 
     /// Weights on the optimum and on the normal, and σ on S at P, that a weight on P comes to.
-    pub fn pulled_back(&self, weight: &Vector3<f64>) -> (Vector3<f64>, Vector3<f64>, f64) {
+    pub fn pulled_back(&self, weight: &Vector3<N>) -> (Vector3<N>, Vector3<N>, N) {
         let along = weight.z / self.gradient.z;
-        let across = weight.xy() - along * self.gradient.xy();
-        let point = Vector3::new(across.x, across.y, 0.0);
-        (point, self.way * point, -along)
+        let across = weight.xy() - self.gradient.xy() * along;
+        let point = Vector3::new(across.x, across.y, N::of(0.0));
+        (point, point * self.way, -along)
     }
 }
