@@ -230,7 +230,7 @@ impl<'a> Task<'a, '_> {
         places: [Place<'a, N>; 2],
     ) -> Result<AlongNormal<'a, N>, DerivativeError> {
         let guesses = self.guesses();
-        let surface = |i: usize| SurfacePoint::new(&places[i], &optimum.axes, guesses[i]);
+        let surface = |i: usize| SurfacePoint::new(&places[i].by_sign(), &optimum.axes, guesses[i]);
         let surfaces = if self.is_overlap() { Some((surface(0)?, Some(surface(1)?))) } else { None };
         Ok(AlongNormal { s: self.contact.s, surfaces, optimum })
     }

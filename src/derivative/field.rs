@@ -23,9 +23,42 @@ pub(super) struct Place<'a, N: Single = f64> {
     /// Bound on the distance of the point to the optimum, and on what it has lost to rounding, lengths.
     error: f64,
     rounding: f64,
+    /// Planes whose depth is within so much of 0 are active if they are listed: a stiff plane carries its share with a depth below the
+    /// rounding of the point. 0 where the sign of the depth decides.
+    blur: f64,
+    listed: Listed,
     plane_weight: N,
     /// Weight of the shadow sphere that the solver used.
     pub sphere_weight: N,
+}
+
+/// Places of planes, of which there are few.
+#[derive(Clone, Copy, Default)]
+struct Listed {
+    places: [u16; MOST_LISTED],
+    count: u8,
+}
+
+const MOST_LISTED: usize = 8;
+
+impl Listed {
+    fn contains(&self, place: usize) -> bool {
+        self.places[..usize::from(self.count)].contains(&(place as u16))
+    }
+
+    fn add(&mut self, place: usize) {
+        if let Some(slot) = self.places.get_mut(usize::from(self.count)) {
+            // Places fit: a particle has no more planes than `MAX_PLANES`.
+            *slot = place as u16;
+            self.count += 1;
+        }
+    }
+
+    fn remove(&mut self, place: usize) {
+        let kept = *self;
+        *self = Self::default();
+        kept.places[..usize::from(kept.count)].iter().filter(|p| usize::from(**p) != place).for_each(|p| self.add((*p).into()));
+    }
 }
 
 /// (Regularised) S about a point, in given axes.
@@ -36,7 +69,7 @@ pub(super) struct Field<N> {
     pub hessian: Symmetric<N>,
     /// Whether no plane is within the doubt about the point of being switched.
     pub clear: bool,
-    /// Bound on the relative rounding of the depths by which the gradient is made.
+    /// Bound on the relative rounding of the depths by which the gradient is made; infinite where the sign of one cannot be told.
     pub lost: f64,
     /// Whether the particle's own potential has a slope, and not that of the regularisation alone.
     pub sloped: bool,
@@ -61,6 +94,8 @@ impl<'a> Place<'a> {
             branch,
             error,
             rounding: f64::EPSILON * (branch.norm() + from),
+            blur: 0.0,
+            listed: Listed::default(),
             plane_weight: particle.plane_weight,
             sphere_weight: particle.sphere_weight.max(regularised(particle, least_sphericity)),
         }
@@ -72,19 +107,54 @@ impl<'a> Place<'a, DoubleDouble> {
     pub fn precise((particle, pose): (&'a Particle, &'a Pose), branch: Wide, least_sphericity: f64) -> Self {
         let (plane_weight, own) = extended_body::weights(particle);
         let least = regularised(particle, least_sphericity);
-        Self {
+        let mut place = Self {
             particle,
             rotation: Matrix3::from_columns(&extended_body::axes(pose)),
             branch,
             error: 0.0,
             rounding: 0.0,
+            blur: 0.0,
+            listed: Listed::default(),
             plane_weight,
             sphere_weight: if particle.sphere_weight >= least { own } else { DoubleDouble::from(least) },
+        };
+        place.blur = rounding_in_doubles(particle, branch.map(DoubleDouble::rounded).norm());
+        let mut listed = Listed::default();
+        place.visit_near(&place.local(), |plane, _, depth| {
+            if depth.rounded().abs() <= place.blur {
+                listed.add(plane);
+            }
+        });
+        Self { listed, ..place }
+    }
+
+    /// Takes the listed plane of the most negative depth, which pulls, off the list; whether there was one.
+    pub fn drop_a_pulling_plane(&mut self) -> bool {
+        let mut worst = (0.0, 0);
+        self.visit_near(&self.local(), |plane, _, depth| {
+            if self.listed.contains(plane) && depth.rounded().abs() <= self.blur && depth.rounded() < worst.0 {
+                worst = (depth.rounded(), plane);
+            }
+        });
+        if worst.0 < 0.0 {
+            self.listed.remove(worst.1);
         }
+        worst.0 < 0.0
     }
 }
 
+/// Bound on the rounding of the depth of a plane at this distance from the centre, in doubles.
+fn rounding_in_doubles(particle: &Particle, length: f64) -> f64 {
+    let bounds = &particle.bounds;
+    bounds.longest_normal * shift_in_a(length, length) + f64::EPSILON * bounds.offset_within(length)
+}
+
 impl<'a, N: Single> Place<'a, N> {
+    /// With the planes as the signs of their depths say.
+    pub fn by_sign(self) -> Self {
+        Self { blur: 0.0, ..self }
+    }
+
     /// The same body and another point, so far from this one.
     pub fn moved(&self, way: &Vector3<N>) -> Self {
         Self { branch: self.branch + way, ..*self }
@@ -95,27 +165,31 @@ impl<'a, N: Single> Place<'a, N> {
         self.rotation.tr_mul(&self.branch)
     }
 
-    /// Calls `visit` with place, normal and depth of each active plane. Returns the least |depth| of any plane.
+    /// Calls `visit` with place, normal and depth of each plane that may be active. Returns an upper bound on the depths of all others.
+    #[inline(always)]
+    fn visit_near(&self, y: &Vector3<N>, mut visit: impl FnMut(usize, Vector3<N>, N)) -> f64 {
+        let (near, shape) = (y.map(N::approximate), self.particle);
+        let doubles = N::UNIT >= 0.5 * f64::EPSILON;
+        let early = if doubles { 0.0 } else { 2.0 * rounding_in_doubles(shape, near.norm()) };
+        shape.visit_near(&near, early, |place, n, excess| {
+            let normal = n.map(N::of);
+            visit(place, normal, N::refined(excess, || normal.dot(y) - N::of(shape.offset(place))));
+        })
+    }
+
+    /// The same with the active planes alone. Returns the least |depth| of any plane that is not listed.
     #[inline(always)]
     fn visit_active(&self, y: &Vector3<N>, mut visit: impl FnMut(usize, Vector3<N>, N)) -> f64 {
-        let near = y.map(N::approximate);
-        let shape = self.particle;
         let mut least = f64::INFINITY;
-        let others = shape.visit_near(&near, self.blur(near.norm()), |place, n, excess| {
-            let normal = n.map(N::of);
-            let depth = N::refined(excess, || normal.dot(y) - N::of(shape.offset(place)));
-            least = smaller(depth.approximate().abs(), least);
-            if depth.is_positive() {
+        let others = self.visit_near(y, |place, normal, depth| {
+            let approximate = depth.approximate();
+            let is_active = if approximate.abs() > self.blur { depth.is_positive() } else { self.listed.contains(place) };
+            least = smaller(approximate.abs(), least);
+            if is_active {
                 visit(place, normal, depth);
             }
         });
         smaller(least, -others)
-    }
-
-    /// Bound on the rounding of a depth in doubles at this distance from the centre; 0 for doubles, which have no better.
-    fn blur(&self, length: f64) -> f64 {
-        let bounds = &self.particle.bounds;
-        if N::UNIT < f64::EPSILON * f64::EPSILON { bounds.longest_normal * shift_in_a(length, length) } else { 0.0 }
     }
 
     /// S about the point in the axes that are the columns of a matrix, world axes.
@@ -142,14 +216,18 @@ impl<'a, N: Single> Place<'a, N> {
         }
         let bounds = &self.particle.bounds;
         let length = self.branch.map(N::approximate).norm();
-        let of_offset = f64::EPSILON * bounds.offset_within(length);
-        let doubt = bounds.longest_normal * (self.error + shift_in_a(length, length)) + of_offset;
+        let is_told = clear > N::UNIT / f64::EPSILON * 2.0 * rounding_in_doubles(self.particle, length);
+        let lost = count * bounds.longest_normal * self.rounding / pull.approximate();
         Field {
             value: w * square + m * self.branch.dot(&self.branch),
             gradient: g * (two * w) + turn * y * (two * m),
             hessian,
-            clear: self.rounding == 0.0 || clear > doubt,
-            lost: if count == 0.0 { 0.0 } else { count * bounds.longest_normal * self.rounding / pull.approximate() },
+            clear: is_told && clear > bounds.longest_normal * self.error,
+            lost: match count {
+                _ if !is_told => f64::INFINITY,
+                0.0 => 0.0,
+                _ => lost,
+            },
             sloped: count > 0.0 || self.particle.sphere_weight > 0.0,
         }
     }

@@ -32,7 +32,7 @@ const LOST: f64 = 3e-13;
 const IMPRECISE: f64 = 1e-5;
 
 /// Most steps of Newton's method in 32 digits, from a point that is right to the digits of a double.
-const MOST_STEPS: usize = 10;
+const MOST_STEPS: usize = 30;
 
 /// Change of the normal at which these have converged.
 const CONVERGED: f64 = 1e-25;
@@ -135,7 +135,7 @@ impl<'a, N: Single> Optimum<'a, N> {
         let curved = |i: usize| ((fields[i].hessian.xx + fields[i].hessian.yy) / slopes[i]).magnitude().approximate();
         let mut flags = DerivativeFlags::default();
         flags.set(DerivativeFlags::SWITCHING, !fields.iter().all(|field| field.clear));
-        flags.set(DerivativeFlags::IMPRECISE, fields.iter().any(|field| field.lost > IMPRECISE));
+        flags.set(DerivativeFlags::IMPRECISE, fields.iter().any(|field| field.lost > IMPRECISE && field.lost < f64::INFINITY));
         Ok(Self {
             places,
             axes,
@@ -316,21 +316,24 @@ impl<'a, N: Single> Optimum<'a, N> {
 impl<'a> Optimum<'a, DoubleDouble> {
     /// The optimum near the places, to the digits that its bodies have.
     pub fn refined(kind: Kind, mut places: [Place<'a, DoubleDouble>; 2]) -> Result<Self, DerivativeError> {
-        for _ in 0..MOST_STEPS {
-            let normal = normal_at(&places);
-            let optimum = Self::new(kind, places.map(Some), &normal, None)?;
+        let mut steps = 0;
+        loop {
+            let optimum = Self::new(kind, places.map(Some), &normal_at(&places), None)?;
             let step = optimum.step();
+            steps += 1;
             // Relative to the lengths in which the gradients turn and change.
-            let change = [0, 1].map(|i| {
+            let change = |i: usize| {
                 let of = optimum.fields[i].hessian.times(&optimum.axes.tr_mul(&step));
                 of.map(Single::approximate).norm() / optimum.slopes[i].approximate().abs()
-            });
-            if change[0] + change[1] <= CONVERGED {
+            };
+            let converged = change(0) + change(1) <= CONVERGED;
+            let dropped = converged && places.iter_mut().fold(false, |any, place| place.drop_a_pulling_plane() || any);
+            if (converged && !dropped) || steps >= MOST_STEPS {
                 return Ok(optimum);
             }
-            places = places.each_ref().map(|place| place.moved(&step));
+            if !converged {
+                places = places.each_ref().map(|place| place.moved(&step));
+            }
         }
-        // Between planes that switch by rounding it may not settle; what is left is far below the digits of a double.
-        Self::new(kind, places.map(Some), &normal_at(&places), None)
     }
 }
