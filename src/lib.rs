@@ -99,8 +99,9 @@ pub use contact::closest_point::{ClosestPoint, closest_point};
 pub use contact::contact::{Contact, Kind};
 pub use contact::detect::{DetectError, detect};
 pub use derivative::{
-    ContactDerivatives, ContactWeights, DerivativeError, DerivativeFlags, PoseGradient, PoseRow, PoseRows, ShapeGradient,
-    boundary_derivatives, boundary_gradient, contact_derivatives, contact_gradient,
+    ContactDerivatives, ContactWeights, DerivativeError, DerivativeFlags, PatchDerivatives, PoseGradient, PoseRow,
+    PoseRows, ShapeGradient, boundary_derivatives, boundary_gradient, contact_derivatives, contact_gradient,
+    patch_derivatives,
 };
 pub use flags::Flags;
 pub use pair::pair_state::PairState;

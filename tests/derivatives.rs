@@ -6,3 +6,7 @@ mod support;
 mod truth;
 #[path = "derivatives/properties.rs"]
 mod properties;
+#[path = "derivatives/boundaries.rs"]
+mod boundaries;
+#[path = "derivatives/limits.rs"]
+mod limits;

@@ -103,7 +103,8 @@ impl DerivativeFlags {
     pub const FREE: Self = Self(2);
     /// The contact is separated: overlap and surface points have no derivatives, and are NaN here as they are there.
     pub const SEPARATED: Self = Self(4);
-    /// Depths of active planes are of the size of their rounding, as of bodies whose r is 1e-12 of their size: fewer than four digits are right.
+    /// Fewer than four digits may be right: depths of active planes are of the size of their rounding (at a boundary, by bodies whose r is 1e-11 of
+    /// their size), or planes switch even in 32 digits.
     pub const IMPRECISE: Self = Self(8);
 
     const NAMES: [(Self, &'static str); 4] = [

@@ -85,13 +85,15 @@ fn linearised<'a>(
     settings: &Settings,
 ) -> Result<AlongNormal<'a>, DerivativeError> {
     settings.validate()?;
-    if !(is_finite(&contact.branch) && is_finite(&contact.normal)) {
+    let is_overlap = contact.kind == Kind::Overlapping;
+    let surface = !is_overlap || contact.overlap.is_finite() && is_finite(&contact.on_particle);
+    let on_boundary = is_finite(&contact.branch) && is_finite(&contact.on_boundary) && is_finite(&contact.normal);
+    if !(contact.s > 0.0 && contact.s.is_finite() && surface && on_boundary) {
         return Err(DerivativeError::NoPoint);
     }
     if contact.flags.contains(Flags::NORMAL_BY_BOUNDARY) {
         return Err(DerivativeError::NoGradient);
     }
-    let is_overlap = contact.kind == Kind::Overlapping;
     let to_optimum = if is_overlap { contact.branch - 0.5 * contact.overlap * contact.normal } else { contact.branch };
     let least = least_sphericity(settings, contact.flags);
     let place = Place::new((a, pose), to_optimum, [contact.point_bound, 0.0], least);
@@ -104,7 +106,7 @@ fn linearised<'a>(
         (Feature::Edge(_), None) => return Err(DerivativeError::NoTriangle),
         (Feature::Vertex(_), _) => (0, None),
     };
-    let optimum = Optimum::new(Problem::OnBoundary(dimensions), [Some(place), None], &contact.normal, along)?;
+    let optimum = Optimum::new(Problem::OnBoundary(dimensions), [Some(place), None], &contact.normal, along)?.checked()?;
     let surfaces = if is_overlap {
         Some((SurfacePoint::new(&place, &optimum.axes, contact.overlap)?, None))
     } else {

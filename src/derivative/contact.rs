@@ -221,7 +221,7 @@ impl<'a> Task<'a, '_> {
         let error = [contact.point_bound, 0.0];
         let places = [0, 1].map(|i| Place::new(self.bodies[i], branches[i], error, self.least_sphericity));
         let optimum = Optimum::new(Problem::Midway, places.map(Some), &contact.normal, None)?;
-        if optimum.wants_more() { Ok(None) } else { self.along_normal(optimum, places).map(Some) }
+        if optimum.wants_more() { Ok(None) } else { self.along_normal(optimum.checked()?, places).map(Some) }
     }
 
     fn along_normal<N: Single>(
@@ -259,11 +259,17 @@ impl<'a> Task<'a, '_> {
         let optimum = |j: usize| -> Result<_, DerivativeError> {
             let (branches, error) = branches[j];
             let places = [0, 1].map(|i| Place::new(self.bodies[i], branches[i], error, self.least_sphericity));
-            Optimum::new(ON[j], places.map(Some), &normal_at(&places), None)
+            Optimum::new(ON[j], places.map(Some), &normal_at(ON[j], &places), None)
         };
         let optima = [optimum(0)?, optimum(1)?];
-        let wants_more = optima.iter().any(Optimum::wants_more);
-        Ok(if wants_more { None } else { Some(self.closest_points(optima)) })
+        // The direction from one to the other is known to their rounding over their distance.
+        let rounding = f64::EPSILON * (branches[0].0[0].norm() + branches[0].0[1].norm() + branches[0].1[1]);
+        let lost = self.is_overlap() && rounding > LOST_ACROSS * self.contact.overlap;
+        if lost || optima.iter().any(Optimum::wants_more) {
+            return Ok(None);
+        }
+        let [on_a, on_b] = optima;
+        Ok(Some(self.closest_points([on_a.checked()?, on_b.checked()?])))
     }
 
     fn closest_points<N: Single>(&self, optima: [Optimum<'a, N>; 2]) -> ClosestPoints<'a, N> {
@@ -299,6 +305,9 @@ impl<'a> Task<'a, '_> {
     }
 }
 
+/// Relative rounding of the way between P1 and P2 from which on numbers of 32 digits are taken.
+const LOST_ACROSS: f64 = 1e-12;
+
 /// What P1 and P2 are.
 const ON: [Problem; 2] = [Problem::OnA, Problem::OnB];
 
@@ -310,7 +319,11 @@ fn linearised<'a>(
     settings: &Settings,
 ) -> Result<Linearised<'a>, DerivativeError> {
     settings.validate()?;
-    if !(is_finite(&contact.branch_a) && is_finite(&contact.branch_b) && is_finite(&contact.normal)) {
+    let closest = contact.formulation == Formulation::Closest;
+    let scales = contact.s > 0.0 && contact.s.is_finite() && (!closest || contact.s_b > 0.0 && contact.s_b.is_finite());
+    let surfaces = contact.kind == Kind::Separated || is_finite(&contact.point_on_a) && is_finite(&contact.point_on_b);
+    let centred = is_finite(&contact.branch_a) && is_finite(&contact.branch_b) && is_finite(&contact.point);
+    if !(scales && surfaces && centred && is_finite(&contact.normal)) {
         return Err(DerivativeError::NoPoint);
     }
     if contact.flags.contains(Flags::NORMAL_BY_CENTRES) {

@@ -48,6 +48,7 @@ mod contact;
 mod field;
 mod midway;
 mod optimum;
+mod patch;
 mod rows;
 mod surface;
 
@@ -56,3 +57,4 @@ pub use answer::{
 };
 pub use boundary::{boundary_derivatives, boundary_gradient};
 pub use contact::{contact_derivatives, contact_gradient};
+pub use patch::{PatchDerivatives, patch_derivatives};

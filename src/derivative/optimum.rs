@@ -28,14 +28,15 @@ pub(super) enum Kind {
 const GRADED: f64 = 1e-4;
 
 /// Relative rounding of depths from which on numbers of 32 digits are taken, and from which few digits are right.
-const LOST: f64 = 3e-13;
+const LOST: f64 = 5e-14;
 const IMPRECISE: f64 = 1e-5;
 
 /// Most steps of Newton's method in 32 digits, from a point that is right to the digits of a double.
 const MOST_STEPS: usize = 30;
 
-/// Change of the normal at which these have converged.
-const CONVERGED: f64 = 1e-25;
+/// Change of the normals at which these have converged, and below which they have where they change no less with a further step: what is left is
+/// rounding.
+const CONVERGED: [f64; 2] = [1e-24, 1e-13];
 
 /// An optimum with its linearised optimality conditions.
 pub(super) struct Optimum<'a, N: Single = f64> {
@@ -74,10 +75,15 @@ pub(super) fn unit<N: Single>(v: &Vector3<N>) -> Vector3<N> {
     scaled * (N::of(1.0) / scaled.dot(&scaled).root())
 }
 
-/// The normal where both gradients are opposed.
-pub(super) fn normal_at<N: Single>(places: &[Place<N>; 2]) -> Vector3<N> {
-    let [of_a, of_b] = places.each_ref().map(|place| unit(&place.tangent().1));
-    unit(&(of_a - of_b))
+/// The normal at an optimum, along which gradients are opposed: of closest that of the body on which it lies, since the other one may be all but
+/// level there; of midway mostly that of the larger, which is known to more digits.
+pub(super) fn normal_at<N: Single>(kind: Kind, places: &[Place<N>; 2]) -> Vector3<N> {
+    let gradient = |i: usize| places[i].tangent().1;
+    unit(&match kind {
+        Kind::OnA | Kind::OnBoundary(_) => gradient(0),
+        Kind::OnB => -gradient(1),
+        Kind::Midway => gradient(0) - gradient(1),
+    })
 }
 
 fn flat<N: Single>() -> Field<N> {
@@ -105,22 +111,26 @@ impl<'a, N: Single> Optimum<'a, N> {
             Matrix3::from_columns(&[first, normal.cross(&first), *normal])
         };
         let first = along.unwrap_or_else(|| any_across(&normal.map(N::approximate)).map(N::of));
-        let mut optimum = Self::in_axes(kind, places, axes(first))?;
+        let mut optimum = Self::in_axes(kind, places, axes(first));
         if let Some(stiffest) = optimum.graded().filter(|_| along.is_none()) {
             let across = optimum.axes.fixed_columns::<2>(0) * stiffest.map(N::of);
-            optimum = Self::in_axes(kind, places, axes(across))?;
+            optimum = Self::in_axes(kind, places, axes(across));
         }
         optimum.invert()?;
         Ok(optimum)
     }
 
-    fn in_axes(kind: Kind, places: [Option<Place<'a, N>>; 2], axes: Matrix3<N>) -> Result<Self, DerivativeError> {
+    /// Refuses an optimum at which the gradients are not opposed, or are those of the regularisation.
+    pub fn checked(self) -> Result<Self, DerivativeError> {
+        let [a, b] = &self.fields;
+        let opposed = a.gradient.z.is_positive() && (-b.gradient.z).is_positive() && a.sloped && b.sloped;
+        if opposed && self.slopes.iter().all(|slope| slope.is_finite()) { Ok(self) } else { Err(DerivativeError::NoGradient) }
+    }
+
+    fn in_axes(kind: Kind, places: [Option<Place<'a, N>>; 2], axes: Matrix3<N>) -> Self {
         let fields = places.map(|place| place.map_or_else(flat, |place| place.field(&axes)));
-        let slopes = [fields[0].gradient.z, fields[1].gradient.z];
-        let opposed = slopes[0].is_positive() && (-slopes[1]).is_positive() && fields.iter().all(|field| field.sloped);
-        if !(opposed && slopes[0].is_finite() && slopes[1].is_finite()) {
-            return Err(DerivativeError::NoGradient);
-        }
+        // On the way to an optimum they may not be opposed: with the signs that they have there it is found.
+        let slopes = [fields[0].gradient.z.magnitude(), -fields[1].gradient.z.magnitude()];
         // The smaller part keeps its digits, and both add up to 1.
         let part = |of: N, beside: N| of / (of + beside);
         let (of_a, of_b) = (part(slopes[0], -slopes[1]), part(-slopes[1], slopes[0]));
@@ -136,7 +146,7 @@ impl<'a, N: Single> Optimum<'a, N> {
         let mut flags = DerivativeFlags::default();
         flags.set(DerivativeFlags::SWITCHING, !fields.iter().all(|field| field.clear));
         flags.set(DerivativeFlags::IMPRECISE, fields.iter().any(|field| field.lost > IMPRECISE && field.lost < f64::INFINITY));
-        Ok(Self {
+        Self {
             places,
             axes,
             kind,
@@ -148,7 +158,7 @@ impl<'a, N: Single> Optimum<'a, N> {
             flatter: usize::from(places[1].is_some() && curved(1) < curved(0)),
             fields,
             flags,
-        })
+        }
     }
 
     /// Whether doubles have lost too many digits.
@@ -316,9 +326,9 @@ impl<'a, N: Single> Optimum<'a, N> {
 impl<'a> Optimum<'a, DoubleDouble> {
     /// The optimum near the places, to the digits that its bodies have.
     pub fn refined(kind: Kind, mut places: [Place<'a, DoubleDouble>; 2]) -> Result<Self, DerivativeError> {
-        let mut steps = 0;
+        let (mut steps, mut last) = (0, f64::INFINITY);
         loop {
-            let optimum = Self::new(kind, places.map(Some), &normal_at(&places), None)?;
+            let mut optimum = Self::new(kind, places.map(Some), &normal_at(kind, &places), None)?;
             let step = optimum.step();
             steps += 1;
             // Relative to the lengths in which the gradients turn and change.
@@ -326,10 +336,16 @@ impl<'a> Optimum<'a, DoubleDouble> {
                 let of = optimum.fields[i].hessian.times(&optimum.axes.tr_mul(&step));
                 of.map(Single::approximate).norm() / optimum.slopes[i].approximate().abs()
             };
-            let converged = change(0) + change(1) <= CONVERGED;
+            let change = change(0) + change(1);
+            let converged = change <= CONVERGED[0] || (change <= CONVERGED[1] && change >= 0.5 * last);
+            last = change;
             let dropped = converged && places.iter_mut().fold(false, |any, place| place.drop_a_pulling_plane() || any);
             if (converged && !dropped) || steps >= MOST_STEPS {
-                return Ok(optimum);
+                optimum.flags.set(DerivativeFlags::IMPRECISE, !converged);
+                return optimum.checked();
+            }
+            if dropped {
+                last = f64::INFINITY;
             }
             if !converged {
                 places = places.each_ref().map(|place| place.moved(&step));
