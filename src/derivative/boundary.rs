@@ -3,7 +3,7 @@
 use super::answer::{
     ContactDerivatives, ContactWeights, DerivativeError, DerivativeFlags, PoseGradient, ShapeGradient,
 };
-use super::contact::{Gradient, is_finite, least_sphericity};
+use super::contact::{Gradient, Linearised, is_finite, least_sphericity};
 use super::field::Place;
 use super::midway::AlongNormal;
 use super::optimum::{Kind as Problem, Optimum};
@@ -41,7 +41,7 @@ pub fn boundary_derivatives(
     contact: &FlatContact,
     settings: &Settings,
 ) -> Result<ContactDerivatives, DerivativeError> {
-    let mut derivatives = linearised(a, pose, triangle, contact, settings)?.derivatives();
+    let mut derivatives = linearised(a, pose, triangle, contact, settings)?.in_poses();
     derivatives.flags.set(DerivativeFlags::SEPARATED, contact.kind == Kind::Separated);
     Ok(derivatives)
 }
@@ -64,7 +64,7 @@ pub fn boundary_gradient(
     let mut sum = Gradient { poses: Default::default(), shapes: [shape, None] };
     sum.check([a, a])?;
     let linearised = linearised(a, pose, triangle, contact, settings)?;
-    let mut flags = sum.add_along_normal(&linearised, weights);
+    let mut flags = linearised.add_to(&mut sum, weights);
     flags.set(DerivativeFlags::SEPARATED, contact.kind == Kind::Separated);
     // Where both move alike, points and normal go with them.
     let mut both = PoseGradient { shift: weights.point + weights.point_on_b, turn: contact.normal.cross(&weights.normal) };

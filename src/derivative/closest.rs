@@ -32,7 +32,7 @@ impl<'a, N: Single> ClosestPoints<'a, N> {
         Self { optima, scales, sum_of_normals, across, weight_on_a, is_overlap }
     }
 
-    pub fn derivatives(&self) -> ContactDerivatives {
+    pub fn in_poses(&self) -> ContactDerivatives {
         let moved = [0, 1].map(|i| {
             let optimum = &self.optima[i];
             Moved::of(optimum, &ToWorld::of(optimum), self.scales[i]).0

@@ -21,14 +21,6 @@ use crate::pose::Pose;
 use crate::settings::{Formulation, Settings};
 use nalgebra::Vector3;
 
-/// A contact with its linearised optimality conditions.
-enum Linearised<'a> {
-    Midway(AlongNormal<'a>),
-    Closest(ClosestPoints<'a>),
-    PreciseMidway(Box<AlongNormal<'a, DoubleDouble>>),
-    PreciseClosest(Box<ClosestPoints<'a, DoubleDouble>>),
-}
-
 /// The derivatives of a contact in the poses of both bodies.
 ///
 /// `contact` is the answer of [`crate::detect()`] for the same bodies, poses and settings. Nothing is solved again, but for the closest points
@@ -57,14 +49,11 @@ pub fn contact_derivatives(
     contact: &Contact,
     settings: &Settings,
 ) -> Result<ContactDerivatives, DerivativeError> {
-    let mut derivatives = match linearised((a, pose_a), (b, pose_b), contact, settings)? {
-        Linearised::Midway(contact) => contact.derivatives(),
-        Linearised::Closest(contact) => contact.derivatives(),
-        Linearised::PreciseMidway(contact) => contact.derivatives(),
-        Linearised::PreciseClosest(contact) => contact.derivatives(),
-    };
-    derivatives.flags.set(DerivativeFlags::SEPARATED, contact.kind == Kind::Separated);
-    Ok(derivatives)
+    linearised((a, pose_a), (b, pose_b), contact, settings, |linearised| {
+        let mut derivatives = linearised.derivatives();
+        derivatives.flags.set(DerivativeFlags::SEPARATED, contact.kind == Kind::Separated);
+        derivatives
+    })
 }
 
 /// The derivative of a cost in poses and shapes of both bodies, from its derivatives in the numbers of their contact.
@@ -105,14 +94,11 @@ pub fn contact_gradient(
 ) -> Result<([PoseGradient; 2], DerivativeFlags), DerivativeError> {
     let mut sum = Gradient { poses: Default::default(), shapes: [shape_a, shape_b] };
     sum.check([a, b])?;
-    let mut flags = match linearised((a, pose_a), (b, pose_b), contact, settings)? {
-        Linearised::Midway(contact) => sum.add_along_normal(&contact, weights),
-        Linearised::Closest(contact) => sum.add_closest(&contact, weights),
-        Linearised::PreciseMidway(contact) => sum.add_along_normal(&contact, weights),
-        Linearised::PreciseClosest(contact) => sum.add_closest(&contact, weights),
-    };
-    flags.set(DerivativeFlags::SEPARATED, contact.kind == Kind::Separated);
-    Ok((sum.poses, flags))
+    linearised((a, pose_a), (b, pose_b), contact, settings, |linearised| {
+        let mut flags = linearised.add_to(&mut sum, weights);
+        flags.set(DerivativeFlags::SEPARATED, contact.kind == Kind::Separated);
+        (sum.poses, flags)
+    })
 }
 
 /// What a pull-back adds to.
@@ -130,37 +116,6 @@ impl Gradient<'_> {
             }
         }
         Ok(())
-    }
-
-    pub fn add_along_normal<N: Single>(
-        &mut self,
-        contact: &AlongNormal<N>,
-        weights: &ContactWeights,
-    ) -> DerivativeFlags {
-        let (fields, sigmas) = contact.pulled_back(weights);
-        self.add_optimum(&contact.optimum, &fields);
-        if let Some((surface_a, surface_b)) = &contact.surfaces {
-            for (i, surface) in [Some(surface_a), surface_b.as_ref()].into_iter().enumerate() {
-                let Some(surface) = surface else { continue };
-                let velocity = contact.optimum.axes * surface.gradient() * -sigmas[i];
-                self.add_motion(i, &surface.place, [velocity, Vector3::zeros()]);
-                self.add_shape(i, &surface.place, &FieldWeights { sigma: sigmas[i], gamma: Vector3::zeros() });
-            }
-        }
-        contact.optimum.flags
-    }
-
-    fn add_closest<N: Single>(
-        &mut self,
-        contact: &ClosestPoints<N>,
-        weights: &ContactWeights,
-    ) -> DerivativeFlags {
-        let mut flags = DerivativeFlags::default();
-        for (optimum, fields) in &contact.pulled_back(weights) {
-            self.add_optimum(optimum, fields);
-            flags.set(optimum.flags, true);
-        }
-        flags
     }
 
     fn add_optimum<N: Single>(&mut self, optimum: &Optimum<N>, fields: &[FieldWeights<N>; 2]) {
@@ -182,6 +137,48 @@ impl Gradient<'_> {
         if let Some(shape) = self.shapes[i].as_deref_mut() {
             place.add_to_shape(weights.sigma, &weights.gamma, shape);
         }
+    }
+}
+
+/// A contact with its linearised optimality conditions, in doubles or in 32 digits.
+pub(super) trait Linearised {
+    fn derivatives(&self) -> ContactDerivatives;
+
+    fn add_to(&self, sum: &mut Gradient, weights: &ContactWeights) -> DerivativeFlags;
+}
+
+impl<N: Single> Linearised for AlongNormal<'_, N> {
+    fn derivatives(&self) -> ContactDerivatives {
+        self.in_poses()
+    }
+
+    fn add_to(&self, sum: &mut Gradient, weights: &ContactWeights) -> DerivativeFlags {
+        let (fields, sigmas) = self.pulled_back(weights);
+        sum.add_optimum(&self.optimum, &fields);
+        if let Some((surface_a, surface_b)) = &self.surfaces {
+            for (i, surface) in [Some(surface_a), surface_b.as_ref()].into_iter().enumerate() {
+                let Some(surface) = surface else { continue };
+                let velocity = self.optimum.axes * surface.gradient() * -sigmas[i];
+                sum.add_motion(i, &surface.place, [velocity, Vector3::zeros()]);
+                sum.add_shape(i, &surface.place, &FieldWeights { sigma: sigmas[i], gamma: Vector3::zeros() });
+            }
+        }
+        self.optimum.flags
+    }
+}
+
+impl<N: Single> Linearised for ClosestPoints<'_, N> {
+    fn derivatives(&self) -> ContactDerivatives {
+        self.in_poses()
+    }
+
+    fn add_to(&self, sum: &mut Gradient, weights: &ContactWeights) -> DerivativeFlags {
+        let mut flags = DerivativeFlags::default();
+        for (optimum, fields) in &self.pulled_back(weights) {
+            sum.add_optimum(optimum, fields);
+            flags.set(optimum.flags, true);
+        }
+        flags
     }
 }
 
@@ -287,21 +284,22 @@ impl<'a> Task<'a, '_> {
         Optimum::refined(kind, [place(0, branch_a), place(1, branch_b)])
     }
 
-    fn linearised(&self) -> Result<Linearised<'a>, DerivativeError> {
+    /// `then` of the contact: in 32 digits where doubles have lost too many. It stays where it is made, as it is large.
+    fn linearised<T>(&self, then: impl FnOnce(&dyn Linearised) -> T) -> Result<T, DerivativeError> {
         if self.contact.formulation == Formulation::Midway {
             if let Some(contact) = self.midway()? {
-                return Ok(Linearised::Midway(contact));
+                return Ok(then(&contact));
             }
             let optimum = self.precise(Problem::Midway, &self.contact.branch_b)?;
             let [Some(a), Some(b)] = optimum.places else { return Err(DerivativeError::NoPoint) };
-            return Ok(Linearised::PreciseMidway(Box::new(self.along_normal(optimum, [a, b])?)));
+            return Ok(then(&self.along_normal(optimum, [a, b])?));
         }
         let branches = self.closest_branches()?;
         if let Some(contact) = self.closest(&branches)? {
-            return Ok(Linearised::Closest(contact));
+            return Ok(then(&contact));
         }
         let optimum = |j: usize| self.precise(ON[j], &branches[j].0[1]);
-        Ok(Linearised::PreciseClosest(Box::new(self.closest_points([optimum(0)?, optimum(1)?]))))
+        Ok(then(&self.closest_points([optimum(0)?, optimum(1)?])))
     }
 }
 
@@ -311,13 +309,14 @@ const LOST_ACROSS: f64 = 1e-12;
 /// What P1 and P2 are.
 const ON: [Problem; 2] = [Problem::OnA, Problem::OnB];
 
-/// The optimality conditions at the optimum or optima of a contact.
-fn linearised<'a>(
-    a: (&'a Particle, &'a Pose),
-    b: (&'a Particle, &'a Pose),
+/// `then` of the optimality conditions at the optimum or optima of a contact.
+fn linearised<T>(
+    a: (&Particle, &Pose),
+    b: (&Particle, &Pose),
     contact: &Contact,
     settings: &Settings,
-) -> Result<Linearised<'a>, DerivativeError> {
+    then: impl FnOnce(&dyn Linearised) -> T,
+) -> Result<T, DerivativeError> {
     settings.validate()?;
     let closest = contact.formulation == Formulation::Closest;
     let scales = contact.s > 0.0 && contact.s.is_finite() && (!closest || contact.s_b > 0.0 && contact.s_b.is_finite());
@@ -330,5 +329,5 @@ fn linearised<'a>(
         return Err(DerivativeError::NoGradient);
     }
     let least_sphericity = least_sphericity(settings, contact.flags);
-    Task { bodies: [a, b], contact, settings, least_sphericity }.linearised()
+    Task { bodies: [a, b], contact, settings, least_sphericity }.linearised(then)
 }

@@ -2,7 +2,7 @@
 
 use super::answer::{ContactDerivatives, ContactWeights, PoseRow, PoseRows};
 use super::optimum::{FieldWeights, Optimum};
-use super::rows::{Moved, Row, ToWorld, vector};
+use super::rows::{Moved, Row, ToWorld, along, vector};
 use super::surface::SurfacePoint;
 use crate::linalg::number::Single;
 use nalgebra::{ArrayStorage, Vector3};
@@ -20,35 +20,40 @@ pub(super) const NO_ROW: PoseRow = PoseRow::from_array_storage(ArrayStorage([[f6
 pub(super) const NO_ROWS: PoseRows = PoseRows::from_array_storage(ArrayStorage([[f64::NAN; 3]; 12]));
 
 impl<N: Single> AlongNormal<'_, N> {
-    pub fn derivatives(&self) -> ContactDerivatives {
+    pub fn in_poses(&self) -> ContactDerivatives {
         let axes = &self.optimum.axes;
         let to_world = ToWorld::of(&self.optimum);
         let (moved, point, normal) = Moved::of(&self.optimum, &to_world, self.s);
-        let at_optimum = vector(axes, &moved.point);
-        let derivatives = ContactDerivatives {
+        let across = |rows: &[Row<N>; 2]| vector(axes, &[rows[0], rows[1], Row::zero()]);
+        let along = |row: &Row<N>| along(&axes.column(2).map(N::approximate), &row.pose_row());
+        let [x, y, z] = moved.point;
+        let (point_across, turned) = (across(&[x, y]), across(&moved.normal));
+        let at_optimum = point_across + along(&z);
+        let is_boundary = self.optimum.places[1].is_none();
+        let mut derivatives = ContactDerivatives {
             s: moved.s.pose_row(),
             s_b: NO_ROW,
             overlap: NO_ROW,
-            normal: vector(axes, &[moved.normal[0], moved.normal[1], Row::zero()]),
+            normal: turned,
             point: at_optimum,
             point_on_a: NO_ROWS,
-            point_on_b: if self.optimum.places[1].is_none() { at_optimum } else { NO_ROWS },
+            point_on_b: if is_boundary { at_optimum } else { NO_ROWS },
             flags: self.optimum.flags,
         };
         let Some((on_a, on_b)) = &self.surfaces else { return derivatives };
         let on_surface = |surface: &SurfacePoint<N>, is_of_a: bool| {
-            let across = |i: usize| moved.point[i] + moved.normal[i] * surface.way();
-            let along = to_world.of_point(surface.along_normal(&point, &normal, is_of_a), 2);
-            (vector(axes, &[across(0), across(1), along]), along)
+            let row = to_world.of_point(surface.along_normal(&point, &normal, is_of_a), 2);
+            (point_across + turned * surface.way().approximate() + along(&row), row)
         };
         let (point_on_a, along_a) = on_surface(on_a, true);
-        let (point_on_b, along_b) = match on_b {
-            Some(on_b) => on_surface(on_b, false),
-            None => (at_optimum, moved.point[2]),
-        };
-        let point = if on_b.is_some() { at_optimum } else { 0.5 * (point_on_a + at_optimum) };
-        let overlap = (along_a - along_b).pose_row();
-        ContactDerivatives { overlap, point, point_on_a, point_on_b, ..derivatives }
+        let mut along_b = z;
+        derivatives.point_on_a = point_on_a;
+        match on_b {
+            Some(on_b) => (derivatives.point_on_b, along_b) = on_surface(on_b, false),
+            None => derivatives.point = 0.5 * (point_on_a + at_optimum),
+        }
+        derivatives.overlap = (along_a - along_b).pose_row();
+        derivatives
     }
 
     /// The weights on the potentials at the optimum, and on S at both surface points.

@@ -28,7 +28,7 @@ pub(super) enum Kind {
 const GRADED: f64 = 1e-4;
 
 /// Relative rounding of depths from which on numbers of 32 digits are taken, and from which few digits are right.
-const LOST: f64 = 5e-14;
+const LOST: f64 = 1e-13;
 const IMPRECISE: f64 = 1e-5;
 
 /// Most steps of Newton's method in 32 digits, from a point that is right to the digits of a double.
@@ -121,12 +121,14 @@ impl<'a, N: Single> Optimum<'a, N> {
     }
 
     /// Refuses an optimum at which the gradients are not opposed, or are those of the regularisation.
+    #[inline]
     pub fn checked(self) -> Result<Self, DerivativeError> {
         let [a, b] = &self.fields;
         let opposed = a.gradient.z.is_positive() && (-b.gradient.z).is_positive() && a.sloped && b.sloped;
         if opposed && self.slopes.iter().all(|slope| slope.is_finite()) { Ok(self) } else { Err(DerivativeError::NoGradient) }
     }
 
+    #[inline]
     fn in_axes(kind: Kind, places: [Option<Place<'a, N>>; 2], axes: Matrix3<N>) -> Self {
         let fields = places.map(|place| place.map_or_else(flat, |place| place.field(&axes)));
         // On the way to an optimum they may not be opposed: with the signs that they have there it is found.
@@ -180,6 +182,7 @@ impl<'a, N: Single> Optimum<'a, N> {
     }
 
     /// Turns TᵀHT into its inverse on the directions that are free.
+    #[inline]
     fn invert(&mut self) -> Result<(), DerivativeError> {
         let h = self.inverse;
         let dimensions = if let Kind::OnBoundary(dimensions) = self.kind { dimensions } else { 2 };
@@ -215,6 +218,7 @@ impl<'a, N: Single> Optimum<'a, N> {
     }
 
     /// The factor of a·δS_A + b·δS_B in the derivative of the least S, and hence of its root s: that of the body whose S is sought.
+    #[inline]
     pub fn of_value(&self) -> N {
         match self.kind {
             Kind::Midway => N::of(1.0),
@@ -224,17 +228,20 @@ impl<'a, N: Single> Optimum<'a, N> {
     }
 
     /// Number of directions across the normal in which the normal is that of a boundary.
+    #[inline]
     fn held(&self) -> usize {
         if let Kind::OnBoundary(dimensions) = self.kind { dimensions } else { 0 }
     }
 
     /// Rows T of the Hessian of a body.
+    #[inline]
     fn across(&self, i: usize) -> Matrix2x3<N> {
         let h = &self.fields[i].hessian;
         Matrix2x3::new(h.xx, h.yx, h.zx, h.yx, h.yy, h.zy)
     }
 
     /// How the point moves with A, while B is held.
+    #[inline]
     pub fn moved_by_a(&self) -> Matrix3x6<N> {
         let (weight, along) = (self.weights[0], self.shares[0]);
         // a(ω × g − H v) + ζ H n for the six columns.
@@ -254,6 +261,7 @@ impl<'a, N: Single> Optimum<'a, N> {
     }
 
     /// How the normal turns with A, along the axes across it, where its point moves so.
+    #[inline]
     pub fn normal_by_a(&self, moved: &Matrix3x6<N>) -> Matrix2x6<N> {
         let flatter = self.flatter;
         let hessian = self.across(flatter) * (N::of(1.0) / self.slopes[flatter]);
@@ -272,6 +280,7 @@ impl<'a, N: Single> Optimum<'a, N> {
     }
 
     /// The weights on the potentials that weights on the point and on the normal (own axes) come to.
+    #[inline]
     pub fn pulled_back(&self, point: &Vector3<N>, normal: &Vector3<N>) -> [FieldWeights<N>; 2] {
         let mut normal = normal.xy();
         (0..self.held()).for_each(|i| normal[i] = N::of(0.0));
@@ -303,6 +312,7 @@ impl<'a, N: Single> Optimum<'a, N> {
     }
 
     /// The slope of the potential of a body along the normal.
+    #[inline]
     pub fn slope(&self, i: usize) -> N {
         self.slopes[i]
     }

@@ -15,6 +15,7 @@ impl<N: Single> Row<N> {
         Self([Vector3::zeros(); 4])
     }
 
+    #[inline]
     pub fn pose_row(&self) -> PoseRow {
         PoseRow::from_fn(|_, column| self.0[column / 3][column % 3].approximate())
     }
@@ -45,15 +46,23 @@ impl<N: Single> Mul<N> for Row<N> {
 }
 
 /// The derivative of a vector from those of its components along axes (columns).
+#[inline]
 pub(super) fn vector<N: Single>(axes: &Matrix3<N>, components: &[Row<N>; 3]) -> PoseRows {
+    let axes = axes.map(N::approximate);
+    let [x, y, z] = components.each_ref().map(Row::pose_row);
     let mut rows = PoseRows::zeros();
-    for part in 0..4 {
-        for column in 0..3 {
-            let [x, y, z] = [0, 1, 2].map(|i| components[i].0[part][column]);
-            let v = axes * Vector3::new(x, y, z);
-            rows.set_column(3 * part + column, &v.map(N::approximate));
-        }
+    for column in 0..12 {
+        let v = axes.column(0) * x[column] + axes.column(1) * y[column] + axes.column(2) * z[column];
+        rows.set_column(column, &v);
     }
+    rows
+}
+
+/// The derivative of a vector along an axis from that of its length.
+#[inline]
+pub(super) fn along(axis: &Vector3<f64>, row: &PoseRow) -> PoseRows {
+    let mut rows = PoseRows::zeros();
+    (0..12).for_each(|column| rows.set_column(column, &(axis * row[column])));
     rows
 }
 
@@ -75,6 +84,7 @@ pub(super) struct ToWorld<N> {
 }
 
 impl<N: Single> ToWorld<N> {
+    #[inline]
     pub fn of(optimum: &Optimum<N>) -> Self {
         let of_a = optimum.places[0].as_ref().map_or_else(Vector3::zeros, |place| place.branch);
         let of_b = optimum.places[1].as_ref().map_or(of_a, |place| place.branch);
@@ -82,6 +92,7 @@ impl<N: Single> ToWorld<N> {
     }
 
     /// From the derivative in the motion of A, and that of both together: in the velocity, and in the turn, world axes.
+    #[inline]
     fn row(&self, by_a: RowVector6<N>, together: [Vector3<N>; 2]) -> Row<N> {
         let velocity = self.axes * by_a.fixed_columns::<3>(0).transpose();
         let turn = self.axes * by_a.fixed_columns::<3>(3).transpose();
@@ -89,22 +100,26 @@ impl<N: Single> ToWorld<N> {
     }
 
     /// A body turned about its centre moves the point as well.
+    #[inline]
     fn of_both(&self, a: [Vector3<N>; 2], b: [Vector3<N>; 2]) -> Row<N> {
         Row([a[0], a[1] + self.branches[0].cross(&a[0]), b[0], b[1] + self.branches[1].cross(&b[0])])
     }
 
     /// Of a component that a motion of both moves with the bodies along this axis.
+    #[inline]
     pub fn of_point(&self, by_a: RowVector6<N>, axis: usize) -> Row<N> {
         self.row(by_a, [self.axes.column(axis).into_owned(), Vector3::zeros()])
     }
 
     /// Of a component of the normal along this axis.
+    #[inline]
     fn of_normal(&self, by_a: RowVector6<N>, axis: usize) -> Row<N> {
         let turn = self.axes.column(2).cross(&self.axes.column(axis));
         self.row(by_a, [Vector3::zeros(), turn])
     }
 
     /// Of a number that is the same wherever both bodies are, and changes with how far A moves along the normal alone.
+    #[inline]
     fn of_invariant(&self, by_approach: N) -> Row<N> {
         let along = self.axes.column(2) * by_approach;
         self.of_both([along, Vector3::zeros()], [-along, Vector3::zeros()])
@@ -113,6 +128,7 @@ impl<N: Single> ToWorld<N> {
 
 impl<N: Single> Moved<N> {
     /// `s` is the root of the least S. Also gives how the point moves across the normal, and the normal, with A alone: own axes.
+    #[inline]
     pub fn of(optimum: &Optimum<N>, to_world: &ToWorld<N>, s: f64) -> (Self, Matrix2x6<N>, Matrix2x6<N>) {
         let by_a = optimum.moved_by_a();
         let normal = optimum.normal_by_a(&by_a);
