@@ -216,7 +216,8 @@
 // The patch turns back under itself (deep overlaps of round bodies): what lies beyond is left out.
 #define PP_PATCH_FOLDED 1
 
-// The tolerance was not reached; error tells how far off the answer may be.
+// The tolerance was not reached, or is beyond what rounding allows where the bodies hardly touch; error tells
+// how far off the answer may be.
 #define PP_PATCH_TOLERANCE_NOT_REACHED 2
 
 // The contact point lies in the core of both bodies, or the boundary reaches through that of A (s is 0 or

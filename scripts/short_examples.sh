@@ -6,21 +6,40 @@ cd "$(dirname "$0")/.."
 root=$PWD
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
-(cd "$folder" && "$root"/scripts/yade.sh -j1 "$root"/examples/first_pile.py && "$root"/scripts/yade.sh -j1 "$root"/examples/arch.py | tee arch.txt)
-BODIES=40 STEPS=5000 OUTPUT=$folder/rocks scripts/yade.sh -j1 examples/rocks.py
-BODIES=60 STEPS=7000 OUTPUT=$folder/hopper scripts/yade.sh -j1 examples/hopper.py
-BODIES=20 STEPS=3500 OUTPUT=$folder/pyramids scripts/yade.sh -j1 examples/pyramids.py | tee "$folder/pyramids.txt"
-LAW=joint BODIES=10 STEPS=9000 OUTPUT=$folder/joints scripts/yade.sh -j1 examples/pyramids.py | tee "$folder/joints.txt"
-BODIES=60 STRAIN=0.02 OUTPUT=$folder/triaxial scripts/yade.sh -j1 examples/triaxial.py 2>&1 | tee "$folder/triaxial.txt"
-BODIES=20 STRESS=5e4 OUTPUT=$folder/oedometer scripts/yade.sh -j1 examples/oedometer.py
-BODIES=60 STRAIN=0.05 OUTPUT=$folder/shear scripts/yade.sh -j1 examples/shear.py
-BODIES=60 OUTPUT=$folder/repose scripts/yade.sh -j1 examples/repose.py
-BODIES=60 TURNS=0.4 OUTPUT=$folder/drum scripts/yade.sh -j1 examples/drum.py
-BODIES=40 CYCLES=3 OUTPUT=$folder/ballast scripts/yade.sh -j1 examples/ballast.py
+# Runs a command beside at most one other, its output in a file of that name; one that fails ends all.
+beside() {
+    while [ "$(jobs -rp | wc -l)" -ge 2 ]; do wait -n; done
+    local name=$1
+    shift
+    "$@" >"$folder/$name.txt" 2>&1 || { cat "$folder/$name.txt"; return 1; } &
+}
+example() {
+    local name=$1
+    shift
+    beside "$name" env OUTPUT="$folder/$name" "$@" scripts/yade.sh -j1 "examples/${SCRIPT:-$name}.py"
+}
+there() {
+    cd "$folder" && "$root/scripts/yade.sh" -j1 "$root/examples/$1.py"
+}
+
+# The longest first.
+example shear BODIES=60 STRAIN=0.05
+example ballast BODIES=40 CYCLES=3
+example drum BODIES=60 TURNS=0.4
+example repose BODIES=60
+example triaxial BODIES=60 STRAIN=0.02
+example oedometer BODIES=20 STRESS=5e4
+example rocks BODIES=40 STEPS=5000
+example hopper BODIES=60 STEPS=7000
+example pyramids BODIES=20 STEPS=3500
+SCRIPT=pyramids example joints LAW=joint BODIES=10 STEPS=9000
+SCRIPT=rock_tunnel example tunnel SPACING=4 SECONDS=0.1
+example voxels BODIES=12
+example wedge
+beside first_pile there first_pile
+beside arch there arch
+while [ -n "$(jobs -rp)" ]; do wait -n; done
 if LAW=jiont scripts/yade.sh -j1 examples/first_pile.py >"$folder/law.txt" 2>&1; then echo 'a law that is none was taken' >"$folder/law.txt"; fi
-BODIES=12 OUTPUT=$folder/voxels scripts/yade.sh -j1 examples/voxels.py
-SPACING=4 SECONDS=0.1 OUTPUT=$folder/tunnel scripts/yade.sh -j1 examples/rock_tunnel.py
-scripts/yade.sh -j1 examples/wedge.py | tee "$folder/wedge.txt"
 BODIES=60 STEPS=1500 OUTPUT=$folder/mpi scripts/yade_mpi.sh 3 -j1 examples/mpi_pile.py 2>&1 | tee "$folder/mpi.txt"
 
 /usr/bin/python3 - "$folder" <<'PYTHON'

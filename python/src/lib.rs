@@ -16,7 +16,7 @@
 //! | `derivative` | derivatives of contacts and patches |
 //! | `batch` | the pairs of a step |
 //! | `builders` | shapes |
-//! | `rock` | rock masses |
+//! | `slicing` | rock masses |
 //! | `planar` | particles of the plane |
 
 mod arrays;
@@ -31,7 +31,7 @@ mod patch;
 mod planar;
 mod pose;
 mod records;
-mod rock;
+mod slicing;
 mod settings;
 
 use pyo3::prelude::*;
@@ -49,6 +49,6 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     derivative::add(module)?;
     batch::add(module)?;
     builders::add(module)?;
-    rock::add(module)?;
+    slicing::add(module)?;
     planar::add(module)
 }

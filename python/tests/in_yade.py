@@ -9,7 +9,7 @@ import numpy as np
 
 def main():
     import potential_particles
-    from potential_particles import builders, shapes
+    from potential_particles import builders, rock, shapes, slicing
     from yade import FrictMat, O
     O.materials.append(FrictMat())
     places = (0, 0, 0), (0.1, 0.2, 0.45)
@@ -21,6 +21,7 @@ def main():
     made = builders.cuboid((1, 1, 0.5))
     assert abs(made.volume / potential_particles.shapes.cuboid((1, 1, 0.5)).volume - 1) < 1e-5
     np.testing.assert_allclose(np.sort(made.particle.planes[:, 3]), np.sort(particle.planes[:, 3]), rtol=1e-6)
+    assert hasattr(rock, "Domain") and hasattr(slicing, "slice")
     import yade
     O.engines = [yade.InsertionSortCollider([yade.Bo1_ConicPP_Aabb()], verletDist=0), loop(yade)]
     O.step()

@@ -12,7 +12,7 @@ from pathlib import Path
 
 import numpy as np
 import potential_particles as pp
-from potential_particles import builders, planar, rock
+from potential_particles import builders, planar, slicing
 
 BOX = [(1, 0, 0, 5), (-1, 0, 0, 5), (0, 1, 0, 5), (0, -1, 0, 5), (0, 0, 1, 5), (0, 0, -1, 5)]
 
@@ -91,17 +91,22 @@ class Builders(unittest.TestCase):
 
 class Rock(unittest.TestCase):
     def test_blocks_fill_the_domain(self):
-        joints = (rock.joint_set(30, 90, 1.5, centre=(0, 0, 0), reach=9, exponential=True)
-                  + rock.joint_set(80, 280, 2.0, centre=(0, 0, 0), reach=9, fisher=50, seed=1))
-        mass = rock.slice(BOX, joints)
+        joints = (slicing.joint_set(30, 90, 1.5, centre=(0, 0, 0), reach=9, exponential=True)
+                  + slicing.joint_set(80, 280, 2.0, centre=(0, 0, 0), reach=9, fisher=50, seed=1))
+        mass = slicing.slice(BOX, joints)
         self.assertAlmostEqual(mass.volumes.sum(), 1000, delta=1e-9)
         block = mass.blocks[0]
         for corners, plane in zip(block.polygons, block.planes):
             np.testing.assert_allclose(corners @ plane[:3], plane[3], atol=1e-9)
         self.assertEqual(len(block.origins), len(block.planes))
         self.assertAlmostEqual(block.particle(1e-4).mass_properties().volume / block.volume, 1, delta=1e-3)
+        tunnel = [(0, 0, 1, 1), (0, 0, -1, 1), (1, 0, 0, 1), (-1, 0, 0, 1)]
+        with_tunnel = slicing.slice(BOX, joints, regions=[tunnel])
+        inside = sum(one.volume for one in with_tunnel.blocks if one.region == 0)
+        self.assertAlmostEqual(inside, 40, delta=1e-9)
+        self.assertIn("region", {origin[0] for one in with_tunnel.blocks for origin in one.origins})
         with self.assertRaisesRegex(ValueError, "dip = 95 must be an angle"):
-            rock.Joint((0, 0, 0), 95, 0)
+            slicing.Joint((0, 0, 0), 95, 0)
 
 
 class Plane(unittest.TestCase):
@@ -122,7 +127,7 @@ class Package(unittest.TestCase):
     def test_stubs_name_what_is_there(self):
         folder = Path(pp.__file__).parent
         self.assertTrue((folder / "py.typed").is_file())
-        for name, module in (("_core", pp._core), ("builders", builders), ("rock", rock), ("planar", planar)):
+        for name, module in (("_core", pp._core), ("builders", builders), ("slicing", slicing), ("planar", planar)):
             tree = ast.parse((folder / f"{name}.pyi").read_text())
             told = {}
             for node in tree.body:
@@ -140,7 +145,7 @@ class Package(unittest.TestCase):
                     self.assertEqual({member for member in members if not member.startswith("_")}, found, f"{name}.{one}")
 
     def test_what_is_public_says_what_it_does(self):
-        for module in (pp, builders, rock, planar):
+        for module in (pp, builders, slicing, planar):
             for name in module.__all__:
                 thing = getattr(module, name)
                 if callable(thing):

@@ -13,7 +13,8 @@ use std::cell::RefCell;
 
 /// The patch turns back under itself (deep overlaps of round bodies): what lies beyond is left out.
 pub const PP_PATCH_FOLDED: u32 = 1;
-/// The tolerance was not reached; error tells how far off the answer may be.
+/// The tolerance was not reached, or is beyond what rounding allows where the bodies hardly touch; error tells
+/// how far off the answer may be.
 pub const PP_PATCH_TOLERANCE_NOT_REACHED: u32 = 2;
 /// The contact point lies in the core of both bodies, or the boundary reaches through that of A (s is 0 or
 /// nearly): the patch is that of slightly rounder bodies.

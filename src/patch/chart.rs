@@ -123,7 +123,8 @@ pub(super) fn turn(half: f64) -> (f64, f64, f64) {
     (half * rate, rate - 1.0, rate)
 }
 
-/// A node from the place, the vector of area for a unit of both parameters, s, and the weight. `None` where the patch is no graph.
+/// A node from the place, the vector of area for a unit of both parameters, s, and the weight. `None` where the patch is no graph, and where
+/// a parameter has no end: a border that is reached at an angle of 0.
 #[inline(always)]
 pub(super) fn node(x: Vector, area: Vector, s: f64, weight: f64) -> Option<Node> {
     let area = if area.z < 0.0 { -area } else { area };
@@ -133,7 +134,7 @@ pub(super) fn node(x: Vector, area: Vector, s: f64, weight: f64) -> Option<Node>
         pressure: (1.0 - s).max(0.0),
         normal: [area.x / area.z, area.y / area.z],
     };
-    (node.normal[0].abs() + node.normal[1].abs() < STEEPEST).then_some(node)
+    (node.normal[0].abs() + node.normal[1].abs() < STEEPEST && node.weight < f64::INFINITY).then_some(node)
 }
 
 /// Slopes beyond this count as none of a graph.

@@ -4,7 +4,7 @@ use super::field::{FramePlane, Owner, Placed};
 use super::integration::{Task, patch};
 use super::patch::{Patch, PatchFlags, PatchPoint};
 use super::scratch::PatchScratch;
-use super::settings::{PatchError, PatchSettings};
+use super::settings::{COARSEST, FINEST, PatchError, PatchSettings};
 use crate::boundary::{FlatContact, Triangle};
 use crate::contact::contact::{Contact, Kind};
 use crate::particle::particle::Particle;
@@ -164,7 +164,7 @@ pub(super) fn checked(
     normal: &Vector3<f64>,
     settings: &PatchSettings,
 ) -> Result<Matrix3<f64>, PatchError> {
-    if !(1e-12..=0.1).contains(&settings.tolerance) {
+    if !(FINEST..=COARSEST).contains(&settings.tolerance) {
         return Err(PatchError::Tolerance(settings.tolerance));
     }
     if kind == Kind::Separated {

@@ -21,6 +21,9 @@ pub(super) struct FramePlane {
     pub owner: Owner,
 }
 
+/// Rounding of s at a point, in units of the size of the bodies over r: of distances from planes and of the point itself.
+const ROUNDING: f64 = 4.0 * f64::EPSILON;
+
 /// A particle as seen from the frame.
 #[derive(Clone, Copy)]
 pub(super) struct Placed<'a> {
@@ -93,6 +96,12 @@ impl<'a, 's> Field<'a, 's> {
     /// Distance from the origin beyond which no point of the patch lies.
     pub fn radius(&self) -> f64 {
         self.radius
+    }
+
+    /// Bound on the rounding of s on the patch: of the distances from planes, which √w makes parts of s, and of s itself.
+    pub fn rounding(&self) -> f64 {
+        let of = |body: &Placed| body.plane_weight.sqrt() * (body.particle.bounding_radius() + body.origin.norm());
+        ROUNDING * (1.0 + self.b.iter().map(of).fold(of(&self.a), f64::max))
     }
 
     /// Number of planes of both bodies.

@@ -10,7 +10,7 @@ use super::pieces::{PieceScratch, pieces};
 use super::ray::{Line, Node, Walker};
 use super::rules::order_of;
 use super::scratch::PatchScratch;
-use super::settings::PatchSettings;
+use super::settings::{COARSEST, PatchSettings};
 use super::smoothness::norm;
 use super::stiffness::{stiffness, turned};
 use nalgebra::{Matrix3, Matrix6, Vector3};
@@ -47,26 +47,33 @@ pub(super) struct Task<'a> {
 
 /// Computes the patch; its points are handed to `visit`.
 ///
-/// In pieces where that is possible, else by a fan of rays, as well as with the energy.
+/// In pieces where that is possible, else by a fan of rays, as well as with the energy. No finer than the rounding of s allows, over the
+/// depth: faces that touch to rounding would be refined without end.
 pub(super) fn patch(task: &Task, scratch: &mut PatchScratch, mut visit: impl FnMut(PatchPoint)) -> Patch {
     let PatchScratch { planes, ray_planes, nodes, points, pieces, rays, sectors, stack } = scratch;
     let mut field = Field::new(task.a, task.b, task.edges, task.near, planes);
     let start = on_patch(&mut field, 0.0, 0.0, 0.0).unwrap_or_default();
     let deepest = field.values(&start)[0].0;
+    let rounding = field.rounding() / (1.0 - deepest.max(0.0).sqrt());
+    let tolerance = task.settings.tolerance.max(rounding.min(COARSEST));
     let state = field.state();
-    let outcome =
-        in_parts(task, &mut field, (start, deepest), (ray_planes, nodes), pieces, points).unwrap_or_else(|| {
+    let outcome = in_parts(task, &mut field, (start, deepest, tolerance), (ray_planes, nodes), pieces, points)
+        .unwrap_or_else(|| {
             field.restore(state);
             let (order, budget, with_energy) = (2, f64::INFINITY, false);
             let walker = Walker { field: &mut field, planes: ray_planes, nodes, order, with_energy, budget };
-            let mut fan = Fan::new(walker, rays, sectors, stack, [0.0; 3], task.settings.tolerance);
+            let mut fan = Fan::new(walker, rays, sectors, stack, [0.0; 3], tolerance);
             spread(task, &mut fan, start, points)
         });
     let mut flags = task.flags;
     let is_empty = points.is_empty() || !outcome.error.is_finite();
+    if is_empty {
+        points.clear();
+    }
     flags.set(PatchFlags::EMPTY, is_empty);
     flags.set(PatchFlags::FOLDED, outcome.is_folded);
-    flags.set(PatchFlags::TOLERANCE_NOT_REACHED, outcome.error > task.settings.tolerance);
+    let [error, area_error] = [outcome.error, outcome.area_error].map(|e| if is_empty { 0.0 } else { e.max(rounding) });
+    flags.set(PatchFlags::TOLERANCE_NOT_REACHED, error > task.settings.tolerance);
     let mut summary = Summary::of(task, points, deepest);
     if !is_empty {
         summary.complete(task, points);
@@ -78,8 +85,6 @@ pub(super) fn patch(task: &Task, scratch: &mut PatchScratch, mut visit: impl FnM
         summary.patch.stiffness = task.length * turned(&stiffness(&field, points), &task.frame);
     }
     points.iter().for_each(|node| visit(summary.point(task, node)));
-    let error = if is_empty { 0.0 } else { outcome.error };
-    let area_error = if is_empty { 0.0 } else { outcome.area_error };
     Patch { flags, error, area_error, rays: outcome.rays, ..summary.patch }
 }
 
@@ -98,19 +103,19 @@ struct Outcome {
 fn in_parts(
     task: &Task,
     field: &mut Field,
-    (start, deepest): ([f64; 3], f64),
+    (start, deepest, tolerance): ([f64; 3], f64, f64),
     (ray_planes, nodes): (&mut Vec<RayPlane>, &mut Vec<Node>),
     scratch: &mut PieceScratch,
     points: &mut Vec<Node>,
 ) -> Option<Outcome> {
-    if task.settings.with_energy || task.settings.tolerance < FINEST_OF_PIECES {
+    if task.settings.with_energy || tolerance < FINEST_OF_PIECES {
         return None;
     }
-    let estimate = pieces(field, &start, deepest, task.settings.tolerance, scratch, points).or_else(|| {
+    let estimate = pieces(field, &start, deepest, tolerance, scratch, points).or_else(|| {
         let (level, polygon) = scratch.flat()?;
-        let (order, budget, with_energy) = (order_of(task.settings.tolerance), f64::INFINITY, false);
+        let (order, budget, with_energy) = (order_of(tolerance), f64::INFINITY, false);
         let mut walker = Walker { field, planes: ray_planes, nodes, order, with_energy, budget };
-        around(&mut walker, level, polygon, task.settings.tolerance, points)
+        around(&mut walker, level, polygon, tolerance, points)
     })?;
     let force = points.iter().map(|node| node.weight * node.pressure * vector(node)).sum::<Vector3<f64>>().norm();
     Some(Outcome {
@@ -124,9 +129,9 @@ fn in_parts(
 /// Integrates by a fan of rays and copies its points.
 fn spread(task: &Task, fan: &mut Fan, start: [f64; 3], points: &mut Vec<Node>) -> Outcome {
     let axis = flattest_axis(fan.walker.field);
-    let order = if task.settings.tolerance >= 1e-3 {
+    let order = if fan.tolerance >= 1e-3 {
         3
-    } else if task.settings.tolerance >= 1e-7 {
+    } else if fan.tolerance >= 1e-7 {
         5
     } else {
         8

@@ -78,7 +78,8 @@ pub struct PatchFlags(u32);
 impl PatchFlags {
     /// Σ turns back under itself (deep overlaps of round bodies): what lies beyond is left out.
     pub const FOLDED: Self = Self(1);
-    /// The tolerance was not reached with the most rays; the estimated error tells how far off the answer is.
+    /// The tolerance was not reached with the most rays, or is beyond what rounding allows where bodies hardly touch (overlaps of 1e-11 of their
+    /// size at 1e-4); the estimated error tells how far off the answer is.
     pub const TOLERANCE_NOT_REACHED: Self = Self(2);
     /// The contact point lies in the core of both bodies, or the boundary reaches through that of A, so that
     /// s is 0 or nearly: the answer is that for a slightly larger sphericity.

@@ -7,7 +7,7 @@ use super::patch::PatchFlags;
 use super::ray::{Line, Node, Ray, SUMS, Walker};
 use super::rules::order_of;
 use super::scratch::PatchScratch;
-use super::settings::{PatchError, PatchSettings};
+use super::settings::{COARSEST, PatchError, PatchSettings};
 use crate::planar::{Contact, Particle, Pose};
 use nalgebra::{Matrix3, Vector2, Vector3};
 
@@ -102,17 +102,19 @@ pub fn patch_of_contact(
     field.is_planar = true;
     let start = on_patch(&mut field, 0.0, 0.0, 0.0).unwrap_or_default();
     let deepest = field.values(&start)[0].0;
+    let rounding = field.rounding() / (1.0 - deepest.max(0.0).sqrt());
+    let tolerance = settings.tolerance.max(rounding.min(COARSEST));
     let mut walker = Walker {
         field: &mut field,
         planes: ray_planes,
         nodes,
-        order: order_of(settings.tolerance),
+        order: order_of(tolerance),
         with_energy: settings.with_energy,
         budget: f64::INFINITY,
     };
     let mut rays = both_sides(&mut walker, start);
     // A quarter of the tolerance for each rule, now that the force is known roughly.
-    walker.budget = 0.25 * settings.tolerance * rays.iter().map(|ray| ray.sums[2]).sum::<f64>();
+    walker.budget = 0.25 * tolerance * rays.iter().map(|ray| ray.sums[2]).sum::<f64>();
     if rays.iter().any(|ray| ray.error > walker.budget) {
         rays = both_sides(&mut walker, start);
     }
@@ -132,7 +134,7 @@ pub fn patch_of_contact(
     flags.set(PatchFlags::EMPTY, !(size > 0.0));
     flags.set(PatchFlags::FOLDED, rays.iter().any(|ray| ray.is_folded));
     let whole = size > 0.0;
-    let error = if whole { (rays[0].error + rays[1].error) / size } else { 0.0 };
+    let error = if whole { ((rays[0].error + rays[1].error) / size).max(rounding) } else { 0.0 };
     flags.set(PatchFlags::TOLERANCE_NOT_REACHED, error > settings.tolerance);
     let (mut pole, mut centroid, mut second) = ([0.0; 2], [0.0; 2], 0.0);
     if whole {

@@ -2,6 +2,10 @@
 
 use thiserror::Error;
 
+/// The finest and the coarsest tolerance.
+pub(super) const FINEST: f64 = 1e-12;
+pub(super) const COARSEST: f64 = 0.1;
+
 /// How a patch is computed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PatchSettings {

@@ -103,6 +103,9 @@ fn forward_and_reverse_agree_and_both_bodies_together_carry_the_contact() {
                 (about_a(&found.point) - turn(&contact.branch_a)).amax() / size,
                 (about_a(&found.normal) - turn(&contact.normal)).amax(),
             ] {
+                if off / most > 1e-9 {
+                    println!("pair {line} ({}, {formulation}): {off:e} of {most:e}; {flags}", pair.family);
+                }
                 worst[1] = worst[1].max(off / most);
             }
             count += 1;

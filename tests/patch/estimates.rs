@@ -3,7 +3,7 @@
 use crate::bodies::{Chance, FAMILIES, Pair, cuboid};
 use crate::patch;
 use nalgebra::{Matrix3, Vector3};
-use potential_particles::{PatchFlags, PatchScratch, PatchSettings, patch_of_contact};
+use potential_particles::{Kind, PatchFlags, PatchScratch, PatchSettings, patch_of_contact};
 
 #[test]
 fn the_error_is_within_the_estimate() {
@@ -26,7 +26,9 @@ fn the_error_is_within_the_estimate() {
                             .max(0.1 * (found.torque - finest.torque).norm() / (force * reach));
                         count += 1;
                         over += usize::from(error > found.error.max(0.1 * tolerance));
-                        missed += usize::from(found.flags.contains(PatchFlags::TOLERANCE_NOT_REACHED));
+                        // Smaller overlaps are not known as well as that.
+                        let is_missed = found.flags.contains(PatchFlags::TOLERANCE_NOT_REACHED);
+                        missed += usize::from(is_missed && pair.contact.overlap * tolerance > 1e-14);
                         assert!(
                             error < 20.0 * tolerance,
                             "{family} on {other}, k {k}, r {r}, depth {depth}: {error:e}"
@@ -138,4 +140,29 @@ fn buffers_that_were_used_change_nothing() {
             "{families:?}, k {k}"
         );
     }
+}
+
+/// Where bodies overlap by little more than rounding, a patch takes no more rays than elsewhere, and says that it is not known well.
+#[test]
+fn faces_that_touch_to_rounding_take_no_more_than_others() {
+    let mut chance = Chance::new(29);
+    let mut count = 0;
+    for round in 0..600 {
+        let (r, k) = (chance.pick(&[1e-3, 0.05, 0.3]), chance.pick(&[0.0, 1e-6, 1e-3, 0.1]));
+        let body = cuboid([0.5, 0.4, 0.3], 0.5 * r, k);
+        let turn = chance.rotation();
+        let beside = Vector3::new(1.0, 0.6 * chance.uniform(), 0.4 * chance.uniform());
+        let overlap = chance.pick(&[0.0, 1e-17, 1e-16, 1e-15, 1e-14, 1e-13]);
+        let pair = Pair::at_overlap(body.clone(), &turn, body, &turn, &(turn * beside.normalize()), overlap);
+        if pair.contact.kind != Kind::Overlapping {
+            continue;
+        }
+        count += 1;
+        let found = patch(&pair, 1e-4, false);
+        assert!(found.rays <= 400 && found.points <= 4000, "{round}: {} rays, {} points", found.rays, found.points);
+        let is_told = found.flags.contains(PatchFlags::EMPTY) || found.error > 1e-4;
+        assert!(is_told || pair.contact.overlap > 1e-13, "{round}: overlap {:e}", pair.contact.overlap);
+        assert!(found.force.iter().chain(found.torque.iter()).all(|c| c.is_finite()) && found.area.is_finite());
+    }
+    assert!(count > 400, "{count}");
 }

@@ -349,6 +349,9 @@ check.equal(potential_particles.coordination_number(), 1.0, "ends 1, middle 2, f
 check.equal(potential_particles.coordination_number(skip_free=True), 2.0, "the middle one alone bears")
 check.close((potential_particles.fabric_tensor() - Vector3(1, 0, 0).outer(Vector3(1, 0, 0))).norm(), 0.0, 1e-6, "fabric of a row")
 check.close(potential_particles.overlap_ratio(), 0.001 / 0.05, 2e-3, "overlap of a row")
+O.bodies.erase(2)
+check.equal((potential_particles.coordination_number(), len(potential_particles.measures.contacts())), (2 / 3, 1), "without the contact of a body that is gone")
+check.close(potential_particles.overlap_ratio(), 0.001 / 0.05, 2e-3, "the same of the overlap")
 
 
 # YADE's own functions: as docs/laboratory.md says.

@@ -127,13 +127,19 @@ def coordination_number(skip_free=False):
     return (sum(numbers) - (numbers.count(1) if skip_free else 0)) / left
 
 
+def contacts():
+    """The scene's contacts. YADE keeps those of a body that was erased until the next step; they are none."""
+    import yade
+    there = {body.id for body in yade.O.bodies}
+    return [contact for contact in yade.O.interactions if contact.isReal and contact.id1 in there and contact.id2 in there]
+
+
 def _sides():
     """(body, contact, force on the body, arm from its centre of mass) of each particle that moves in each contact that touches or is bonded."""
     import yade
     scene, found = yade.O, []
-    for contact in scene.interactions:
-        touches = contact.isReal and (getattr(contact.geom, "penetrationDepth", 0.0) > 0.0 or getattr(contact.phys, "bonded", False))
-        if not touches:
+    for contact in contacts():
+        if not (getattr(contact.geom, "penetrationDepth", 0.0) > 0.0 or getattr(contact.phys, "bonded", False)):
             continue
         for number, sign in ((contact.id1, -1.0), (contact.id2, 1.0)):
             body = scene.bodies[number]
@@ -208,8 +214,8 @@ def largest_overlap():
     """(overlap over rounding radius, contact) of the contact in which that is largest, or (0, None)."""
     import yade
     largest = 0.0, None
-    for contact in yade.O.interactions:
-        if not contact.isReal or not hasattr(contact.geom, "penetrationDepth"):
+    for contact in contacts():
+        if not hasattr(contact.geom, "penetrationDepth"):
             continue
         shapes = (yade.O.bodies[contact.id1].shape, yade.O.bodies[contact.id2].shape)
         # A ball has no rounding but its radius.

@@ -4,12 +4,13 @@ use crate::arrays::{to_rows, to_vector, vector};
 use crate::errors::refused;
 use crate::particle::{PyParticle, planes};
 use numpy::{PyArray1, PyArray2};
-use potential_particles::rock::{Block, FaceOf, Joint, JointSet, RockMass, SliceSettings};
+use potential_particles::rock::{Block, FaceOf, Joint, JointSet, RockMass, SliceSettings, slice_with_regions};
 use pyo3::prelude::*;
+use pyo3::types::PyTuple;
 use std::sync::Arc;
 
 /// A plane or a disc along which rock has parted.
-#[pyclass(name = "Joint", module = "potential_particles.rock", frozen)]
+#[pyclass(name = "Joint", module = "potential_particles.slicing", frozen)]
 pub struct PyJoint(Joint);
 
 #[pymethods]
@@ -66,7 +67,7 @@ fn joint_set(
 }
 
 /// A convex block.
-#[pyclass(name = "Block", module = "potential_particles.rock", frozen)]
+#[pyclass(name = "Block", module = "potential_particles.slicing", frozen)]
 pub struct PyBlock {
     mass: Arc<RockMass>,
     place: usize,
@@ -97,14 +98,27 @@ impl PyBlock {
         to_rows(py, planes.map(|plane| [plane.normal.x, plane.normal.y, plane.normal.z, plane.offset]))
     }
 
-    /// What each face comes from: ("domain", i) or ("joint", i).
+    /// What each face comes from: ("domain", i), ("joint", i) or, of plane i of a region, ("region", region, i).
     #[getter]
-    fn origins(&self) -> Vec<(&'static str, usize)> {
+    fn origins<'py>(&self, py: Python<'py>) -> PyResult<Vec<Bound<'py, PyTuple>>> {
         let origin = |of: FaceOf| match of {
-            FaceOf::Domain(i) => ("domain", i),
-            FaceOf::Joint(i) => ("joint", i),
+            FaceOf::Domain(i) => ("domain", i).into_pyobject(py),
+            FaceOf::Joint(i) => ("joint", i).into_pyobject(py),
+            FaceOf::Region { region, plane } => ("region", region, plane).into_pyobject(py),
         };
         self.block().faces.iter().map(|face| origin(face.of)).collect()
+    }
+
+    /// The region that it lies in, by its index, or None.
+    #[getter]
+    fn region(&self) -> Option<usize> {
+        self.block().region
+    }
+
+    /// Blocks of the same number were one before regions cut it.
+    #[getter]
+    fn parent(&self) -> usize {
+        self.block().parent
     }
 
     #[getter]
@@ -130,7 +144,7 @@ impl PyBlock {
 }
 
 /// What a domain was cut into.
-#[pyclass(name = "RockMass", module = "potential_particles.rock", frozen)]
+#[pyclass(name = "RockMass", module = "potential_particles.slicing", frozen)]
 pub struct PyRockMass(Arc<RockMass>);
 
 #[pymethods]
@@ -167,26 +181,30 @@ impl PyRockMass {
 
 /// A convex domain {a x + b y + c z <= d}, planes (n, 4), cut by joints in their order, as a RockMass.
 ///
-/// A joint cuts each block that it meets in two, but for parts of less than least_volume. ValueError: a domain that is empty or open, or more than
-/// most_blocks.
+/// A joint cuts each block that it meets in two, but for parts of less than least_volume, or thinner than least_thickness in the mean (2V/A). regions: convex
+/// regions as lists of planes, such as a tunnel, which cut the blocks that they meet after all joints. ValueError: a domain that is empty or open, or more
+/// than most_blocks.
 #[pyfunction]
-#[pyo3(signature = (domain, joints, *, least_volume=0.0, most_blocks=1_000_000))]
+#[pyo3(signature = (domain, joints, *, regions=vec![], least_volume=0.0, least_thickness=0.0, most_blocks=1_000_000))]
 fn slice(
     py: Python<'_>,
     domain: &Bound<'_, PyAny>,
     joints: Vec<PyRef<'_, PyJoint>>,
+    regions: Vec<Bound<'_, PyAny>>,
     least_volume: f64,
+    least_thickness: f64,
     most_blocks: usize,
 ) -> PyResult<PyRockMass> {
     let domain = planes(domain)?;
+    let regions = regions.iter().map(planes).collect::<PyResult<Vec<_>>>()?;
     let joints: Vec<Joint> = joints.iter().map(|joint| joint.0).collect();
-    let settings = SliceSettings { least_volume, most_blocks };
-    let mass = py.detach(|| potential_particles::rock::slice(&domain, &joints, &settings)).map_err(refused)?;
-    Ok(PyRockMass(Arc::new(mass)))
+    let settings = SliceSettings { least_volume, least_thickness, most_blocks };
+    let cut = || slice_with_regions(&domain, &joints, &regions, &settings, |_, _| true);
+    Ok(PyRockMass(Arc::new(py.detach(cut).map_err(refused)?)))
 }
 
 pub fn add(parent: &Bound<'_, PyModule>) -> PyResult<()> {
-    let module = PyModule::new(parent.py(), "_rock")?;
+    let module = PyModule::new(parent.py(), "_slicing")?;
     module.add_class::<PyJoint>()?;
     module.add_class::<PyBlock>()?;
     module.add_class::<PyRockMass>()?;
