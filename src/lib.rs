@@ -139,3 +139,7 @@ struct Guide;
 #[cfg(doctest)]
 #[doc = include_str!("../docs/rock.md")]
 struct RockGuide;
+
+#[cfg(doctest)]
+#[doc = include_str!("../docs/derivatives.md")]
+struct DerivativesGuide;

@@ -3,8 +3,8 @@
 
     python3 examples/derivatives/arch.py [folder]
 
-An arch of no tension stands as long as a line of thrust fits into it (Milankovitch 1907). At the least thickness t (mean radius 1) the line that starts
-at the extrados of the crown touches the intrados at the haunch and the extrados at the springing. How far it is from a face is what a voussoir
+An arch of no tension stands as long as a line of thrust fits into it (Milankovitch 1907). At the least thickness t (mean radius 1) the
+line that starts at the extrados of the crown touches the intrados at the haunch and the extrados at the springing. How far it is from a face is what a voussoir
 overlaps with a plane through it; the derivatives in the thickness, via the offsets of its planes, and in the place of the line are those of that
 contact. Two unknowns, the thrust H and t; closed form for radial joints: t = 0.10748, hinge at 54.5 degrees. Needs the wheel, matplotlib.
 """
@@ -13,7 +13,7 @@ import sys
 import numpy as np
 import potential_particles as pp
 
-COUNT, ROUNDING, INWARDS = 400, 1e-4, 0.02  # voussoirs of half the arch; planes lie so far inwards of the line
+COUNT, ROUNDING, SPHERICITY, INWARDS = 400, 1e-4, 1e-6, 0.02  # voussoirs of half the arch; planes lie so far inwards of the line
 STEP = 0.5 * np.pi / COUNT
 
 
@@ -24,7 +24,7 @@ def voussoir(t):
     faces = [(0, 1, 0, (1 + t / 2) * middle - 1), (0, -1, 0, 1 - (1 - t / 2) * middle), (0, 0, 1, 0.5), (0, 0, -1, 0.5)]
     planes = np.array(sides + faces)
     planes[:, 3] -= ROUNDING
-    return pp.Particle(planes, ROUNDING, 0.0, 1.0), np.array([0, 0, middle / 2, middle / 2, 0, 0])
+    return pp.Particle(planes, ROUNDING, SPHERICITY, 1.0), np.array([0, 0, middle / 2, middle / 2, 0, 0])
 
 
 def thrust_line(h, t):
@@ -54,7 +54,8 @@ def clearance(t, joint, line, outwards):
 
 
 def main(folder="."):
-    h, t = 0.08, 0.15
+    t = 0.15
+    h = 0.6 * t
     for step in range(12):
         line, by_h, by_t = thrust_line(h, t)
         haunch = int(np.argmin(line[: COUNT * 4 // 5]))

@@ -13,7 +13,7 @@ import numpy as np
 import potential_particles as pp
 from scipy.optimize import least_squares
 
-PLANES, POINTS, NOISE, OUT, BALL = 14, 600, 0.003, 0.25, 0.6
+PLANES, POINTS, NOISE, OUT, BALL = 20, 600, 0.003, 0.4, 0.8
 
 
 def fibonacci(count):
@@ -25,8 +25,9 @@ def fibonacci(count):
 def scanned(random):
     """Points and outward normals: (x/1)^6 + (y/0.8)^6 + (z/0.6)^4 with a bump towards (1, 1, 1)."""
     u = fibonacci(POINTS)
-    level = lambda x: (x[:, 0] ** 6 + (x[:, 1] / 0.8) ** 6 + (x[:, 2] / 0.6) ** 4) / (1 + 0.8 * np.exp(4 * (x @ np.full(3, 3**-0.5)) - 4))
-    low, high = np.zeros(POINTS), np.full(POINTS, 3.0)
+    bump = lambda x: np.exp(6 * (x @ np.full(3, 3**-0.5)) / np.linalg.norm(x, axis=1) - 6)
+    level = lambda x: ((x[:, 0]) ** 6 + (x[:, 1] / 0.8) ** 6 + (x[:, 2] / 0.6) ** 4) / (1 + bump(x))
+    low, high = np.full(POINTS, 0.1), np.full(POINTS, 3.0)
     for _ in range(60):
         middle = 0.5 * (low + high)
         inside = level(u * middle[:, None]) < 1
@@ -45,7 +46,7 @@ def shape(p):
 class Fit:
     def __init__(self, points, normals):
         self.poses, self.ball = [pp.Pose(c) for c in points + OUT * normals], pp.Particle.sphere(BALL)
-        self.settings, self.home = pp.Settings("closest"), pp.Pose((0, 0, 0))
+        self.settings, self.home = pp.Settings("closest", solve_separated=True), pp.Pose((0, 0, 0))
 
     def contacts(self, p):
         particle = shape(p)
@@ -66,7 +67,9 @@ class Fit:
 def main(folder="."):
     points, normals = scanned(np.random.default_rng(7))
     fit = Fit(points, normals)
-    start = np.concatenate([np.column_stack([fibonacci(PLANES), np.full(PLANES, 0.45)]).ravel(), [np.log(0.2), -2.0]])
+    towards = fibonacci(PLANES)
+    offsets = 0.8 * np.max(points @ towards.T, axis=0) - 0.1
+    start = np.concatenate([np.column_stack([towards, offsets]).ravel(), [np.log(0.1), -2.0]])
     found = least_squares(fit.residuals, start, fit.jacobian, method="lm", max_nfev=60)
     particle, before, after = shape(found.x), fit.residuals(start), found.fun
     rms = lambda e: float(np.sqrt(np.mean(e**2)))

@@ -96,7 +96,9 @@ fn forward_and_reverse_agree_and_both_bodies_together_carry_the_contact() {
             };
             // The difference of positions is rounded here.
             let rounded = f64::EPSILON * pose_a.position().norm().max(pose_b.position().norm()) / size;
-            let most = (found.point.amax() + found.normal.amax() * size) * (1.0 + 1e10 * rounded);
+            // And the point is taken for the contact's, which is known to its bound.
+            let known = 1.0 + 1e10 * (rounded + contact.point_bound / size);
+            let most = (found.point.amax() + found.normal.amax() * size) * known;
             for off in [
                 (shift(&found.point) - Matrix3::identity()).amax(),
                 shift(&found.normal).amax() * size,
