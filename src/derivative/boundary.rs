@@ -106,7 +106,8 @@ fn linearised<'a>(
         (Feature::Edge(_), None) => return Err(DerivativeError::NoTriangle),
         (Feature::Vertex(_), _) => (0, None),
     };
-    let optimum = Optimum::new(Problem::OnBoundary(dimensions), [Some(place), None], &contact.normal, along)?.checked()?;
+    let optimum = Optimum::new(Problem::OnBoundary(dimensions), [Some(place), None], &contact.normal, along)?;
+    optimum.check()?;
     let surfaces = if is_overlap {
         Some((SurfacePoint::new(&place, &optimum.axes, contact.overlap)?, None))
     } else {

@@ -211,25 +211,29 @@ impl<'a> Task<'a, '_> {
         [point_on_a, point_on_b].map(|on_surface| (on_surface - point).dot(normal))
     }
 
-    /// In doubles, or `None` where these have lost too many digits.
-    fn midway(&self) -> Result<Option<AlongNormal<'a>>, DerivativeError> {
+    /// In doubles.
+    #[inline(always)]
+    fn midway(&self) -> Result<Optimum<'a>, DerivativeError> {
         let contact = self.contact;
         let branches = [contact.branch_a, contact.branch_b];
         let error = [contact.point_bound, 0.0];
-        let places = [0, 1].map(|i| Place::new(self.bodies[i], branches[i], error, self.least_sphericity));
-        let optimum = Optimum::new(Problem::Midway, places.map(Some), &contact.normal, None)?;
-        if optimum.wants_more() { Ok(None) } else { self.along_normal(optimum.checked()?, places).map(Some) }
+        let places = [0, 1].map(|i| Some(Place::new(self.bodies[i], branches[i], error, self.least_sphericity)));
+        Optimum::new(Problem::Midway, places, &contact.normal, None)
     }
 
-    fn along_normal<N: Single>(
+    /// `then` of the contact along the normal from an optimum.
+    #[inline(always)]
+    fn along_normal<N: Single, T>(
         &self,
         optimum: Optimum<'a, N>,
-        places: [Place<'a, N>; 2],
-    ) -> Result<AlongNormal<'a, N>, DerivativeError> {
+        then: impl FnOnce(&dyn Linearised) -> T,
+    ) -> Result<T, DerivativeError> {
+        optimum.check()?;
+        let [Some(a), Some(b)] = &optimum.places else { return Err(DerivativeError::NoPoint) };
         let guesses = self.guesses();
-        let surface = |i: usize| SurfacePoint::new(&places[i].by_sign(), &optimum.axes, guesses[i]);
-        let surfaces = if self.is_overlap() { Some((surface(0)?, Some(surface(1)?))) } else { None };
-        Ok(AlongNormal { s: self.contact.s, surfaces, optimum })
+        let surface = |place: &Place<'a, N>, i: usize| SurfacePoint::new(&place.by_sign(), &optimum.axes, guesses[i]);
+        let surfaces = if self.is_overlap() { Some((surface(a, 0)?, Some(surface(b, 1)?))) } else { None };
+        Ok(then(&AlongNormal { s: self.contact.s, surfaces, optimum }))
     }
 
     /// Branches of P1 and of P2 from both bodies, with the bound on their error and the lengths that their rounding comes from.
@@ -266,7 +270,9 @@ impl<'a> Task<'a, '_> {
             return Ok(None);
         }
         let [on_a, on_b] = optima;
-        Ok(Some(self.closest_points([on_a.checked()?, on_b.checked()?])))
+        on_a.check()?;
+        on_b.check()?;
+        Ok(Some(self.closest_points([on_a, on_b])))
     }
 
     fn closest_points<N: Single>(&self, optima: [Optimum<'a, N>; 2]) -> ClosestPoints<'a, N> {
@@ -284,15 +290,15 @@ impl<'a> Task<'a, '_> {
         Optimum::refined(kind, [place(0, branch_a), place(1, branch_b)])
     }
 
+    #[inline(always)]
     /// `then` of the contact: in 32 digits where doubles have lost too many. It stays where it is made, as it is large.
     fn linearised<T>(&self, then: impl FnOnce(&dyn Linearised) -> T) -> Result<T, DerivativeError> {
         if self.contact.formulation == Formulation::Midway {
-            if let Some(contact) = self.midway()? {
-                return Ok(then(&contact));
+            let optimum = self.midway()?;
+            if !optimum.wants_more() {
+                return self.along_normal(optimum, then);
             }
-            let optimum = self.precise(Problem::Midway, &self.contact.branch_b)?;
-            let [Some(a), Some(b)] = optimum.places else { return Err(DerivativeError::NoPoint) };
-            return Ok(then(&self.along_normal(optimum, [a, b])?));
+            return self.along_normal(self.precise(Problem::Midway, &self.contact.branch_b)?, then);
         }
         let branches = self.closest_branches()?;
         if let Some(contact) = self.closest(&branches)? {

@@ -143,6 +143,17 @@ impl<'a> Place<'a, DoubleDouble> {
     }
 }
 
+#[inline(always)]
+pub(super) fn dot3<N: Single>(a: &Vector3<N>, b: &Vector3<N>) -> N {
+    a.x * b.x + a.y * b.y + a.z * b.z
+}
+
+#[inline(always)]
+pub(super) fn times<N: Single>(m: &Matrix3<N>, v: &Vector3<N>) -> Vector3<N> {
+    let row = |i: usize| m[(i, 0)] * v.x + m[(i, 1)] * v.y + m[(i, 2)] * v.z;
+    Vector3::new(row(0), row(1), row(2))
+}
+
 /// Bound on the rounding of the depth of a plane at this distance from the centre, in doubles.
 fn rounding_in_doubles(particle: &Particle, length: f64) -> f64 {
     let bounds = &particle.bounds;
@@ -161,8 +172,10 @@ impl<'a, N: Single> Place<'a, N> {
     }
 
     /// The point in the local frame.
+    #[inline(always)]
     fn local(&self) -> Vector3<N> {
-        self.rotation.tr_mul(&self.branch)
+        let component = |i: usize| dot3(&self.rotation.column(i).into_owned(), &self.branch);
+        Vector3::new(component(0), component(1), component(2))
     }
 
     /// Calls `visit` with place, normal and depth of each plane that may be active. Returns an upper bound on the depths of all others.
@@ -195,13 +208,14 @@ impl<'a, N: Single> Place<'a, N> {
     /// S about the point in the axes that are the columns of a matrix, world axes.
     #[inline(always)]
     pub fn field(&self, axes: &Matrix3<N>) -> Field<N> {
-        let turn = axes.tr_mul(&self.rotation);
+        // Written out: products of generic matrices are no loops that compilers unroll.
+        let turn = Matrix3::from_fn(|i, j| dot3(&axes.column(i).into_owned(), &self.rotation.column(j).into_owned()));
         let y = self.local();
         let (mut square, mut pull, mut count) = (N::of(0.0), N::of(0.0), 0.0);
         let mut g = Vector3::zeros();
         let mut squares = Symmetric::default();
         let clear = self.visit_active(&y, |_, n, depth| {
-            let n = turn * n;
+            let n = times(&turn, &n);
             square += depth * depth;
             pull += depth;
             count += 1.0;
@@ -220,7 +234,7 @@ impl<'a, N: Single> Place<'a, N> {
         let lost = count * bounds.longest_normal * self.rounding / pull.approximate();
         Field {
             value: w * square + m * self.branch.dot(&self.branch),
-            gradient: g * (two * w) + turn * y * (two * m),
+            gradient: g * (two * w) + times(&turn, &y) * (two * m),
             hessian,
             clear: is_told && clear > bounds.longest_normal * self.error,
             lost: match count {
@@ -233,6 +247,7 @@ impl<'a, N: Single> Place<'a, N> {
     }
 
     /// S and ∇S at the point, world axes, of the particle itself.
+    #[inline(always)]
     pub fn tangent(&self) -> (N, Vector3<N>) {
         let y = self.local();
         let (mut square, mut g) = (N::of(0.0), Vector3::zeros());
@@ -244,7 +259,7 @@ impl<'a, N: Single> Place<'a, N> {
         // The sphere of a regularised particle is its own to a double, which is enough of it.
         let m = if self.sphere_weight.approximate() > own { N::of(own) } else { self.sphere_weight };
         let w = self.plane_weight;
-        (w * square + m * y.dot(&y), self.rotation * ((g * w + y * m) * N::of(2.0)))
+        (w * square + m * dot3(&y, &y), times(&self.rotation, &((g * w + y * m) * N::of(2.0))))
     }
 
     /// Adds the derivative of σ·S + Γ·∇S at the point, Γ in world axes, in the shape.

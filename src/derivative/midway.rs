@@ -20,10 +20,11 @@ pub(super) const NO_ROW: PoseRow = PoseRow::from_array_storage(ArrayStorage([[f6
 pub(super) const NO_ROWS: PoseRows = PoseRows::from_array_storage(ArrayStorage([[f64::NAN; 3]; 12]));
 
 impl<N: Single> AlongNormal<'_, N> {
+    #[inline(always)]
     pub fn in_poses(&self) -> ContactDerivatives {
         let axes = &self.optimum.axes;
         let to_world = ToWorld::of(&self.optimum);
-        let (moved, point, normal) = Moved::of(&self.optimum, &to_world, self.s);
+        let (moved, [point, normal]) = Moved::of(&self.optimum, &to_world, self.s);
         let across = |rows: &[Row<N>; 2]| vector(axes, &[rows[0], rows[1], Row::zero()]);
         let along = |row: &Row<N>| along(&axes.column(2).map(N::approximate), &row.pose_row());
         let [x, y, z] = moved.point;

@@ -9,7 +9,7 @@ use crate::linalg::double_double::DoubleDouble;
 use crate::linalg::graded_basis::any_across;
 use crate::linalg::number::Single;
 use crate::linalg::symmetric::Symmetric;
-use nalgebra::{Matrix2, Matrix2x3, Matrix2x6, Matrix3, Matrix3x6, Vector2, Vector3};
+use nalgebra::{Matrix2, Matrix2x3, Matrix3, Vector2, Vector3};
 
 /// What an optimum is one of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -61,6 +61,9 @@ pub(super) struct Optimum<'a, N: Single = f64> {
     pub flags: DerivativeFlags,
 }
 
+/// The derivative of a number in the motion of A: three components of the velocity of its point at the optimum, three of its turn.
+pub(super) type ByMotion<N> = [N; 6];
+
 /// Weights σ on δS and Γ on δg of a body, Γ in world axes.
 #[derive(Clone, Copy)]
 pub(super) struct FieldWeights<N> {
@@ -100,6 +103,7 @@ fn flat<N: Single>() -> Field<N> {
 
 impl<'a, N: Single> Optimum<'a, N> {
     /// With the normal there, world axes, and on an edge its direction.
+    #[inline(always)]
     pub fn new(
         kind: Kind,
         places: [Option<Place<'a, N>>; 2],
@@ -122,13 +126,13 @@ impl<'a, N: Single> Optimum<'a, N> {
 
     /// Refuses an optimum at which the gradients are not opposed, or are those of the regularisation.
     #[inline]
-    pub fn checked(self) -> Result<Self, DerivativeError> {
+    pub fn check(&self) -> Result<(), DerivativeError> {
         let [a, b] = &self.fields;
         let opposed = a.gradient.z.is_positive() && (-b.gradient.z).is_positive() && a.sloped && b.sloped;
-        if opposed && self.slopes.iter().all(|slope| slope.is_finite()) { Ok(self) } else { Err(DerivativeError::NoGradient) }
+        if opposed && self.slopes.iter().all(|slope| slope.is_finite()) { Ok(()) } else { Err(DerivativeError::NoGradient) }
     }
 
-    #[inline]
+    #[inline(always)]
     fn in_axes(kind: Kind, places: [Option<Place<'a, N>>; 2], axes: Matrix3<N>) -> Self {
         let fields = places.map(|place| place.map_or_else(flat, |place| place.field(&axes)));
         // On the way to an optimum they may not be opposed: with the signs that they have there it is found.
@@ -240,42 +244,37 @@ impl<'a, N: Single> Optimum<'a, N> {
         Matrix2x3::new(h.xx, h.yx, h.zx, h.yx, h.yy, h.zy)
     }
 
-    /// How the point moves with A, while B is held.
-    #[inline]
-    pub fn moved_by_a(&self) -> Matrix3x6<N> {
-        let (weight, along) = (self.weights[0], self.shares[0]);
+    /// How the point moves with A, while B is held: across the normal, and along it.
+    #[inline(always)]
+    pub fn moved_by_a(&self) -> [ByMotion<N>; 3] {
+        let (weight, along, zero) = (self.weights[0], self.shares[0], N::of(0.0));
+        let (h, k) = (&self.fields[0].hessian, &self.inverse);
         // a(ω × g − H v) + ζ H n for the six columns.
-        let h = self.across(0) * weight;
-        let (turned, zero) = (weight * self.slopes[0], N::of(0.0));
-        let bent = self.bend * along;
-        #[rustfmt::skip]
-        let slope = Matrix2x6::new(
-            -h.m11, -h.m12, bent.x - h.m13, zero, turned, zero,
-            -h.m21, -h.m22, bent.y - h.m23, -turned, zero, zero,
-        );
-        let across = -self.inverse * slope;
-        let mut moved = Matrix3x6::zeros();
-        moved.fixed_view_mut::<2, 6>(0, 0).copy_from(&across);
-        moved[(2, 2)] = along;
-        moved
+        let turned = weight * self.slopes[0];
+        let bent = [along * self.bend.x - weight * h.zx, along * self.bend.y - weight * h.zy];
+        let first = [-weight * h.xx, -weight * h.yx, bent[0], zero, turned, zero];
+        let second = [-weight * h.yx, -weight * h.yy, bent[1], -turned, zero, zero];
+        let row = |x: N, y: N| std::array::from_fn(|column| -(x * first[column] + y * second[column]));
+        [row(k.m11, k.m12), row(k.m21, k.m22), [zero, zero, along, zero, zero, zero]]
     }
 
     /// How the normal turns with A, along the axes across it, where its point moves so.
-    #[inline]
-    pub fn normal_by_a(&self, moved: &Matrix3x6<N>) -> Matrix2x6<N> {
-        let flatter = self.flatter;
-        let hessian = self.across(flatter) * (N::of(1.0) / self.slopes[flatter]);
-        let mut turned = hessian * moved;
-        if flatter == 0 {
-            for (column, h) in hessian.column_iter().enumerate() {
-                turned[(0, column)] -= h[0];
-                turned[(1, column)] -= h[1];
+    #[inline(always)]
+    pub fn normal_by_a(&self, moved: &[ByMotion<N>; 3]) -> [ByMotion<N>; 2] {
+        let (h, scale) = (&self.fields[self.flatter].hessian, N::of(1.0) / self.slopes[self.flatter]);
+        let rows = [[h.xx * scale, h.yx * scale, h.zx * scale], [h.yx * scale, h.yy * scale, h.zy * scale]];
+        let mut turned = rows.map(|[x, y, z]| -> ByMotion<N> {
+            std::array::from_fn(|column| x * moved[0][column] + y * moved[1][column] + z * moved[2][column])
+        });
+        if self.flatter == 0 {
+            for (turned, row) in turned.iter_mut().zip(&rows) {
+                (0..3).for_each(|column| turned[column] -= row[column]);
             }
-            turned[(0, 4)] += N::of(1.0);
-            turned[(1, 3)] -= N::of(1.0);
+            turned[0][4] += N::of(1.0);
+            turned[1][3] -= N::of(1.0);
         }
         // On a boundary it stays at right angles to that.
-        (0..self.held()).for_each(|i| turned.row_mut(i).fill(N::of(0.0)));
+        (0..self.held()).for_each(|i| turned[i] = [N::of(0.0); 6]);
         turned
     }
 
@@ -352,7 +351,8 @@ impl<'a> Optimum<'a, DoubleDouble> {
             let dropped = converged && places.iter_mut().fold(false, |any, place| place.drop_a_pulling_plane() || any);
             if (converged && !dropped) || steps >= MOST_STEPS {
                 optimum.flags.set(DerivativeFlags::IMPRECISE, !converged);
-                return optimum.checked();
+                optimum.check()?;
+                return Ok(optimum);
             }
             if dropped {
                 last = f64::INFINITY;

@@ -2,8 +2,9 @@
 
 use super::answer::DerivativeError;
 use super::field::Place;
+use super::optimum::ByMotion;
 use crate::linalg::number::Single;
-use nalgebra::{Matrix2x6, Matrix3, RowVector6, Vector3};
+use nalgebra::{Matrix3, Vector3};
 
 /// Most corrections of a surface point that is given to the rounding of its position in the world.
 const MOST_CORRECTIONS: usize = 6;
@@ -18,6 +19,7 @@ pub(super) struct SurfacePoint<'a, N: Single = f64> {
 
 impl<'a, N: Single> SurfacePoint<'a, N> {
     /// Of a body at an optimum, near a guess.
+    #[inline(always)]
     pub fn new(place: &Place<'a, N>, axes: &Matrix3<N>, guess: f64) -> Result<Self, DerivativeError> {
         let normal = axes.column(2).into_owned();
         let mut way = N::of(guess);
@@ -50,19 +52,23 @@ impl<'a, N: Single> SurfacePoint<'a, N> {
     }
 
     /// How it moves along the normal with A, where optimum and normal move so across it.
-    pub fn along_normal(&self, point: &Matrix2x6<N>, normal: &Matrix2x6<N>, is_of_a: bool) -> RowVector6<N> {
-        let mut across = point + normal * self.way;
-        let mut along = RowVector6::zeros();
+    #[inline(always)]
+    pub fn along_normal(&self, point: &[ByMotion<N>; 2], normal: &[ByMotion<N>; 2], is_of_a: bool) -> ByMotion<N> {
+        let mut across = [0, 1].map(|i| -> ByMotion<N> {
+            std::array::from_fn(|column| point[i][column] + normal[i][column] * self.way)
+        });
+        let (zero, one) = (N::of(0.0), N::of(1.0));
+        let mut along = [zero; 6];
         if is_of_a {
             // Beside what the body moves by itself at P, v + ω × way·n.
-            let one = N::of(1.0);
             along[2] = one;
-            across[(0, 0)] -= one;
-            across[(1, 1)] -= one;
-            across[(0, 4)] -= self.way;
-            across[(1, 3)] += self.way;
+            across[0][0] -= one;
+            across[1][1] -= one;
+            across[0][4] -= self.way;
+            across[1][3] += self.way;
         }
-        along - self.gradient.xy().transpose() * across * (N::of(1.0) / self.gradient.z)
+        let [x, y] = [self.gradient.x / self.gradient.z, self.gradient.y / self.gradient.z];
+        std::array::from_fn(|column| along[column] - (x * across[0][column] + y * across[1][column]))
     }
 
     /// Weights on the optimum and on the normal, and σ on S at P, that a weight on P comes to.
