@@ -2,11 +2,11 @@
 
 mod support;
 
-#[path = "derivatives/truth.rs"]
-mod truth;
-#[path = "derivatives/properties.rs"]
-mod properties;
 #[path = "derivatives/boundaries.rs"]
 mod boundaries;
 #[path = "derivatives/limits.rs"]
 mod limits;
+#[path = "derivatives/properties.rs"]
+mod properties;
+#[path = "derivatives/truth.rs"]
+mod truth;

@@ -6,7 +6,8 @@ mod scene;
 mod target;
 
 use potential_particles::{
-    Contact, ContactWeights, Formulation, PairState, Settings, ShapeGradient, contact_derivatives, contact_gradient, detect,
+    Contact, ContactWeights, Formulation, PairState, Settings, ShapeGradient, contact_derivatives, contact_gradient,
+    detect,
 };
 use scene::random::Random;
 use scene::touching::{self, Touching};
@@ -80,11 +81,16 @@ fn main() {
             }
         }
     };
+    // `-- quick`: the pairs of the targets alone.
+    let quick = std::env::args().any(|argument| argument == "quick");
     for (r, k) in pyramids::ROUNDED.into_iter().chain([pyramids::SHARP]) {
+        if quick && (r, k) != pyramids::ROUNDED[1] {
+            continue;
+        }
         let pairs = touching::pairs(&pyramids::pyramid(r, k), PAIRS, &mut random);
         add(&format!("pyramids r={r} k={k}"), &pairs, (r, k) == pyramids::ROUNDED[1]);
     }
-    for planes in [10, 300] {
+    for planes in if quick { vec![] } else { vec![10, 300] } {
         let pairs: Vec<Touching> = (0..20)
             .map(|_| {
                 let [a, b] = [0; 2].map(|_| polyhedra::ball(planes, &mut random));

@@ -67,8 +67,10 @@ pub fn boundary_gradient(
     let mut flags = linearised.add_to(&mut sum, weights);
     flags.set(DerivativeFlags::SEPARATED, contact.kind == Kind::Separated);
     // Where both move alike, points and normal go with them.
-    let mut both = PoseGradient { shift: weights.point + weights.point_on_b, turn: contact.normal.cross(&weights.normal) };
-    both.turn += contact.branch.cross(&weights.point) + (contact.on_boundary - pose.position()).cross(&weights.point_on_b);
+    let mut both =
+        PoseGradient { shift: weights.point + weights.point_on_b, turn: contact.normal.cross(&weights.normal) };
+    both.turn +=
+        contact.branch.cross(&weights.point) + (contact.on_boundary - pose.position()).cross(&weights.point_on_b);
     if contact.kind == Kind::Overlapping {
         both.shift += weights.point_on_a;
         both.turn += (contact.on_particle - pose.position()).cross(&weights.point_on_a);
@@ -108,10 +110,7 @@ fn linearised<'a>(
     };
     let optimum = Optimum::new(Problem::OnBoundary(dimensions), [Some(place), None], &contact.normal, along)?;
     optimum.check()?;
-    let surfaces = if is_overlap {
-        Some((SurfacePoint::new(&place, &optimum.axes, contact.overlap)?, None))
-    } else {
-        None
-    };
+    let surfaces =
+        if is_overlap { Some((SurfacePoint::new(&place, &optimum.axes, contact.overlap)?, None)) } else { None };
     Ok(AlongNormal { optimum, s: contact.s, surfaces })
 }

@@ -217,8 +217,8 @@ impl<'a> Task<'a, '_> {
         let contact = self.contact;
         let branches = [contact.branch_a, contact.branch_b];
         let error = [contact.point_bound, 0.0];
-        let places = [0, 1].map(|i| Some(Place::new(self.bodies[i], branches[i], error, self.least_sphericity)));
-        Optimum::new(Problem::Midway, places, &contact.normal, None)
+        let place = |i: usize| Some(Place::new(self.bodies[i], branches[i], error, self.least_sphericity));
+        Optimum::new(Problem::Midway, [place(0), place(1)], &contact.normal, None)
     }
 
     /// `then` of the contact along the normal from an optimum.
@@ -253,14 +253,18 @@ impl<'a> Task<'a, '_> {
         Ok([found(Role::A)?, found(Role::B)?])
     }
 
+    #[inline(always)]
     fn closest(
         &self,
         branches: &[([Vector3<f64>; 2], [f64; 2]); 2],
     ) -> Result<Option<ClosestPoints<'a>>, DerivativeError> {
         let optimum = |j: usize| -> Result<_, DerivativeError> {
             let (branches, error) = branches[j];
-            let places = [0, 1].map(|i| Place::new(self.bodies[i], branches[i], error, self.least_sphericity));
-            Optimum::new(ON[j], places.map(Some), &normal_at(ON[j], &places), None)
+            let place = |i: usize| Place::new(self.bodies[i], branches[i], error, self.least_sphericity);
+            let places = [place(0), place(1)];
+            let normal = normal_at(ON[j], &places);
+            let [a, b] = places;
+            Optimum::new(ON[j], [Some(a), Some(b)], &normal, None)
         };
         let optima = [optimum(0)?, optimum(1)?];
         // The direction from one to the other is known to their rounding over their distance.

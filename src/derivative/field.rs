@@ -57,7 +57,10 @@ impl Listed {
     fn remove(&mut self, place: usize) {
         let kept = *self;
         *self = Self::default();
-        kept.places[..usize::from(kept.count)].iter().filter(|p| usize::from(**p) != place).for_each(|p| self.add((*p).into()));
+        kept.places[..usize::from(kept.count)]
+            .iter()
+            .filter(|p| usize::from(**p) != place)
+            .for_each(|p| self.add((*p).into()));
     }
 }
 
@@ -82,6 +85,7 @@ fn regularised(particle: &Particle, least_sphericity: f64) -> f64 {
 
 impl<'a> Place<'a> {
     /// A point that is known to within `error`, and in which lengths of `from` were rounded.
+    #[inline(always)]
     pub fn new(
         (particle, pose): (&'a Particle, &'a Pose),
         branch: Vector3<f64>,
@@ -196,7 +200,8 @@ impl<'a, N: Single> Place<'a, N> {
         let mut least = f64::INFINITY;
         let others = self.visit_near(y, |place, normal, depth| {
             let approximate = depth.approximate();
-            let is_active = if approximate.abs() > self.blur { depth.is_positive() } else { self.listed.contains(place) };
+            let is_active =
+                if approximate.abs() > self.blur { depth.is_positive() } else { self.listed.contains(place) };
             least = smaller(approximate.abs(), least);
             if is_active {
                 visit(place, normal, depth);

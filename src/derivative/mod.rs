@@ -53,7 +53,8 @@ mod rows;
 mod surface;
 
 pub use answer::{
-    ContactDerivatives, ContactWeights, DerivativeError, DerivativeFlags, PoseGradient, PoseRow, PoseRows, ShapeGradient,
+    ContactDerivatives, ContactWeights, DerivativeError, DerivativeFlags, PoseGradient, PoseRow, PoseRows,
+    ShapeGradient,
 };
 pub use boundary::{boundary_derivatives, boundary_gradient};
 pub use contact::{contact_derivatives, contact_gradient};

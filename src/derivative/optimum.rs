@@ -4,7 +4,7 @@
 //! three columns of the velocity of its point there and three of its turn.
 
 use super::answer::{DerivativeError, DerivativeFlags};
-use super::field::{Field, Place};
+use super::field::{Field, Place, dot3};
 use crate::linalg::double_double::DoubleDouble;
 use crate::linalg::graded_basis::any_across;
 use crate::linalg::number::Single;
@@ -72,14 +72,17 @@ pub(super) struct FieldWeights<N> {
 }
 
 /// At unit length.
+#[inline(always)]
 pub(super) fn unit<N: Single>(v: &Vector3<N>) -> Vector3<N> {
     // In units of the largest component no square leaves the range of numbers.
-    let scaled = v * (N::of(1.0) / N::of(v.map(N::approximate).amax()));
-    scaled * (N::of(1.0) / scaled.dot(&scaled).root())
+    let largest = v.x.approximate().abs().max(v.y.approximate().abs()).max(v.z.approximate().abs());
+    let scaled = v * N::of(1.0 / largest);
+    scaled * (N::of(1.0) / dot3(&scaled, &scaled).root())
 }
 
 /// The normal at an optimum, along which gradients are opposed: of closest that of the body on which it lies, since the other one may be all but
 /// level there; of midway mostly that of the larger, which is known to more digits.
+#[inline(always)]
 pub(super) fn normal_at<N: Single>(kind: Kind, places: &[Place<N>; 2]) -> Vector3<N> {
     let gradient = |i: usize| places[i].tangent().1;
     unit(&match kind {
@@ -101,40 +104,25 @@ fn flat<N: Single>() -> Field<N> {
     }
 }
 
-impl<'a, N: Single> Optimum<'a, N> {
-    /// With the normal there, world axes, and on an edge its direction.
+/// Both potentials in the axes of an optimum, and what follows from them.
+struct Local<N> {
+    fields: [Field<N>; 2],
+    weights: [N; 2],
+    slopes: [N; 2],
+    shares: [N; 2],
+    /// TᵀHT and TᵀHn.
+    across: Matrix2<N>,
+    bend: Vector2<N>,
+}
+
+impl<N: Single> Local<N> {
     #[inline(always)]
-    pub fn new(
-        kind: Kind,
-        places: [Option<Place<'a, N>>; 2],
-        normal: &Vector3<N>,
-        along: Option<Vector3<N>>,
-    ) -> Result<Self, DerivativeError> {
-        let axes = |near: Vector3<N>| {
-            let first = unit(&(near - normal * normal.dot(&near)));
-            Matrix3::from_columns(&[first, normal.cross(&first), *normal])
+    fn of(kind: Kind, [a, b]: &[Option<Place<N>>; 2], axes: &Matrix3<N>) -> Self {
+        let field = |place: &Option<Place<N>>| match place {
+            Some(place) => place.field(axes),
+            None => flat(),
         };
-        let first = along.unwrap_or_else(|| any_across(&normal.map(N::approximate)).map(N::of));
-        let mut optimum = Self::in_axes(kind, places, axes(first));
-        if let Some(stiffest) = optimum.graded().filter(|_| along.is_none()) {
-            let across = optimum.axes.fixed_columns::<2>(0) * stiffest.map(N::of);
-            optimum = Self::in_axes(kind, places, axes(across));
-        }
-        optimum.invert()?;
-        Ok(optimum)
-    }
-
-    /// Refuses an optimum at which the gradients are not opposed, or are those of the regularisation.
-    #[inline]
-    pub fn check(&self) -> Result<(), DerivativeError> {
-        let [a, b] = &self.fields;
-        let opposed = a.gradient.z.is_positive() && (-b.gradient.z).is_positive() && a.sloped && b.sloped;
-        if opposed && self.slopes.iter().all(|slope| slope.is_finite()) { Ok(()) } else { Err(DerivativeError::NoGradient) }
-    }
-
-    #[inline(always)]
-    fn in_axes(kind: Kind, places: [Option<Place<'a, N>>; 2], axes: Matrix3<N>) -> Self {
-        let fields = places.map(|place| place.map_or_else(flat, |place| place.field(&axes)));
+        let fields = [field(a), field(b)];
         // On the way to an optimum they may not be opposed: with the signs that they have there it is found.
         let slopes = [fields[0].gradient.z.magnitude(), -fields[1].gradient.z.magnitude()];
         // The smaller part keeps its digits, and both add up to 1.
@@ -147,34 +135,14 @@ impl<'a, N: Single> Optimum<'a, N> {
             Kind::OnB => ([of_b, of_a], [zero, one]),
             Kind::OnBoundary(_) => ([one, zero], [zero, one]),
         };
-        let hessian = fields[0].hessian.weighted(weights[0], &fields[1].hessian, weights[1]);
-        let curved = |i: usize| ((fields[i].hessian.xx + fields[i].hessian.yy) / slopes[i]).magnitude().approximate();
-        let mut flags = DerivativeFlags::default();
-        flags.set(DerivativeFlags::SWITCHING, !fields.iter().all(|field| field.clear));
-        flags.set(DerivativeFlags::IMPRECISE, fields.iter().any(|field| field.lost > IMPRECISE && field.lost < f64::INFINITY));
-        Self {
-            places,
-            axes,
-            kind,
-            weights,
-            slopes,
-            shares,
-            inverse: Matrix2::new(hessian.xx, hessian.yx, hessian.yx, hessian.yy),
-            bend: Vector2::new(hessian.zx, hessian.zy),
-            flatter: usize::from(places[1].is_some() && curved(1) < curved(0)),
-            fields,
-            flags,
-        }
-    }
-
-    /// Whether doubles have lost too many digits.
-    pub fn wants_more(&self) -> bool {
-        self.fields.iter().any(|field| field.lost > LOST)
+        let h = fields[0].hessian.weighted(weights[0], &fields[1].hessian, weights[1]);
+        let (across, bend) = (Matrix2::new(h.xx, h.yx, h.yx, h.yy), Vector2::new(h.zx, h.zy));
+        Self { fields, weights, slopes, shares, across, bend }
     }
 
     /// The direction of the largest curvature across the normal, where the other one is so small beside it that it has lost digits.
     fn graded(&self) -> Option<Vector2<f64>> {
-        let h = self.inverse.map(N::approximate);
+        let h = self.across.map(N::approximate);
         let (sum, half, mixed) = (h.m11 + h.m22, 0.5 * (h.m11 - h.m22), h.m12);
         if !(h.m11 * h.m22 - mixed * mixed < GRADED * sum * sum) || mixed == 0.0 {
             return None;
@@ -185,11 +153,14 @@ impl<'a, N: Single> Optimum<'a, N> {
         stiffest.try_normalize(0.0)
     }
 
-    /// Turns TᵀHT into its inverse on the directions that are free.
-    #[inline]
-    fn invert(&mut self) -> Result<(), DerivativeError> {
-        let h = self.inverse;
-        let dimensions = if let Kind::OnBoundary(dimensions) = self.kind { dimensions } else { 2 };
+    /// (TᵀHT)⁻¹ on the directions that are free to move in, and whether the regularisation alone resists in one.
+    #[inline(always)]
+    fn inverse(&self, kind: Kind, places: &[Option<Place<N>>; 2]) -> Result<(Matrix2<N>, bool), DerivativeError> {
+        let h = self.across;
+        let dimensions = if let Kind::OnBoundary(dimensions) = kind { dimensions } else { 2 };
+        if dimensions == 0 {
+            return Ok((Matrix2::zeros(), false));
+        }
         // The stiffer axis is eliminated first.
         let swapped = h.m11.approximate() < h.m22.approximate();
         let (stiff, soft) = if swapped { (h.m22, h.m11) } else { (h.m11, h.m22) };
@@ -197,28 +168,75 @@ impl<'a, N: Single> Optimum<'a, N> {
         let least = if dimensions == 2 { soft - ratio * h.m12 } else { h.m11 };
         // Of the two spheres, in all and by regularisation.
         let weighted = |of: fn(&Place<N>) -> N| -> N {
-            let weight = |i: usize| self.places[i].as_ref().map_or(N::of(0.0), |place| self.weights[i] * of(place));
+            let weight = |i: usize| places[i].as_ref().map_or(N::of(0.0), |place| self.weights[i] * of(place));
             N::of(2.0) * (weight(0) + weight(1))
         };
         let least = least.larger(weighted(|place| place.sphere_weight));
         let added = weighted(|place| place.sphere_weight - N::of(place.particle.sphere_weight)).approximate();
-        if dimensions == 0 {
-            self.inverse = Matrix2::zeros();
-            return Ok(());
-        }
         if !(least.is_positive() && least.is_finite()) {
             return Err(DerivativeError::NoCurvature);
         }
-        self.flags.set(DerivativeFlags::FREE, least.approximate() < 2.0 * added);
         let (zero, one) = (N::of(0.0), N::of(1.0));
         let (of_soft, mixed) = (one / least, -ratio / least);
         let of_stiff = one / stiff - ratio * mixed;
-        self.inverse = match dimensions {
+        let inverse = match dimensions {
             1 => Matrix2::new(of_soft, zero, zero, zero),
             _ if swapped => Matrix2::new(of_soft, mixed, mixed, of_stiff),
             _ => Matrix2::new(of_stiff, mixed, mixed, of_soft),
         };
-        Ok(())
+        Ok((inverse, least.approximate() < 2.0 * added))
+    }
+}
+
+impl<'a, N: Single> Optimum<'a, N> {
+    /// With the normal there, world axes, and on an edge its direction.
+    #[inline(always)]
+    pub fn new(
+        kind: Kind,
+        places: [Option<Place<'a, N>>; 2],
+        normal: &Vector3<N>,
+        along: Option<Vector3<N>>,
+    ) -> Result<Self, DerivativeError> {
+        let axes_along = |near: Vector3<N>| {
+            let first = unit(&(near - normal * dot3(normal, &near)));
+            Matrix3::from_columns(&[first, normal.cross(&first), *normal])
+        };
+        let first = along.unwrap_or_else(|| any_across(&normal.map(N::approximate)).map(N::of));
+        let mut axes = axes_along(first);
+        let mut local = Local::of(kind, &places, &axes);
+        if let Some(stiffest) = local.graded().filter(|_| along.is_none()) {
+            let [x, y] = [N::of(stiffest.x), N::of(stiffest.y)];
+            axes = axes_along(axes.column(0) * x + axes.column(1) * y);
+            local = Local::of(kind, &places, &axes);
+        }
+        let (inverse, is_free) = local.inverse(kind, &places)?;
+        let Local { fields: [a, b], weights, slopes, shares, bend, .. } = local;
+        let curved =
+            |field: &Field<N>, slope: N| ((field.hessian.xx + field.hessian.yy) / slope).magnitude().approximate();
+        let mut flags = DerivativeFlags::default();
+        flags.set(DerivativeFlags::SWITCHING, !(a.clear && b.clear));
+        let imprecise = |field: &Field<N>| field.lost > IMPRECISE && field.lost < f64::INFINITY;
+        flags.set(DerivativeFlags::IMPRECISE, imprecise(&a) || imprecise(&b));
+        flags.set(DerivativeFlags::FREE, is_free);
+        let flatter = usize::from(places[1].is_some() && curved(&b, slopes[1]) < curved(&a, slopes[0]));
+        Ok(Self { places, axes, fields: [a, b], kind, weights, slopes, shares, inverse, bend, flatter, flags })
+    }
+
+    /// Refuses an optimum at which the gradients are not opposed, or are those of the regularisation.
+    #[inline]
+    pub fn check(&self) -> Result<(), DerivativeError> {
+        let [a, b] = &self.fields;
+        let opposed = a.gradient.z.is_positive() && (-b.gradient.z).is_positive() && a.sloped && b.sloped;
+        if opposed && self.slopes.iter().all(|slope| slope.is_finite()) {
+            Ok(())
+        } else {
+            Err(DerivativeError::NoGradient)
+        }
+    }
+
+    /// Whether doubles have lost too many digits.
+    pub fn wants_more(&self) -> bool {
+        self.fields.iter().any(|field| field.lost > LOST)
     }
 
     /// The factor of a·δS_A + b·δS_B in the derivative of the least S, and hence of its root s: that of the body whose S is sought.

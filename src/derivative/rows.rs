@@ -99,7 +99,8 @@ impl<N: Single> ToWorld<N> {
     #[inline(always)]
     fn row(&self, by_a: ByMotion<N>, together: [Vector3<N>; 2]) -> Row<N> {
         let [vx, vy, vz, tx, ty, tz] = by_a;
-        let (velocity, turn) = (times(&self.axes, &Vector3::new(vx, vy, vz)), times(&self.axes, &Vector3::new(tx, ty, tz)));
+        let (velocity, turn) =
+            (times(&self.axes, &Vector3::new(vx, vy, vz)), times(&self.axes, &Vector3::new(tx, ty, tz)));
         self.of_both([velocity, turn], [together[0] - velocity, together[1] - turn])
     }
 

@@ -54,9 +54,8 @@ impl<'a, N: Single> SurfacePoint<'a, N> {
     /// How it moves along the normal with A, where optimum and normal move so across it.
     #[inline(always)]
     pub fn along_normal(&self, point: &[ByMotion<N>; 2], normal: &[ByMotion<N>; 2], is_of_a: bool) -> ByMotion<N> {
-        let mut across = [0, 1].map(|i| -> ByMotion<N> {
-            std::array::from_fn(|column| point[i][column] + normal[i][column] * self.way)
-        });
+        let mut across = [0, 1]
+            .map(|i| -> ByMotion<N> { std::array::from_fn(|column| point[i][column] + normal[i][column] * self.way) });
         let (zero, one) = (N::of(0.0), N::of(1.0));
         let mut along = [zero; 6];
         if is_of_a {

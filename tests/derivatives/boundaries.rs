@@ -97,9 +97,8 @@ fn contacts_with_boundaries_move_as_differences_say() {
             let by_boundary = derivative(1e-4, |step| {
                 let (shift, turn) = motion(step);
                 let turn = Rotation3::from_scaled_axis(turn);
-                let [a, b, c] = [corner(0.0, 0.1), corner(2.0, 0.2), corner(0.2, 2.0)].map(|v| {
-                    (pose.position() + turn * (Vector3::from(v) - pose.position()) + shift).into()
-                });
+                let [a, b, c] = [corner(0.0, 0.1), corner(2.0, 0.2), corner(0.2, 2.0)]
+                    .map(|v| (pose.position() + turn * (Vector3::from(v) - pose.position()) + shift).into());
                 numbers(&at(&pose, &Triangle::new([a, b, c]).unwrap(), &particle))
             });
             assert_near(&columns(&d, 6 + column), &by_boundary, &format!("{seed}, boundary, column {column}"));
@@ -107,26 +106,37 @@ fn contacts_with_boundaries_move_as_differences_say() {
         let weights = some_weights(true, false, scattered(seed));
         let mut shape = ShapeGradient::zeros(&particle);
         let (poses, _) =
-            boundary_gradient(&particle, &pose, Some(&triangle), &contact, &settings, &weights, Some(&mut shape)).unwrap();
+            boundary_gradient(&particle, &pose, Some(&triangle), &contact, &settings, &weights, Some(&mut shape))
+                .unwrap();
         assert!(disagreement(&weighted(&d, &weights), &poses, 1.0) < 1e-11);
         // The shape: every number of it.
         let cost = |particle: &Particle| {
             let c = at(&pose, &triangle, particle);
-            [weights.s * c.s + weights.overlap * c.overlap
-                + weights.normal.dot(&c.normal) + weights.point.dot(&c.point)
-                + weights.point_on_a.dot(&c.on_particle) + weights.point_on_b.dot(&c.on_boundary)]
+            [weights.s * c.s
+                + weights.overlap * c.overlap
+                + weights.normal.dot(&c.normal)
+                + weights.point.dot(&c.point)
+                + weights.point_on_a.dot(&c.on_particle)
+                + weights.point_on_b.dot(&c.on_boundary)]
         };
         let planes: Vec<Plane> = particle.planes().collect();
         let (r, k, shadow) = (particle.rounding_radius(), particle.sphericity(), particle.shadow_radius());
         let near = |found: f64, f: &dyn Fn(f64) -> Particle, what: &str| {
             let [expected] = derivative(1e-4, |step| cost(&f(step)));
-            assert!((found - expected).abs() <= 1e-8 * (1.0 + expected.abs()), "{seed}, {what}: {found} for {expected}");
+            assert!(
+                (found - expected).abs() <= 1e-8 * (1.0 + expected.abs()),
+                "{seed}, {what}: {found} for {expected}"
+            );
         };
         for (i, of_plane) in shape.planes.iter().enumerate() {
             for j in 0..4 {
                 let with = |step: f64| {
                     let mut planes = planes.clone();
-                    if j < 3 { planes[i].normal[j] += step } else { planes[i].offset += step }
+                    if j < 3 {
+                        planes[i].normal[j] += step
+                    } else {
+                        planes[i].offset += step
+                    }
                     Particle::new(&planes, r, k, shadow).unwrap()
                 };
                 let found = if j < 3 { of_plane.normal[j] } else { of_plane.offset };
@@ -177,14 +187,18 @@ fn patches_change_as_differences_say_and_as_an_energy() {
                 let step = sign * h * axis;
                 let mut poses = poses;
                 let zero = Vector3::zeros();
-                poses[body] = if column % 6 < 3 { moved(&poses[body], step, zero) } else { moved(&poses[body], zero, step) };
+                poses[body] =
+                    if column % 6 < 3 { moved(&poses[body], step, zero) } else { moved(&poses[body], zero, step) };
                 wrench(&poses).0
             });
             let [up, down] = &mut ends;
             for i in 0..9 {
                 let expected = (up[i] - down[i]) / (2.0 * h);
                 let found = rows[i / 3][(i % 3, column)];
-                assert!((found - expected).abs() < 2e-4 * most, "{seed}: row {i}, column {column}: {found} for {expected}");
+                assert!(
+                    (found - expected).abs() < 2e-4 * most,
+                    "{seed}: row {i}, column {column}: {found} for {expected}"
+                );
             }
         }
         // Generalised forces on A and B in the order of the columns.

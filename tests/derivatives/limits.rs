@@ -34,9 +34,20 @@ fn faces_of_k_0_leave_the_point_free_and_the_overlap_not() {
 #[test]
 fn a_plane_that_may_switch_is_told() {
     // Mirror images whose plane x = 0.75 passes through the contact point.
-    let sides = [[1.0, 0.0, 0.0, 0.75], [-1.0, 0.0, 0.0, 0.8], [0.0, 1.0, 0.0, 0.8], [0.0, -1.0, 0.0, 0.8], [0.0, 0.0, 1.0, 0.8], [0.0, 0.0, -1.0, 0.8]];
+    let sides = [
+        [1.0, 0.0, 0.0, 0.75],
+        [-1.0, 0.0, 0.0, 0.8],
+        [0.0, 1.0, 0.0, 0.8],
+        [0.0, -1.0, 0.0, 0.8],
+        [0.0, 0.0, 1.0, 0.8],
+        [0.0, 0.0, -1.0, 0.8],
+    ];
     for (offset, switches) in [(0.75, true), (0.7, false)] {
-        let planes: Vec<Plane> = sides.iter().map(|row| Plane::from(*row)).map(|p| Plane { offset: if p.offset == 0.75 { offset } else { p.offset }, ..p }).collect();
+        let planes: Vec<Plane> = sides
+            .iter()
+            .map(|row| Plane::from(*row))
+            .map(|p| Plane { offset: if p.offset == 0.75 { offset } else { p.offset }, ..p })
+            .collect();
         let body = Particle::new(&planes, 0.1, 0.5, 1.0).unwrap();
         let (left, right) = (at(0.0, 0.0, 0.0), Pose::new([1.5, 0.0, 0.0], [0.0, 0.0, 0.0, 1.0]).unwrap());
         let settings = Settings::default();

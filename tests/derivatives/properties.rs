@@ -92,7 +92,8 @@ fn forward_and_reverse_agree_and_both_bodies_together_carry_the_contact() {
                 m.fixed_view::<3, 3>(0, 0) + m.fixed_view::<3, 3>(0, 6)
             };
             let about_a = |m: &potential_particles::PoseRows| -> Matrix3<f64> {
-                m.fixed_view::<3, 3>(0, 3) + m.fixed_view::<3, 3>(0, 9) - m.fixed_view::<3, 3>(0, 6) * between.cross_matrix()
+                m.fixed_view::<3, 3>(0, 3) + m.fixed_view::<3, 3>(0, 9)
+                    - m.fixed_view::<3, 3>(0, 6) * between.cross_matrix()
             };
             // The difference of positions is rounded here.
             let rounded = f64::EPSILON * pose_a.position().norm().max(pose_b.position().norm()) / size;

@@ -180,7 +180,8 @@ fn derivatives_are_those_of_differences_in_130_digits() {
         for weighted in &line.shape {
             let (mut of_a, mut of_b) = (ShapeGradient::zeros(&a), ShapeGradient::zeros(&b));
             let weights = weighted.weights.of_contact();
-            let lengths = weights.overlap.abs() + (weights.point.norm() + weights.point_on_a.norm() + weights.point_on_b.norm());
+            let lengths =
+                weights.overlap.abs() + (weights.point.norm() + weights.point_on_a.norm() + weights.point_on_b.norm());
             let least = 1e-3 * (weights.s.abs() + weights.s_b.abs() + weights.normal.norm() + size * lengths);
             let shapes = (Some(&mut of_a), Some(&mut of_b));
             contact_gradient(&a, &pose_a, &b, &pose_b, &contact, &settings, &weights, shapes.0, shapes.1).unwrap();
@@ -189,7 +190,10 @@ fn derivatives_are_those_of_differences_in_130_digits() {
         }
         for (name, error) in errors {
             if error > WORST {
-                println!("pair {} ({}, {}): {name} off by {error:e}; {}", line.pair, pair.family, line.formulation, found.flags);
+                println!(
+                    "pair {} ({}, {}): {name} off by {error:e}; {}",
+                    line.pair, pair.family, line.formulation, found.flags
+                );
             }
             by_kind.entry((pair.family.clone(), name)).or_default().push(error);
             all.push(error);
@@ -197,11 +201,23 @@ fn derivatives_are_those_of_differences_in_130_digits() {
     }
     for ((family, name), errors) in &by_kind {
         let sorted = sorted(errors);
-        println!("{family:16} {name:9} {:4} median {:8.1e} worst {:8.1e}", sorted.len(), sorted[sorted.len() / 2], sorted[sorted.len() - 1]);
+        println!(
+            "{family:16} {name:9} {:4} median {:8.1e} worst {:8.1e}",
+            sorted.len(),
+            sorted[sorted.len() / 2],
+            sorted[sorted.len() - 1]
+        );
     }
     let sorted = sorted(&all);
     let at = |share: f64| sorted[(share * (sorted.len() - 1) as f64) as usize];
-    println!("{} numbers: median {:e}, 90 % {:e}, 99 % {:e}, worst {:e}", sorted.len(), at(0.5), at(0.9), at(0.99), at(1.0));
+    println!(
+        "{} numbers: median {:e}, 90 % {:e}, 99 % {:e}, worst {:e}",
+        sorted.len(),
+        at(0.5),
+        at(0.9),
+        at(0.99),
+        at(1.0)
+    );
     println!("{flags:?}");
     assert!(at(0.5) < MEDIAN && at(1.0) < WORST);
 }
