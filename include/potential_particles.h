@@ -1296,6 +1296,18 @@ pp_status pp_particle_new(const double *planes,
                           char *message,
                           size_t message_size);
 
+// The same shape factor times as large: d, r and R multiplied by it.
+//
+// out: receives the new particle; release it with pp_particle_free. message: receives, on failure, a sentence that
+// names the value (may be NULL).
+// Errors: PP_NULL_POINTER, and those of pp_particle_new for what the factor makes of r, R and d.
+// Pointers: out points to one pointer, message to message_size bytes.
+pp_status pp_particle_scaled(const struct pp_particle *particle,
+                             double factor,
+                             struct pp_particle **out,
+                             char *message,
+                             size_t message_size);
+
 // Releases a particle; NULL is allowed and does nothing. No call that uses it may still be running;
 // states of its pairs may stay.
 // Pointers: particle is NULL or came from pp_particle_new and was not released yet.
@@ -1813,6 +1825,15 @@ pp_status pp_particle_corners(const struct pp_particle *particle,
                               double *corners,
                               size_t capacity,
                               size_t *count);
+
+// Upper bound of how far the particle reaches along a direction (3 doubles, local frame, any length): of
+// e . x over all its points, e = direction / |direction|, by the corners of pp_particle_corners.
+//
+// Errors: PP_NULL_POINTER, PP_BAD_POINT.
+// Pointers: direction points to 3 doubles.
+pp_status pp_particle_support(const struct pp_particle *particle,
+                              const double *direction,
+                              double *support);
 
 // Distance from the centre to the surface along a direction (3 doubles, local frame, any length).
 //

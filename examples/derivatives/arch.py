@@ -53,7 +53,8 @@ def clearance(t, joint, line, outwards):
     return contact.overlap - INWARDS, by_radius, gradient.planes_a[:, 3] @ by_t
 
 
-def main(folder="."):
+def least_thickness():
+    """Thickness, line of thrust and its joint at the haunch."""
     t = 0.15
     h = 0.6 * t
     for step in range(12):
@@ -65,9 +66,13 @@ def main(folder="."):
             jacobian[row] = of_radius * by_h[joint], of_radius * by_t[joint] + of_t
         print(f"{step}: t = {t:.12f}, H = {h:.6f}, hinge at {np.degrees(haunch * STEP):.1f} degrees, clearances {value[0]:+.1e} {value[1]:+.1e}")
         if max(abs(value)) < 1e-13:
-            break
-        change = -np.linalg.solve(jacobian, value)
-        h, t = h + change[0], t + change[1]
+            return t, line, haunch
+        h, t = (h, t) - np.linalg.solve(jacobian, value)
+    raise ArithmeticError("Newton's method did not settle")
+
+
+def main(folder="."):
+    t, line, haunch = least_thickness()
     print(f"least thickness {t:.5f} of the mean radius (closed form 0.10748)")
     import matplotlib
     matplotlib.use("Agg")

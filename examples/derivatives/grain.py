@@ -11,7 +11,6 @@ import sys
 
 import numpy as np
 import potential_particles as pp
-from scipy.optimize import least_squares
 
 PLANES, POINTS, NOISE, OUT, BALL = 20, 600, 0.003, 0.4, 0.8
 
@@ -64,12 +63,17 @@ class Fit:
         return np.array(rows)
 
 
-def main(folder="."):
-    points, normals = scanned(np.random.default_rng(7))
-    fit = Fit(points, normals)
+def start_from(points):
     towards = fibonacci(PLANES)
     offsets = 0.8 * np.max(points @ towards.T, axis=0) - 0.1
-    start = np.concatenate([np.column_stack([towards, offsets]).ravel(), [np.log(0.1), -2.0]])
+    return np.concatenate([np.column_stack([towards, offsets]).ravel(), [np.log(0.1), -2.0]])
+
+
+def main(folder="."):
+    from scipy.optimize import least_squares
+    points, normals = scanned(np.random.default_rng(7))
+    fit = Fit(points, normals)
+    start = start_from(points)
     found = least_squares(fit.residuals, start, fit.jacobian, method="lm", max_nfev=60)
     particle, before, after = shape(found.x), fit.residuals(start), found.fun
     rms = lambda e: float(np.sqrt(np.mean(e**2)))

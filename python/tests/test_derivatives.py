@@ -1,7 +1,10 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
 """Derivatives against closed forms, differences and each other, and the recipes of docs/derivatives.md where JAX or PyTorch is there."""
+import contextlib
 import importlib.util
+import io
 import re
+import sys
 import unittest
 from pathlib import Path
 
@@ -94,6 +97,41 @@ class Derivatives(unittest.TestCase):
             pp.contact_gradient(*self.given, self.contact, s=float("nan"))
         with self.assertRaisesRegex(ValueError, "normal must be 3 numbers"):
             pp.contact_gradient(*self.given, self.contact, normal=(1, 2))
+
+
+class Examples(unittest.TestCase):
+    """Those of examples/derivatives, but for their pictures."""
+
+    def setUp(self):
+        sys.path.insert(0, str(PAGE.parents[1] / "examples/derivatives"))
+        self.addCleanup(sys.path.pop, 0)
+
+    def test_arch(self):
+        import arch
+        with contextlib.redirect_stdout(io.StringIO()):
+            t, _, haunch = arch.least_thickness()
+        self.assertAlmostEqual(t, 0.10748, delta=1e-5)
+        self.assertAlmostEqual(np.degrees(haunch * arch.STEP), 54.5, delta=0.3)
+
+    def test_run_out(self):
+        import run_out
+        history, by_mu = run_out.run(0.5)
+        resistance = 0.5 * np.cos(run_out.SLOPE) - np.sin(run_out.SLOPE)
+        way = run_out.SPEED**2 / (2 * run_out.GRAVITY * resistance)
+        self.assertAlmostEqual(history[-1, 0], way, delta=2e-3 * way)
+        self.assertAlmostEqual(by_mu, -way * np.cos(run_out.SLOPE) / resistance, delta=0.02 * abs(by_mu))
+
+    def test_grain(self):
+        import grain
+        points, normals = grain.scanned(np.random.default_rng(7))
+        fit = grain.Fit(points[::20], normals[::20])
+        start = grain.start_from(points)
+        found, h = fit.jacobian(start), 1e-6
+        for column in (0, 17, 43, -2, -1):
+            step = np.zeros(len(start))
+            step[column] = h
+            expected = (fit.residuals(start + step) - fit.residuals(start - step)) / (2 * h)
+            np.testing.assert_allclose(found[:, column], expected, atol=1e-6)
 
 
 class Recipes(unittest.TestCase):

@@ -54,8 +54,8 @@ pub unsafe extern "C" fn pp_particle_new(
 
 /// The same shape factor times as large: d, r and R multiplied by it.
 ///
-/// out: receives the new particle; release it with pp_particle_free. message: receives, on failure, a sentence that
-/// names the value (may be NULL).
+/// out: receives the new particle; release it with pp_particle_free.
+/// message: receives, on failure, a sentence that names the value (may be NULL).
 /// Errors: PP_NULL_POINTER, and those of pp_particle_new for what the factor makes of r, R and d.
 /// Pointers: out points to one pointer, message to message_size bytes.
 #[unsafe(no_mangle)]

@@ -122,7 +122,8 @@ pub unsafe extern "C" fn pp_particle_support(
         let support = unsafe { output(support) }?;
         // Scaled first, so that the squares stay in range.
         let scaled = direction / direction.amax();
-        support.write(particle.support(&scaled.try_normalize(0.5).ok_or(PP_BAD_POINT)?));
+        let unit = scaled.try_normalize(0.5).filter(|e| e.norm_squared().is_finite()).ok_or(PP_BAD_POINT)?;
+        support.write(particle.support(&unit));
         Ok(())
     })
 }

@@ -30,7 +30,7 @@ pub struct ContactDerivatives {
     pub point: PoseRows,
     /// Of the point on the surface of A; NaN when separated.
     pub point_on_a: PoseRows,
-    /// Of the point on the surface of B; NaN when separated.
+    /// Of the point on the surface of B, NaN when separated; of a boundary that of the point on it.
     pub point_on_b: PoseRows,
     /// What else is to be known.
     pub flags: DerivativeFlags,

@@ -192,6 +192,9 @@ pub(super) fn is_finite(v: &Vector3<f64>) -> bool {
     v.iter().all(|c| c.is_finite())
 }
 
+/// A point seen from both bodies, with the bound on its error and the lengths that were rounded in it.
+type Seen = ([Vector3<f64>; 2], [f64; 2]);
+
 /// A contact whose optimality conditions are to be linearised.
 struct Task<'a, 'c> {
     bodies: [(&'a Particle, &'a Pose); 2],
@@ -237,7 +240,7 @@ impl<'a> Task<'a, '_> {
     }
 
     /// Branches of P1 and of P2 from both bodies, with the bound on their error and the lengths that their rounding comes from.
-    fn closest_branches(&self) -> Result<[([Vector3<f64>; 2], [f64; 2]); 2], DerivativeError> {
+    fn closest_branches(&self) -> Result<[Seen; 2], DerivativeError> {
         let [a, b] = self.bodies;
         let positions = [*a.1.position(), *b.1.position()];
         if self.is_overlap() {
@@ -254,10 +257,7 @@ impl<'a> Task<'a, '_> {
     }
 
     #[inline(always)]
-    fn closest(
-        &self,
-        branches: &[([Vector3<f64>; 2], [f64; 2]); 2],
-    ) -> Result<Option<ClosestPoints<'a>>, DerivativeError> {
+    fn closest(&self, branches: &[Seen; 2]) -> Result<Option<ClosestPoints<'a>>, DerivativeError> {
         let optimum = |j: usize| -> Result<_, DerivativeError> {
             let (branches, error) = branches[j];
             let place = |i: usize| Place::new(self.bodies[i], branches[i], error, self.least_sphericity);

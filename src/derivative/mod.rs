@@ -23,6 +23,10 @@
 //! ∂/∂n_i = 2w ((σ t_i + Γ·n_i) y + t_i Γ)      ∂/∂d_i = −2w (σ t_i + Γ·n_i)      w = (1−k)/r²,   t_i = n_i·y − d_i
 //! ```
 //!
+//! **Digits.** All of it is written for numbers of 16 and of 32 digits. Where depths of planes have lost too many of a double's, the optimum of a pair
+//! is refined by Newton's method in double-doubles, among planes whose depth is below the rounding of the point by an active set, and
+//! differentiated there.
+//!
 //! **Where there is none.** S has kinks in its second derivative where a plane comes on. There the derivative of s goes on, those of the
 //! point and all else are one-sided: planes with t ≤ 0 count as off. With k = 0 a flat face may leave TᵀHT singular: it is that of
 //! the regularised problem whose optimum the contact is. [`DerivativeFlags`] tells of both. docs/derivatives.md has examples and what was

@@ -366,7 +366,12 @@ impl<'a> Optimum<'a, DoubleDouble> {
             let change = change(0) + change(1);
             let converged = change <= CONVERGED[0] || (change <= CONVERGED[1] && change >= 0.5 * last);
             last = change;
-            let dropped = converged && places.iter_mut().fold(false, |any, place| place.drop_a_pulling_plane() || any);
+            let pulling = |places: &mut [Place<'a, DoubleDouble>; 2]| {
+                let [a, b] = places;
+                // One of each body.
+                a.drop_a_pulling_plane() | b.drop_a_pulling_plane()
+            };
+            let dropped = converged && pulling(&mut places);
             if (converged && !dropped) || steps >= MOST_STEPS {
                 optimum.flags.set(DerivativeFlags::IMPRECISE, !converged);
                 optimum.check()?;
