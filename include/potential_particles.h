@@ -1298,8 +1298,8 @@ pp_status pp_particle_new(const double *planes,
 
 // The same shape factor times as large: d, r and R multiplied by it.
 //
-// out: receives the new particle; release it with pp_particle_free. message: receives, on failure, a sentence that
-// names the value (may be NULL).
+// out: receives the new particle; release it with pp_particle_free.
+// message: receives, on failure, a sentence that names the value (may be NULL).
 // Errors: PP_NULL_POINTER, and those of pp_particle_new for what the factor makes of r, R and d.
 // Pointers: out points to one pointer, message to message_size bytes.
 pp_status pp_particle_scaled(const struct pp_particle *particle,

@@ -21,8 +21,10 @@ use target::at_most;
 const PAIRS: usize = 300;
 const ROUNDS: usize = 40;
 
+type Call<'a> = &'a dyn Fn(usize, &Touching);
+
 /// Seconds of one call on each pair, by the fastest of all rounds, each of which has all calls in turn.
-fn times<const N: usize>(pairs: &[Touching], calls: [&dyn Fn(usize, &Touching); N]) -> [f64; N] {
+fn times<const N: usize>(pairs: &[Touching], calls: [Call; N]) -> [f64; N] {
     let mut least = [f64::INFINITY; N];
     for _ in 0..ROUNDS {
         for (least, call) in least.iter_mut().zip(calls) {
