@@ -264,6 +264,8 @@ bench:
 	@cargo bench --bench stages
 	$(call heading,Run time against error)
 	@cargo bench --bench work_precision
+	$(call heading,Derivatives)
+	@cargo bench --bench derivatives
 	@/usr/bin/python3 benches/plot.py
 
 # Fails when a pair fails; the picture is drawn all the same.

@@ -147,6 +147,35 @@
 // struct pp_face_partners, for pp_struct_size.
 #define PP_STRUCT_FACE_PARTNERS 28
 
+// struct pp_derivatives, for pp_struct_size.
+#define PP_STRUCT_DERIVATIVES 29
+
+// struct pp_contact_weights, for pp_struct_size.
+#define PP_STRUCT_CONTACT_WEIGHTS 30
+
+// struct pp_shape_gradient, for pp_struct_size.
+#define PP_STRUCT_SHAPE_GRADIENT 31
+
+// struct pp_pose_gradient, for pp_struct_size.
+#define PP_STRUCT_POSE_GRADIENT 32
+
+// struct pp_patch_derivatives, for pp_struct_size.
+#define PP_STRUCT_PATCH_DERIVATIVES 33
+
+// A plane may be about to switch: whether it is active at the contact point cannot be told. The derivatives
+// are those for the side on which it is off; that of s is the same on both.
+#define PP_DERIVATIVE_SWITCHING 1
+
+// Faces or edges (k = 0, or nearly) leave a direction across the normal free: in it the point moves as the
+// regularisation says (flat_regularisation), by up to its inverse.
+#define PP_DERIVATIVE_FREE 2
+
+// The contact is separated: overlap and surface points have no derivatives, and are NaN.
+#define PP_DERIVATIVE_SEPARATED 4
+
+// Fewer than four digits may be right: depths of planes are of the size of their rounding.
+#define PP_DERIVATIVE_IMPRECISE 8
+
 // The point on the boundary lies on the plane, or inside the triangle.
 #define PP_ON_INTERIOR 0
 
@@ -420,6 +449,71 @@ typedef struct pp_closest {
     double branch_b[3];
 } pp_closest;
 
+// Derivatives of a contact in the poses of A and B, as of struct pp_contact. Columns of each row: a shift of
+// A along x, y, z and a turn of A about its position and x, y, z (world axes, radians), then the same of B.
+// What is NaN in the contact is NaN here.
+typedef struct pp_derivatives {
+    // Sum of PP_DERIVATIVE_... bits.
+    uint32_t flags;
+    // Always 0.
+    uint32_t reserved;
+    // Of s.
+    double s[12];
+    // Of s_b; NaN for midway.
+    double s_b[12];
+    // Of overlap; NaN when separated.
+    double overlap[12];
+    // Of normal, a row for each of x, y, z.
+    double normal[3][12];
+    // Of point.
+    double point[3][12];
+    // Of point_on_a (of a boundary: on_particle); NaN when separated.
+    double point_on_a[3][12];
+    // Of point_on_b (of a boundary: on_boundary); of a pair NaN when separated.
+    double point_on_b[3][12];
+} pp_derivatives;
+
+// Derivatives of a cost in the numbers of a contact. Those in what is NaN in the contact must be 0.
+typedef struct pp_contact_weights {
+    // In s.
+    double s;
+    // In s_b.
+    double s_b;
+    // In overlap.
+    double overlap;
+    // In normal.
+    double normal[3];
+    // In point.
+    double point[3];
+    // In point_on_a (of a boundary: on_particle).
+    double point_on_a[3];
+    // In point_on_b (of a boundary: on_boundary).
+    double point_on_b[3];
+} pp_contact_weights;
+
+// Derivatives of a cost in the shape of a particle, to which calls add: set numbers and planes to 0 to begin
+// with.
+typedef struct pp_shape_gradient {
+    // Four numbers for each plane of the particle, in a, b, c and d; the caller's memory.
+    double *planes;
+    // How many planes there is room for: those of the particle.
+    size_t count;
+    // In the rounding radius r.
+    double r;
+    // In the sphericity k; at k = 0 and 1 towards the inside of its range.
+    double k;
+    // In the radius R of the shadow sphere.
+    double shadow_radius;
+} pp_shape_gradient;
+
+// Derivatives of a cost in the pose of a body.
+typedef struct pp_pose_gradient {
+    // In a shift, world axes.
+    double shift[3];
+    // In a turn about its position, world axes, per radian.
+    double turn[3];
+} pp_pose_gradient;
+
 // The contact of a particle A with a flat boundary T, a plane or a closed triangle of no thickness. World
 // axes; lengths in the caller's unit; s and gap have no unit. Fields that do not apply are NaN.
 //
@@ -576,6 +670,17 @@ typedef struct pp_patch_point {
     // Unit normal of the patch, from A to B, world axes.
     double normal[3];
 } pp_patch_point;
+
+// Derivatives of the force and the torques of a contact patch in the poses of A and B, over K, world axes;
+// columns as of struct pp_derivatives. They are minus the second derivative of the energy.
+typedef struct pp_patch_derivatives {
+    // Of the force on B, a row for each of x, y, z; that on A is minus it. length^2 and length^3.
+    double force[3][12];
+    // Of the torque on A about its position. length^3 and length^4.
+    double torque_on_a[3][12];
+    // Of the torque on B about its position (of a boundary: that of A).
+    double torque_on_b[3][12];
+} pp_patch_derivatives;
 
 // Where a body of the plane is: world = rotation(angle) * local + position.
 typedef struct pp_pose_2d {
@@ -893,6 +998,9 @@ typedef struct pp_mass_properties {
 // The tolerance of a mesh is outside its documented range.
 #define PP_BAD_TOLERANCE 14
 
+// The contact has no derivative: gradients or curvatures vanish there, as in the core of both bodies.
+#define PP_NO_DERIVATIVE 15
+
 // A plane holds a coefficient that is not finite.
 #define PP_PLANE_NOT_FINITE 20
 
@@ -1029,6 +1137,72 @@ pp_status pp_contact_area(const struct pp_particle *a,
                           double relative_tolerance,
                           double *area);
 
+// The derivatives of a contact in the poses of both bodies, at the contact, which is not solved again.
+//
+// settings: may be NULL (defaults). contact: the answer of pp_contact_detect for the same bodies, poses and
+// settings.
+// Errors: PP_NULL_POINTER, PP_BAD_POSITION, PP_BAD_ORIENTATION, PP_BAD_POINT (the contact was not filled, or
+// was rejected without a point), PP_NO_DERIVATIVE, PP_UNKNOWN_FORMULATION, PP_UNKNOWN_BACK_END,
+// PP_BAD_SETTING, PP_SOLVER_FAILED.
+pp_status pp_contact_derivatives(const struct pp_particle *a,
+                                 const struct pp_pose *pose_a,
+                                 const struct pp_particle *b,
+                                 const struct pp_pose *pose_b,
+                                 const struct pp_settings *settings,
+                                 const struct pp_contact *contact,
+                                 struct pp_derivatives *out);
+
+// The derivatives of a cost in poses and shapes of both bodies, from its derivatives in the numbers of their
+// contact (reverse mode). The work is linear in the number of active planes.
+//
+// settings, contact: as of pp_contact_derivatives. shape_a, shape_b: may be NULL; else added to. poses:
+// receives those of A and B. flags: receives PP_DERIVATIVE_... bits.
+// Pointers: planes of a gradient holds 4 * count numbers; poses has room for 2. The two gradients are not
+// the same.
+// Errors: those of pp_contact_derivatives, and PP_BAD_INDEX (count).
+pp_status pp_contact_gradient(const struct pp_particle *a,
+                              const struct pp_pose *pose_a,
+                              const struct pp_particle *b,
+                              const struct pp_pose *pose_b,
+                              const struct pp_settings *settings,
+                              const struct pp_contact *contact,
+                              const struct pp_contact_weights *weights,
+                              struct pp_shape_gradient *shape_a,
+                              struct pp_shape_gradient *shape_b,
+                              struct pp_pose_gradient *poses,
+                              uint32_t *flags);
+
+// The derivatives of a contact with a plane or a triangle in the poses of the particle and of the boundary,
+// which stands in place of B and turns about the position of A, too.
+//
+// vertices: NULL for a plane; else as for pp_contact_triangle. contact: the answer of pp_contact_plane or
+// pp_contact_triangle for the same body, pose and settings.
+// Pointers: vertices holds 9 numbers.
+// Errors: those of pp_contact_derivatives, and PP_DEGENERATE_TRIANGLE.
+pp_status pp_flat_contact_derivatives(const struct pp_particle *a,
+                                      const struct pp_pose *pose_a,
+                                      const double *vertices,
+                                      const struct pp_settings *settings,
+                                      const struct pp_flat_contact *contact,
+                                      struct pp_derivatives *out);
+
+// The derivatives of a cost in the pose and the shape of a particle, and in the pose of the plane or
+// triangle that it touches, from its derivatives in the numbers of the contact.
+//
+// vertices, contact and the pose of the boundary: as of pp_flat_contact_derivatives; the rest as of
+// pp_contact_gradient.
+// Pointers: vertices holds 9 numbers; planes of the gradient 4 * count; poses has room for 2.
+// Errors: those of pp_contact_gradient, and PP_DEGENERATE_TRIANGLE.
+pp_status pp_flat_contact_gradient(const struct pp_particle *a,
+                                   const struct pp_pose *pose_a,
+                                   const double *vertices,
+                                   const struct pp_settings *settings,
+                                   const struct pp_flat_contact *contact,
+                                   const struct pp_contact_weights *weights,
+                                   struct pp_shape_gradient *shape,
+                                   struct pp_pose_gradient *poses,
+                                   uint32_t *flags);
+
 // Finds the contact of particle A at pose_a with the plane through a point (world frame) with this normal
 // (of any length). A may touch it from either side; where its centre lies on the plane to rounding, A counts
 // as in front of it (PP_FLAG_NORMAL_BY_BOUNDARY).
@@ -1121,6 +1295,18 @@ pp_status pp_particle_new(const double *planes,
                           struct pp_particle **out,
                           char *message,
                           size_t message_size);
+
+// The same shape factor times as large: d, r and R multiplied by it.
+//
+// out: receives the new particle; release it with pp_particle_free.
+// message: receives, on failure, a sentence that names the value (may be NULL).
+// Errors: PP_NULL_POINTER, and those of pp_particle_new for what the factor makes of r, R and d.
+// Pointers: out points to one pointer, message to message_size bytes.
+pp_status pp_particle_scaled(const struct pp_particle *particle,
+                             double factor,
+                             struct pp_particle **out,
+                             char *message,
+                             size_t message_size);
 
 // Releases a particle; NULL is allowed and does nothing. No call that uses it may still be running;
 // states of its pairs may stay.
@@ -1220,6 +1406,34 @@ pp_status pp_patch_on_triangle(const struct pp_particle *a,
                                struct pp_patch_point *points,
                                size_t capacity,
                                size_t *count);
+
+// The derivatives of the patch of an overlapping contact of A with B.
+//
+// contact, tolerance: as of pp_patch_of_contact; the derivatives are known to about the root of the
+// tolerance.
+// Errors: those of pp_patch_of_contact, and PP_NO_DERIVATIVE (no patch was found).
+pp_status pp_patch_derivatives_of_contact(const struct pp_particle *a,
+                                          const struct pp_pose *pose_a,
+                                          const struct pp_particle *b,
+                                          const struct pp_pose *pose_b,
+                                          const struct pp_contact *contact,
+                                          double tolerance,
+                                          struct pp_patch_derivatives *out);
+
+// The derivatives of the patch of an overlapping contact of A with a plane or a triangle, in the poses of A
+// and of the boundary, which stands in place of B and turns about the position of A, too.
+//
+// vertices: NULL for a plane; else, as from_front (0 for a plane), as of pp_patch_on_triangle. contact,
+// tolerance: as of pp_patch_on_plane and pp_patch_on_triangle.
+// Pointers: vertices holds 9 numbers.
+// Errors: those of pp_patch_on_triangle, and PP_NO_DERIVATIVE (no patch was found).
+pp_status pp_patch_derivatives_on_boundary(const struct pp_particle *a,
+                                           const struct pp_pose *pose_a,
+                                           const double *vertices,
+                                           uint32_t from_front,
+                                           const struct pp_flat_contact *contact,
+                                           double tolerance,
+                                           struct pp_patch_derivatives *out);
 
 // Finds the contacts of many pairs of bodies of the plane: pp_contact_detect_batch with two coordinates,
 // where every argument, status and error is explained.
@@ -1611,6 +1825,15 @@ pp_status pp_particle_corners(const struct pp_particle *particle,
                               double *corners,
                               size_t capacity,
                               size_t *count);
+
+// Upper bound of how far the particle reaches along a direction (3 doubles, local frame, any length): of
+// e . x over all its points, e = direction / |direction|, by the corners of pp_particle_corners.
+//
+// Errors: PP_NULL_POINTER, PP_BAD_POINT.
+// Pointers: direction points to 3 doubles.
+pp_status pp_particle_support(const struct pp_particle *particle,
+                              const double *direction,
+                              double *support);
 
 // Distance from the centre to the surface along a direction (3 doubles, local frame, any length).
 //

@@ -60,6 +60,12 @@ impl Flags {
         (Self::NORMAL_BY_BOUNDARY, "normal by boundary"),
     ];
 
+    /// From the bits of the C interface.
+    #[cfg(feature = "capi")]
+    pub(crate) const fn from_bits(bits: u32) -> Self {
+        Self(bits)
+    }
+
     /// The bits, as in the C interface.
     pub const fn bits(self) -> u32 {
         self.0

@@ -23,6 +23,7 @@
 //! | `section` | the contact area |
 //! | `boundary` | the contact with a flat boundary: a plane, or a triangle of a mesh |
 //! | `patch` | the contact patch: pressure, force, torque, area, energy |
+//! | `derivative` | derivatives of a contact in poses and shapes |
 //! | `surface` | a closed mesh of triangles on the surface |
 //! | [`packing`] | bodies placed in a container without overlap, as a start for a simulation |
 //! | [`rock`] | a rock mass cut into blocks by its joints |
@@ -64,6 +65,7 @@ mod bounds;
 #[cfg(feature = "capi")]
 pub mod capi;
 mod contact;
+mod derivative;
 mod flags;
 mod linalg;
 mod model;
@@ -96,6 +98,11 @@ pub use contact::batch::{detect_batch, detect_batch_into};
 pub use contact::closest_point::{ClosestPoint, closest_point};
 pub use contact::contact::{Contact, Kind};
 pub use contact::detect::{DetectError, detect};
+pub use derivative::{
+    ContactDerivatives, ContactWeights, DerivativeError, DerivativeFlags, PatchDerivatives, PoseGradient, PoseRow,
+    PoseRows, ShapeGradient, boundary_derivatives, boundary_gradient, contact_derivatives, contact_gradient,
+    patch_derivatives,
+};
 pub use flags::Flags;
 pub use pair::pair_state::PairState;
 pub use pair::role::Role;
@@ -132,3 +139,7 @@ struct Guide;
 #[cfg(doctest)]
 #[doc = include_str!("../docs/rock.md")]
 struct RockGuide;
+
+#[cfg(doctest)]
+#[doc = include_str!("../docs/derivatives.md")]
+struct DerivativesGuide;

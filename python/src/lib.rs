@@ -13,6 +13,7 @@
 //! | `contact` | `detect` and its like for one pair |
 //! | `boundary` | planes and triangles |
 //! | `patch` | contact patches |
+//! | `derivative` | derivatives of contacts and patches |
 //! | `batch` | the pairs of a step |
 //! | `builders` | shapes |
 //! | `slicing` | rock masses |
@@ -23,6 +24,7 @@ mod batch;
 mod boundary;
 mod builders;
 mod contact;
+mod derivative;
 mod errors;
 mod particle;
 mod patch;
@@ -44,6 +46,7 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     contact::add(module)?;
     boundary::add(module)?;
     patch::add(module)?;
+    derivative::add(module)?;
     batch::add(module)?;
     builders::add(module)?;
     slicing::add(module)?;

@@ -16,7 +16,7 @@ use std::cell::RefCell;
 /// The surface on which two bodies press on each other; what is proportional to the stiffness K per area is given over K.
 #[pyclass(name = "Patch", module = "potential_particles", frozen)]
 pub struct PyPatch {
-    patch: Patch,
+    pub patch: Patch,
     points: Vec<PatchPoint>,
 }
 

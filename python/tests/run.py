@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""Runs the tests of the wheel, and the Python blocks of docs/wheel.md one after the other, in the Python that has the wheel.
+"""Runs the tests of the wheel, and the Python blocks of docs/wheel.md and docs/derivatives.md one after the other, in the Python that has the wheel.
 
     PYTHON python/tests/run.py
 
@@ -14,17 +14,17 @@ import unittest
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
-PAGE = HERE.parents[1] / "docs/wheel.md"
+PAGES = [HERE.parents[1] / "docs" / name for name in ("wheel.md", "derivatives.md")]
 
 
-def run_page():
+def run_page(page):
     """How many blocks ran to their end, and how many did not. They share their names, as cells of a notebook do."""
-    text, names, passed, failed = PAGE.read_text(encoding="utf-8"), {"__name__": "page"}, 0, 0
+    text, names, passed, failed = page.read_text(encoding="utf-8"), {"__name__": "page"}, 0, 0
     with tempfile.TemporaryDirectory() as folder:
         os.chdir(folder)
         # Not those that run elsewhere, after a comment that says where.
         for found in re.finditer(r"(?<! -->\n)^```python\n(.*?)^```", text, re.M | re.S):
-            place = f"{PAGE.name}:{text.count(chr(10), 0, found.start()) + 1}"
+            place = f"{page.name}:{text.count(chr(10), 0, found.start()) + 1}"
             try:
                 exec(compile(found[1], place, "exec"), names)
                 passed += 1
@@ -41,7 +41,8 @@ def main():
     result = unittest.TextTestRunner(verbosity=1).run(suite)
     failed = len(result.failures) + len(result.errors)
     passed = result.testsRun - failed - len(result.skipped)
-    of_page = run_page()
+    pages = [run_page(page) for page in PAGES]
+    of_page = [sum(counts) for counts in zip(*pages)]
     print(f"{passed + of_page[0]} passed, {failed + of_page[1]} failed")
     sys.exit(1 if failed or of_page[1] else 0)
 

@@ -1,8 +1,10 @@
 //! Which library was loaded, and whether its structs are those that the caller was compiled with.
 
+use super::derivative::{pp_contact_weights, pp_derivatives, pp_pose_gradient, pp_shape_gradient};
 use super::flat::pp_flat_contact;
 use super::packing::{pp_packing, pp_placement};
 use super::patch::{pp_patch, pp_patch_point, pp_patch_state};
+use super::patch_derivatives::pp_patch_derivatives;
 use super::planar::{pp_area_properties, pp_closest_2d, pp_contact_2d, pp_patch_2d, pp_patch_point_2d, pp_pose_2d};
 use super::rock::{
     pp_block, pp_block_face, pp_face_partners, pp_joint, pp_joint_set, pp_rock_summary, pp_slice_settings,
@@ -73,6 +75,16 @@ pub const PP_STRUCT_BLOCK: u32 = 26;
 pub const PP_STRUCT_BLOCK_FACE: u32 = 27;
 /// struct pp_face_partners, for pp_struct_size.
 pub const PP_STRUCT_FACE_PARTNERS: u32 = 28;
+/// struct pp_derivatives, for pp_struct_size.
+pub const PP_STRUCT_DERIVATIVES: u32 = 29;
+/// struct pp_contact_weights, for pp_struct_size.
+pub const PP_STRUCT_CONTACT_WEIGHTS: u32 = 30;
+/// struct pp_shape_gradient, for pp_struct_size.
+pub const PP_STRUCT_SHAPE_GRADIENT: u32 = 31;
+/// struct pp_pose_gradient, for pp_struct_size.
+pub const PP_STRUCT_POSE_GRADIENT: u32 = 32;
+/// struct pp_patch_derivatives, for pp_struct_size.
+pub const PP_STRUCT_PATCH_DERIVATIVES: u32 = 33;
 
 /// Version of the loaded library as "major.minor.patch". Static text: do not free it.
 #[unsafe(no_mangle)]
@@ -120,6 +132,11 @@ pub extern "C" fn pp_struct_size(which: u32) -> usize {
         PP_STRUCT_BLOCK => size_of::<pp_block>(),
         PP_STRUCT_BLOCK_FACE => size_of::<pp_block_face>(),
         PP_STRUCT_FACE_PARTNERS => size_of::<pp_face_partners>(),
+        PP_STRUCT_DERIVATIVES => size_of::<pp_derivatives>(),
+        PP_STRUCT_CONTACT_WEIGHTS => size_of::<pp_contact_weights>(),
+        PP_STRUCT_SHAPE_GRADIENT => size_of::<pp_shape_gradient>(),
+        PP_STRUCT_POSE_GRADIENT => size_of::<pp_pose_gradient>(),
+        PP_STRUCT_PATCH_DERIVATIVES => size_of::<pp_patch_derivatives>(),
         _ => 0,
     }
 }

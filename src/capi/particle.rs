@@ -52,6 +52,28 @@ pub unsafe extern "C" fn pp_particle_new(
     unsafe { create(make, "planes and out must not be NULL", out, message, message_size) }
 }
 
+/// The same shape factor times as large: d, r and R multiplied by it.
+///
+/// out: receives the new particle; release it with pp_particle_free.
+/// message: receives, on failure, a sentence that names the value (may be NULL).
+/// Errors: PP_NULL_POINTER, and those of pp_particle_new for what the factor makes of r, R and d.
+/// Pointers: out points to one pointer, message to message_size bytes.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn pp_particle_scaled(
+    particle: *const pp_particle,
+    factor: f64,
+    out: *mut *mut pp_particle,
+    message: *mut c_char,
+    message_size: usize,
+) -> pp_status {
+    let make = || {
+        let particle = &unsafe { borrow(particle) }?.0;
+        Ok(particle.scaled(factor).map(pp_particle))
+    };
+    // SAFETY: out and message are the caller's, as promised.
+    unsafe { create(make, "particle and out must not be NULL", out, message, message_size) }
+}
+
 /// Releases a particle; NULL is allowed and does nothing. No call that uses it may still be running;
 /// states of its pairs may stay.
 /// Pointers: particle is NULL or came from pp_particle_new and was not released yet.

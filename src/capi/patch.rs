@@ -161,17 +161,8 @@ pub unsafe extern "C" fn pp_patch_of_contact(
     fenced(|| {
         let (a, b) = unsafe { (&borrow(a)?.0, &borrow(b)?.0) };
         let (pose_a, pose_b) = unsafe { (pose_from(borrow(pose_a)?)?, pose_from(borrow(pose_b)?)?) };
-        let contact = unsafe { borrow(contact) }?;
+        let contact = contact_for_patch(unsafe { borrow(contact) }?)?;
         let settings = settings(tolerance, with_energy)?;
-        let contact = Contact {
-            kind: kind(contact.kind)?,
-            s: contact.s,
-            overlap: contact.overlap,
-            normal: contact.normal.into(),
-            branch_a: contact.branch_a.into(),
-            branch_b: contact.branch_b.into(),
-            ..Contact::UNKNOWN
-        };
         let out = unsafe { output(patch) }?;
         let state = unsafe { state_of(state, capacity) };
         let run = |scratch: &mut PatchScratch, visit: &mut dyn FnMut(PatchPoint)| match state {
@@ -333,7 +324,20 @@ fn patch_to(patch: &Patch) -> pp_patch {
     }
 }
 
-fn flat(contact: &pp_flat_contact) -> Result<FlatContact, pp_status> {
+/// What the patch of a contact is computed from.
+pub(super) fn contact_for_patch(contact: &pp_contact) -> Result<Contact, pp_status> {
+    Ok(Contact {
+        kind: kind(contact.kind)?,
+        s: contact.s,
+        overlap: contact.overlap,
+        normal: contact.normal.into(),
+        branch_a: contact.branch_a.into(),
+        branch_b: contact.branch_b.into(),
+        ..Contact::UNKNOWN
+    })
+}
+
+pub(super) fn flat(contact: &pp_flat_contact) -> Result<FlatContact, pp_status> {
     Ok(FlatContact::for_patch(
         kind(contact.kind)?,
         contact.s,

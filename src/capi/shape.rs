@@ -105,6 +105,29 @@ pub unsafe extern "C" fn pp_particle_corners(
     })
 }
 
+/// Upper bound of how far the particle reaches along a direction (3 doubles, local frame, any length): of
+/// e . x over all its points, e = direction / |direction|, by the corners of pp_particle_corners.
+///
+/// Errors: PP_NULL_POINTER, PP_BAD_POINT.
+/// Pointers: direction points to 3 doubles.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn pp_particle_support(
+    particle: *const pp_particle,
+    direction: *const f64,
+    support: *mut f64,
+) -> pp_status {
+    fenced(|| {
+        let particle = &unsafe { borrow(particle) }?.0;
+        let direction = finite(unsafe { borrow(direction.cast::<[f64; 3]>()) }?)?;
+        let support = unsafe { output(support) }?;
+        // Scaled first, so that the squares stay in range.
+        let scaled = direction / direction.amax();
+        let unit = scaled.try_normalize(0.5).filter(|e| e.norm_squared().is_finite()).ok_or(PP_BAD_POINT)?;
+        support.write(particle.support(&unit));
+        Ok(())
+    })
+}
+
 /// Distance from the centre to the surface along a direction (3 doubles, local frame, any length).
 ///
 /// The surface point is distance * direction / |direction|, local frame: for meshes and pictures.

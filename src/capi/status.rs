@@ -39,6 +39,8 @@ pub const PP_BAD_INDEX: pp_status = 12;
 pub const PP_DEGENERATE_TRIANGLE: pp_status = 13;
 /// The tolerance of a mesh is outside its documented range.
 pub const PP_BAD_TOLERANCE: pp_status = 14;
+/// The contact has no derivative: gradients or curvatures vanish there, as in the core of both bodies.
+pub const PP_NO_DERIVATIVE: pp_status = 15;
 
 /// A plane holds a coefficient that is not finite.
 pub const PP_PLANE_NOT_FINITE: pp_status = 20;
@@ -90,6 +92,7 @@ const MESSAGES: &[(pp_status, &CStr)] = &[
         PP_BAD_TOLERANCE,
         c"the tolerance of a mesh must lie in [1e-5, 1]: the distance to the surface over the bounding radius",
     ),
+    (PP_NO_DERIVATIVE, c"the contact has no derivative: the gradients, or the curvature across the normal, vanish at its point"),
     (PP_PLANE_NOT_FINITE, c"a plane coefficient is not finite"),
     (
         PP_PLANE_ZERO_NORMAL,

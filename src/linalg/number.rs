@@ -56,9 +56,13 @@ pub trait Number:
 }
 
 /// A single number, of which an approximation decides where the search goes next.
-pub trait Single: Number {
+pub trait Single: Number + Default {
     /// The nearest double.
     fn approximate(self) -> f64;
+    /// √x of a number that is not negative.
+    fn root(self) -> Self;
+    /// `exact` where that has more digits than a double.
+    fn refined(double: f64, exact: impl FnOnce() -> Self) -> Self;
 }
 
 impl Number for f64 {
@@ -99,6 +103,16 @@ impl Single for f64 {
     #[inline(always)]
     fn approximate(self) -> f64 {
         self
+    }
+
+    #[inline(always)]
+    fn root(self) -> Self {
+        self.sqrt()
+    }
+
+    #[inline(always)]
+    fn refined(double: f64, _: impl FnOnce() -> Self) -> Self {
+        double
     }
 }
 
@@ -167,6 +181,14 @@ impl Number for DoubleDouble {
 impl Single for DoubleDouble {
     fn approximate(self) -> f64 {
         self.rounded()
+    }
+
+    fn root(self) -> Self {
+        self.sqrt()
+    }
+
+    fn refined(_: f64, exact: impl FnOnce() -> Self) -> Self {
+        exact()
     }
 }
 

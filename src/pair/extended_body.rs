@@ -13,6 +13,7 @@ use crate::linalg::wide::{Wide, difference, rounded, wide};
 use crate::pair::body::Body;
 use crate::pair::boundary_part::WideFrame;
 use crate::pair::pair::{Given, Pair};
+use crate::particle::particle::Particle;
 use crate::pose::{Pose, Turn};
 use nalgebra::{Matrix3, Vector3};
 
@@ -165,7 +166,7 @@ impl<'a> ExtendedBody<'a> {
 
     fn new(body: &'a Body<'a>, axes: [Wide; 3], (centre, lengths): (Wide, f64), x: &Vector3<f64>) -> Self {
         let particle = body.particle;
-        let (r, k, shadow) = (particle.rounding_radius(), particle.sphericity(), particle.shadow_radius());
+        let (plane_weight, sphere_weight) = weights(particle);
         let from_centre = wide(x) - centre;
         let local = Vector3::from([0, 1, 2].map(|i| axes[i].dot(&from_centre)));
         Self {
@@ -175,12 +176,8 @@ impl<'a> ExtendedBody<'a> {
             local,
             planes: Vec::new(),
             reach: 0.0,
-            plane_weight: if k == 1.0 { of(0.0) } else { DoubleDouble::sum(1.0, -k) / DoubleDouble::product(r, r) },
-            sphere_weight: if body.is_plain() && body.sphere_weight() > 0.0 {
-                of(k) / DoubleDouble::product(shadow, shadow)
-            } else {
-                of(body.sphere_weight())
-            },
+            plane_weight,
+            sphere_weight: if body.is_plain() { sphere_weight } else { of(body.sphere_weight()) },
             lengths: x.norm() + 2.0 * larger(rounded(&centre).norm(), lengths),
         }
     }
@@ -406,8 +403,16 @@ impl<'a> ExtendedBody<'a> {
 /// How much farther planes are gathered than they are needed.
 const GATHERED_AHEAD: f64 = 2.0;
 
+/// (1−k)/r² and k/R² of a particle; 0 where the particle has 0.
+pub(crate) fn weights(particle: &Particle) -> (DoubleDouble, DoubleDouble) {
+    let (r, k, shadow) = (particle.rounding_radius(), particle.sphericity(), particle.shadow_radius());
+    let quotient = |of: DoubleDouble, by: f64| of / DoubleDouble::product(by, by);
+    let plane = if particle.plane_weight > 0.0 { quotient(DoubleDouble::sum(1.0, -k), r) } else { of(0.0) };
+    (plane, if particle.sphere_weight > 0.0 { quotient(of(k), shadow) } else { of(0.0) })
+}
+
 /// The axes of a body in the world, from its rotation as given.
-fn axes(pose: &Pose) -> [Wide; 3] {
+pub(crate) fn axes(pose: &Pose) -> [Wide; 3] {
     match pose.turn() {
         Turn::Quaternion(quaternion) => axes_of(quaternion),
         Turn::Angle(angle) => {

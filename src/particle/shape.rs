@@ -123,6 +123,11 @@ impl Shape {
         planes
     }
 
+    /// The index among the given planes of that at this place.
+    pub(crate) fn given_index(&self, place: usize) -> usize {
+        self.order[place]
+    }
+
     /// Whether S has no plane term: planes count only for k < 1.
     pub(crate) fn is_sphere(&self) -> bool {
         self.plane_weight == 0.0 || self.rows.is_empty()

@@ -29,8 +29,13 @@ static void sizes_are_those_of_the_library(void) {
     CHECK(pp_struct_size(PP_STRUCT_BLOCK) == sizeof(pp_block));
     CHECK(pp_struct_size(PP_STRUCT_BLOCK_FACE) == sizeof(pp_block_face));
     CHECK(pp_struct_size(PP_STRUCT_FACE_PARTNERS) == sizeof(pp_face_partners));
+    CHECK(pp_struct_size(PP_STRUCT_DERIVATIVES) == sizeof(pp_derivatives));
+    CHECK(pp_struct_size(PP_STRUCT_CONTACT_WEIGHTS) == sizeof(pp_contact_weights));
+    CHECK(pp_struct_size(PP_STRUCT_SHAPE_GRADIENT) == sizeof(pp_shape_gradient));
+    CHECK(pp_struct_size(PP_STRUCT_POSE_GRADIENT) == sizeof(pp_pose_gradient));
+    CHECK(pp_struct_size(PP_STRUCT_PATCH_DERIVATIVES) == sizeof(pp_patch_derivatives));
     /* 3, 10 and 11 were structs of an older interface. */
-    const uint32_t unknown[] = {0, 3, 10, 11, 29, UINT32_MAX};
+    const uint32_t unknown[] = {0, 3, 10, 11, 34, UINT32_MAX};
     for (int i = 0; i < 6; i++) CHECK(pp_struct_size(unknown[i]) == 0);
 }
 
@@ -103,6 +108,28 @@ void test_layout(void) {
     CHECK(offsetof(pp_flat_contact, branch) == 104);
     CHECK(offsetof(pp_flat_contact, on_boundary) == 128);
     CHECK(offsetof(pp_flat_contact, on_particle) == 152);
+
+    CHECK(sizeof(pp_derivatives) == 8 + 8 * 12 * 15);
+    CHECK(offsetof(pp_derivatives, flags) == 0);
+    CHECK(offsetof(pp_derivatives, s) == 8);
+    CHECK(offsetof(pp_derivatives, s_b) == 104);
+    CHECK(offsetof(pp_derivatives, overlap) == 200);
+    CHECK(offsetof(pp_derivatives, normal) == 296);
+    CHECK(offsetof(pp_derivatives, point) == 584);
+    CHECK(offsetof(pp_derivatives, point_on_a) == 872);
+    CHECK(offsetof(pp_derivatives, point_on_b) == 1160);
+
+    CHECK(sizeof(pp_contact_weights) == 120);
+    CHECK(offsetof(pp_contact_weights, overlap) == 16);
+    CHECK(offsetof(pp_contact_weights, normal) == 24);
+    CHECK(offsetof(pp_contact_weights, point) == 48);
+    CHECK(offsetof(pp_contact_weights, point_on_a) == 72);
+    CHECK(offsetof(pp_contact_weights, point_on_b) == 96);
+    CHECK(sizeof(pp_pose_gradient) == 48);
+    CHECK(offsetof(pp_pose_gradient, turn) == 24);
+    CHECK(sizeof(pp_patch_derivatives) == 8 * 12 * 9);
+    CHECK(offsetof(pp_patch_derivatives, torque_on_a) == 288);
+    CHECK(offsetof(pp_patch_derivatives, torque_on_b) == 576);
 
     CHECK(sizeof(pp_patch) == 280);
     CHECK(offsetof(pp_patch, flags) == 0);

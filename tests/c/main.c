@@ -41,6 +41,7 @@ int main(int count, char **arguments) {
     test_planar_closest();
     test_packing();
     test_patch();
+    test_derivatives();
     test_rock();
     return check_report();
 }

@@ -198,6 +198,31 @@ static void corners_hold_the_particle(void) {
     pp_particle_free(cube);
 }
 
+/* A cube reaches to its faces and, at most, to its sharp corners; twice as large it reaches twice as far. */
+static void support_bounds_and_scales(void) {
+    const double core = 1.0, r = 0.1, face[3] = {0, 0, 5}, corner[3] = {1, 1, 1}, none[3] = {0, 0, 0};
+    pp_particle *cube = new_cube(core, r, 0.0, 1.0), *large = NULL;
+    double reach, of_large, k;
+    CHECK_STATUS(pp_particle_support(cube, face, &reach), PP_OK);
+    CHECK(reach >= core + r && reach < (core + r) * (1 + 3e-5));
+    CHECK_STATUS(pp_particle_support(cube, corner, &reach), PP_OK);
+    CHECK(reach >= (sqrt(3.0) * core + r) && reach < sqrt(3.0) * (core + r) * (1 + 3e-5));
+    char message[PP_MESSAGE_SIZE];
+    CHECK_STATUS(pp_particle_scaled(cube, 2.0, &large, message, sizeof message), PP_OK);
+    CHECK_STATUS(pp_particle_support(large, corner, &of_large), PP_OK);
+    CHECK_NEAR(of_large, 2 * reach, 1e-12);
+    CHECK_STATUS(pp_particle_rounding_radius(large, &k), PP_OK);
+    CHECK(k == 2 * r);
+    pp_particle_free(large);
+    large = NULL;
+    CHECK_STATUS(pp_particle_scaled(cube, -1.0, &large, message, sizeof message), PP_BAD_ROUNDING_RADIUS);
+    CHECK(large == NULL && strlen(message) > 10);
+    CHECK_STATUS(pp_particle_scaled(NULL, 2.0, &large, message, sizeof message), PP_NULL_POINTER);
+    CHECK_STATUS(pp_particle_support(cube, none, &reach), PP_BAD_POINT);
+    CHECK_STATUS(pp_particle_support(NULL, face, &reach), PP_NULL_POINTER);
+    pp_particle_free(cube);
+}
+
 static void surface_distance_ends_on_the_surface(void) {
     const double core = 1.0, r = 0.25;
     pp_particle *cube = new_cube(core, r, 0.0, 0.0), *round_cube = new_cube(core, r, 0.3, 2.0);
@@ -285,6 +310,7 @@ void test_query(void) {
     bounding_radius_holds_the_particle();
     open_planes_are_told();
     corners_hold_the_particle();
+    support_bounds_and_scales();
     surface_distance_ends_on_the_surface();
     mass_properties_of_sphere_and_padded_cube();
 }

@@ -24,6 +24,7 @@ static const struct {
     {PP_BAD_INDEX, 12},
     {PP_DEGENERATE_TRIANGLE, 13},
     {PP_BAD_TOLERANCE, 14},
+    {PP_NO_DERIVATIVE, 15},
     {PP_PLANE_NOT_FINITE, 20},
     {PP_PLANE_ZERO_NORMAL, 21},
     {PP_BAD_SPHERICITY, 22},
@@ -58,7 +59,7 @@ static void every_code_has_its_own_sentence(void) {
 }
 
 static void other_codes_are_unknown(void) {
-    const pp_status others[] = {-1, 15, 19, 28, 29, 32, 1000, INT32_MAX, INT32_MIN};
+    const pp_status others[] = {-1, 16, 19, 28, 29, 32, 1000, INT32_MAX, INT32_MIN};
     for (size_t i = 0; i < sizeof others / sizeof others[0]; i++) {
         CHECK_TEXT(pp_status_message(others[i]), unknown);
     }

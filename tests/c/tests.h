@@ -26,6 +26,7 @@ void test_planar_batch(void);
 void test_planar_closest(void);
 void test_packing(void);
 void test_patch(void);
+void test_derivatives(void);
 void test_rock(void);
 
 #endif

@@ -6,7 +6,8 @@
 
 Python blocks of a page run one after the other in one YADE, C blocks are compiled and run, cmake blocks build an example against an
 installation in a folder of its own. Of a shell block each "make" must be a target and each script must be there. Rust blocks are
-doctests of the library; here it is checked that their page is one. Python blocks of docs/wheel.md run in the tests of the wheel. Other languages, and blocks that name none, fail.
+doctests of the library; here it is checked that their page is one. Python blocks of docs/wheel.md and docs/derivatives.md run in the tests
+of the wheel. Other languages, and blocks that name none, fail.
 """
 import os
 import subprocess
@@ -21,7 +22,7 @@ TARGET = Path(os.environ.get("CARGO_TARGET_DIR", TOP / "target")).resolve()
 RELEASE = TARGET / "release"
 SECONDS = 600
 # Its Python blocks run where there is no YADE: python/tests/run.py.
-WHEEL = Path("docs/wheel.md")
+WHEEL = [Path("docs/wheel.md"), Path("docs/derivatives.md")]
 # In YADE, and past its exit, which waits for threads that a block may have started. Names are those of scripts: global.
 PAGE = """import os, sys, traceback
 for _place, _source in %r:
@@ -115,7 +116,7 @@ def main():
     passed = failed = 0
     for page in pages:
         found = blocks(page)
-        of_wheel = page == WHEEL
+        of_wheel = page in WHEEL
         scripts = [block for block in found if block.language == "python" and not block.tested_by and not of_wheel]
         results = {}
         if scripts:

@@ -1,0 +1,371 @@
+//! Derivatives of contacts in poses and shapes.
+
+use super::convert::{detect_status, pose_from, settings_from, settings_status};
+use super::fence::{Output, array_mut, borrow, fenced, output};
+use super::flat::{boundary_status, pp_flat_contact};
+use super::particle::pp_particle;
+use super::status::*;
+use super::types::*;
+use crate::boundary::{Feature, FlatContact, Triangle};
+use crate::contact::contact::{Contact, Kind};
+use crate::particle::particle::{Particle, Plane};
+use crate::{
+    ContactDerivatives, ContactWeights, DerivativeError, DerivativeFlags, Formulation, PoseGradient, PoseRow, PoseRows,
+    ShapeGradient, boundary_derivatives, boundary_gradient, contact_derivatives, contact_gradient,
+};
+use nalgebra::Vector3;
+
+/// A plane may be about to switch: whether it is active at the contact point cannot be told. The derivatives
+/// are those for the side on which it is off; that of s is the same on both.
+pub const PP_DERIVATIVE_SWITCHING: u32 = 1;
+/// Faces or edges (k = 0, or nearly) leave a direction across the normal free: in it the point moves as the
+/// regularisation says (flat_regularisation), by up to its inverse.
+pub const PP_DERIVATIVE_FREE: u32 = 2;
+/// The contact is separated: overlap and surface points have no derivatives, and are NaN.
+pub const PP_DERIVATIVE_SEPARATED: u32 = 4;
+/// Fewer than four digits may be right: depths of planes are of the size of their rounding.
+pub const PP_DERIVATIVE_IMPRECISE: u32 = 8;
+
+/// Derivatives of a contact in the poses of A and B, as of struct pp_contact. Columns of each row: a shift of
+/// A along x, y, z and a turn of A about its position and x, y, z (world axes, radians), then the same of B.
+/// What is NaN in the contact is NaN here.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct pp_derivatives {
+    /// Sum of PP_DERIVATIVE_... bits.
+    pub flags: u32,
+    /// Always 0.
+    pub reserved: u32,
+    /// Of s.
+    pub s: [f64; 12],
+    /// Of s_b; NaN for midway.
+    pub s_b: [f64; 12],
+    /// Of overlap; NaN when separated.
+    pub overlap: [f64; 12],
+    /// Of normal, a row for each of x, y, z.
+    pub normal: [[f64; 12]; 3],
+    /// Of point.
+    pub point: [[f64; 12]; 3],
+    /// Of point_on_a (of a boundary: on_particle); NaN when separated.
+    pub point_on_a: [[f64; 12]; 3],
+    /// Of point_on_b (of a boundary: on_boundary); of a pair NaN when separated.
+    pub point_on_b: [[f64; 12]; 3],
+}
+
+/// Derivatives of a cost in the numbers of a contact. Those in what is NaN in the contact must be 0.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct pp_contact_weights {
+    /// In s.
+    pub s: f64,
+    /// In s_b.
+    pub s_b: f64,
+    /// In overlap.
+    pub overlap: f64,
+    /// In normal.
+    pub normal: [f64; 3],
+    /// In point.
+    pub point: [f64; 3],
+    /// In point_on_a (of a boundary: on_particle).
+    pub point_on_a: [f64; 3],
+    /// In point_on_b (of a boundary: on_boundary).
+    pub point_on_b: [f64; 3],
+}
+
+/// Derivatives of a cost in the shape of a particle, to which calls add: set numbers and planes to 0 to begin
+/// with.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct pp_shape_gradient {
+    /// Four numbers for each plane of the particle, in a, b, c and d; the caller's memory.
+    pub planes: *mut f64,
+    /// How many planes there is room for: those of the particle.
+    pub count: usize,
+    /// In the rounding radius r.
+    pub r: f64,
+    /// In the sphericity k; at k = 0 and 1 towards the inside of its range.
+    pub k: f64,
+    /// In the radius R of the shadow sphere.
+    pub shadow_radius: f64,
+}
+
+/// Derivatives of a cost in the pose of a body.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct pp_pose_gradient {
+    /// In a shift, world axes.
+    pub shift: [f64; 3],
+    /// In a turn about its position, world axes, per radian.
+    pub turn: [f64; 3],
+}
+
+/// The derivatives of a contact in the poses of both bodies, at the contact, which is not solved again.
+///
+/// settings: may be NULL (defaults). contact: the answer of pp_contact_detect for the same bodies, poses and
+/// settings.
+/// Errors: PP_NULL_POINTER, PP_BAD_POSITION, PP_BAD_ORIENTATION, PP_BAD_POINT (the contact was not filled, or
+/// was rejected without a point), PP_NO_DERIVATIVE, PP_UNKNOWN_FORMULATION, PP_UNKNOWN_BACK_END,
+/// PP_BAD_SETTING, PP_SOLVER_FAILED.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn pp_contact_derivatives(
+    a: *const pp_particle,
+    pose_a: *const pp_pose,
+    b: *const pp_particle,
+    pose_b: *const pp_pose,
+    settings: *const pp_settings,
+    contact: *const pp_contact,
+    out: *mut pp_derivatives,
+) -> pp_status {
+    fenced(|| {
+        let (a, b) = unsafe { (&borrow(a)?.0, &borrow(b)?.0) };
+        let (pose_a, pose_b) = unsafe { (pose_from(borrow(pose_a)?)?, pose_from(borrow(pose_b)?)?) };
+        let settings = settings_from(unsafe { settings.as_ref() })?;
+        let contact = contact_from(unsafe { borrow(contact) }?)?;
+        let out = unsafe { output(out) }?;
+        let found = contact_derivatives(a, &pose_a, b, &pose_b, &contact, &settings).map_err(status_of)?;
+        out.write(derivatives_to(&found));
+        Ok(())
+    })
+}
+
+/// The derivatives of a cost in poses and shapes of both bodies, from its derivatives in the numbers of their
+/// contact (reverse mode). The work is linear in the number of active planes.
+///
+/// settings, contact: as of pp_contact_derivatives. shape_a, shape_b: may be NULL; else added to. poses:
+/// receives those of A and B. flags: receives PP_DERIVATIVE_... bits.
+/// Pointers: planes of a gradient holds 4 * count numbers; poses has room for 2. The two gradients are not
+/// the same.
+/// Errors: those of pp_contact_derivatives, and PP_BAD_INDEX (count).
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn pp_contact_gradient(
+    a: *const pp_particle,
+    pose_a: *const pp_pose,
+    b: *const pp_particle,
+    pose_b: *const pp_pose,
+    settings: *const pp_settings,
+    contact: *const pp_contact,
+    weights: *const pp_contact_weights,
+    shape_a: *mut pp_shape_gradient,
+    shape_b: *mut pp_shape_gradient,
+    poses: *mut pp_pose_gradient,
+    flags: *mut u32,
+) -> pp_status {
+    fenced(|| {
+        let (a, b) = unsafe { (&borrow(a)?.0, &borrow(b)?.0) };
+        let (pose_a, pose_b) = unsafe { (pose_from(borrow(pose_a)?)?, pose_from(borrow(pose_b)?)?) };
+        let settings = settings_from(unsafe { settings.as_ref() })?;
+        let contact = contact_from(unsafe { borrow(contact) }?)?;
+        let weights = weights_from(unsafe { borrow(weights) }?)?;
+        let (poses, flags) = unsafe { (output(poses.cast::<[pp_pose_gradient; 2]>())?, output(flags)?) };
+        let mut shapes = [unsafe { Shape::of(shape_a, a) }?, unsafe { Shape::of(shape_b, b) }?];
+        let [of_a, of_b] = &mut shapes;
+        let (of_a, of_b) = (of_a.as_mut().map(|s| &mut s.sum), of_b.as_mut().map(|s| &mut s.sum));
+        let found = contact_gradient(a, &pose_a, b, &pose_b, &contact, &settings, &weights, of_a, of_b);
+        write(found, shapes, &poses, &flags)
+    })
+}
+
+/// The derivatives of a contact with a plane or a triangle in the poses of the particle and of the boundary,
+/// which stands in place of B and turns about the position of A, too.
+///
+/// vertices: NULL for a plane; else as for pp_contact_triangle. contact: the answer of pp_contact_plane or
+/// pp_contact_triangle for the same body, pose and settings.
+/// Pointers: vertices holds 9 numbers.
+/// Errors: those of pp_contact_derivatives, and PP_DEGENERATE_TRIANGLE.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn pp_flat_contact_derivatives(
+    a: *const pp_particle,
+    pose_a: *const pp_pose,
+    vertices: *const f64,
+    settings: *const pp_settings,
+    contact: *const pp_flat_contact,
+    out: *mut pp_derivatives,
+) -> pp_status {
+    fenced(|| {
+        let (a, pose) = unsafe { (&borrow(a)?.0, pose_from(borrow(pose_a)?)?) };
+        let triangle = unsafe { triangle_from(vertices) }?;
+        let settings = settings_from(unsafe { settings.as_ref() })?;
+        let contact = flat_contact_from(unsafe { borrow(contact) }?)?;
+        let out = unsafe { output(out) }?;
+        let found = boundary_derivatives(a, &pose, triangle.as_ref(), &contact, &settings).map_err(status_of)?;
+        out.write(derivatives_to(&found));
+        Ok(())
+    })
+}
+
+/// The derivatives of a cost in the pose and the shape of a particle, and in the pose of the plane or
+/// triangle that it touches, from its derivatives in the numbers of the contact.
+///
+/// vertices, contact and the pose of the boundary: as of pp_flat_contact_derivatives; the rest as of
+/// pp_contact_gradient.
+/// Pointers: vertices holds 9 numbers; planes of the gradient 4 * count; poses has room for 2.
+/// Errors: those of pp_contact_gradient, and PP_DEGENERATE_TRIANGLE.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn pp_flat_contact_gradient(
+    a: *const pp_particle,
+    pose_a: *const pp_pose,
+    vertices: *const f64,
+    settings: *const pp_settings,
+    contact: *const pp_flat_contact,
+    weights: *const pp_contact_weights,
+    shape: *mut pp_shape_gradient,
+    poses: *mut pp_pose_gradient,
+    flags: *mut u32,
+) -> pp_status {
+    fenced(|| {
+        let (a, pose) = unsafe { (&borrow(a)?.0, pose_from(borrow(pose_a)?)?) };
+        let triangle = unsafe { triangle_from(vertices) }?;
+        let settings = settings_from(unsafe { settings.as_ref() })?;
+        let contact = flat_contact_from(unsafe { borrow(contact) }?)?;
+        let weights = weights_from(unsafe { borrow(weights) }?)?;
+        let (poses, flags) = unsafe { (output(poses.cast::<[pp_pose_gradient; 2]>())?, output(flags)?) };
+        let mut gradient = unsafe { Shape::of(shape, a) }?;
+        let sum = gradient.as_mut().map(|s| &mut s.sum);
+        let found = boundary_gradient(a, &pose, triangle.as_ref(), &contact, &settings, &weights, sum);
+        write(found, [gradient, None], &poses, &flags)
+    })
+}
+
+/// A gradient of the caller, and what is to be added to it.
+struct Shape<'a> {
+    given: &'a mut pp_shape_gradient,
+    planes: &'a mut [[f64; 4]],
+    sum: ShapeGradient,
+}
+
+impl<'a> Shape<'a> {
+    /// # Safety
+    /// `given` is NULL or exclusively ours for the call, as its planes are.
+    unsafe fn of(given: *mut pp_shape_gradient, particle: &Particle) -> Result<Option<Self>, pp_status> {
+        let Some(given) = (unsafe { given.as_mut() }) else { return Ok(None) };
+        if given.count != particle.plane_count() {
+            return Err(PP_BAD_INDEX);
+        }
+        let planes = unsafe { array_mut(given.planes.cast::<[f64; 4]>(), given.count) }?;
+        Ok(Some(Self { given, planes, sum: ShapeGradient::zeros(particle) }))
+    }
+
+    fn add(self) {
+        for (to, Plane { normal, offset }) in self.planes.iter_mut().zip(&self.sum.planes) {
+            for (to, add) in to.iter_mut().zip([normal.x, normal.y, normal.z, *offset]) {
+                *to += add;
+            }
+        }
+        self.given.r += self.sum.r;
+        self.given.k += self.sum.k;
+        self.given.shadow_radius += self.sum.shadow_radius;
+    }
+}
+
+fn write(
+    found: Result<([PoseGradient; 2], DerivativeFlags), DerivativeError>,
+    shapes: [Option<Shape>; 2],
+    poses: &Output<[pp_pose_gradient; 2]>,
+    flags: &Output<u32>,
+) -> Result<(), pp_status> {
+    let (gradients, found) = found.map_err(status_of)?;
+    shapes.into_iter().flatten().for_each(Shape::add);
+    poses.write(gradients.map(|g| pp_pose_gradient { shift: g.shift.into(), turn: g.turn.into() }));
+    flags.write(found.bits());
+    Ok(())
+}
+
+fn status_of(error: DerivativeError) -> pp_status {
+    match error {
+        DerivativeError::Settings(error) => settings_status(&error),
+        DerivativeError::NoPoint | DerivativeError::NoTriangle => PP_BAD_POINT,
+        DerivativeError::NoGradient | DerivativeError::NoCurvature => PP_NO_DERIVATIVE,
+        DerivativeError::Detect(error) => detect_status(&error),
+        DerivativeError::Planes { .. } => PP_BAD_INDEX,
+    }
+}
+
+fn kind_from(kind: i32) -> Result<Kind, pp_status> {
+    match kind {
+        PP_OVERLAPPING => Ok(Kind::Overlapping),
+        PP_SEPARATED => Ok(Kind::Separated),
+        _ => Err(PP_BAD_POINT),
+    }
+}
+
+fn contact_from(contact: &pp_contact) -> Result<Contact, pp_status> {
+    let formulation = match contact.formulation {
+        PP_MIDWAY => Formulation::Midway,
+        PP_CLOSEST => Formulation::Closest,
+        _ => return Err(PP_UNKNOWN_FORMULATION),
+    };
+    Ok(Contact {
+        kind: kind_from(contact.kind)?,
+        formulation,
+        flags: crate::Flags::from_bits(contact.flags),
+        s: contact.s,
+        s_b: contact.s_b,
+        gap: contact.gap,
+        point_bound: contact.point_bound,
+        overlap: contact.overlap,
+        normal: contact.normal.into(),
+        point: contact.point.into(),
+        branch_a: contact.branch_a.into(),
+        branch_b: contact.branch_b.into(),
+        point_on_a: contact.point_on_a.into(),
+        point_on_b: contact.point_on_b.into(),
+        ..Contact::UNKNOWN
+    })
+}
+
+fn flat_contact_from(contact: &pp_flat_contact) -> Result<FlatContact, pp_status> {
+    use super::flat::{PP_ON_EDGE, PP_ON_INTERIOR, PP_ON_VERTEX};
+    let feature = match contact.feature {
+        PP_ON_INTERIOR => Feature::Interior,
+        edge if (PP_ON_EDGE..PP_ON_EDGE + 3).contains(&edge) => Feature::Edge((edge - PP_ON_EDGE) as u8),
+        vertex if (PP_ON_VERTEX..PP_ON_VERTEX + 3).contains(&vertex) => Feature::Vertex((vertex - PP_ON_VERTEX) as u8),
+        _ => return Err(PP_BAD_POINT),
+    };
+    let kind = kind_from(contact.kind)?;
+    let (normal, on_boundary) = (contact.normal.into(), contact.on_boundary.into());
+    Ok(FlatContact {
+        feature,
+        flags: crate::Flags::from_bits(contact.flags),
+        point_bound: contact.point_bound,
+        point: contact.point.into(),
+        branch: contact.branch.into(),
+        on_particle: contact.on_particle.into(),
+        ..FlatContact::for_patch(kind, contact.s, contact.overlap, normal, on_boundary)
+    })
+}
+
+/// # Safety
+/// `vertices` is NULL or points to 9 numbers.
+pub(super) unsafe fn triangle_from(vertices: *const f64) -> Result<Option<Triangle>, pp_status> {
+    if vertices.is_null() {
+        return Ok(None);
+    }
+    let [x0, y0, z0, x1, y1, z1, x2, y2, z2] = *unsafe { borrow(vertices.cast::<[f64; 9]>()) }?;
+    Triangle::new([[x0, y0, z0], [x1, y1, z1], [x2, y2, z2]]).map(Some).map_err(boundary_status)
+}
+
+fn weights_from(weights: &pp_contact_weights) -> Result<ContactWeights, pp_status> {
+    let pp_contact_weights { s, s_b, overlap, normal, point, point_on_a, point_on_b } = *weights;
+    let vectors = [normal, point, point_on_a, point_on_b];
+    if ![s, s_b, overlap].iter().chain(vectors.iter().flatten()).all(|v| v.is_finite()) {
+        return Err(PP_BAD_SETTING);
+    }
+    let [normal, point, point_on_a, point_on_b] = vectors.map(Vector3::from);
+    Ok(ContactWeights { s, s_b, overlap, normal, point, point_on_a, point_on_b })
+}
+
+fn derivatives_to(found: &ContactDerivatives) -> pp_derivatives {
+    let row = |row: &PoseRow| std::array::from_fn(|column| row[column]);
+    let rows = |rows: &PoseRows| std::array::from_fn(|i| std::array::from_fn(|column| rows[(i, column)]));
+    pp_derivatives {
+        flags: found.flags.bits(),
+        reserved: 0,
+        s: row(&found.s),
+        s_b: row(&found.s_b),
+        overlap: row(&found.overlap),
+        normal: rows(&found.normal),
+        point: rows(&found.point),
+        point_on_a: rows(&found.point_on_a),
+        point_on_b: rows(&found.point_on_b),
+    }
+}

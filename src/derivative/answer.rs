@@ -1,0 +1,171 @@
+//! What is given and what is asked for.
+
+use crate::contact::detect::DetectError;
+use crate::particle::particle::{Particle, Plane};
+use crate::settings::SettingsError;
+use nalgebra::{RowSVector, SMatrix, Vector3};
+use std::fmt;
+use thiserror::Error;
+
+/// The derivative of a number in both poses: [`PoseRows`] has the order of the columns.
+pub type PoseRow = RowSVector<f64, 12>;
+
+/// The derivative of a vector, world axes, in both poses. Columns: a shift of A along x, y, z and a turn of A about its position (of
+/// a boundary: see [`crate::boundary_derivatives`]) and x, y, z, world axes, radians; then the same of B.
+pub type PoseRows = SMatrix<f64, 3, 12>;
+
+/// The derivatives of a contact in the poses of both bodies. What is NaN in the contact is NaN here.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct ContactDerivatives {
+    /// Of s, 1/length and no unit.
+    pub s: PoseRow,
+    /// Of s_b; NaN for midway.
+    pub s_b: PoseRow,
+    /// Of the overlap; NaN when separated.
+    pub overlap: PoseRow,
+    /// Of the normal.
+    pub normal: PoseRows,
+    /// Of the point, world frame.
+    pub point: PoseRows,
+    /// Of the point on the surface of A; NaN when separated.
+    pub point_on_a: PoseRows,
+    /// Of the point on the surface of B, NaN when separated; of a boundary that of the point on it.
+    pub point_on_b: PoseRows,
+    /// What else is to be known.
+    pub flags: DerivativeFlags,
+}
+
+/// Weights on the numbers of a contact: the derivative of a cost in them. Zero by default; weights on what is NaN in the contact
+/// must be 0.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct ContactWeights {
+    /// On s.
+    pub s: f64,
+    /// On s_b.
+    pub s_b: f64,
+    /// On the overlap.
+    pub overlap: f64,
+    /// On the normal.
+    pub normal: Vector3<f64>,
+    /// On the point.
+    pub point: Vector3<f64>,
+    /// On the point on the surface of A.
+    pub point_on_a: Vector3<f64>,
+    /// On the point on the surface of B.
+    pub point_on_b: Vector3<f64>,
+}
+
+/// The derivative of a cost in the pose of a body.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct PoseGradient {
+    /// In a shift, world axes.
+    pub shift: Vector3<f64>,
+    /// In a turn about its position, world axes, per radian.
+    pub turn: Vector3<f64>,
+}
+
+/// The derivative of a cost in the shape of a body; sums over many contacts add up in it.
+///
+/// At the ends of the range of k its derivative is that towards the inside: at k = 0 towards a sphere of the given R (without one,
+/// where R is not positive, only the planes count), at k = 1 towards the given planes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ShapeGradient {
+    /// In the normal and the offset of each plane, in the order in which they were given.
+    pub planes: Vec<Plane>,
+    /// In the rounding radius r.
+    pub r: f64,
+    /// In the sphericity k.
+    pub k: f64,
+    /// In the radius R of the shadow sphere.
+    pub shadow_radius: f64,
+}
+
+impl ShapeGradient {
+    /// Zeros for the planes of a particle.
+    pub fn zeros(particle: &Particle) -> Self {
+        let plane = Plane { normal: Vector3::zeros(), offset: 0.0 };
+        Self { planes: vec![plane; particle.plane_count()], r: 0.0, k: 0.0, shadow_radius: 0.0 }
+    }
+}
+
+/// What else is to be known about derivatives; a set of bits.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct DerivativeFlags(u32);
+
+impl DerivativeFlags {
+    /// A plane may be about to switch: whether it is active at the contact point, or at a surface point, cannot be told within the bound on
+    /// the place of the point. The derivatives are those for the side on which it is off; that of s is the same on both.
+    pub const SWITCHING: Self = Self(1);
+    /// Faces or edges (k = 0, or nearly) leave a direction across the normal free: in it the point, and with it all but s and the overlap,
+    /// moves as the regularisation says ([`crate::Settings::flat_regularisation`]), by up to its inverse, and only for motions of about
+    /// its size. Raise it for derivatives of practical use.
+    pub const FREE: Self = Self(2);
+    /// The contact is separated: overlap and surface points have no derivatives, and are NaN here as they are there.
+    pub const SEPARATED: Self = Self(4);
+    /// Fewer than four digits may be right: depths of active planes are of the size of their rounding (at a boundary, by bodies whose r is 1e-11 of
+    /// their size), or planes switch even in 32 digits.
+    pub const IMPRECISE: Self = Self(8);
+
+    const NAMES: [(Self, &'static str); 4] = [
+        (Self::SWITCHING, "switching"),
+        (Self::FREE, "free"),
+        (Self::SEPARATED, "separated"),
+        (Self::IMPRECISE, "imprecise"),
+    ];
+
+    /// The bits, as in the C interface.
+    pub const fn bits(self) -> u32 {
+        self.0
+    }
+
+    /// Whether all bits of `other` are set.
+    pub const fn contains(self, other: Self) -> bool {
+        self.0 & other.0 == other.0
+    }
+
+    pub(super) fn set(&mut self, other: Self, on: bool) {
+        self.0 |= if on { other.0 } else { 0 };
+    }
+}
+
+/// The names of the flags that are set, with commas between them; "none" where none is.
+impl fmt::Display for DerivativeFlags {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        let mut names = Self::NAMES.iter().filter(|(flag, _)| self.contains(*flag)).map(|(_, name)| *name);
+        f.write_str(names.next().unwrap_or("none"))?;
+        names.try_for_each(|name| write!(f, ", {name}"))
+    }
+}
+
+/// Why a contact has no derivatives.
+#[derive(Clone, Debug, Error)]
+#[non_exhaustive]
+pub enum DerivativeError {
+    /// A setting is out of range.
+    #[error(transparent)]
+    Settings(#[from] SettingsError),
+    /// The pair was rejected without a contact point.
+    #[error("the contact has no point: separation was proved without one; detect it with solve_separated")]
+    NoPoint,
+    /// Both gradients vanish, as in the core of both bodies or where centres coincide.
+    #[error("the gradients of the potentials vanish at the contact point: there no normal is right, and no derivative")]
+    NoGradient,
+    /// The curvature across the normal vanishes in spite of the regularisation, or leaves the range of numbers.
+    #[error("the curvature of the potentials across the normal vanishes or is not finite")]
+    NoCurvature,
+    /// A contact with an edge was given without its triangle.
+    #[error("the contact is with an edge of a triangle, whose direction is not known: give the triangle")]
+    NoTriangle,
+    /// Closest points of a separated pair, which the contact does not hold, could not be found again.
+    #[error(transparent)]
+    Detect(#[from] DetectError),
+    /// Gradients of a shape with another number of planes.
+    #[error("the gradient has {given} planes where the particle has {expected}")]
+    Planes {
+        /// In the gradient.
+        given: usize,
+        /// Of the particle.
+        expected: usize,
+    },
+}

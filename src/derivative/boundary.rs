@@ -1,0 +1,116 @@
+//! The entries for planes and triangles.
+
+use super::answer::{
+    ContactDerivatives, ContactWeights, DerivativeError, DerivativeFlags, PoseGradient, ShapeGradient,
+};
+use super::contact::{Gradient, Linearised, is_finite, least_sphericity};
+use super::field::Place;
+use super::midway::AlongNormal;
+use super::optimum::{Kind as Problem, Optimum};
+use super::surface::SurfacePoint;
+use crate::boundary::{Feature, FlatContact, Triangle};
+use crate::contact::contact::Kind;
+use crate::flags::Flags;
+use crate::particle::particle::Particle;
+use crate::pose::Pose;
+use crate::settings::Settings;
+
+/// The derivatives of a contact with a plane (no triangle) or a triangle, in the poses of the particle A and of the boundary.
+///
+/// `contact` is the answer of [`crate::contact_with_plane`] or [`crate::contact_with_triangle`]. As in a contact of two particles, with the boundary
+/// in place of B: `point_on_a` is `on_particle`, `point_on_b` is `on_boundary`. The boundary turns about the position of A, too, as it
+/// has none of its own: about another place o, add the derivatives in its shift times (position of A − o) × of the turn.
+///
+/// ```
+/// use potential_particles::{Particle, Pose, Settings, Wall, boundary_derivatives, contact_with_plane};
+/// let (ball, pose) = (Particle::sphere(1.0)?, Pose::at([3.0, 4.0, 0.75])?);
+/// let floor = Wall::new([0.0, 0.0, 0.0], [0.0, 0.0, 1.0])?;
+/// let contact = contact_with_plane(&ball, &pose, &floor, &Settings::default(), None)?;
+/// let derivatives = boundary_derivatives(&ball, &pose, None, &contact, &Settings::default())?;
+/// // Raising the ball opens the contact, and raising the floor closes it.
+/// assert!((derivatives.overlap[2] + 1.0).abs() < 1e-14 && (derivatives.overlap[8] - 1.0).abs() < 1e-14);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// Those of [`crate::contact_derivatives`].
+pub fn boundary_derivatives(
+    a: &Particle,
+    pose: &Pose,
+    triangle: Option<&Triangle>,
+    contact: &FlatContact,
+    settings: &Settings,
+) -> Result<ContactDerivatives, DerivativeError> {
+    let mut derivatives = linearised(a, pose, triangle, contact, settings)?.in_poses();
+    derivatives.flags.set(DerivativeFlags::SEPARATED, contact.kind == Kind::Separated);
+    Ok(derivatives)
+}
+
+/// The derivative of a cost in the pose and shape of A, and in the pose of the boundary, from its derivatives in the numbers of a contact.
+///
+/// With the boundary in place of B, otherwise as [`crate::contact_gradient`]; poses as of [`boundary_derivatives`].
+///
+/// # Errors
+/// Those of [`crate::contact_gradient`].
+pub fn boundary_gradient(
+    a: &Particle,
+    pose: &Pose,
+    triangle: Option<&Triangle>,
+    contact: &FlatContact,
+    settings: &Settings,
+    weights: &ContactWeights,
+    shape: Option<&mut ShapeGradient>,
+) -> Result<([PoseGradient; 2], DerivativeFlags), DerivativeError> {
+    let mut sum = Gradient { poses: Default::default(), shapes: [shape, None] };
+    sum.check([a, a])?;
+    let linearised = linearised(a, pose, triangle, contact, settings)?;
+    let mut flags = linearised.add_to(&mut sum, weights);
+    flags.set(DerivativeFlags::SEPARATED, contact.kind == Kind::Separated);
+    // Where both move alike, points and normal go with them.
+    let mut both =
+        PoseGradient { shift: weights.point + weights.point_on_b, turn: contact.normal.cross(&weights.normal) };
+    both.turn +=
+        contact.branch.cross(&weights.point) + (contact.on_boundary - pose.position()).cross(&weights.point_on_b);
+    if contact.kind == Kind::Overlapping {
+        both.shift += weights.point_on_a;
+        both.turn += (contact.on_particle - pose.position()).cross(&weights.point_on_a);
+    }
+    let [of_a, _] = sum.poses;
+    Ok(([of_a, PoseGradient { shift: both.shift - of_a.shift, turn: both.turn - of_a.turn }], flags))
+}
+
+fn linearised<'a>(
+    a: &'a Particle,
+    pose: &'a Pose,
+    triangle: Option<&Triangle>,
+    contact: &FlatContact,
+    settings: &Settings,
+) -> Result<AlongNormal<'a>, DerivativeError> {
+    settings.validate()?;
+    let is_overlap = contact.kind == Kind::Overlapping;
+    let surface = !is_overlap || contact.overlap.is_finite() && is_finite(&contact.on_particle);
+    let on_boundary = is_finite(&contact.branch) && is_finite(&contact.on_boundary) && is_finite(&contact.normal);
+    if !(contact.s > 0.0 && contact.s.is_finite() && surface && on_boundary) {
+        return Err(DerivativeError::NoPoint);
+    }
+    if contact.flags.contains(Flags::NORMAL_BY_BOUNDARY) {
+        return Err(DerivativeError::NoGradient);
+    }
+    let to_optimum = if is_overlap { contact.branch - 0.5 * contact.overlap * contact.normal } else { contact.branch };
+    let least = least_sphericity(settings, contact.flags);
+    let place = Place::new((a, pose), to_optimum, [contact.point_bound, 0.0], least);
+    let (dimensions, along) = match (contact.feature, triangle) {
+        (Feature::Interior, _) => (2, None),
+        (Feature::Edge(i), Some(triangle)) => {
+            let [from, to] = [0, 1].map(|j| triangle.vertices()[(usize::from(i) + j) % 3]);
+            (1, Some((to - from).normalize()))
+        }
+        (Feature::Edge(_), None) => return Err(DerivativeError::NoTriangle),
+        (Feature::Vertex(_), _) => (0, None),
+    };
+    let optimum = Optimum::new(Problem::OnBoundary(dimensions), [Some(place), None], &contact.normal, along)?;
+    optimum.check()?;
+    let surfaces =
+        if is_overlap { Some((SurfacePoint::new(&place, &optimum.axes, contact.overlap)?, None)) } else { None };
+    Ok(AlongNormal { optimum, s: contact.s, surfaces })
+}

@@ -1,0 +1,308 @@
+//! A potential at a point, and its derivatives in the pose and the shape of its body: in doubles, or in numbers of 32 digits.
+
+use super::answer::ShapeGradient;
+use crate::linalg::double_double::DoubleDouble;
+use crate::linalg::number::{Single, smaller};
+use crate::linalg::symmetric::Symmetric;
+use crate::linalg::wide::Wide;
+use crate::pair::body::shift_in_a;
+use crate::pair::extended_body;
+use crate::particle::particle::Particle;
+use crate::particle::plane::Plane;
+use crate::pose::Pose;
+use nalgebra::{Matrix3, Vector3};
+
+/// A body and a point, seen from its centre.
+#[derive(Clone, Copy)]
+pub(super) struct Place<'a, N: Single = f64> {
+    pub particle: &'a Particle,
+    /// Local to world.
+    rotation: Matrix3<N>,
+    /// From the centre to the point, world axes.
+    pub branch: Vector3<N>,
+    /// Bound on the distance of the point to the optimum, and on what it has lost to rounding, lengths.
+    error: f64,
+    rounding: f64,
+    /// Planes whose depth is within so much of 0 are active if they are listed: a stiff plane carries its share with a depth below the
+    /// rounding of the point. 0 where the sign of the depth decides.
+    blur: f64,
+    listed: Listed,
+    plane_weight: N,
+    /// Weight of the shadow sphere that the solver used.
+    pub sphere_weight: N,
+}
+
+/// Places of planes, of which there are few.
+#[derive(Clone, Copy, Default)]
+struct Listed {
+    places: [u16; MOST_LISTED],
+    count: u8,
+}
+
+const MOST_LISTED: usize = 8;
+
+impl Listed {
+    fn contains(&self, place: usize) -> bool {
+        self.places[..usize::from(self.count)].contains(&(place as u16))
+    }
+
+    fn add(&mut self, place: usize) {
+        if let Some(slot) = self.places.get_mut(usize::from(self.count)) {
+            // Places fit: a particle has no more planes than `MAX_PLANES`.
+            *slot = place as u16;
+            self.count += 1;
+        }
+    }
+
+    fn remove(&mut self, place: usize) {
+        let kept = *self;
+        *self = Self::default();
+        kept.places[..usize::from(kept.count)]
+            .iter()
+            .filter(|p| usize::from(**p) != place)
+            .for_each(|p| self.add((*p).into()));
+    }
+}
+
+/// (Regularised) S about a point, in given axes.
+#[derive(Clone, Copy)]
+pub(super) struct Field<N> {
+    pub value: N,
+    pub gradient: Vector3<N>,
+    pub hessian: Symmetric<N>,
+    /// Whether no plane is within the doubt about the point of being switched.
+    pub clear: bool,
+    /// Bound on the relative rounding of the depths by which the gradient is made; infinite where the sign of one cannot be told.
+    pub lost: f64,
+    /// Whether the particle's own potential has a slope, and not that of the regularisation alone.
+    pub sloped: bool,
+}
+
+/// The sphericity below which a particle counts as so round, as a weight of its sphere.
+fn regularised(particle: &Particle, least_sphericity: f64) -> f64 {
+    least_sphericity / particle.bounding_radius().powi(2)
+}
+
+impl<'a> Place<'a> {
+    /// A point that is known to within `error`, and in which lengths of `from` were rounded.
+    #[inline(always)]
+    pub fn new(
+        (particle, pose): (&'a Particle, &'a Pose),
+        branch: Vector3<f64>,
+        [error, from]: [f64; 2],
+        least_sphericity: f64,
+    ) -> Self {
+        Self {
+            particle,
+            rotation: *pose.rotation(),
+            branch,
+            error,
+            rounding: f64::EPSILON * (branch.norm() + from),
+            blur: 0.0,
+            listed: Listed::default(),
+            plane_weight: particle.plane_weight,
+            sphere_weight: particle.sphere_weight.max(regularised(particle, least_sphericity)),
+        }
+    }
+}
+
+impl<'a> Place<'a, DoubleDouble> {
+    /// The same with the digits of the pose and the weights as they were given.
+    pub fn precise((particle, pose): (&'a Particle, &'a Pose), branch: Wide, least_sphericity: f64) -> Self {
+        let (plane_weight, own) = extended_body::weights(particle);
+        let least = regularised(particle, least_sphericity);
+        let mut place = Self {
+            particle,
+            rotation: Matrix3::from_columns(&extended_body::axes(pose)),
+            branch,
+            error: 0.0,
+            rounding: 0.0,
+            blur: 0.0,
+            listed: Listed::default(),
+            plane_weight,
+            sphere_weight: if particle.sphere_weight >= least { own } else { DoubleDouble::from(least) },
+        };
+        place.blur = rounding_in_doubles(particle, branch.map(DoubleDouble::rounded).norm());
+        let mut listed = Listed::default();
+        place.visit_near(&place.local(), |plane, _, depth| {
+            if depth.rounded().abs() <= place.blur {
+                listed.add(plane);
+            }
+        });
+        Self { listed, ..place }
+    }
+
+    /// Takes the listed plane of the most negative depth, which pulls, off the list; whether there was one.
+    pub fn drop_a_pulling_plane(&mut self) -> bool {
+        let mut worst = (0.0, 0);
+        self.visit_near(&self.local(), |plane, _, depth| {
+            if self.listed.contains(plane) && depth.rounded().abs() <= self.blur && depth.rounded() < worst.0 {
+                worst = (depth.rounded(), plane);
+            }
+        });
+        if worst.0 < 0.0 {
+            self.listed.remove(worst.1);
+        }
+        worst.0 < 0.0
+    }
+}
+
+#[inline(always)]
+pub(super) fn dot3<N: Single>(a: &Vector3<N>, b: &Vector3<N>) -> N {
+    a.x * b.x + a.y * b.y + a.z * b.z
+}
+
+#[inline(always)]
+pub(super) fn times<N: Single>(m: &Matrix3<N>, v: &Vector3<N>) -> Vector3<N> {
+    let row = |i: usize| m[(i, 0)] * v.x + m[(i, 1)] * v.y + m[(i, 2)] * v.z;
+    Vector3::new(row(0), row(1), row(2))
+}
+
+/// Bound on the rounding of the depth of a plane at this distance from the centre, in doubles.
+fn rounding_in_doubles(particle: &Particle, length: f64) -> f64 {
+    let bounds = &particle.bounds;
+    bounds.longest_normal * shift_in_a(length, length) + f64::EPSILON * bounds.offset_within(length)
+}
+
+impl<'a, N: Single> Place<'a, N> {
+    /// With the planes as the signs of their depths say.
+    pub fn by_sign(self) -> Self {
+        Self { blur: 0.0, ..self }
+    }
+
+    /// The same body and another point, so far from this one.
+    pub fn moved(&self, way: &Vector3<N>) -> Self {
+        Self { branch: self.branch + way, ..*self }
+    }
+
+    /// The point in the local frame.
+    #[inline(always)]
+    fn local(&self) -> Vector3<N> {
+        let component = |i: usize| dot3(&self.rotation.column(i).into_owned(), &self.branch);
+        Vector3::new(component(0), component(1), component(2))
+    }
+
+    /// Calls `visit` with place, normal and depth of each plane that may be active. Returns an upper bound on the depths of all others.
+    #[inline(always)]
+    fn visit_near(&self, y: &Vector3<N>, mut visit: impl FnMut(usize, Vector3<N>, N)) -> f64 {
+        let (near, shape) = (y.map(N::approximate), self.particle);
+        let doubles = N::UNIT >= 0.5 * f64::EPSILON;
+        let early = if doubles { 0.0 } else { 2.0 * rounding_in_doubles(shape, near.norm()) };
+        shape.visit_near(&near, early, |place, n, excess| {
+            let normal = n.map(N::of);
+            visit(place, normal, N::refined(excess, || normal.dot(y) - N::of(shape.offset(place))));
+        })
+    }
+
+    /// The same with the active planes alone. Returns the least |depth| of any plane that is not listed.
+    #[inline(always)]
+    fn visit_active(&self, y: &Vector3<N>, mut visit: impl FnMut(usize, Vector3<N>, N)) -> f64 {
+        let mut least = f64::INFINITY;
+        let others = self.visit_near(y, |place, normal, depth| {
+            let approximate = depth.approximate();
+            let is_active =
+                if approximate.abs() > self.blur { depth.is_positive() } else { self.listed.contains(place) };
+            least = smaller(approximate.abs(), least);
+            if is_active {
+                visit(place, normal, depth);
+            }
+        });
+        smaller(least, -others)
+    }
+
+    /// S about the point in the axes that are the columns of a matrix, world axes.
+    #[inline(always)]
+    pub fn field(&self, axes: &Matrix3<N>) -> Field<N> {
+        // Written out: products of generic matrices are no loops that compilers unroll.
+        let turn = Matrix3::from_fn(|i, j| dot3(&axes.column(i).into_owned(), &self.rotation.column(j).into_owned()));
+        let y = self.local();
+        let (mut square, mut pull, mut count) = (N::of(0.0), N::of(0.0), 0.0);
+        let mut g = Vector3::zeros();
+        let mut squares = Symmetric::default();
+        let clear = self.visit_active(&y, |_, n, depth| {
+            let n = times(&turn, &n);
+            square += depth * depth;
+            pull += depth;
+            count += 1.0;
+            g += n * depth;
+            squares.add_square(&n);
+        });
+        let (w, m) = (self.plane_weight, self.sphere_weight);
+        let two = N::of(2.0);
+        let mut hessian = squares.weighted(two * w, &Symmetric::default(), N::of(0.0));
+        for entry in [&mut hessian.xx, &mut hessian.yy, &mut hessian.zz] {
+            *entry += two * m;
+        }
+        let bounds = &self.particle.bounds;
+        let length = self.branch.map(N::approximate).norm();
+        let is_told = clear > N::UNIT / f64::EPSILON * 2.0 * rounding_in_doubles(self.particle, length);
+        let lost = count * bounds.longest_normal * self.rounding / pull.approximate();
+        Field {
+            value: w * square + m * self.branch.dot(&self.branch),
+            gradient: g * (two * w) + times(&turn, &y) * (two * m),
+            hessian,
+            clear: is_told && clear > bounds.longest_normal * self.error,
+            lost: match count {
+                _ if !is_told => f64::INFINITY,
+                0.0 => 0.0,
+                _ => lost,
+            },
+            sloped: count > 0.0 || self.particle.sphere_weight > 0.0,
+        }
+    }
+
+    /// S and ∇S at the point, world axes, of the particle itself.
+    #[inline(always)]
+    pub fn tangent(&self) -> (N, Vector3<N>) {
+        let y = self.local();
+        let (mut square, mut g) = (N::of(0.0), Vector3::zeros());
+        self.visit_active(&y, |_, n, depth| {
+            square += depth * depth;
+            g += n * depth;
+        });
+        let own = self.particle.sphere_weight;
+        // The sphere of a regularised particle is its own to a double, which is enough of it.
+        let m = if self.sphere_weight.approximate() > own { N::of(own) } else { self.sphere_weight };
+        let w = self.plane_weight;
+        (w * square + m * dot3(&y, &y), times(&self.rotation, &((g * w + y * m) * N::of(2.0))))
+    }
+
+    /// Adds the derivative of σ·S + Γ·∇S at the point, Γ in world axes, in the shape.
+    pub fn add_to_shape(&self, sigma: N, gamma: &Vector3<N>, sum: &mut ShapeGradient) {
+        let shape = self.particle;
+        let (y, gamma) = (self.local(), self.rotation.tr_mul(gamma));
+        let w2 = N::of(2.0) * self.plane_weight;
+        let mut of_weight = N::of(0.0);
+        let mut add = |place: usize, n: Vector3<N>, depth: N| {
+            let turned = gamma.dot(&n);
+            let pull = sigma * depth + turned;
+            let Plane { normal, offset } = &mut sum.planes[shape.given_index(place)];
+            *normal += ((y * pull + gamma * depth) * w2).map(N::approximate);
+            *offset -= (w2 * pull).approximate();
+            of_weight += depth * (pull + turned);
+        };
+        let (r, k, shadow) = (shape.rounding_radius(), shape.sphericity(), shape.shadow_radius());
+        if shape.plane_weight > 0.0 {
+            self.visit_active(&y, &mut add);
+        } else if r > 0.0 {
+            // At k = 1 the planes come on with the first step below it.
+            for place in 0..shape.len() {
+                let n = shape.normal(place).map(N::of);
+                let depth = n.dot(&y) - N::of(shape.offset(place));
+                if depth.is_positive() {
+                    add(place, n, depth);
+                }
+            }
+        }
+        let of_weight = of_weight.approximate();
+        let of_sphere = (sigma * y.dot(&y) + N::of(2.0) * gamma.dot(&y)).approximate();
+        if r > 0.0 {
+            sum.r -= w2.approximate() / r * of_weight;
+            sum.k -= of_weight / (r * r);
+        }
+        if shadow > 0.0 {
+            sum.k += of_sphere / (shadow * shadow);
+            sum.shadow_radius -= 2.0 * k / shadow.powi(3) * of_sphere;
+        }
+    }
+}
