@@ -179,8 +179,8 @@ fn slice(
     most_blocks: usize,
 ) -> PyResult<PyRockMass> {
     let domain = planes(domain)?;
-    let joints: Vec<Joint> = joints.iter().map(|joint| joint.0).collect();
-    let settings = SliceSettings { least_volume, most_blocks };
+    let joints: Vec<Joint> = joints.iter().map(|joint| joint.0.clone()).collect();
+    let settings = SliceSettings { least_volume, most_blocks, ..SliceSettings::default() };
     let mass = py.detach(|| potential_particles::rock::slice(&domain, &joints, &settings)).map_err(refused)?;
     Ok(PyRockMass(Arc::new(mass)))
 }

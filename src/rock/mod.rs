@@ -5,9 +5,11 @@
 //! | file | holds |
 //! |---|---|
 //! | `error` | why a rock mass cannot be cut |
-//! | `joint` | a plane or a disc in the rock, by dip and dip direction |
+//! | `joint` | a plane, a disc or a polygon in the rock, by dip and dip direction |
 //! | `joint_set` | joints of one orientation and spacing, with their scatter |
 //! | `block` | what is cut out, with the joint or the side of the domain that each face comes from |
+//! | `in_order` | work on several threads |
+//! | `cutting` | what joints make of one part of the domain |
 //! | `slicing` | the cuts |
 //! | `partners` | which faces lie on each other |
 //!
@@ -28,7 +30,9 @@
 //! ```
 
 mod block;
+mod cutting;
 mod error;
+mod in_order;
 mod joint;
 mod joint_set;
 mod partners;
