@@ -23,7 +23,7 @@ ROUNDING = 1e-6
 EDGES = 0.05
 
 # What a script may give and YADE computes.
-_COMPUTED = ("AabbMinMax", "minAabb", "maxAabb", "minAabbRotated", "maxAabbRotated", "k", "volume", "inertia", "position", "orientation", "vertices", "connectivity")
+_COMPUTED = ("AabbMinMax", "minAabb", "maxAabb", "minAabbRotated", "maxAabbRotated", "k", "volume", "inertia", "position", "orientation", "vertices", "connectivity", "fixedNormal")
 # Attributes that blocks carry and no functor here reads.
 _CARRIED = {"erase": False, "intactRock": [], "phi_b": [], "phi_r": [], "cohesion": [], "tension": [], "jointType": []}
 _LININGS = ("isLining", "isBolt")
@@ -34,7 +34,8 @@ class PotentialBlock(ConicPotentialParticle):
     """A convex block of the planes a, b, c, d, whose faces lie at d + r; keyword arguments as in YADE.
 
     r: length, above 0; d + r is the distance of a face. Edges are rounded by a twentieth of the thickness, and `r` and `d` are then those of that block, with the
-    same faces. Volume and inertia are those of the sharp block. R: 0 for half of the distance of the farthest corners. k and the boxes (AabbMinMax, minAabb, ...) are computed. A plane whose normal points inwards is turned; one that makes no
+    same faces. Volume and inertia are those of the sharp block. R: 0 for half of the distance of the farthest corners. k and the boxes (AabbMinMax, minAabb, ...) are computed, and so are
+    normals: fixedNormal is accepted and stays False. A plane whose normal points inwards is turned; one that makes no
     face is left out. ValueError for planes that enclose no volume, and for linings and bolts.
     After O.load a block is a ConicPotentialParticle, which knows no position and orientation.
     """
