@@ -50,7 +50,7 @@ def wall(tilt):
         for x in zip(ends, ends[1:]):
             corners = [(a, y, z) for a in x for y in (-thick / 2, thick / 2) for z in (course * rise, (course + 1) * rise)]
             O.bodies.append(potential_particles.body(shapes.from_vertices(corners, r=0.005, k=0), color=np.array(STONE) * rng.uniform(0.85, 1.1)))
-    return run(0.6)
+    return run(0.5)
 
 
 def dome(thickness):
@@ -66,12 +66,12 @@ def dome(thickness):
                        for r in radius * np.array([1 - thickness / 2, 1 + thickness / 2]) for t in angles for u in turns]
             O.bodies.append(potential_particles.body(shapes.from_vertices(corners, r=0.05 * radius * thickness, k=0), fixed=ring == 0, mask=3 if ring == 0 else 1,
                                                      color=np.array(STONE) * rng.uniform(0.85, 1.1)))
-    return run(0.5)
+    return run(0.3)
 
 
 found = {}
 turns_over = np.degrees(np.arctan2(0.4, 1.2))
-for name, tilt in (("level", 0.0), ("below", 0.85 * turns_over), ("beyond", 1.1 * turns_over)):
+for name, tilt in (("level", 0.0), ("below", 0.7 * turns_over), ("beyond", 1.1 * turns_over)):
     found[f"wall_{name}"] = {"tilt_degrees": tilt, "turns_over_at_degrees": turns_over, "largest_way_mm": 1e3 * wall(tilt), "steps": O.iter}
     print(name, found[f"wall_{name}"])
     potential_particles.plot(os.path.join(OUT, f"wall_{name}.png"), towards=(0.45, 0.85, 0.28), size=(900, 560))

@@ -103,13 +103,16 @@ pub fn slice_with_regions(
         let round = mass.joints..(mass.joints + round(joints.len(), parts.len(), settings)).min(joints.len());
         let families = mapped(settings.threads, &mut parts, |part| descent(part, &cuts, round.clone()));
         let mut births: Vec<Vec<(usize, usize, Birth)>> = round.clone().map(|_| Vec::new()).collect();
-        // The place of each member of a family among all: that of its first is known.
-        let mut places: Vec<Vec<usize>> = (0..families.len()).map(|place| vec![place]).collect();
-        for (family, one) in families.into_iter().enumerate() {
-            mass.too_small += one.too_small;
-            mass.unclosed += one.unclosed;
-            for (number, birth) in one.births.into_iter().enumerate() {
-                births[birth.joint - round.start].push((family, number, birth));
+        // Of each family that has grown, the places of its members among all parts: that of the first is known.
+        let mut places: Vec<Vec<usize>> = Vec::new();
+        for (place, family) in families.into_iter().enumerate() {
+            mass.too_small += family.too_small;
+            mass.unclosed += family.unclosed;
+            if !family.births.is_empty() {
+                for (number, birth) in family.births.into_iter().enumerate() {
+                    births[birth.joint - round.start].push((places.len(), number, birth));
+                }
+                places.push(vec![place]);
             }
         }
         // A joint goes through the blocks in their order and puts what it cuts off behind the last one.

@@ -64,6 +64,25 @@ for corners, text in (([(0, 0, 0), (1, 0, 0)], "three or more"), ([(0, 0, 0), (1
 check.equal(len(rock.slice(cube, [rock.joint((0, 0, 0.9), 0, 0)], least_width=0.11, progress=False)), 1, "least_width")
 check.equal(len(rock.slice(cube, [rock.joint((0, 0, 0.9), 0, 0)], largest_aspect=19, progress=False)), 1, "largest_aspect")
 check.equal(len(rock.slice(cube, [rock.joint((0, 0, 0.9), 0, 0)], least_width=0.09, largest_aspect=21, progress=False)), 2, "and neither")
+# Joints as surfaces: one block is lifted by a millimetre, shifted by two across its base, and turned about the normal there.
+start()
+two = rock.slice(cube, [rock.joint((0, 0, 0), 0, 0)], progress=False)
+ids = rock.bodies(two, r=0.01)
+upper = O.bodies[int(ids[int(two[1].centroid[2] > 0)])]
+upper.state.pos += Vector3(0.002, 0, 0.001)
+upper.state.ori = Quaternion((0, 0, 1), 0.3) * upper.state.ori
+table = rock.joint_table(two, ids)
+check.equal((len(table), int(table["joint"][0]), int(table["set"][0])), (1, 0, 0), "one joint")
+check.close(table["opening"][0], 0.001, 1e-12, "its opening")
+check.close(table["slip"][0], 0.002, 1e-12, "its slip")
+check.close(table["area"][0], 4.0, 1e-12, "its area")
+record = rock.JointRecorder(two, ids, "out/cube")
+record()
+from potential_particles.output import vtk_files
+frame = vtk_files.read(f"out/cube.joints.{O.iter:07d}.vtp")
+check.true(len(frame["triangles"]) == 2 and Path("out/cube.joints.pvd").exists() and abs(frame["opening"][0] - 0.001) < 1e-12, "its surface for ParaView")
+O.bodies.erase(int(ids[0]))
+check.equal(len(rock.joint_table(two, ids)), 0, "a block that is gone")
 # Regions: a tunnel, which is a prism, and what a domain leaves out.
 tunnel = Domain.cylinder((10, -1, 3), (10, 11, 3), 1.5, sides=8)
 section = 8 * 1.5**2 * math.tan(math.pi / 8)
@@ -289,7 +308,7 @@ for seed in range(40):
     if one is None or tried == 20:
         continue
     tried, moving = tried + 1, moving + one.moves
-    distance, direction = slope_cuts.moved(mass, one, friction)
+    distance, direction, _ = slope_cuts.judged(mass, one, friction)
     check.true(slope_cuts.agrees(one, distance, direction), f"seed {seed}: {one.mode}, factor {one.factor:.3f}, moved by {distance:.2e} m along {direction}, not {one.direction}")
 check.true(tried == 20 and 5 <= moving <= 15, f"{tried} cuts, {moving} that move")
 
