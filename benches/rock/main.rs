@@ -50,8 +50,10 @@ fn main() {
         at_most("largest error of the sum of volumes, relative", 1e-12, worst),
         at_most("cuts that left no closed surface", 0.0, unclosed),
     ];
-    let listed: Vec<Value> =
-        rows.iter().map(|row| json!({"blocks": row.blocks, "seconds": row.seconds, "two_threads": row.two, "off": row.off})).collect();
+    let listed: Vec<Value> = rows
+        .iter()
+        .map(|row| json!({"blocks": row.blocks, "seconds": row.seconds, "two_threads": row.two, "off": row.off}))
+        .collect();
     std::fs::create_dir_all("out/rock").expect("out/rock");
     let write =
         |name: &str, value: &Value| std::fs::write(format!("out/rock/{name}"), value.to_string()).expect("out/rock");

@@ -63,7 +63,8 @@ impl<'a> Cuts<'a> {
     /// Whether a joint comes near a part.
     fn comes_near(&self, joint: usize, part: &Part) -> bool {
         let Joint { point, radius, .. } = &self.joints[joint];
-        self.height(self.first + joint, &part.middle).abs() < part.radius && (point - part.middle).norm() <= part.radius + radius
+        self.height(self.first + joint, &part.middle).abs() < part.radius
+            && (point - part.middle).norm() <= part.radius + radius
     }
 
     /// Whether a joint reaches the face that it made of a part.
@@ -121,8 +122,8 @@ pub(super) struct Family {
     pub unclosed: usize,
 }
 
-/// Cuts a part by some joints in their order.
-pub(super) fn descent(part: &mut Part, cuts: &Cuts<'_>, joints: Range<usize>) -> Family {
+/// Cuts a part by some joints in their order; `None` if none of them did, or tried to.
+pub(super) fn descent(part: &mut Part, cuts: &Cuts<'_>, joints: Range<usize>) -> Option<Family> {
     let mut family = Family::default();
     for joint in joints {
         let number = cuts.first + joint;
@@ -147,5 +148,6 @@ pub(super) fn descent(part: &mut Part, cuts: &Cuts<'_>, joints: Range<usize>) ->
             family.births.push(Birth { joint, mother: member, part: Part::of(beyond) });
         }
     }
-    family
+    let is_one = !family.births.is_empty() || family.too_small + family.unclosed > 0;
+    is_one.then_some(family)
 }

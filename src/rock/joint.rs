@@ -190,15 +190,23 @@ mod tests {
     fn outlines_that_are_none_are_told() {
         let square = [[0.0, 0.0, 1.0], [2.0, 0.0, 1.0], [2.0, 1.0, 1.0], [0.0, 1.0, 1.0]];
         let joint = Joint::polygon(&square).unwrap();
-        assert!((joint.normal - Vector3::z()).norm() < 1e-15 && (joint.point - Vector3::new(1.0, 0.5, 1.0)).norm() < 1e-15);
+        assert!(
+            (joint.normal - Vector3::z()).norm() < 1e-15 && (joint.point - Vector3::new(1.0, 0.5, 1.0)).norm() < 1e-15
+        );
         assert!((joint.radius - 1.25f64.sqrt()).abs() < 1e-15);
         let text = |corners: &[[f64; 3]]| Joint::polygon(corners).unwrap_err().to_string();
         assert!(text(&square[..2]).contains("three or more") && text(&[[0.0; 3]; 4]).contains("not on one line"));
         assert!(text(&[[f64::NAN; 3]; 4]).contains("one plane"));
         let [a, b, c, d] = square;
-        assert!(text(&[a, b, c, [0.0, 1.0, 1.1]]).contains("in one plane") && text(&[a, c, b, [0.0, 2.0, 1.0]]).contains("convex"));
-        assert!(text(&[a, b, [1.0, 0.1, 1.0], d]).contains("convex") && Joint::polygon(&[a, b, [1.0, 0.5, 1.0], d]).is_ok());
-        let star: Vec<[f64; 3]> = (0..5).map(|i| (2.0 * TAU * f64::from(i) / 5.0).sin_cos()).map(|(s, c)| [c, s, 0.0]).collect();
+        assert!(
+            text(&[a, b, c, [0.0, 1.0, 1.1]]).contains("in one plane")
+                && text(&[a, c, b, [0.0, 2.0, 1.0]]).contains("convex")
+        );
+        assert!(
+            text(&[a, b, [1.0, 0.1, 1.0], d]).contains("convex") && Joint::polygon(&[a, b, [1.0, 0.5, 1.0], d]).is_ok()
+        );
+        let star: Vec<[f64; 3]> =
+            (0..5).map(|i| (2.0 * TAU * f64::from(i) / 5.0).sin_cos()).map(|(s, c)| [c, s, 0.0]).collect();
         assert!(text(&star).contains("convex"));
     }
 

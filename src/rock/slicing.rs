@@ -5,7 +5,7 @@ use crate::particle::polyhedron::{OF_CUBE, Polyhedron};
 use crate::rock::block::{Block, FaceOf};
 use crate::rock::cutting::{Birth, Cuts, Part, descent};
 use crate::rock::error::{RockError, within};
-use crate::rock::in_order::mapped;
+use crate::rock::in_order::{found, mapped};
 use crate::rock::joint::Joint;
 use nalgebra::Vector3;
 
@@ -101,11 +101,11 @@ pub fn slice_with_regions(
     let mut mass = RockMass { blocks: Vec::new(), missing: Vec::new(), too_small: 0, unclosed: 0, joints: 0 };
     while mass.joints < joints.len() && progress(mass.joints, parts.len()) {
         let round = mass.joints..(mass.joints + round(joints.len(), parts.len(), settings)).min(joints.len());
-        let families = mapped(settings.threads, &mut parts, |part| descent(part, &cuts, round.clone()));
+        let families = found(settings.threads, &mut parts, |part| descent(part, &cuts, round.clone()));
         let mut births: Vec<Vec<(usize, usize, Birth)>> = round.clone().map(|_| Vec::new()).collect();
         // Of each family that has grown, the places of its members among all parts: that of the first is known.
         let mut places: Vec<Vec<usize>> = Vec::new();
-        for (place, family) in families.into_iter().enumerate() {
+        for (place, family) in families {
             mass.too_small += family.too_small;
             mass.unclosed += family.unclosed;
             if !family.births.is_empty() {
@@ -172,13 +172,7 @@ fn round(joints: usize, parts: usize, settings: &SliceSettings) -> usize {
 }
 
 /// A part as what lies in a region, whose planes have the numbers `range`, and what lies beside it.
-fn parted(
-    part: Part,
-    region: usize,
-    range: std::ops::Range<usize>,
-    cuts: &Cuts<'_>,
-    mass: &mut RockMass,
-) -> Vec<Part> {
+fn parted(part: Part, region: usize, range: std::ops::Range<usize>, cuts: &Cuts<'_>, mass: &mut RockMass) -> Vec<Part> {
     let Part { middle, radius, parent, .. } = part;
     if range.clone().any(|number| cuts.height(number, &middle) >= radius) {
         return vec![part];
@@ -433,8 +427,11 @@ mod tests {
         let domain = cuboid([4.0, 1.0, 1.0], [0.0; 3]);
         let rectangle = [[-1.9, -0.4, 0.1], [-0.1, -0.4, 0.1], [-0.1, 0.4, 0.1], [-1.9, 0.4, 0.1]];
         let triangle = [[0.1, 0.6, 0.2], [3.0, 0.6, 0.2], [1.5, 5.0, 0.2]];
-        let joints =
-            [Joint::through([0.0; 3], Vector3::x()), Joint::polygon(&rectangle).unwrap(), Joint::polygon(&triangle).unwrap()];
+        let joints = [
+            Joint::through([0.0; 3], Vector3::x()),
+            Joint::polygon(&rectangle).unwrap(),
+            Joint::polygon(&triangle).unwrap(),
+        ];
         let mass = slice(&domain, &joints, &SliceSettings::default()).unwrap();
         assert_eq!((mass.blocks.len(), mass.missing.clone()), (3, vec![2]));
         let far: Vec<_> = joints.iter().map(|joint| joint.about(&Vector3::new(-3e3, 5e3, 1e3), joint.normal)).collect();
@@ -452,7 +449,10 @@ mod tests {
                 let settings = SliceSettings { least_width, largest_aspect, ..SliceSettings::default() };
                 slice(&domain, &[joint.clone()], &settings).unwrap().blocks.len()
             };
-            assert_eq!([blocks(0.0999, 20.0), blocks(0.1001, 20.0), blocks(0.0, 10.01), blocks(0.0, 9.99)], [2, 1, 2, 1]);
+            assert_eq!(
+                [blocks(0.0999, 20.0), blocks(0.1001, 20.0), blocks(0.0, 10.01), blocks(0.0, 9.99)],
+                [2, 1, 2, 1]
+            );
         }
     }
 
@@ -466,7 +466,8 @@ mod tests {
         let region = cuboid([0.7, 5.0, 0.7], [0.1; 3]);
         let cut = |threads, joints: &[Joint]| {
             let settings = SliceSettings { threads, least_volume: 1e-5, ..SliceSettings::default() };
-            let mass = slice_with_regions(&domain, joints, std::slice::from_ref(&region), &settings, |_, _| true).unwrap();
+            let mass =
+                slice_with_regions(&domain, joints, std::slice::from_ref(&region), &settings, |_, _| true).unwrap();
             assert!(mass.blocks.len() > 1000 && mass.too_small > 0 && mass.missing.contains(&60));
             format!("{mass:?}")
         };
@@ -494,8 +495,7 @@ mod tests {
     #[test]
     fn regions_part_the_blocks_that_they_meet() {
         let domain = cuboid([4.0, 4.0, 4.0], [0.0; 3]);
-        let joint =
-            |axis: usize| Joint::through([0.0; 3], Vector3::ith(axis, 1.0));
+        let joint = |axis: usize| Joint::through([0.0; 3], Vector3::ith(axis, 1.0));
         let tunnel = cuboid([1.0, 9.0, 1.0], [0.3, 0.0, 0.2]);
         let shaft = cuboid([0.5, 0.5, 9.0], [0.3, 0.0, 0.0]);
         let joints = [joint(0), joint(1), joint(2)];
