@@ -823,13 +823,13 @@ typedef struct pp_area_properties {
     double error;
 } pp_area_properties;
 
-// A joint: a plane, or a disc of it.
+// A joint: a plane, or a disc or polygon of it.
 typedef struct pp_joint {
-    // A point of it, length; of a disc its centre.
+    // A point of it, length; of a disc its centre, of a polygon the mean of its corners.
     double point[3];
     // Normal, of any length.
     double normal[3];
-    // Radius of a disc, length; infinite for a joint without end.
+    // Radius of a disc, length; infinite for a joint without end; of a polygon that of a disc that holds it.
     double radius;
 } pp_joint;
 
@@ -861,8 +861,14 @@ typedef struct pp_slice_settings {
     // Or be thinner than this in the mean, 2 V / A of volume and surface, length: a cube has a third of its
     // edge.
     double least_thickness;
+    // Or if the largest ball in it would have a smaller diameter than this.
+    double least_width;
+    // Or if its extent along x, y or z would be more than so many times that diameter; 0: no limit.
+    double largest_aspect;
     // More blocks than this are an error; 0: a million.
     uint64_t most_blocks;
+    // How many threads cut, the calling one among them; 0: one. The blocks are the same for any number.
+    uint64_t threads;
 } pp_slice_settings;
 
 // Is told how many joints have cut and how many blocks there are, before each joint, in the calling
@@ -1674,6 +1680,18 @@ pp_status pp_joint_from_dip(const double *point,
                             char *message,
                             size_t message_size);
 
+// The joint that is a convex polygon, by its corners in their order; pp_rock_new is given the corners again.
+//
+// corners: count rows of x, y, z. out: receives the joint, with a unit normal.
+// message: receives, on failure, a sentence (may be NULL).
+// Errors: PP_NULL_POINTER, PP_BAD_ROCK (corners off one plane, on one line, or not of a convex polygon).
+// Pointers: corners points to 3*count doubles, message to message_size bytes.
+pp_status pp_joint_from_corners(const double *corners,
+                                size_t count,
+                                struct pp_joint *out,
+                                char *message,
+                                size_t message_size);
+
 // The joints of a set within reach of a point, both lengths: those that cross the line through it along
 // the mean normal, of equal spacings one at the point itself; discs that reach into the ball.
 //
@@ -1692,24 +1710,28 @@ pp_status pp_joint_set_joints(const struct pp_joint_set *set,
                               size_t message_size);
 
 // Cuts a convex domain by joints, one after the other: each cuts the blocks that it meets in two, a disc
-// all of a block that it reaches. Regions (a tunnel, a bench, what a domain that is not convex leaves out)
-// then cut the blocks that they meet into what lies in the region and the parts beside it, which keep
-// their parent.
+// or polygon all of a block that it reaches. Regions (a tunnel, a bench, what a domain that is not convex
+// leaves out) then cut the blocks that they meet into what lies in the region and the parts beside it,
+// which keep their parent.
 //
 // planes: plane_count rows of a, b, c, d: the domain is where a x + b y + c z <= d for all of them.
 // joints: joint_count joints; may be NULL when there are none.
+// outline_counts: NULL, or for each joint how many corners it has as a polygon, 0 for a plane or disc;
+// outlines: the corners of all of them, rows of x, y, z in their order.
 // region_planes: the planes of all regions, rows as of the domain; region_counts: how many belong to each
 // of region_count regions.
 // settings: NULL for none. progress: NULL, or see pp_rock_progress.
 // out: receives the rock mass; release it with pp_rock_free.
 // message: receives, on failure, a sentence that names the plane, joint or value (may be NULL).
 // Errors: PP_NULL_POINTER, PP_BAD_ROCK, PP_BAD_INDEX (a count that no memory could hold).
-// Pointers: planes points to 4*plane_count doubles, region_planes to 4 doubles for each of the sum of
-// region_counts, message to message_size bytes.
+// Pointers: planes points to 4*plane_count doubles, outlines to 3 doubles for each of the sum of
+// outline_counts, region_planes to 4 for each of that of region_counts, message to message_size bytes.
 pp_status pp_rock_new(const double *planes,
                       size_t plane_count,
                       const struct pp_joint *joints,
                       size_t joint_count,
+                      const double *outlines,
+                      const size_t *outline_counts,
                       const double *region_planes,
                       const size_t *region_counts,
                       size_t region_count,

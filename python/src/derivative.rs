@@ -11,8 +11,9 @@ use crate::settings::{PySettings, or_default};
 use numpy::{PyArray1, PyArray2};
 use potential_particles::nalgebra::Vector3;
 use potential_particles::{
-    ContactDerivatives, ContactWeights, DerivativeError, DerivativeFlags, PatchDerivatives, PoseGradient, PoseRow, PoseRows,
-    ShapeGradient, boundary_derivatives, boundary_gradient, contact_derivatives, contact_gradient, patch_derivatives,
+    ContactDerivatives, ContactWeights, DerivativeError, DerivativeFlags, PatchDerivatives, PoseGradient, PoseRow,
+    PoseRows, ShapeGradient, boundary_derivatives, boundary_gradient, contact_derivatives, contact_gradient,
+    patch_derivatives,
 };
 use pyo3::prelude::*;
 
@@ -146,7 +147,9 @@ fn weights(numbers: [f64; 3], vectors: [(Option<&Bound<'_, PyAny>>, &str); 4]) -
     }
     let all = numbers.iter().chain(found.iter().flat_map(|v| v.iter()));
     if let Some(wrong) = all.copied().find(|v: &f64| !v.is_finite()) {
-        return Err(refused(format!("a weight is {wrong:?}: weights must be finite, and 0 on what is NaN in the contact")));
+        return Err(refused(format!(
+            "a weight is {wrong:?}: weights must be finite, and 0 on what is NaN in the contact"
+        )));
     }
     let [normal, point, point_on_a, point_on_b] = found;
     Ok(ContactWeights { s, s_b, overlap, normal, point, point_on_a, point_on_b })
@@ -244,8 +247,8 @@ fn gradient_of_boundary(
     let mut shape = ShapeGradient::zeros(&a.0);
     let triangle = triangle.map(|triangle| &triangle.triangle);
     let settings = or_default(settings);
-    let (poses, flags) =
-        boundary_gradient(&a.0, &pose.0, triangle, &contact.0, &settings, &weights, Some(&mut shape)).map_err(of_derivative)?;
+    let (poses, flags) = boundary_gradient(&a.0, &pose.0, triangle, &contact.0, &settings, &weights, Some(&mut shape))
+        .map_err(of_derivative)?;
     Ok(PyContactGradient { poses, shapes: [Some(shape), None], flags })
 }
 

@@ -31,8 +31,8 @@ mod patch;
 mod planar;
 mod pose;
 mod records;
-mod slicing;
 mod settings;
+mod slicing;
 
 use pyo3::prelude::*;
 

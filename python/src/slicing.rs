@@ -181,11 +181,13 @@ impl PyRockMass {
 
 /// A convex domain {a x + b y + c z <= d}, planes (n, 4), cut by joints in their order, as a RockMass.
 ///
-/// A joint cuts each block that it meets in two, but for parts of less than least_volume, or thinner than least_thickness in the mean (2V/A). regions: convex
-/// regions as lists of planes, such as a tunnel, which cut the blocks that they meet after all joints. ValueError: a domain that is empty or open, or more
-/// than most_blocks.
+/// A joint cuts each block that it meets in two, but for parts of less than least_volume, thinner than least_thickness in the mean (2V/A), whose largest
+/// ball has a diameter below least_width, or whose extent along an axis is above largest_aspect times that. regions: convex regions as lists of planes,
+/// such as a tunnel, which cut the blocks that they meet after all joints. The result does not depend on threads. ValueError: a domain that is empty
+/// or open, or more than most_blocks.
 #[pyfunction]
-#[pyo3(signature = (domain, joints, *, regions=vec![], least_volume=0.0, least_thickness=0.0, most_blocks=1_000_000))]
+#[pyo3(signature = (domain, joints, *, regions=vec![], least_volume=0.0, least_thickness=0.0, least_width=0.0, largest_aspect=f64::INFINITY, most_blocks=1_000_000, threads=1))]
+#[allow(clippy::too_many_arguments)]
 fn slice(
     py: Python<'_>,
     domain: &Bound<'_, PyAny>,
@@ -193,12 +195,15 @@ fn slice(
     regions: Vec<Bound<'_, PyAny>>,
     least_volume: f64,
     least_thickness: f64,
+    least_width: f64,
+    largest_aspect: f64,
     most_blocks: usize,
+    threads: usize,
 ) -> PyResult<PyRockMass> {
     let domain = planes(domain)?;
     let regions = regions.iter().map(planes).collect::<PyResult<Vec<_>>>()?;
-    let joints: Vec<Joint> = joints.iter().map(|joint| joint.0).collect();
-    let settings = SliceSettings { least_volume, least_thickness, most_blocks };
+    let joints: Vec<Joint> = joints.iter().map(|joint| joint.0.clone()).collect();
+    let settings = SliceSettings { least_volume, least_thickness, least_width, largest_aspect, most_blocks, threads };
     let cut = || slice_with_regions(&domain, &joints, &regions, &settings, |_, _| true);
     Ok(PyRockMass(Arc::new(py.detach(cut).map_err(refused)?)))
 }

@@ -14,15 +14,15 @@ pub const PP_FACE_OF_JOINT: u32 = 1;
 /// A plane of a region.
 pub const PP_FACE_OF_REGION: u32 = 2;
 
-/// A joint: a plane, or a disc of it.
+/// A joint: a plane, or a disc or polygon of it.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct pp_joint {
-    /// A point of it, length; of a disc its centre.
+    /// A point of it, length; of a disc its centre, of a polygon the mean of its corners.
     pub point: [f64; 3],
     /// Normal, of any length.
     pub normal: [f64; 3],
-    /// Radius of a disc, length; infinite for a joint without end.
+    /// Radius of a disc, length; infinite for a joint without end; of a polygon that of a disc that holds it.
     pub radius: f64,
 }
 
@@ -58,8 +58,14 @@ pub struct pp_slice_settings {
     /// Or be thinner than this in the mean, 2 V / A of volume and surface, length: a cube has a third of its
     /// edge.
     pub least_thickness: f64,
+    /// Or if the largest ball in it would have a smaller diameter than this.
+    pub least_width: f64,
+    /// Or if its extent along x, y or z would be more than so many times that diameter; 0: no limit.
+    pub largest_aspect: f64,
     /// More blocks than this are an error; 0: a million.
     pub most_blocks: u64,
+    /// How many threads cut, the calling one among them; 0: one. The blocks are the same for any number.
+    pub threads: u64,
 }
 
 /// A rock mass in numbers.
@@ -195,6 +201,28 @@ pub unsafe extern "C" fn pp_joint_from_dip(
     unsafe { told(make, "point and joint must not be NULL", message, message_size) }
 }
 
+/// The joint that is a convex polygon, by its corners in their order; pp_rock_new is given the corners again.
+///
+/// corners: count rows of x, y, z. out: receives the joint, with a unit normal.
+/// message: receives, on failure, a sentence (may be NULL).
+/// Errors: PP_NULL_POINTER, PP_BAD_ROCK (corners off one plane, on one line, or not of a convex polygon).
+/// Pointers: corners points to 3*count doubles, message to message_size bytes.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn pp_joint_from_corners(
+    corners: *const f64,
+    count: usize,
+    out: *mut pp_joint,
+    message: *mut c_char,
+    message_size: usize,
+) -> pp_status {
+    let make = || {
+        let corners = unsafe { array(corners.cast::<[f64; 3]>(), count) }?;
+        let out = unsafe { output(out) }?;
+        Ok(Joint::polygon(corners).map(|joint| out.write(joint_to(&joint))))
+    };
+    unsafe { told(make, "corners and joint must not be NULL", message, message_size) }
+}
+
 /// The joints of a set within reach of a point, both lengths: those that cross the line through it along
 /// the mean normal, of equal spacings one at the point itself; discs that reach into the ball.
 ///
@@ -233,26 +261,30 @@ pub unsafe extern "C" fn pp_joint_set_joints(
 }
 
 /// Cuts a convex domain by joints, one after the other: each cuts the blocks that it meets in two, a disc
-/// all of a block that it reaches. Regions (a tunnel, a bench, what a domain that is not convex leaves out)
-/// then cut the blocks that they meet into what lies in the region and the parts beside it, which keep
-/// their parent.
+/// or polygon all of a block that it reaches. Regions (a tunnel, a bench, what a domain that is not convex
+/// leaves out) then cut the blocks that they meet into what lies in the region and the parts beside it,
+/// which keep their parent.
 ///
 /// planes: plane_count rows of a, b, c, d: the domain is where a x + b y + c z <= d for all of them.
 /// joints: joint_count joints; may be NULL when there are none.
+/// outline_counts: NULL, or for each joint how many corners it has as a polygon, 0 for a plane or disc;
+/// outlines: the corners of all of them, rows of x, y, z in their order.
 /// region_planes: the planes of all regions, rows as of the domain; region_counts: how many belong to each
 /// of region_count regions.
 /// settings: NULL for none. progress: NULL, or see pp_rock_progress.
 /// out: receives the rock mass; release it with pp_rock_free.
 /// message: receives, on failure, a sentence that names the plane, joint or value (may be NULL).
 /// Errors: PP_NULL_POINTER, PP_BAD_ROCK, PP_BAD_INDEX (a count that no memory could hold).
-/// Pointers: planes points to 4*plane_count doubles, region_planes to 4 doubles for each of the sum of
-/// region_counts, message to message_size bytes.
+/// Pointers: planes points to 4*plane_count doubles, outlines to 3 doubles for each of the sum of
+/// outline_counts, region_planes to 4 for each of that of region_counts, message to message_size bytes.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pp_rock_new(
     planes: *const f64,
     plane_count: usize,
     joints: *const pp_joint,
     joint_count: usize,
+    outlines: *const f64,
+    outline_counts: *const usize,
     region_planes: *const f64,
     region_counts: *const usize,
     region_count: usize,
@@ -266,7 +298,7 @@ pub unsafe extern "C" fn pp_rock_new(
     let make = || {
         let out = unsafe { output(out) }?;
         let domain = unsafe { planes_from(planes, plane_count) }?;
-        let joints: Vec<Joint> = unsafe { array(joints, joint_count) }?.iter().map(joint_from).collect();
+        let joints = unsafe { joints_from(joints, joint_count, outlines, outline_counts) }?;
         let counts = unsafe { array(region_counts, region_count) }?;
         let sum = counts.iter().try_fold(0usize, |sum, count| sum.checked_add(*count)).ok_or(PP_BAD_INDEX)?;
         let mut left = unsafe { planes_from(region_planes, sum) }?.into_iter();
@@ -278,9 +310,9 @@ pub unsafe extern "C" fn pp_rock_new(
             Some(progress) => unsafe { progress(context, joints as u64, blocks as u64) == 0 },
             None => true,
         };
-        let settings = match settings {
-            Ok(settings) => settings,
-            Err(error) => return Ok(Err(error)),
+        let (joints, settings) = match (joints, settings) {
+            (Ok(joints), Ok(settings)) => (joints, settings),
+            (Err(error), _) | (_, Err(error)) => return Ok(Err(error)),
         };
         let mass = slice_with_regions(&domain, &joints, &regions, &settings, told);
         Ok(mass.map(|mass| out.write(Box::into_raw(Box::new(pp_rock::of(mass))))))
@@ -501,12 +533,40 @@ unsafe fn planes_from(planes: *const f64, count: usize) -> Result<Vec<Plane>, pp
     Ok(rows.iter().map(|row| Plane::from(*row)).collect())
 }
 
+/// Joints with their outlines.
+/// Pointers: as of pp_rock_new.
+unsafe fn joints_from(
+    joints: *const pp_joint,
+    count: usize,
+    outlines: *const f64,
+    outline_counts: *const usize,
+) -> Result<Result<Vec<Joint>, RockError>, pp_status> {
+    let joints = unsafe { array(joints, count) }?;
+    if outline_counts.is_null() {
+        return Ok(Ok(joints.iter().map(joint_from).collect()));
+    }
+    let counts = unsafe { array(outline_counts, count) }?;
+    let sum = counts.iter().try_fold(0usize, |sum, count| sum.checked_add(*count)).ok_or(PP_BAD_INDEX)?;
+    let mut left = unsafe { array(outlines.cast::<[f64; 3]>(), sum) }?;
+    let mut made = Vec::with_capacity(count);
+    for (number, (joint, &count)) in joints.iter().zip(counts).enumerate() {
+        let (corners, rest) = left.split_at(count);
+        left = rest;
+        match if count == 0 { Ok(joint_from(joint)) } else { Joint::polygon(corners) } {
+            Ok(joint) => made.push(joint),
+            Err(RockError::NoPolygon(must)) => return Ok(Err(RockError::NoOutline { joint: number, must })),
+            Err(error) => return Ok(Err(error)),
+        }
+    }
+    Ok(Ok(made))
+}
+
 fn joint_to(joint: &Joint) -> pp_joint {
     pp_joint { point: joint.point.into(), normal: joint.normal.into(), radius: joint.radius }
 }
 
 fn joint_from(joint: &pp_joint) -> Joint {
-    Joint { point: joint.point.into(), normal: joint.normal.into(), radius: joint.radius }
+    Joint { point: joint.point.into(), normal: joint.normal.into(), radius: joint.radius, outline: None }
 }
 
 fn set_from(set: &pp_joint_set) -> JointSet {
@@ -530,6 +590,12 @@ fn settings_from(settings: Option<&pp_slice_settings>) -> Result<SliceSettings, 
     Ok(SliceSettings {
         least_volume: not_negative(settings.least_volume, "least_volume")?,
         least_thickness: not_negative(settings.least_thickness, "least_thickness")?,
+        least_width: not_negative(settings.least_width, "least_width")?,
+        largest_aspect: match not_negative(settings.largest_aspect, "largest_aspect")? {
+            0.0 => f64::INFINITY,
+            aspect => aspect,
+        },
+        threads: usize::try_from(settings.threads).unwrap_or(usize::MAX),
         most_blocks: match settings.most_blocks {
             0 => SliceSettings::default().most_blocks,
             most => usize::try_from(most).unwrap_or(usize::MAX),

@@ -6,6 +6,7 @@
 //! | `error` | why planes and parameters do not make a particle |
 //! | `plane_clusters` | planes in a tree of clusters of similar normals, which are skipped as a whole where none of them is active |
 //! | `linear_program` | whether half-spaces enclose a volume, and how large it is (Seidel's algorithm) |
+//! | `largest_ball` | the largest ball within half-spaces, by the simplex method |
 //! | `bounding_volumes` | a ball and a polyhedron that hold the particle |
 //! | `shape` | the validated definition with its clusters and bounding volumes |
 //! | `potential` | S, its gradient and its Hessian |
@@ -21,6 +22,7 @@ pub mod bounding_volumes;
 pub mod direction_mesh;
 pub mod error;
 pub mod gauge;
+pub mod largest_ball;
 pub mod linear_program;
 pub mod mass_properties;
 pub mod particle;

@@ -49,6 +49,24 @@ pub struct Block {
     pub region: Option<usize>,
 }
 
+/// Volume and surface of a polyhedron.
+pub(super) fn volume_and_area(polyhedron: &Polyhedron) -> (f64, f64) {
+    // About a corner, so that no digits are lost far from the origin.
+    let pole = polyhedron.corners().next().copied().unwrap_or_else(Vector3::zeros);
+    let (mut six_volumes, mut area) = (0.0, 0.0);
+    for face in polyhedron.faces() {
+        let first = face.corners[0].0 - pole;
+        let mut doubled = Vector3::zeros();
+        for pair in face.corners[1..].windows(2) {
+            let [b, c] = [pair[0].0 - pole, pair[1].0 - pole];
+            six_volumes += first.dot(&b.cross(&c));
+            doubled += (b - first).cross(&(c - first));
+        }
+        area += 0.5 * doubled.norm();
+    }
+    (six_volumes / 6.0, area)
+}
+
 impl Block {
     /// From a polyhedron about `origin`; `plane`: what its faces come from and their unit normals and heights, by their numbers.
     pub(super) fn of(

@@ -29,6 +29,17 @@ pub enum RockError {
         /// Index of the plane.
         plane: usize,
     },
+    /// Corners that make no joint, and what they must do.
+    #[error("the corners of a joint must {0}")]
+    NoPolygon(&'static str),
+    /// The same of one of several joints.
+    #[error("the corners of joint {joint} must {must}")]
+    NoOutline {
+        /// Index of the joint.
+        joint: usize,
+        /// What its corners must do.
+        must: &'static str,
+    },
     /// The planes of the domain enclose no volume.
     #[error("the domain is empty: no point lies inside of all its planes; normals have to point outwards")]
     Empty,

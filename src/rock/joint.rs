@@ -1,17 +1,24 @@
-//! A joint: a plane through the rock, or a disc of it.
+//! A joint: a plane through the rock, or a disc or polygon of it.
 
 use crate::rock::error::{RockError, within};
 use nalgebra::Vector3;
+use std::f64::consts::TAU;
+use std::sync::Arc;
 
-/// A plane or a disc along which rock has parted. Axes: x east, y north, z up.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// How far corners of an outline may lie off their plane, over its size.
+const FLAT: f64 = 1e-6;
+
+/// A plane, or a disc or convex polygon of it, along which rock has parted. Axes: x east, y north, z up.
+#[derive(Clone, Debug, PartialEq)]
 pub struct Joint {
     /// A point of it, length; of a disc its centre.
     pub point: Vector3<f64>,
     /// Unit normal.
     pub normal: Vector3<f64>,
-    /// Radius of a disc, length; infinite of a joint without end.
+    /// Radius of a disc, length; infinite of a joint without end; of a polygon that of a disc about the point that holds it.
     pub radius: f64,
+    /// Corners of a polygon in their order, as [`Joint::polygon`] makes it.
+    pub outline: Option<Arc<[Vector3<f64>]>>,
 }
 
 impl Joint {
@@ -30,7 +37,42 @@ impl Joint {
         let dip = within(dip, (0.0..=90.0).contains(&dip), "dip", "an angle from 0 to 90 degrees")?.to_radians();
         let direction = within(dip_direction, true, "dip direction", "a finite angle in degrees")?.to_radians();
         let normal = Vector3::new(dip.sin() * direction.sin(), dip.sin() * direction.cos(), dip.cos());
-        Ok(Self { point, normal, radius: f64::INFINITY })
+        Ok(Self { point, normal, radius: f64::INFINITY, outline: None })
+    }
+
+    /// The plane through a point with a normal of any length, without end.
+    pub fn through(point: impl Into<Vector3<f64>>, normal: impl Into<Vector3<f64>>) -> Self {
+        Self { point: point.into(), normal: normal.into(), radius: f64::INFINITY, outline: None }
+    }
+
+    /// A convex polygon, by its corners in their order: trace and dip length of a mapped joint as a rectangle, a face of a fracture network.
+    ///
+    /// # Errors
+    /// Fewer than three corners, corners that are not finite, on one line, off their plane by more than 10⁻⁶ of the size, or not those of
+    /// a convex polygon.
+    pub fn polygon<T: Into<Vector3<f64>> + Clone>(corners: &[T]) -> Result<Self, RockError> {
+        let corners: Arc<[Vector3<f64>]> = corners.iter().cloned().map(Into::into).collect();
+        let count = corners.len();
+        let point = corners.iter().sum::<Vector3<f64>>() / count as f64;
+        let radius = corners.iter().map(|at| (at - point).norm()).fold(0.0, f64::max);
+        // Twice the area, and its direction.
+        let edge = |i: usize| corners[(i + 1) % count] - corners[i];
+        let doubled = (0..count).map(|i| (corners[i] - point).cross(&edge(i))).sum::<Vector3<f64>>();
+        let normal = doubled.normalize();
+        let is_flat = |at: &Vector3<f64>| (at - point).dot(&normal).abs() <= FLAT * radius;
+        if count < 3 || !(doubled.norm() > FLAT * radius * radius) || !corners.iter().all(is_flat) {
+            return Err(RockError::NoPolygon("lie in one plane, three or more and not on one line"));
+        }
+        // Turns to the left that sum to one turn: a star has two.
+        let turn = |i: usize| {
+            let (here, next) = (edge(i), edge((i + 1) % count));
+            here.cross(&next).dot(&normal).atan2(here.dot(&next))
+        };
+        let turned = (0..count).map(turn).sum::<f64>();
+        if (0..count).any(|i| turn(i) < -FLAT) || (turned - TAU).abs() > 0.1 {
+            return Err(RockError::NoPolygon("be those of a convex polygon, in their order"));
+        }
+        Ok(Self { point, normal, radius, outline: Some(corners) })
     }
 
     /// The same as a disc about its point.
@@ -42,8 +84,34 @@ impl Joint {
         Ok(Self { radius, ..self })
     }
 
-    /// Whether the disc and a polygon in its plane, corners in order, have a point in common.
+    /// The same with its place given from another origin, and a unit normal.
+    pub(super) fn about(&self, origin: &Vector3<f64>, normal: Vector3<f64>) -> Self {
+        let outline = self.outline.as_ref().map(|outline| outline.iter().map(|at| at - origin).collect());
+        Self { point: self.point - origin, normal, radius: self.radius, outline }
+    }
+
+    /// Whether the disc or polygon and a convex polygon in its plane, corners in order, have a point in common.
     pub(super) fn meets(&self, polygon: &[Vector3<f64>]) -> bool {
+        match &self.outline {
+            Some(outline) => !self.is_parted(outline, polygon) && !self.is_parted(polygon, outline),
+            None => self.disc_meets(polygon),
+        }
+    }
+
+    /// Whether a line along a side of `first` has both polygons on its two sides: of two convex polygons that are apart, some side of one does.
+    fn is_parted(&self, first: &[Vector3<f64>], other: &[Vector3<f64>]) -> bool {
+        (0..first.len()).any(|i| {
+            let across = (first[(i + 1) % first.len()] - first[i]).cross(&self.normal);
+            let reach = |polygon: &[Vector3<f64>]| {
+                let heights = polygon.iter().map(|at| across.dot(&(at - first[i])));
+                heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), h| (low.min(h), high.max(h)))
+            };
+            let (own, its) = (reach(first), reach(other));
+            own.1 < its.0 || its.1 < own.0
+        })
+    }
+
+    fn disc_meets(&self, polygon: &[Vector3<f64>]) -> bool {
         let (mut signs, mut nearest) = ([false; 2], f64::INFINITY);
         for (i, from) in polygon.iter().enumerate() {
             let (side, away) = (polygon[(i + 1) % polygon.len()] - from, self.point - from);
@@ -60,6 +128,7 @@ impl Joint {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::random::Random;
 
     /// Dipping 30° to the east: one metre east is tan 30° lower.
     #[test]
@@ -73,6 +142,72 @@ mod tests {
         );
         assert!(Joint::new([0.0; 3], 91.0, 0.0).is_err() && Joint::new([f64::NAN, 0.0, 0.0], 1.0, 0.0).is_err());
         assert!(joint.with_radius(0.0).is_err());
+    }
+
+    /// Against the same question for many points of both, whose answer is yes where a point of one lies in the other or sides cross.
+    #[test]
+    fn polygons_meet_where_they_share_points() {
+        let mut random = Random::new(5, 0);
+        let (mut apart, mut together) = (0, 0);
+        for _ in 0..400 {
+            let mut polygon = |sides: usize, away: f64| {
+                let (x, y) = (random.between(-away, away), random.between(-away, away));
+                let (radius, first) = (random.between(0.3, 1.0), random.between(0.0, TAU));
+                let corner = |i: usize| {
+                    let (sin, cos) = (first + TAU * i as f64 / sides as f64).sin_cos();
+                    Vector3::new(x + radius * cos, y + 0.4 * radius * sin, 0.0)
+                };
+                (0..sides).map(corner).collect::<Vec<_>>()
+            };
+            let (first, other) = (polygon(5, 0.0), polygon(4, 1.5));
+            let inside = |at: &Vector3<f64>, polygon: &[Vector3<f64>]| {
+                (0..polygon.len()).all(|i| {
+                    let side = polygon[(i + 1) % polygon.len()] - polygon[i];
+                    side.cross(&(at - polygon[i])).z >= 0.0
+                })
+            };
+            // Of the triangles that the corners span with the middle, points on a grid.
+            let touch = |a: &[Vector3<f64>], b: &[Vector3<f64>]| {
+                let middle = a.iter().sum::<Vector3<f64>>() / a.len() as f64;
+                (0..a.len()).any(|i| {
+                    (0..=200).any(|t| {
+                        let edge = a[i] + f64::from(t) / 200.0 * (a[(i + 1) % a.len()] - a[i]);
+                        inside(&edge, b) || inside(&middle, b)
+                    })
+                })
+            };
+            let expected = touch(&first, &other) || touch(&other, &first);
+            let joint = Joint::polygon(&first).unwrap();
+            assert_eq!(joint.meets(&other), expected);
+            let turned: Vec<_> = other.iter().rev().copied().collect();
+            assert_eq!(joint.meets(&turned), expected);
+            if expected { together += 1 } else { apart += 1 }
+        }
+        assert!(apart > 50 && together > 50, "{apart} {together}");
+    }
+
+    #[test]
+    fn outlines_that_are_none_are_told() {
+        let square = [[0.0, 0.0, 1.0], [2.0, 0.0, 1.0], [2.0, 1.0, 1.0], [0.0, 1.0, 1.0]];
+        let joint = Joint::polygon(&square).unwrap();
+        assert!(
+            (joint.normal - Vector3::z()).norm() < 1e-15 && (joint.point - Vector3::new(1.0, 0.5, 1.0)).norm() < 1e-15
+        );
+        assert!((joint.radius - 1.25f64.sqrt()).abs() < 1e-15);
+        let text = |corners: &[[f64; 3]]| Joint::polygon(corners).unwrap_err().to_string();
+        assert!(text(&square[..2]).contains("three or more") && text(&[[0.0; 3]; 4]).contains("not on one line"));
+        assert!(text(&[[f64::NAN; 3]; 4]).contains("one plane"));
+        let [a, b, c, d] = square;
+        assert!(
+            text(&[a, b, c, [0.0, 1.0, 1.1]]).contains("in one plane")
+                && text(&[a, c, b, [0.0, 2.0, 1.0]]).contains("convex")
+        );
+        assert!(
+            text(&[a, b, [1.0, 0.1, 1.0], d]).contains("convex") && Joint::polygon(&[a, b, [1.0, 0.5, 1.0], d]).is_ok()
+        );
+        let star: Vec<[f64; 3]> =
+            (0..5).map(|i| (2.0 * TAU * f64::from(i) / 5.0).sin_cos()).map(|(s, c)| [c, s, 0.0]).collect();
+        assert!(text(&star).contains("convex"));
     }
 
     #[test]

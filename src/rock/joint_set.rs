@@ -64,7 +64,7 @@ impl JointSet {
         let mut at = if self.exponential { -reach + self.gap(&mut random) } else { first };
         while at <= reach {
             let normal = self.scattered(&mean.normal, &mut random);
-            joints.push(Joint { point: mean.point + at * mean.normal, normal, ..mean });
+            joints.push(Joint::through(mean.point + at * mean.normal, normal));
             at = if self.exponential { at + self.gap(&mut random) } else { first + joints.len() as f64 * self.spacing };
         }
         Ok(joints)
@@ -85,7 +85,7 @@ impl JointSet {
         } {
             let normal = self.scattered(&mean.normal, random);
             let away = radius * random.uniform().cbrt() * random.direction();
-            joints.push(Joint { point: mean.point + away, normal, radius: self.radius });
+            joints.push(Joint { radius: self.radius, ..Joint::through(mean.point + away, normal) });
         }
         Ok(joints)
     }

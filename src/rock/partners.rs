@@ -126,7 +126,7 @@ mod tests {
             let at = [0.0, 1e4][seed as usize % 2];
             let mut joint = |radius| {
                 let point = Vector3::from_fn(|_, _| at + random.between(-0.7, 0.7));
-                Joint { point, normal: random.direction(), radius }
+                Joint { point, normal: random.direction(), radius, outline: None }
             };
             let joints: Vec<Joint> = (0..30).map(|i| joint(if i % 3 == 0 { 0.4 } else { f64::INFINITY })).collect();
             let settings = SliceSettings { least_volume: 1e-5, ..SliceSettings::default() };
@@ -161,7 +161,7 @@ mod tests {
     /// A disc parts the left half only, so that the face of the right one lies on two.
     #[test]
     fn a_face_may_have_several_partners() {
-        let joint = |normal, radius| Joint { point: Vector3::new(-0.5, 0.0, 0.0), normal, radius };
+        let joint = |normal, radius| Joint { point: Vector3::new(-0.5, 0.0, 0.0), normal, radius, outline: None };
         let across = Joint { point: Vector3::zeros(), ..joint(Vector3::x(), f64::INFINITY) };
         let mass = slice(&cube(1.0, 0.0), &[across, joint(Vector3::z(), 0.1)], &SliceSettings::default()).unwrap();
         let partners = mass.partners();

@@ -3,7 +3,9 @@
 use crate::particle::plane::Plane;
 use crate::particle::polyhedron::{OF_CUBE, Polyhedron};
 use crate::rock::block::{Block, FaceOf};
+use crate::rock::cutting::{Birth, Cuts, Part, descent};
 use crate::rock::error::{RockError, within};
+use crate::rock::in_order::{found, mapped};
 use crate::rock::joint::Joint;
 use nalgebra::Vector3;
 
@@ -13,20 +15,37 @@ const LEAST_CUT: f64 = 1e-13;
 /// Half of the cube in which a domain is looked for, over the largest distance of its planes from the origin.
 const FAR: f64 = 1e4;
 
-/// Limits of a rock mass.
+/// Rounds of joints after which progress is told, and most joints of a round.
+const ROUNDS: usize = 100;
+const LONGEST_ROUND: usize = 32;
+
+/// Limits of a rock mass, and on how many threads it is cut.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SliceSettings {
     /// A joint leaves a block whole if one of its parts would have less than this volume.
     pub least_volume: f64,
     /// Or be thinner than this in the mean, 2V/A of volume and surface: of a wide slab its thickness, of a cube a third of its edge.
     pub least_thickness: f64,
+    /// Or if the largest ball in a part would have a smaller diameter than this, the paper's limit on size.
+    pub least_width: f64,
+    /// Or if its extent along x, y or z would be more than so many times that diameter.
+    pub largest_aspect: f64,
     /// More blocks than this are an error.
     pub most_blocks: usize,
+    /// How many threads cut, the calling one among them; 0 is 1. The blocks and their order are, to the last bit, the same for any number.
+    pub threads: usize,
 }
 
 impl Default for SliceSettings {
     fn default() -> Self {
-        Self { least_volume: 0.0, least_thickness: 0.0, most_blocks: 1_000_000 }
+        Self {
+            least_volume: 0.0,
+            least_thickness: 0.0,
+            least_width: 0.0,
+            largest_aspect: f64::INFINITY,
+            most_blocks: 1_000_000,
+            threads: 1,
+        }
     }
 }
 
@@ -37,8 +56,7 @@ pub struct RockMass {
     pub blocks: Vec<Block>,
     /// Joints that cut no block.
     pub missing: Vec<usize>,
-    /// How many cuts were left out because of `least_volume` or `least_thickness`, or as a part would have been no thicker than the
-    /// rounding of its corners.
+    /// How many cuts were left out because of the limits, or as a part would have been no thicker than the rounding of its corners.
     pub too_small: usize,
     /// How many blocks were left whole where the parts of a cut would not have closed, by rounding.
     pub unclosed: usize,
@@ -46,32 +64,11 @@ pub struct RockMass {
     pub joints: usize,
 }
 
-/// A piece of the domain, and a ball around it: a joint that misses the ball misses the piece.
-struct Part {
-    polyhedron: Polyhedron,
-    middle: Vector3<f64>,
-    radius: f64,
-    parent: usize,
-    region: Option<usize>,
-}
-
-impl Part {
-    fn of(polyhedron: Polyhedron) -> Self {
-        let count = polyhedron.corners().count() as f64;
-        let middle = polyhedron.corners().sum::<Vector3<f64>>() / count;
-        let radius = polyhedron.corners().map(|at| (at - middle).norm()).fold(0.0, f64::max);
-        Self { polyhedron, middle, radius, parent: 0, region: None }
-    }
-}
-
-/// A plane that cuts: what it is, unit normal, height above the origin of the polyhedra.
-type Cut = (FaceOf, Vector3<f64>, f64);
-
-/// Cuts a convex domain {x : n_i·x ≤ d_i for all planes} by joints, in their order. A joint cuts each block that it meets in two; a disc
+/// Cuts a convex domain {x : n_i·x ≤ d_i for all planes} by joints, in their order. A joint cuts each block that it meets in two; a disc or polygon
 /// cuts all of a block that it reaches, as in the paper.
 ///
 /// # Errors
-/// A domain that is empty or open, a plane or joint without a normal or whose numbers are not finite, a least volume that is none, more blocks
+/// A domain that is empty or open, a plane or joint without a normal or whose numbers are not finite, a limit that is none, more blocks
 /// than allowed.
 pub fn slice(domain: &[Plane], joints: &[Joint], settings: &SliceSettings) -> Result<RockMass, RockError> {
     slice_with_regions(domain, joints, &[], settings, |_, _| true)
@@ -82,8 +79,8 @@ pub fn slice(domain: &[Plane], joints: &[Joint], settings: &SliceSettings) -> Re
 /// it, which keep its [`Block::parent`]. Parts smaller than the settings allow are not made: one in the region stays with what is beside it, one
 /// beside it with what is in the region.
 ///
-/// `progress` is called before each joint with the number of joints that have cut and of blocks that there are; where it returns false, the
-/// joints that are left do not cut ([`RockMass::joints`]), and the regions still do.
+/// `progress` is called before each joint, or before every few of many, with the number of joints that have cut and of blocks that there are; where it
+/// returns false, the joints that are left do not cut ([`RockMass::joints`]), and the regions still do.
 ///
 /// # Errors
 /// As of [`slice()`], and a plane of a region that is none.
@@ -94,107 +91,111 @@ pub fn slice_with_regions(
     settings: &SliceSettings,
     mut progress: impl FnMut(usize, usize) -> bool,
 ) -> Result<RockMass, RockError> {
-    within(settings.least_volume, settings.least_volume >= 0.0, "least_volume", "a volume of 0 or above")?;
-    within(settings.least_thickness, settings.least_thickness >= 0.0, "least_thickness", "a length of 0 or above")?;
+    checked(settings)?;
     let outer = unit_planes(domain).map_err(RockError::NoPlane)?;
     let (origin, polyhedron) = enclosed(&outer)?;
-    let cuts = cuts(&outer, joints, regions, &origin)?;
-    let block = |part: &Polyhedron| Block::of(part, &origin, |number| cuts[number - OF_CUBE]);
-    // The volume of a part no thicker than the rounding of its corners is rounding, too.
-    let thinnest = polyhedron.least_cut();
-    let is_too_small = |part: &Polyhedron| {
-        let Block { volume, faces, .. } = block(part);
-        let area = faces.iter().map(|face| face.area).sum::<f64>();
-        !(volume > settings.least_volume.max(thinnest * area) && 2.0 * volume >= settings.least_thickness * area)
-    };
+    let planes = planes(&outer, joints, regions, &origin)?;
+    let local = joints.iter().zip(&planes[domain.len()..]).map(|(joint, (_, n, _))| joint.about(&origin, *n)).collect();
+    let cuts = Cuts::new(&polyhedron, &planes, local, domain.len(), settings);
     let mut parts = vec![Part::of(polyhedron)];
     let mut mass = RockMass { blocks: Vec::new(), missing: Vec::new(), too_small: 0, unclosed: 0, joints: 0 };
-    for (i, joint) in joints.iter().enumerate() {
-        if !progress(i, parts.len()) {
-            break;
+    while mass.joints < joints.len() && progress(mass.joints, parts.len()) {
+        let round = mass.joints..(mass.joints + round(joints.len(), parts.len(), settings)).min(joints.len());
+        let families = found(settings.threads, &mut parts, |part| descent(part, &cuts, round.clone()));
+        let mut births: Vec<Vec<(usize, usize, Birth)>> = round.clone().map(|_| Vec::new()).collect();
+        // Of each family that has grown, the places of its members among all parts: that of the first is known.
+        let mut places: Vec<Vec<usize>> = Vec::new();
+        for (place, family) in families {
+            mass.too_small += family.too_small;
+            mass.unclosed += family.unclosed;
+            if !family.births.is_empty() {
+                for (number, birth) in family.births.into_iter().enumerate() {
+                    births[birth.joint - round.start].push((places.len(), number, birth));
+                }
+                places.push(vec![place]);
+            }
         }
-        let number = OF_CUBE + domain.len() + i;
-        let (_, n, height) = cuts[domain.len() + i];
-        let local = Joint { point: joint.point - origin, normal: n, ..*joint };
-        let whole = parts.len();
-        for place in 0..whole {
-            let Part { polyhedron, middle, radius, .. } = &parts[place];
-            if (n.dot(middle) - height).abs() >= *radius || !polyhedron.is_crossed(&n, height) {
-                continue;
+        // A joint goes through the blocks in their order and puts what it cuts off behind the last one.
+        for (joint, mut of_joint) in round.clone().zip(births) {
+            of_joint.sort_by_key(|(family, _, birth)| places[*family][birth.mother]);
+            if of_joint.is_empty() {
+                mass.missing.push(joint);
             }
-            let Some([below, beyond]) = polyhedron.split(number, &n, height) else {
-                mass.unclosed += 1;
-                continue;
-            };
-            if !reaches(&local, &below, number) {
-                continue;
+            for (family, number, birth) in of_joint {
+                if parts.len() == settings.most_blocks {
+                    return Err(RockError::TooManyBlocks { joint, most: settings.most_blocks });
+                }
+                let place = &mut places[family];
+                place.resize(place.len().max(number + 2), usize::MAX);
+                place[number + 1] = parts.len();
+                parts.push(birth.part);
             }
-            if is_too_small(&below) || is_too_small(&beyond) {
-                mass.too_small += 1;
-                continue;
-            }
-            if parts.len() == settings.most_blocks {
-                return Err(RockError::TooManyBlocks { joint: i, most: settings.most_blocks });
-            }
-            parts[place] = Part::of(below);
-            parts.push(Part::of(beyond));
         }
-        if parts.len() == whole {
-            mass.missing.push(i);
-        }
-        mass.joints = i + 1;
+        mass.joints = round.end;
     }
     parts.iter_mut().enumerate().for_each(|(i, part)| part.parent = i);
     let mut first = OF_CUBE + domain.len() + joints.len();
     for (i, region) in regions.iter().enumerate() {
-        let planes = &cuts[first - OF_CUBE..][..region.len()];
+        let range = first..first + region.len();
         parts = parts
             .into_iter()
             .flat_map(|part| match part.region {
                 Some(_) => vec![part],
-                None => parted(part, i, first, planes, is_too_small, &mut mass),
+                None => parted(part, i, range.clone(), &cuts, &mut mass),
             })
             .collect();
         first += region.len();
     }
-    mass.blocks = parts
-        .iter()
-        .map(|part| Block { parent: part.parent, region: part.region, ..block(&part.polyhedron) })
-        .collect();
+    mass.blocks = mapped(settings.threads, &mut parts, |part| Block {
+        parent: part.parent,
+        region: part.region,
+        ..Block::of(&part.polyhedron, &origin, |number| planes[number - OF_CUBE])
+    });
     Ok(mass)
 }
 
-/// A part as what lies in a region, whose planes have numbers from `first` on, and what lies beside it.
-fn parted(
-    part: Part,
-    region: usize,
-    first: usize,
-    planes: &[Cut],
-    is_too_small: impl Fn(&Polyhedron) -> bool,
-    mass: &mut RockMass,
-) -> Vec<Part> {
+fn checked(settings: &SliceSettings) -> Result<(), RockError> {
+    within(settings.least_volume, settings.least_volume >= 0.0, "least_volume", "a volume of 0 or above")?;
+    within(settings.least_thickness, settings.least_thickness >= 0.0, "least_thickness", "a length of 0 or above")?;
+    within(settings.least_width, settings.least_width >= 0.0, "least_width", "a length of 0 or above")?;
+    if !(settings.largest_aspect >= 1.0) {
+        let value = settings.largest_aspect;
+        return Err(RockError::OutOfRange { name: "largest_aspect", value, range: "1 or above" });
+    }
+    Ok(())
+}
+
+/// Joints of the next round: so few that, if each halved every block, not many more than the largest number of blocks would be made before that is seen.
+fn round(joints: usize, parts: usize, settings: &SliceSettings) -> usize {
+    let room = (4 * settings.most_blocks / parts).max(2).ilog2() as usize;
+    (joints / ROUNDS).clamp(1, LONGEST_ROUND.min(room))
+}
+
+/// A part as what lies in a region, whose planes have the numbers `range`, and what lies beside it.
+fn parted(part: Part, region: usize, range: std::ops::Range<usize>, cuts: &Cuts<'_>, mass: &mut RockMass) -> Vec<Part> {
     let Part { middle, radius, parent, .. } = part;
-    if planes.iter().any(|(_, n, height)| n.dot(&middle) - height >= radius) {
+    if range.clone().any(|number| cuts.height(number, &middle) >= radius) {
         return vec![part];
     }
     let (mut inside, mut beside) = (part.polyhedron.clone(), Vec::new());
-    for (i, (_, n, height)) in planes.iter().enumerate() {
-        if inside.is_crossed(n, *height) {
-            let Some([below, beyond]) = inside.split(first + i, n, *height) else {
+    for number in range {
+        let (n, height) = cuts.plane(number);
+        if inside.is_crossed(&n, height) {
+            let Some([below, beyond]) = inside.split(number, &n, height) else {
                 mass.unclosed += 1;
                 return vec![part];
             };
-            if is_too_small(&below) {
+            if cuts.is_too_small(&below) {
                 mass.too_small += 1;
                 return vec![part];
             }
-            if is_too_small(&beyond) {
+            if cuts.is_too_small(&beyond) {
                 mass.too_small += 1;
                 continue;
             }
             beside.push(Part { parent, ..Part::of(beyond) });
             inside = below;
-        } else if n.dot(&Part::of(inside.clone()).middle) > *height {
+        } else if n.dot(&Part::of(inside.clone()).middle) > height {
             return vec![part];
         }
     }
@@ -202,37 +203,28 @@ fn parted(
     beside
 }
 
-/// All planes about the origin, in the order of their numbers.
-fn cuts(
+/// What each face comes from, with unit normal and height above the origin of the polyhedra, in the order of their numbers.
+fn planes(
     outer: &[(Vector3<f64>, f64)],
     joints: &[Joint],
     regions: &[Vec<Plane>],
     origin: &Vector3<f64>,
-) -> Result<Vec<Cut>, RockError> {
+) -> Result<Vec<(FaceOf, Vector3<f64>, f64)>, RockError> {
     let about = |of: FaceOf, (n, d): (Vector3<f64>, f64)| (of, n, d - n.dot(origin));
-    let mut cuts: Vec<Cut> = outer.iter().enumerate().map(|(i, plane)| about(FaceOf::Domain(i), *plane)).collect();
+    let mut planes: Vec<_> = outer.iter().enumerate().map(|(i, plane)| about(FaceOf::Domain(i), *plane)).collect();
     for (i, joint) in joints.iter().enumerate() {
         let n = joint.normal.normalize();
         let height = n.dot(&(joint.point - origin));
         if !(height.is_finite() && joint.radius > 0.0) {
             return Err(RockError::NoJoint(i));
         }
-        cuts.push((FaceOf::Joint(i), n, height));
+        planes.push((FaceOf::Joint(i), n, height));
     }
-    for (region, planes) in regions.iter().enumerate() {
-        let planes = unit_planes(planes).map_err(|plane| RockError::NoRegion { region, plane })?;
-        cuts.extend(planes.into_iter().enumerate().map(|(plane, of)| about(FaceOf::Region { region, plane }, of)));
+    for (region, given) in regions.iter().enumerate() {
+        let given = unit_planes(given).map_err(|plane| RockError::NoRegion { region, plane })?;
+        planes.extend(given.into_iter().enumerate().map(|(plane, of)| about(FaceOf::Region { region, plane }, of)));
     }
-    Ok(cuts)
-}
-
-/// Whether a joint reaches the face that it made of a part.
-fn reaches(joint: &Joint, part: &Polyhedron, number: usize) -> bool {
-    joint.radius == f64::INFINITY
-        || part.faces().into_iter().filter(|face| face.number == number).any(|face| {
-            let corners: Vec<_> = face.corners.iter().map(|corner| corner.0).collect();
-            joint.meets(&corners)
-        })
+    Ok(planes)
 }
 
 /// Unit normals and distances from the origin; the index of a plane that is none.
@@ -293,7 +285,7 @@ mod tests {
         let mut random = Random::new(seed, 0);
         let joint = |_| {
             let point = Vector3::from(at) + Vector3::from_fn(|_, _| random.between(-reach, reach));
-            Joint { point, normal: random.direction(), radius: f64::INFINITY }
+            Joint::through(point, random.direction())
         };
         (0..count).map(joint).collect()
     }
@@ -380,11 +372,7 @@ mod tests {
     #[test]
     fn sets_through_lines_and_corners_make_a_grid() {
         let domain = cuboid([2.0, 2.0, 2.0], [0.0; 3]);
-        let joint = |axis: usize, place: f64| Joint {
-            point: Vector3::ith(axis, place),
-            normal: Vector3::ith(axis, 1.0),
-            radius: f64::INFINITY,
-        };
+        let joint = |axis: usize, place: f64| Joint::through(Vector3::ith(axis, place), Vector3::ith(axis, 1.0));
         let joints: Vec<_> = (0..3).flat_map(|axis| (-4..=4).map(move |i| joint(axis, 0.25 * f64::from(i)))).collect();
         let mass = slice(&domain, &joints, &SliceSettings::default()).unwrap();
         assert_eq!((mass.blocks.len(), mass.missing.len()), (512, 6));
@@ -394,7 +382,7 @@ mod tests {
         let u = diagonal.cross(&Vector3::x()).normalize();
         let fan = (0..10).map(|i| {
             let (sin, cos) = (0.3 * f64::from(i) + 0.1).sin_cos();
-            Joint { point: Vector3::zeros(), normal: cos * u + sin * diagonal.cross(&u), radius: f64::INFINITY }
+            Joint::through([0.0; 3], cos * u + sin * diagonal.cross(&u))
         });
         let mass = slice(&domain, &fan.collect::<Vec<_>>(), &SliceSettings::default()).unwrap();
         assert!(mass.blocks.len() == 20 && (volume(&mass) - 8.0).abs() < 1e-12, "{}", mass.blocks.len());
@@ -408,9 +396,9 @@ mod tests {
             let mut random = Random::new(seed, 1);
             let mut joints = random_joints(seed, 8, at, 0.0);
             for off in [1e-3, 1e-6, 1e-9, 1e-12, 1e-15] {
-                let Joint { point, normal, .. } = joints[random.below(8)];
+                let Joint { point, normal, .. } = joints[random.below(8)].clone();
                 let normal = (normal + off * random.direction()).normalize();
-                joints.push(Joint { point: point + off * random.direction(), normal, radius: f64::INFINITY });
+                joints.push(Joint::through(point + off * random.direction(), normal));
             }
             let mass = slice(&cuboid([1.0, 2.0, 3.0], at), &joints, &SliceSettings::default()).unwrap();
             assert!((volume(&mass) / 6.0 - 1.0).abs() < 1e-12, "seed {seed}: {:e}", volume(&mass) / 6.0 - 1.0);
@@ -422,21 +410,79 @@ mod tests {
     #[test]
     fn discs_cut_what_they_reach_and_small_parts_are_left_out() {
         let domain = cuboid([4.0, 1.0, 1.0], [0.0; 3]);
-        let across = Joint { point: Vector3::zeros(), normal: Vector3::x(), radius: f64::INFINITY };
+        let across = Joint::through([0.0; 3], Vector3::x());
         // In the left half only.
-        let disc = Joint { point: Vector3::new(-1.0, 0.0, 0.1), normal: Vector3::z(), radius: 0.9 };
-        let mass = slice(&domain, &[across, disc], &SliceSettings::default()).unwrap();
+        let disc = Joint::through([-1.0, 0.0, 0.1], Vector3::z()).with_radius(0.9).unwrap();
+        let joints = [across, disc];
+        let mass = slice(&domain, &joints, &SliceSettings::default()).unwrap();
         assert_eq!(mass.blocks.len(), 3);
         let least = SliceSettings { least_volume: 0.9, ..SliceSettings::default() };
-        let mass = slice(&domain, &[across, disc], &least).unwrap();
+        let mass = slice(&domain, &joints, &least).unwrap();
         assert_eq!((mass.blocks.len(), mass.too_small, mass.missing), (2, 1, vec![1]));
+    }
+
+    /// The rectangle cuts the left half, a triangle beside the domain cuts nothing although a disc about it would.
+    #[test]
+    fn polygons_cut_what_they_reach() {
+        let domain = cuboid([4.0, 1.0, 1.0], [0.0; 3]);
+        let rectangle = [[-1.9, -0.4, 0.1], [-0.1, -0.4, 0.1], [-0.1, 0.4, 0.1], [-1.9, 0.4, 0.1]];
+        let triangle = [[0.1, 0.6, 0.2], [3.0, 0.6, 0.2], [1.5, 5.0, 0.2]];
+        let joints = [
+            Joint::through([0.0; 3], Vector3::x()),
+            Joint::polygon(&rectangle).unwrap(),
+            Joint::polygon(&triangle).unwrap(),
+        ];
+        let mass = slice(&domain, &joints, &SliceSettings::default()).unwrap();
+        assert_eq!((mass.blocks.len(), mass.missing.clone()), (3, vec![2]));
+        let far: Vec<_> = joints.iter().map(|joint| joint.about(&Vector3::new(-3e3, 5e3, 1e3), joint.normal)).collect();
+        let moved = slice(&cuboid([4.0, 1.0, 1.0], [3e3, -5e3, -1e3]), &far, &SliceSettings::default()).unwrap();
+        assert_eq!((moved.blocks.len(), moved.missing), (3, vec![2]));
+    }
+
+    /// The largest ball in a slab c of a unit cube has the diameter c; its extent is 1.
+    #[test]
+    fn narrow_and_long_parts_are_left_out() {
+        for at in [0.0, 1e4] {
+            let domain = cuboid([1.0, 1.0, 1.0], [at; 3]);
+            let joint = Joint::through([at, at, at + 0.4], Vector3::z());
+            let blocks = |least_width, largest_aspect| {
+                let settings = SliceSettings { least_width, largest_aspect, ..SliceSettings::default() };
+                slice(&domain, &[joint.clone()], &settings).unwrap().blocks.len()
+            };
+            assert_eq!(
+                [blocks(0.0999, 20.0), blocks(0.1001, 20.0), blocks(0.0, 10.01), blocks(0.0, 9.99)],
+                [2, 1, 2, 1]
+            );
+        }
+    }
+
+    /// Blocks, their order and what is counted do not depend on the number of threads or on the rounds of joints.
+    #[test]
+    fn threads_change_nothing() {
+        let domain = cuboid([3.0, 2.0, 2.0], [0.0; 3]);
+        let mut joints = random_joints(12, 60, [0.0; 3], 1.0);
+        joints.iter_mut().step_by(4).for_each(|joint| joint.radius = 0.5);
+        joints.push(Joint::through([9.0; 3], Vector3::x()));
+        let region = cuboid([0.7, 5.0, 0.7], [0.1; 3]);
+        let cut = |threads, joints: &[Joint]| {
+            let settings = SliceSettings { threads, least_volume: 1e-5, ..SliceSettings::default() };
+            let mass =
+                slice_with_regions(&domain, joints, std::slice::from_ref(&region), &settings, |_, _| true).unwrap();
+            assert!(mass.blocks.len() > 1000 && mass.too_small > 0 && mass.missing.contains(&60));
+            format!("{mass:?}")
+        };
+        assert!(cut(1, &joints) == cut(2, &joints) && cut(1, &joints) == cut(7, &joints));
+        // Joints that come after and miss make rounds of many joints of what was rounds of one.
+        let longer: Vec<Joint> = joints.iter().cloned().chain(vec![joints[60].clone(); 2000]).collect();
+        let of = |text: &str| text[..text.find("missing").unwrap()].to_owned();
+        assert!(of(&cut(1, &joints)) == of(&cut(3, &longer)));
     }
 
     /// Of a cuboid a × b × c: 2V/A = abc/(ab + bc + ca).
     #[test]
     fn flat_parts_are_left_out() {
         let domain = cuboid([1.0, 1.0, 1.0], [0.0; 3]);
-        let at = |z: f64| Joint { point: Vector3::new(0.0, 0.0, z), normal: Vector3::z(), radius: f64::INFINITY };
+        let at = |z: f64| Joint::through([0.0, 0.0, z], Vector3::z());
         let thickness = |c: f64| c / (1.0 + 2.0 * c);
         for (least, blocks) in [(thickness(0.1) * 0.999, 2), (thickness(0.1) * 1.001, 1)] {
             let settings = SliceSettings { least_thickness: least, ..SliceSettings::default() };
@@ -449,8 +495,7 @@ mod tests {
     #[test]
     fn regions_part_the_blocks_that_they_meet() {
         let domain = cuboid([4.0, 4.0, 4.0], [0.0; 3]);
-        let joint =
-            |axis: usize| Joint { point: Vector3::zeros(), normal: Vector3::ith(axis, 1.0), radius: f64::INFINITY };
+        let joint = |axis: usize| Joint::through([0.0; 3], Vector3::ith(axis, 1.0));
         let tunnel = cuboid([1.0, 9.0, 1.0], [0.3, 0.0, 0.2]);
         let shaft = cuboid([0.5, 0.5, 9.0], [0.3, 0.0, 0.0]);
         let joints = [joint(0), joint(1), joint(2)];

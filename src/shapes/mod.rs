@@ -7,7 +7,6 @@
 //! | file | holds |
 //! |---|---|
 //! | `error` | why input makes no shape |
-//! | `largest_ball` | the largest ball within half-spaces, by the simplex method |
 //! | `hull` | the convex hull of points, as half-spaces |
 //! | `surface` | whether triangles are the whole surface of their convex hull |
 //! | `principal_frame` | principal axes as near to the given ones as they can be |
@@ -29,7 +28,6 @@
 
 mod error;
 mod hull;
-mod largest_ball;
 mod principal_frame;
 mod rounding;
 mod solids;

@@ -12,8 +12,8 @@
 //! little, and it is found by repetition.
 
 use super::error::{ShapeError, positive, within};
-use super::largest_ball;
 use super::principal_frame;
+use crate::particle::largest_ball;
 use crate::particle::mass_properties::{self, MASS_TOLERANCE, MassProperties};
 use crate::particle::particle::Particle;
 use crate::particle::plane::Plane;

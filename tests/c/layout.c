@@ -180,8 +180,8 @@ void test_layout(void) {
     CHECK(sizeof(pp_joint_set) == 56);
     CHECK(offsetof(pp_joint_set, seed) == 40);
     CHECK(offsetof(pp_joint_set, exponential) == 48);
-    CHECK(sizeof(pp_slice_settings) == 24);
-    CHECK(offsetof(pp_slice_settings, most_blocks) == 16);
+    CHECK(sizeof(pp_slice_settings) == 48);
+    CHECK(offsetof(pp_slice_settings, most_blocks) == 32);
     CHECK(sizeof(pp_rock_summary) == 64);
     CHECK(offsetof(pp_rock_summary, partners) == 24);
     CHECK(offsetof(pp_rock_summary, unclosed) == 56);

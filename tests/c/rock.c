@@ -21,7 +21,7 @@ static pp_joint joint(double dip, double dip_direction) {
 static pp_rock *cut(const double *region, size_t planes, const pp_slice_settings *settings, pp_rock_progress progress, void *context) {
     const pp_joint joints[3] = {joint(0, 0), joint(90, 90), joint(90, 0)};
     pp_rock *rock = NULL;
-    CHECK_STATUS(pp_rock_new(cube[0], SIDES, joints, 3, region, &planes, region ? 1 : 0, settings, progress, context, &rock, NULL, 0), PP_OK);
+    CHECK_STATUS(pp_rock_new(cube[0], SIDES, joints, 3, NULL, NULL, region, &planes, region ? 1 : 0, settings, progress, context, &rock, NULL, 0), PP_OK);
     return rock;
 }
 
@@ -38,6 +38,36 @@ static void joints_have_dip_and_direction(void) {
     CHECK_STATUS(pp_joint_from_dip(NULL, 9, 0, 1, &made, why, sizeof why), PP_NULL_POINTER);
     CHECK_TEXT(why, "point and joint must not be NULL");
     CHECK_UNTOUCHED(made);
+}
+
+/* The square cuts the right half alone; threads change nothing. */
+static void polygons_cut_what_they_reach(void) {
+    const double square[4][3] = {{0.2, -0.5, 0}, {0.8, -0.5, 0}, {0.8, 0.5, 0}, {0.2, 0.5, 0}};
+    pp_joint joints[2] = {joint(90, 90)};
+    char why[PP_MESSAGE_SIZE];
+    CHECK_STATUS(pp_joint_from_corners(square[0], 4, &joints[1], why, sizeof why), PP_OK);
+    const double normal[3] = {0, 0, 1}, place[3] = {0.5, 0, 0};
+    CHECK_NEAR3(joints[1].normal, normal, 1e-15);
+    CHECK_NEAR3(joints[1].point, place, 1e-15);
+    CHECK_NEAR(joints[1].radius, sqrt(0.34), 1e-15);
+    const size_t corners[2] = {0, 4}, few[2] = {0, 2}, huge[2] = {SIZE_MAX, 2};
+    pp_slice_settings settings = {.threads = 3};
+    pp_rock *rock = NULL;
+    pp_rock_summary sum;
+    CHECK_STATUS(pp_rock_new(cube[0], SIDES, joints, 2, square[0], corners, NULL, NULL, 0, &settings, NULL, NULL, &rock, why, sizeof why), PP_OK);
+    CHECK_STATUS(pp_rock_get_summary(rock, &sum), PP_OK);
+    CHECK(sum.blocks == 3 && sum.missing == 0);
+    pp_rock_free(rock);
+    settings.least_width = 1.01;
+    CHECK_STATUS(pp_rock_new(cube[0], SIDES, joints, 2, NULL, NULL, NULL, NULL, 0, &settings, NULL, NULL, &rock, why, sizeof why), PP_OK);
+    CHECK_STATUS(pp_rock_get_summary(rock, &sum), PP_OK);
+    CHECK(sum.blocks == 1 && sum.too_small == 2);
+    pp_rock_free(rock);
+    CHECK_STATUS(pp_rock_new(cube[0], SIDES, joints, 2, square[0], few, NULL, NULL, 0, NULL, NULL, NULL, &rock, why, sizeof why), PP_BAD_ROCK);
+    CHECK(strstr(why, "the corners of joint 1 must lie in one plane") != NULL);
+    CHECK_STATUS(pp_rock_new(cube[0], SIDES, joints, 2, square[0], huge, NULL, NULL, 0, NULL, NULL, NULL, &rock, why, sizeof why), PP_BAD_INDEX);
+    CHECK_STATUS(pp_joint_from_corners(square[0], 2, &joints[1], why, sizeof why), PP_BAD_ROCK);
+    CHECK_STATUS(pp_joint_from_corners(NULL, 4, &joints[1], why, sizeof why), PP_NULL_POINTER);
 }
 
 static void sets_have_their_spacing(void) {
@@ -167,7 +197,7 @@ static void bad_values_are_told(void) {
     const double none[4] = {0, 0, 0, 1};
     pp_slice_settings settings = {.most_blocks = 5};
 #define NEW(planes, count, joints, joint_count, region, counts, regions, settings) \
-    pp_rock_new(planes, count, joints, joint_count, region, counts, regions, settings, NULL, NULL, &rock, why, sizeof why)
+    pp_rock_new(planes, count, joints, joint_count, NULL, NULL, region, counts, regions, settings, NULL, NULL, &rock, why, sizeof why)
     CHECK_STATUS(NEW(cube[0], 5, joints, 3, NULL, NULL, 0, NULL), PP_BAD_ROCK);
     CHECK(strstr(why, "the domain is open") != NULL);
     CHECK_STATUS(NEW(cube[0], SIDES, joints, 3, NULL, NULL, 0, &settings), PP_BAD_ROCK);
@@ -195,6 +225,7 @@ static void bad_values_are_told(void) {
 
 void test_rock(void) {
     joints_have_dip_and_direction();
+    polygons_cut_what_they_reach();
     sets_have_their_spacing();
     a_grid_of_eight();
     a_tunnel_parts_what_it_meets();

@@ -38,7 +38,9 @@ def scene():
         yade.ConicInteractionLoop(
             [functor(), yade.Ig2_PP_PP_ScGeom_Conic(**{**SETTINGS, **PATCH, "label": "plain"})]
             + [getattr(yade, f"Ig2_{other}_ConicPP_ScGeom")(**{**SETTINGS, **(GAPS if other == "Sphere" else {}), "label": other}) for other in OTHERS],
-            loop.physDispatcher.functors + [yade.Ip2_ConicJointMat_ConicJointMat_ConicJointPhys(label="joints", cohesiveTresholdIteration=5)],
+            # The later one serves a pair: YADE's own.
+            [yade.Ip2_FrictMat_FrictMat_KnKsPhys_Block(Knormal=1e8, kn_i=2e8, viscousDamping=0.25, tensionBroken=False, label="blocks")]
+            + loop.physDispatcher.functors + [yade.Ip2_ConicJointMat_ConicJointMat_ConicJointPhys(label="joints", cohesiveTresholdIteration=5)],
             loop.lawDispatcher.functors + [yade.Law2_ScGeomConicPP_ConicJointPhys(neverErase=True, label="jointLaw")], label="loop"),
         integrator,
     ]

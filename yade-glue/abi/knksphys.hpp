@@ -54,6 +54,7 @@ PP_ABI_SIZE(FrictPhys, 104 + frictPhysExtraBytes);
 
 class KnKsPhys : public FrictPhys {
 public:
+    KnKsPhys();
     ~KnKsPhys() override;
     PP_ABI_SERIALIZABLE_OVERRIDES
     PP_ABI_INDEX_OVERRIDES

@@ -74,6 +74,7 @@ BOOST_PYTHON_MODULE(_glue)
     py::def("surface_mesh", &pp::surfaceMesh);
     py::def("patch_surface", &pp::patchSurface);
     py::def("pack", &pp::packContainer);
+    py::def("joint_from_corners", &pp::jointFromCorners);
     py::def("joints_of_set", &pp::jointsOfSet);
     py::def("slice_rock", &pp::sliceRock);
     py::def("window_dispatcher", &pp::windowDispatcher);

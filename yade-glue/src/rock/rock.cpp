@@ -42,6 +42,18 @@ namespace {
             throw std::invalid_argument(message[0] ? message : pp_status_message(status));
     }
 
+    struct Point {
+        double at[3];
+    };
+
+    std::vector<std::size_t> counts(const py::list& numbers)
+    {
+        std::vector<std::size_t> read;
+        for (py::ssize_t i = 0; i < py::len(numbers); ++i)
+            read.push_back(py::extract<std::size_t>(numbers[i]));
+        return read;
+    }
+
     struct Listener {
         const py::object& progress;
         bool raised = false;
@@ -75,6 +87,15 @@ namespace {
 
 } // namespace
 
+py::object jointFromCorners(const py::object& corners)
+{
+    const auto given = rows<Point>(corners);
+    std::vector<pp_joint> made(1);
+    char message[PP_MESSAGE_SIZE] = "";
+    require(pp_joint_from_corners(given.empty() ? nullptr : given[0].at, given.size(), made.data(), message, sizeof message), message);
+    return bytes(made);
+}
+
 py::object jointsOfSet(const py::dict& set, const py::object& centre, double reach)
 {
     pp_joint_set given {};
@@ -99,7 +120,8 @@ py::object jointsOfSet(const py::dict& set, const py::object& centre, double rea
     return bytes(joints);
 }
 
-py::dict sliceRock(const py::object& domain, const py::object& joints, const py::object& regionPlanes, const py::list& regionCounts,
+py::dict sliceRock(const py::object& domain, const py::object& joints, const py::object& outlines, const py::list& outlineCounts,
+                   const py::object& regionPlanes, const py::list& regionCounts,
                    const py::dict& settings, const py::object& progress)
 {
     using Plane = double[4];
@@ -108,12 +130,14 @@ py::dict sliceRock(const py::object& domain, const py::object& joints, const py:
     };
     const auto outer = rows<Row>(domain), regions = rows<Row>(regionPlanes);
     const auto planes = rows<pp_joint>(joints);
-    std::vector<std::size_t> counts;
-    for (py::ssize_t i = 0; i < py::len(regionCounts); ++i)
-        counts.push_back(py::extract<std::size_t>(regionCounts[i]));
+    const auto corners = rows<Point>(outlines);
+    const auto ofJoints = counts(outlineCounts), ofRegions = counts(regionCounts);
     pp_slice_settings limits {};
     limits.least_volume = field<double>(settings, "least_volume");
     limits.least_thickness = field<double>(settings, "least_thickness");
+    limits.least_width = field<double>(settings, "least_width");
+    limits.largest_aspect = field<double>(settings, "largest_aspect");
+    limits.threads = field<std::uint64_t>(settings, "threads");
     limits.most_blocks = field<std::uint64_t>(settings, "most_blocks");
 
     Listener listener { progress };
@@ -121,7 +145,8 @@ py::dict sliceRock(const py::object& domain, const py::object& joints, const py:
     pp_rock* made = nullptr;
     const pp_status status
         = pp_rock_new(outer.empty() ? nullptr : outer[0].plane, outer.size(), planes.data(), planes.size(),
-                      regions.empty() ? nullptr : regions[0].plane, counts.data(), counts.size(), &limits,
+                      corners.empty() ? nullptr : corners[0].at, ofJoints.data(), regions.empty() ? nullptr : regions[0].plane, ofRegions.data(),
+                      ofRegions.size(), &limits,
                       progress.is_none() ? nullptr : &tell, &listener, &made, message, sizeof message);
     const std::unique_ptr<pp_rock, Free> rock(made);
     if (listener.raised)

@@ -11,13 +11,17 @@
 
 namespace potential_particles {
 
+// The joint (pp_joint) that is a polygon of these corners, rows of three numbers.
+boost::python::object jointFromCorners(const boost::python::object& corners);
+
 // The joints (pp_joint) of a set within reach of a point; `set` holds the fields of pp_joint_set.
 boost::python::object jointsOfSet(const boost::python::dict& set, const boost::python::object& centre, double reach);
 
-// Cuts a domain, rows of four numbers, by joints (pp_joint) and regions, rows of all of them and a list of how many belong to each. `settings`
+// Cuts a domain, rows of four numbers, by joints (pp_joint), polygons among them with the corners of all and a list of how many belong to each joint, and regions, rows of all of them and a list of how many belong to each. `settings`
 // holds the fields of pp_slice_settings; `progress` is None, or called with the numbers of joints and of blocks, and ends the cuts where it
 // returns false. A dict of arrays: blocks, faces, corners, partners, missing; and the numbers joints, too_small, unclosed.
 boost::python::dict sliceRock(const boost::python::object& domain, const boost::python::object& joints,
+                              const boost::python::object& outlines, const boost::python::list& outlineCounts,
                               const boost::python::object& regionPlanes, const boost::python::list& regionCounts,
                               const boost::python::dict& settings, const boost::python::object& progress);
 

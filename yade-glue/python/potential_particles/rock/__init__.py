@@ -12,10 +12,11 @@ What is wrong with an argument is a ValueError of one sentence, and nothing is m
 from .block_theory import COLOURS, KeyBlock, key_blocks, summary
 from .domain import Domain
 from .files import read_blockgen, read_dfn
-from .joints import Joint, JointSet, joint
+from .joints import Joint, JointSet, joint, polygon, rectangle
 from .loads import apply_loads, face_pressure, water_pressure
 from .mass import Block, RockMass, slice
 from .scene import bodies, excavate, joint_engine
+from .surfaces import JointRecorder, joint_table
 
-__all__ = ["COLOURS", "Block", "Domain", "Joint", "JointSet", "KeyBlock", "RockMass", "apply_loads", "bodies", "excavate", "face_pressure", "joint",
-           "joint_engine", "key_blocks", "read_blockgen", "read_dfn", "slice", "summary", "water_pressure"]
+__all__ = ["COLOURS", "Block", "Domain", "Joint", "JointRecorder", "JointSet", "KeyBlock", "RockMass", "apply_loads", "bodies", "excavate", "face_pressure", "joint",
+           "joint_engine", "joint_table", "key_blocks", "polygon", "read_blockgen", "read_dfn", "rectangle", "slice", "summary", "water_pressure"]

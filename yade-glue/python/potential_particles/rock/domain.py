@@ -75,8 +75,8 @@ class Domain:
     def ball(self):
         """Centre (3,) and radius of a ball that holds it, without regards to what is left out; ValueError if it is empty or open."""
         from .. import _glue
-        limits = {"least_volume": 0.0, "least_thickness": 0.0, "most_blocks": 1}
-        read = _glue.slice_rock(self.planes.tobytes(), b"", b"", [], limits, None)
+        limits = {"least_volume": 0.0, "least_thickness": 0.0, "least_width": 0.0, "largest_aspect": 0.0, "most_blocks": 1, "threads": 1}
+        read = _glue.slice_rock(self.planes.tobytes(), b"", b"", [], b"", [], limits, None)
         corners = np.frombuffer(read["corners"]).reshape(-1, 3)
         centre = 0.5 * (corners.min(0) + corners.max(0))
         return centre, float(np.linalg.norm(corners - centre, axis=1).max())

@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Joints from files: discrete fracture networks, and the tables of YADE's BlockGen."""
+import itertools
 import math
 
+import numpy as np
 
-from .joints import Joint, JointSet, joint
+from .joints import Joint, JointSet, joint, polygon
 
 
 def read_dfn(file):
@@ -23,10 +25,14 @@ def read_blockgen(file, kind, size=None):
 
     kind: "probabilistic" (filenameProbabilistic) has dip; dip direction; x; y; z; half lengths along strike and dip in each row; "persistent"
     (filenamePersistentPlanes) dip; dip direction; spacing, and joints through the origin and on both sides of it as far as `size`/2, the boundarySize of
-    BlockGen; "boundary" (filenameBoundaries) dip; dip direction; x; y; z. Further columns are passed over: friction and strength are for
-    joint_engine(). In BlockGen's axes the normal of a plane is (-sin d cos a, -sin d sin a, cos d), d the dip and a the dip direction: x is north and y east
-    where z points downwards. The rectangle of a joint that ends becomes the disc of the same area.
+    BlockGen; "boundary" (filenameBoundaries) dip; dip direction; x; y; z. Further columns are passed over. In BlockGen's axes the normal of a plane is (-sin d cos a, -sin d sin a, cos d), d the dip and a the dip direction: x is north and y east
+    where z points downwards. A joint that ends is a rectangle.
     """
+    return [one for one, _ in rows_of_blockgen(file, kind, size)]
+
+
+def rows_of_blockgen(file, kind, size=None):
+    """(Joint, dict of frictionAngle, residualFrictionAngle, cohesion and tensileStrength, as of ConicJointMat, where the row has them) of each joint of read_blockgen()."""
     kinds = {"probabilistic": 7, "persistent": 3, "boundary": 5}
     if kind not in kinds:
         raise ValueError(f"kind={kind!r} must be one of {', '.join(kinds)}")
@@ -37,18 +43,32 @@ def read_blockgen(file, kind, size=None):
         dip, direction = values[:2]
         # BlockGen takes dips above 90, as of planes that overhang.
         normal = _told(file, number, lambda: _blockgen_normal(dip, direction))
+        strength = _strength(values[kinds[kind]:])
         if kind == "persistent":
             _told(file, number, lambda: JointSet(min(dip, 180 - dip), direction, values[2]))
             half = round(size / values[2]) // 2
-            found += [Joint(tuple(step * values[2] * one for one in normal), normal) for step in range(-half, half + 1)]
-            continue
-        radius = math.inf
-        if kind == "probabilistic":
-            radius = math.sqrt(4.0 * values[5] * values[6] / math.pi)
-            if not radius > 0.0:
+            found += [(Joint(tuple(step * values[2] * one for one in normal), normal), strength) for step in range(-half, half + 1)]
+        elif kind == "probabilistic":
+            if not (values[5] > 0.0 and values[6] > 0.0):
                 raise ValueError(f"{file}, line {number}: half lengths {values[5]:g} and {values[6]:g} must be above 0")
-        found.append(Joint(tuple(values[2:5]), normal, radius))
+            found.append((_told(file, number, lambda: _rectangle(values[2:5], normal, math.radians(direction), *values[5:7])), strength))
+        else:
+            found.append((Joint(tuple(values[2:5]), normal), strength))
     return found
+
+
+def _rectangle(centre, normal, direction, along, down):
+    """The polygon of BlockGen's half lengths: along the strike, 90 degrees before the dip direction, and across it."""
+    strike = np.array([math.sin(direction), -math.cos(direction), 0.0])
+    along, down = along * strike, down * np.cross(normal, strike)
+    return polygon([centre + along + down, centre - along + down, centre - along - down, centre + along - down])
+
+
+def _strength(values):
+    """phi_b; phi_r; JRC; JCS; asperity; sigmaC; cohesion; tension."""
+    if len(values) < 8:
+        return {}
+    return {"frictionAngle": math.radians(values[0]), "residualFrictionAngle": math.radians(values[1]), "cohesion": values[6], "tensileStrength": values[7]}
 
 
 def _blockgen_normal(dip, direction):
@@ -77,7 +97,8 @@ def _rows(file, width, meaning, exactly=True):
                     raise ValueError(f"{file}, line {number}, column {column}: {word!r} is no number")
             if len(words) < width or exactly and len(words) != width:
                 raise ValueError(f"{file}, line {number}: {len(words)} numbers, and {width} are needed: {meaning}")
-            found.append((number, [float(word) for word in words[:width]]))
+            further = [] if exactly else list(itertools.takewhile(_is_number, words[width:]))
+            found.append((number, [float(word) for word in words[:width] + further]))
     if not found:
         raise ValueError(f"{file}: there is no row of numbers: {meaning}")
     return found

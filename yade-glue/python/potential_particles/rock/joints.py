@@ -6,15 +6,16 @@ import typing
 
 import numpy as np
 
-from ..arguments import number, positive, vector, whole, within
+from ..arguments import number, positive, rows, vector, whole, within
 
 
 class Joint(typing.NamedTuple):
-    """A plane in the rock, or a disc of it about `point`: unit normal, and radius (length, math.inf for a joint without end)."""
+    """A plane in the rock, or a disc of it about `point`: unit normal, and radius (length, math.inf for a joint without end); of a polygon `outline`, its corners (n, 3)."""
 
     point: tuple
     normal: tuple
     radius: float = math.inf
+    outline: tuple = ()
 
 
 def joint(point, dip, dip_direction, radius=math.inf):
@@ -25,6 +26,22 @@ def joint(point, dip, dip_direction, radius=math.inf):
     dip, direction = math.radians(within(dip, 0.0, 90.0, "dip")), math.radians(number(dip_direction, "dip_direction"))
     normal = (math.sin(dip) * math.sin(direction), math.sin(dip) * math.cos(direction), math.cos(dip))
     return Joint(tuple(map(float, vector(point, "point"))), normal, _radius(radius))
+
+
+def polygon(corners):
+    """The Joint that is a convex polygon, by its corners (n, 3) in their order; ValueError where they lie off one plane, on one line, or are no convex polygon's."""
+    from .. import _glue
+    outline = rows(corners, 3, "corners", "the three numbers x, y, z")
+    made = np.frombuffer(_glue.joint_from_corners(outline.tobytes())).tolist()
+    return Joint(tuple(made[:3]), tuple(made[3:6]), made[6], tuple(map(tuple, outline.tolist())))
+
+
+def rectangle(point, dip, dip_direction, length, width):
+    """The Joint that is a rectangle about `point`: `length` along its strike, `width` along its dip; angles as of joint()."""
+    middle, dip, direction = vector(point, "point"), math.radians(within(dip, 0.0, 90.0, "dip")), math.radians(number(dip_direction, "dip_direction"))
+    along = 0.5 * positive(length, "length") * np.array([math.cos(direction), -math.sin(direction), 0.0])
+    down = 0.5 * positive(width, "width") * np.array([math.cos(dip) * math.sin(direction), math.cos(dip) * math.cos(direction), -math.sin(dip)])
+    return polygon([middle + along + down, middle - along + down, middle - along - down, middle + along - down])
 
 
 @dataclasses.dataclass(frozen=True)

@@ -3,12 +3,13 @@
 import dataclasses
 import functools
 import math
+import os
 import sys
 import typing
 
 import numpy as np
 
-from ..arguments import number, whole
+from ..arguments import number, whole, within
 from .domain import Domain
 from .joints import Joint, JointSet
 
@@ -142,15 +143,16 @@ class RockMass:
         return dataclasses.replace(self, blocks=blocks, faces=left, partners=pairs)
 
 
-def slice(domain, joints, regions=(), least_volume=0.0, least_thickness=0.0, most_blocks=1_000_000, progress=True):
+def slice(domain, joints, regions=(), least_volume=0.0, least_thickness=0.0, least_width=0.0, largest_aspect=math.inf, most_blocks=1_000_000, threads=None, progress=True):
     """Cuts a Domain by joints, in their order, into a RockMass (Boon, Houlsby & Utili 2015, Computers and Geotechnics 65).
 
-    joints: JointSets, Joints and lists of Joints. A joint cuts each block that it meets in two, a disc all of a block that it reaches.
+    joints: JointSets, Joints and lists of Joints. A joint cuts each block that it meets in two, a disc or polygon all of a block that it reaches.
     regions: convex Domains, as the steps of an excavation, that cut the blocks that they meet, after all joints; `inside` tells which blocks lie in one.
     What `domain` leaves out is taken out.
     least_volume: a joint leaves a block whole if a part would be smaller than this (length^3), or thinner than least_thickness in the mean, 2V/A of
-    volume and surface (length): of a wide slab its thickness, of a cube a third of its edge. Such cuts are counted.
-    most_blocks: more are a ValueError. progress: a bar on a terminal. Ctrl-C ends the cuts, and the blocks that there are come back.
+    volume and surface (length): of a wide slab its thickness, of a cube a third of its edge; or the largest ball in it has a diameter below least_width (length), or
+    its extent along x, y or z is more than largest_aspect times that diameter, as the paper has it. Such cuts are counted.
+    most_blocks: more are a ValueError. threads: that cut, None for one on each processor; the blocks are the same for any number. progress: a bar on a terminal. Ctrl-C ends the cuts, and the blocks that there are come back.
     """
     from .. import _glue
     if not isinstance(domain, Domain):
@@ -159,6 +161,8 @@ def slice(domain, joints, regions=(), least_volume=0.0, least_thickness=0.0, mos
         if not isinstance(region, Domain) or region.left_out:
             raise ValueError(f"a region is {type(region).__name__}: give convex Domains that leave nothing out themselves")
     limits = {"least_volume": _not_negative(least_volume, "least_volume"), "least_thickness": _not_negative(least_thickness, "least_thickness"),
+              "least_width": _not_negative(least_width, "least_width"), "largest_aspect": 0.0 if largest_aspect == math.inf else within(largest_aspect, 1.0, math.inf, "largest_aspect"),
+              "threads": len(os.sched_getaffinity(0)) if threads is None else whole(threads, 1, "threads"),
               "most_blocks": whole(most_blocks, 1, "most_blocks")}
     centre, reach = domain.ball()
     cutting, numbers = [], []
@@ -167,9 +171,11 @@ def slice(domain, joints, regions=(), least_volume=0.0, least_thickness=0.0, mos
         cutting += made
         numbers += [entry] * len(made)
     rows = np.array([(*one.point, *one.normal, one.radius) for one in cutting], float)
+    outlines = np.array([corner for one in cutting for corner in one.outline], float)
     cut_out = [*domain.left_out, *regions]
     with _Report(len(cutting), progress) as report:
-        read = _glue.slice_rock(domain.planes.tobytes(), rows.tobytes(), b"".join(one.planes.tobytes() for one in cut_out),
+        read = _glue.slice_rock(domain.planes.tobytes(), rows.tobytes(), outlines.tobytes(), [len(one.outline) for one in cutting],
+                                b"".join(one.planes.tobytes() for one in cut_out),
                                 [len(one.planes) for one in cut_out], limits, report.told)
     done = int(read["joints"])
     mass = RockMass(blocks=np.frombuffer(read["blocks"], BLOCK), faces=np.frombuffer(read["faces"], FACE), corners=np.frombuffer(read["corners"]).reshape(-1, 3),

@@ -57,7 +57,7 @@ def joint_engine(mass, ids, materials, period=1):
     """An engine that gives contacts the friction, strength and stiffness of the joint on which they lie, to stand behind the contact loop.
 
     mass, ids: as of bodies(). materials: for entries of the `joints` of slice() a Material: of a ConicJointMat friction angles, cohesion, tensile
-    strength, softening and, where they are above 0, both stiffnesses count; of another FrictMat the friction angle. Contacts between blocks that were
+    strength, softening and, where they are above 0, both stiffnesses count, but with KnKsPhys neither softening nor stiffnesses; of another FrictMat the friction angle. Contacts between blocks that were
     neighbours on a joint of these sets take them in the first step after they are made, looked for every `period` steps; all others keep what their bodies give them.
     Saved with the scene, in O.tags; a script that loads it imports potential_particles.
     """
@@ -108,7 +108,14 @@ def follow():
 
 
 def _give(physics, values):
+    import yade
     physics.tangensOfFrictionAngle = math.tan(values["frictionAngle"])
+    if isinstance(physics, yade.KnKsPhys):
+        # Its law takes angles in degrees, and strength only of contacts that say that they have some.
+        physics.phi_b, physics.phi_r = (math.degrees(values[name]) for name in ("frictionAngle", "residualFrictionAngle"))
+        physics.cohesion, physics.tension = values.get("cohesion", 0.0), values.get("tensileStrength", 0.0)
+        physics.intactRock, physics.cohesionBroken, physics.tensionBroken = physics.cohesion > 0.0, physics.cohesion <= 0.0, physics.tension <= 0.0
+        return
     if hasattr(physics, "tangensOfResidualFrictionAngle"):
         physics.tangensOfResidualFrictionAngle = math.tan(values["residualFrictionAngle"])
     for name in _VALUES[2:]:

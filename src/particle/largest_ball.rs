@@ -16,7 +16,7 @@ const MOST_STEPS: usize = 100_000;
 
 /// The radius of the largest ball in {n·x ≤ h}, for unit normals n of a bounded body that holds the origin; its size is at most
 /// `extent`, length. `None` if rounding leaves no answer.
-pub(super) fn radius(faces: &[(Vector3<f64>, f64)], extent: f64) -> Option<f64> {
+pub(crate) fn radius(faces: &[(Vector3<f64>, f64)], extent: f64) -> Option<f64> {
     // A tetrahedron far outside begins.
     let corners = [[1.0, 1.0, 1.0], [1.0, -1.0, -1.0], [-1.0, 1.0, -1.0], [-1.0, -1.0, 1.0]];
     let outside = corners.map(|corner| (Vector3::from(corner) / 3f64.sqrt(), 1e3 * extent));
