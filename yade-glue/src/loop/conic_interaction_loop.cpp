@@ -68,8 +68,7 @@ void ConicInteractionLoop::action()
             serving.serve(static_cast<std::size_t>(place), thread);
         serving.close(thread);
     }
-    if (serving.listsMiss() || pushes.bodies() != count)
-        pushes.makeLists(step, pairs, count);
+    pushes.list(serving.missing(), step, pairs, count);
     const long each = static_cast<long>(count);
 #pragma omp parallel for schedule(static) num_threads(threads)
     for (long body = 0; body < each; ++body)

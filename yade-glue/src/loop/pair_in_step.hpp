@@ -80,9 +80,10 @@ struct alignas(64) ContactInStep {
     Guess<const void*> interaction = nullptr;
     Guess<const void*> geom = nullptr;
     Guess<const void*> phys = nullptr;
-    // The number of the lists (Pushes) that it is in.
+    // The number of the lists (Pushes) that it is in; 0: it is in none.
     std::uint64_t listedIn = 0;
-    std::uint64_t pushedIn = 0;
+    std::uint64_t pushedIn = 0; // its step
+    int id1 = -1, id2 = -1; // the bodies that it pushed
     Push push;
 };
 

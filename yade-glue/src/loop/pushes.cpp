@@ -7,54 +7,90 @@ namespace potential_particles {
 
 using yade::Vector3r;
 
-void Pushes::makeLists(Step& step, std::size_t pairs, std::size_t bodies)
+void Pushes::list(const std::vector<std::size_t>& missing, Step& step, std::size_t pairs, std::size_t bodies)
+{
+    bool fits = ends.size() == bodies;
+    for (std::size_t i = 0; fits && i < missing.size(); ++i) {
+        ContactInStep& contact = *step.contactAt(missing[i]);
+        const auto place = static_cast<std::uint32_t>(missing[i]);
+        fits = enter(contact.id1, { contact.id2, place }) && enter(contact.id2, { contact.id1, place });
+        contact.listedIn = lists;
+    }
+    if (!fits)
+        makeAnew(step, pairs, bodies);
+}
+
+// False when there is no room for it.
+bool Pushes::enter(int body, Entry entry)
+{
+    const auto id = static_cast<std::size_t>(body);
+    const auto begin = entries.begin() + begins[id], end = entries.begin() + ends[id];
+    const auto at = std::lower_bound(begin, end, entry, [](const Entry& one, const Entry& other) { return one.other < other.other; });
+    if (at != end && at->other == entry.other) {
+        *at = entry;
+        return true;
+    }
+    if (ends[id] == begins[id + 1])
+        return false;
+    std::move_backward(at, end, end + 1);
+    *at = entry;
+    ++ends[id];
+    return true;
+}
+
+void Pushes::makeAnew(Step& step, std::size_t pairs, std::size_t bodies)
 {
     ++lists;
-    begins.assign(bodies + 1, 0);
     const auto each = [&](auto visit) {
-        for (std::size_t place = 0; place < pairs; ++place)
-            if (const PairInStep* pair = step.knownPairAt(place); pair && pair->pushedIn > 0 && pair->pushedIn + late >= step.number())
-                visit(static_cast<std::uint32_t>(place), static_cast<std::size_t>(pair->id1), static_cast<std::size_t>(pair->id2));
+        for (std::size_t place = 0; place < pairs; ++place) {
+            const PairInStep* const pair = step.knownPairAt(place);
+            if (!pair || pair->pushedIn == 0 || pair->pushedIn + late < step.number())
+                continue;
+            ContactInStep& contact = *step.contactAt(place);
+            if (static_cast<std::size_t>(contact.id1) < bodies && static_cast<std::size_t>(contact.id2) < bodies)
+                visit(static_cast<std::uint32_t>(place), contact);
+        }
     };
-    each([&](std::uint32_t place, std::size_t id1, std::size_t id2) {
-        ++begins[id1 + 1];
-        ++begins[id2 + 1];
-        step.contactAt(place)->listedIn = lists;
+    begins.assign(bodies + 1, spare);
+    begins[0] = 0;
+    each([&](std::uint32_t, const ContactInStep& contact) {
+        ++begins[static_cast<std::size_t>(contact.id1) + 1];
+        ++begins[static_cast<std::size_t>(contact.id2) + 1];
     });
     for (std::size_t id = 0; id < bodies; ++id)
         begins[id + 1] += begins[id];
     entries.resize(begins[bodies]);
-    filled.assign(begins.begin(), begins.end() - 1);
-    each([&](std::uint32_t place, std::size_t id1, std::size_t id2) {
-        entries[filled[id1]++] = { static_cast<int>(id2), place };
-        entries[filled[id2]++] = { static_cast<int>(id1), place | second };
+    ends.assign(begins.begin(), begins.end() - 1);
+    each([&](std::uint32_t place, ContactInStep& contact) {
+        enter(contact.id1, { contact.id2, place });
+        enter(contact.id2, { contact.id1, place });
+        contact.listedIn = lists;
     });
-    for (std::size_t id = 0; id < bodies; ++id)
-        std::sort(entries.begin() + begins[id], entries.begin() + begins[id + 1],
-                  [](const Entry& one, const Entry& other) { return one.other < other.other; });
 }
 
 void Pushes::add(const Step& step, yade::ForceContainer& forces, std::size_t body) const
 {
+    const int id = static_cast<int>(body);
     Vector3r force = Vector3r::Zero(), torque = Vector3r::Zero();
     bool any = false;
-    for (std::size_t i = begins[body]; i < begins[body + 1]; ++i) {
-        const bool isSecond = entries[i].place & second;
-        const ContactInStep& contact = *step.knownContactAt(entries[i].place & ~second);
+    for (std::size_t i = begins[body]; i < ends[body]; ++i) {
+        const ContactInStep& contact = *step.knownContactAt(entries[i].place);
         if (contact.pushedIn != step.number())
             continue;
-        any = true;
-        if (isSecond) {
+        const int other = entries[i].other;
+        if (contact.id1 == id && contact.id2 == other) {
+            force += contact.push.force;
+            torque += contact.push.torque1;
+        } else if (contact.id2 == id && contact.id1 == other) {
             force += -contact.push.force;
             torque += contact.push.torque2;
         } else {
-            force += contact.push.force;
-            torque += contact.push.torque1;
+            continue;
         }
+        any = true;
     }
     if (!any)
         return;
-    const int id = static_cast<int>(body);
     forces.addForce(id, force);
     forces.addTorque(id, torque);
 }

@@ -94,6 +94,8 @@ void Serving::serve(std::size_t place, Thread& thread)
     step.fetchAhead(place);
     if (!known.isOf(pair)) {
         known.become(pair);
+        if (ContactInStep* const contact = step.knownContactAt(place))
+            contact->listedIn = 0;
     } else if (known.wakes > 0 && known.sleeps(step.gathered(known.id1), step.gathered(known.id2))) {
         ++thread.sleeping[known.functor];
         return;
@@ -112,6 +114,10 @@ void Serving::close(const Thread& thread)
     for (std::size_t i = 0; i < functors.size() && i < thread.sleeping.size() - 1; ++i)
         if (functors[i].ours && thread.sleeping[i + 1] > 0)
             functors[i].ours->countSleeping(thread.sleeping[i + 1]);
+    if (thread.missing.empty())
+        return;
+    const std::lock_guard<std::mutex> lock(mutex);
+    unlisted.insert(unlisted.end(), thread.missing.begin(), thread.missing.end());
 }
 
 void Serving::rethrow() const
@@ -246,12 +252,11 @@ bool Serving::push(std::size_t place, PairInStep& known, Interaction& pair, cons
         return pair.functorCache.constLaw->go(pair.geom, pair.phys, &pair);
     if (done == Done::ended)
         return false;
-    // Of another order than at the last look, if YADE swapped the bodies.
-    known.id1 = pair.id1;
-    known.id2 = pair.id2;
     known.pushedIn = contact->pushedIn = step.number();
+    contact->id1 = pair.id1;
+    contact->id2 = pair.id2;
     if (contact->listedIn != listed)
-        missing.store(true, std::memory_order_relaxed);
+        thread.missing.push_back(place);
     return true;
 }
 

@@ -9,7 +9,6 @@
 #include "step.hpp"
 
 #include <array>
-#include <atomic>
 #include <exception>
 #include <mutex>
 #include <vector>
@@ -28,17 +27,18 @@ public:
     struct Thread {
         LastTangent tangent;
         std::array<std::uint64_t, 256> sleeping {}; // pairs, by functor
+        std::vector<std::size_t> missing {}; // places of contacts that are in no list of Pushes
     };
 
     // The pair at that place of YADE's list.
     void serve(std::size_t place, Thread& thread);
-    // Counts what the thread has let sleep.
+    // Takes in what the thread has counted and found.
     void close(const Thread& thread);
 
     // Places of pairs for which YADE's loop must find a functor.
     const std::vector<std::size_t>& left() const { return places; }
-    // Whether a contact pushes that is not in the lists.
-    bool listsMiss() const { return missing.load(); }
+    // Places of contacts that push and are in no list.
+    const std::vector<std::size_t>& missing() const { return unlisted; }
     // Throws what a functor has thrown.
     void rethrow() const;
 
@@ -74,9 +74,8 @@ private:
     std::vector<Functor> functors; // numbered from 1 in PairInStep
     std::vector<Law> knownLaws;
 
-    std::atomic<bool> missing { false };
-    std::mutex mutex; // of these two
-    std::vector<std::size_t> places;
+    std::mutex mutex; // of these
+    std::vector<std::size_t> places, unlisted;
     std::exception_ptr thrown;
 };
 

@@ -66,7 +66,7 @@ public:
     const PairInStep* knownPairAt(std::size_t place) const { return pairs.find(place); }
 
     ContactInStep* contactAt(std::size_t place) { return contacts.at(place); }
-    const ContactInStep* knownContactAt(std::size_t place) const { return contacts.find(place); }
+    ContactInStep* knownContactAt(std::size_t place) const { return contacts.find(place); }
 
     // The pair at that place of YADE's list touches.
     void noteContact(std::size_t place, PairInStep& pair, const yade::Interaction& interaction)
