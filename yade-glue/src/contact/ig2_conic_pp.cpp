@@ -146,6 +146,10 @@ struct Ig2_ConicPP_ConicPP_ScGeom::Pair : PairInScene {
             own->apart.forget();
         if (!known)
             return;
+        if (gathered) { // the loop notes the rest
+            known->wakes = 0;
+            return;
+        }
         known->note(interaction, *body1, *body2, 0);
         Step::current()->noteContact(static_cast<std::size_t>(interaction->linIx), *known, *interaction);
     }
@@ -169,7 +173,7 @@ bool Ig2_ConicPP_ConicPP_ScGeom::go(const boost::shared_ptr<Shape>& cm1, const b
             known = body1 && body2 && body1->particle && body2->particle ? step->pair(*interaction) : nullptr;
             if (known) {
                 step->fetchAhead(static_cast<std::size_t>(interaction->linIx));
-                if (!real && !force && known->isOf(interaction) && known->sleeps(*body1, *body2)) {
+                if (!real && !force && known->isOf(interaction) && known->sleeps(body1->way, body2->way)) {
                     counts.add(Count::calls);
                     counts.add(Count::motion);
                     return false;
@@ -186,8 +190,8 @@ bool Ig2_ConicPP_ConicPP_ScGeom::go(const boost::shared_ptr<Shape>& cm1, const b
     return real || (force && interaction->geom);
 }
 
-bool Ig2_ConicPP_ConicPP_ScGeom::goInLoop(Step& step, BodyInStep& body1, BodyInStep& body2, PairInStep& pairInStep,
-                                          const boost::shared_ptr<Interaction>& interaction) noexcept
+bool Ig2_ConicPP_ConicPP_ScGeom::goInLoop(Step& step, Counters::Row& counts, BodyInStep& body1, BodyInStep& body2,
+                                          PairInStep& pairInStep, const boost::shared_ptr<Interaction>& interaction) noexcept
 {
     const bool real = interaction->hasGeomAndPhys();
     const boost::shared_ptr<Shape> &cm1 = body1.body->shape, &cm2 = body2.body->shape;
@@ -195,11 +199,16 @@ bool Ig2_ConicPP_ConicPP_ScGeom::goInLoop(Step& step, BodyInStep& body1, BodyInS
     const Vector3r shift2 = Vector3r::Zero();
     try {
         const AcceptedSettings& settings = *accepted.get();
-        Counters::Row& counts = counters.ofThisThread();
         const Stopwatch stopwatch(counts, settings.given.measureTime);
         step.look(body1, cm1, state1);
         step.look(body2, cm2, state2);
         PairInStep* const known = body1.particle && body2.particle ? &pairInStep : nullptr;
+        // Of bodies that were not looked at before.
+        if (known && !real && known->sleeps(body1.way, body2.way)) {
+            counts.add(Count::calls);
+            counts.add(Count::motion);
+            return false;
+        }
         Pair pair { { state1, state2, shift2, false, interaction, counts, settings, real }, cm1, cm2, &body1, &body2, known, true };
         return answer(pair);
     } catch (const std::exception& error) {
@@ -210,9 +219,8 @@ bool Ig2_ConicPP_ConicPP_ScGeom::goInLoop(Step& step, BodyInStep& body1, BodyInS
     return real;
 }
 
-void Ig2_ConicPP_ConicPP_ScGeom::countSleeping(std::uint64_t pairs)
+void Ig2_ConicPP_ConicPP_ScGeom::countSleeping(Counters::Row& counts, std::uint64_t pairs)
 {
-    Counters::Row& counts = counters.ofThisThread();
     counts.add(Count::calls, pairs);
     counts.add(Count::motion, pairs);
 }

@@ -48,10 +48,12 @@ public:
 
     // The same in a loop of our own outside of periodic cells, which has gathered the bodies; not for the classes that answer by
     // another go().
-    bool goInLoop(Step& step, BodyInStep& body1, BodyInStep& body2, PairInStep& pairInStep,
+    bool goInLoop(Step& step, Counters::Row& counts, BodyInStep& body1, BodyInStep& body2, PairInStep& pairInStep,
                   const boost::shared_ptr<yade::Interaction>& interaction) noexcept;
+    // Where this thread counts.
+    Counters::Row& counts() { return counters.ofThisThread(); }
     // What go() counts of pairs that such a loop lets sleep.
-    void countSleeping(std::uint64_t pairs);
+    static void countSleeping(Counters::Row& counts, std::uint64_t pairs);
 
 protected:
     struct Posed {

@@ -25,18 +25,21 @@ private:
     std::atomic<Value> held;
 };
 
+// How far a body has come.
+struct Way {
+    // A bound on the way that any point of the body has come since the loop met it; never less, whatever is rounded.
+    double travelled = 0;
+    // Number of the period over which `travelled` has been summed. A new one begins, at 0, when the body gets another
+    // particle or moves by what has no bound (not a number, say); ways of two periods cannot be compared. 0: it is not known.
+    std::uint64_t generation = 0;
+};
+
 // Its particle and its way are looked at once a step, by the thread that meets it first; the rest is there in a loop of our own.
 class alignas(64) BodyInStep {
 public:
     // Null when there is no valid particle or pose: the pair then finds out why by itself.
     const Particle* particle = nullptr;
-    // A bound on the way that any point of the body has come since the loop met it; never less, whatever is rounded.
-    double travelled = 0;
-    // Number of the period over which `travelled` has been summed. A new one begins, at 0, when the body gets another
-    // particle or moves by what has no bound (not a number, say); ways of two periods cannot be compared. Never 0.
-    std::uint64_t generation = 0;
-    Guess<const yade::State*> state = nullptr; // to be fetched, never followed
-
+    Way way;
     // Null: there is none with that id.
     yade::Body* body = nullptr;
     yade::Vector3r position = yade::Vector3r::Zero();
@@ -48,6 +51,8 @@ public:
     bool hasShape = false, isClump = false, isHeld = false, hasBox = false;
     // As of a PotentialParticle.
     bool isPotential = false, isBoundary = false, fixesNormal = false;
+
+    static constexpr std::size_t hotSize = 256; // all above
 
 private:
     friend class Step;

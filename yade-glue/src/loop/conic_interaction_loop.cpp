@@ -44,6 +44,7 @@ void ConicInteractionLoop::action()
     const int most = omp_get_max_threads(), threads = ompThreads > 0 ? std::min(ompThreads, most) : most;
     std::atomic<bool> gathered { isOurs() };
     if (gathered) {
+        step.begin(count);
         const long each = static_cast<long>(count);
 #pragma omp parallel for schedule(static) num_threads(threads)
         for (long id = 0; id < each; ++id)
@@ -61,7 +62,7 @@ void ConicInteractionLoop::action()
     Serving serving(*scene, step, *this, pushes.number());
 #pragma omp parallel num_threads(threads)
     {
-        Serving::Thread thread;
+        Serving::Thread thread = serving.open();
         const long each = static_cast<long>(pairs);
 #pragma omp for schedule(guided)
         for (long place = 0; place < each; ++place)

@@ -43,9 +43,9 @@ struct alignas(64) PairInStep {
     }
 
     // Of the interaction that it is of.
-    bool sleeps(const BodyInStep& body1, const BodyInStep& body2) const
+    bool sleeps(const Way& way1, const Way& way2) const
     {
-        return body1.travelled + body2.travelled < wakes && generation1 == body1.generation && generation2 == body2.generation;
+        return way1.travelled + way2.travelled < wakes && generation1 == way1.generation && generation2 == way2.generation;
     }
 
     // They are `room` apart now; 0: nothing is known. The bodies in the order of the interaction.
@@ -55,10 +55,10 @@ struct alignas(64) PairInStep {
             become(pair);
         id1 = pair->id1;
         id2 = pair->id2;
-        generation1 = body1.generation;
-        generation2 = body2.generation;
+        generation1 = body1.way.generation;
+        generation2 = body2.way.generation;
         // Three roundings of sums, and that of the room.
-        const double travelled = body1.travelled + body2.travelled;
+        const double travelled = body1.way.travelled + body2.way.travelled;
         wakes = room > 0 ? (travelled + room) - 1e-15 * (travelled + room) : 0;
         touching = false;
     }

@@ -70,7 +70,7 @@ Serving::Serving(yade::Scene& scene, Step& step, const yade::InteractionLoop& lo
     , physics(*loop.physDispatcher)
     , laws(*loop.lawDispatcher)
     , pairs(scene.interactions->linIntrs)
-    , bodies(scene.bodies->body.size())
+    , ways(step.waysOfBodies())
     , listed(listed)
 {
     for (const auto& functor : geoms.functors) {
@@ -80,6 +80,14 @@ Serving::Serving(yade::Scene& scene, Step& step, const yade::InteractionLoop& lo
     for (const auto& law : laws.functors)
         knownLaws.push_back({ law.get(), exactly<yade::Law2_ScGeom_FrictPhys_CundallStrack>(law.get()),
                               exactly<yade::Law2_SCG_KnKsPhys_KnKsLaw>(law.get()), exactly<Law2_ScGeomConicPP_ConicJointPhys>(law.get()) });
+}
+
+Serving::Thread Serving::open() const
+{
+    Thread thread;
+    for (const Functor& functor : functors)
+        thread.counts.push_back(functor.ours ? &functor.ours->counts() : nullptr);
+    return thread;
 }
 
 void Serving::serve(std::size_t place, Thread& thread)
@@ -96,7 +104,7 @@ void Serving::serve(std::size_t place, Thread& thread)
         known.become(pair);
         if (ContactInStep* const contact = step.knownContactAt(place))
             contact->listedIn = 0;
-    } else if (known.wakes > 0 && known.sleeps(step.gathered(known.id1), step.gathered(known.id2))) {
+    } else if (known.wakes > 0 && known.sleeps(ways[static_cast<std::size_t>(known.id1)], ways[static_cast<std::size_t>(known.id2)])) {
         ++thread.sleeping[known.functor];
         return;
     }
@@ -113,7 +121,7 @@ void Serving::close(const Thread& thread)
 {
     for (std::size_t i = 0; i < functors.size() && i < thread.sleeping.size() - 1; ++i)
         if (functors[i].ours && thread.sleeping[i + 1] > 0)
-            functors[i].ours->countSleeping(thread.sleeping[i + 1]);
+            Ig2_ConicPP_ConicPP_ScGeom::countSleeping(*thread.counts[i], thread.sleeping[i + 1]);
     if (thread.missing.empty())
         return;
     const std::lock_guard<std::mutex> lock(mutex);
@@ -134,7 +142,7 @@ void Serving::leave(std::size_t place)
 
 yade::Body* Serving::bodyOf(int id) const
 {
-    return id >= 0 && static_cast<std::size_t>(id) < bodies ? step.gathered(id).body : nullptr;
+    return id >= 0 && static_cast<std::size_t>(id) < ways.size() ? step.gathered(id).body : nullptr;
 }
 
 void Serving::serveAwake(std::size_t place, PairInStep& known, Thread& thread)
@@ -171,13 +179,15 @@ void Serving::serveAwake(std::size_t place, PairInStep& known, Thread& thread)
 
     const yade::IGeomFunctor* const functor = pair.functorCache.geom.get();
     Ig2_ConicPP_ConicPP_ScGeom* ours = nullptr;
+    Counters::Row* counts = nullptr;
     for (std::size_t i = 0; i < functors.size() && i < thread.sleeping.size() - 1; ++i) {
         if (functors[i].functor == functor) {
             ours = functors[i].ours;
+            counts = thread.counts[i];
             known.functor = static_cast<unsigned char>(i + 1);
         }
     }
-    const bool touches = ours ? ours->goInLoop(step, one, other, known, held)
+    const bool touches = ours ? ours->goInLoop(step, *counts, one, other, known, held)
                               : pair.functorCache.geom->go(one.body->shape, other.body->shape, *one.body->state, *other.body->state,
                                                            Vector3r::Zero(), false, held);
     if (!touches) {
@@ -228,6 +238,12 @@ bool Serving::push(std::size_t place, PairInStep& known, Interaction& pair, cons
 {
     const yade::LawFunctor* const functor = pair.functorCache.constLaw.get();
     ContactInStep* const contact = step.contactAt(place);
+    if (contact) {
+        known.touching = true;
+        contact->interaction = &pair;
+        contact->geom = pair.geom.get();
+        contact->phys = pair.phys.get();
+    }
     Done done = Done::notKnown;
     for (const Law& law : knownLaws) {
         if (law.functor != functor || !contact)

@@ -5,6 +5,7 @@
 
 #include "abi/dispatcher.hpp"
 #include "abi/scene.hpp"
+#include "contact/ig2_conic_pp.hpp"
 #include "known_laws.hpp"
 #include "step.hpp"
 
@@ -15,7 +16,6 @@
 
 namespace potential_particles {
 
-class Ig2_ConicPP_ConicPP_ScGeom;
 class Law2_ScGeomConicPP_ConicJointPhys;
 
 class Serving {
@@ -27,9 +27,11 @@ public:
     struct Thread {
         LastTangent tangent;
         std::array<std::uint64_t, 256> sleeping {}; // pairs, by functor
+        std::vector<Counters::Row*> counts {}; // of each functor of ours
         std::vector<std::size_t> missing {}; // places of contacts that are in no list of Pushes
     };
 
+    Thread open() const;
     // The pair at that place of YADE's list.
     void serve(std::size_t place, Thread& thread);
     // Takes in what the thread has counted and found.
@@ -69,7 +71,7 @@ private:
     const yade::IPhysDispatcher& physics;
     const yade::LawDispatcher& laws;
     const std::vector<boost::shared_ptr<yade::Interaction>>& pairs;
-    const std::size_t bodies;
+    const std::vector<Way>& ways; // of the bodies
     const std::uint64_t listed;
     std::vector<Functor> functors; // numbered from 1 in PairInStep
     std::vector<Law> knownLaws;

@@ -45,25 +45,24 @@ void Step::lookAnew(BodyInStep& body, const boost::shared_ptr<yade::Shape>& shap
             particle = nullptr;
         const double radius = particle ? particle->boundingRadius() : 0;
         const double way = (position - body.formerPosition).norm() + radius * wayOfTurn(body.formerOrientation, orientation);
-        const double sum = body.travelled + way * (1 + 1e-12);
+        const double sum = body.way.travelled + way * (1 + 1e-12);
         // Whether the way since the last look is known, so that it can be added to the sum.
         const bool continues
             = particle && particle->serial == body.serial && isUnit(body.formerOrientation) && std::isfinite(sum);
         if (!continues) {
-            body.generation = nextGeneration();
-            body.travelled = 0;
+            body.way.generation = nextGeneration();
+            body.way.travelled = 0;
         } else if (way > 0) {
-            body.travelled = std::nextafter(sum, std::numeric_limits<double>::infinity());
+            body.way.travelled = std::nextafter(sum, std::numeric_limits<double>::infinity());
         }
         body.particle = particle;
         body.serial = particle ? particle->serial : 0; // no particle has 0
-        body.state = &state;
         body.formerPosition = position;
         body.formerOrientation = orientation;
     } catch (...) {
         body.particle = nullptr;
         body.serial = 0;
-        body.generation = nextGeneration();
+        body.way.generation = nextGeneration();
     }
     body.step.store(count, std::memory_order_release);
 }
@@ -74,11 +73,12 @@ bool Step::gather(std::size_t id, yade::Body* given)
     if (!found)
         return false;
     BodyInStep& body = *found;
+    ways[id] = Way();
     body.body = given;
     body.hasShape = given && given->shape && given->state;
     if (!body.hasShape) {
         // Of another body with this id, or of this one with a shape, nothing will be known.
-        body.generation = nextGeneration();
+        body.way.generation = nextGeneration();
         body.particle = nullptr;
         body.serial = 0;
         return true;
@@ -111,6 +111,7 @@ bool Step::gather(std::size_t id, yade::Body* given)
         body.isBoundary = potential.isBoundary;
         body.fixesNormal = potential.fixedNormal;
         look(body, given->shape, state);
+        ways[id] = body.way;
     }
     return true;
 }

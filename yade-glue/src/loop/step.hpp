@@ -13,6 +13,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <vector>
 
 namespace potential_particles {
 
@@ -52,7 +53,9 @@ public:
             lookAnew(body, shape, state);
     }
 
-    // Looks at a body, which may be null, for a loop of our own; by one thread. False when memory runs out.
+    // For a loop of our own: so many bodies there are.
+    void begin(std::size_t bodies) { ways.resize(bodies); }
+    // Then, by any thread, looks at one of them, which may be null. False when memory runs out.
     bool gather(std::size_t id, yade::Body* body);
 
     // A body that was gathered.
@@ -63,6 +66,8 @@ public:
         return pair.linIx >= 0 ? pairs.at(static_cast<std::size_t>(pair.linIx)) : nullptr;
     }
     PairInStep* pairAt(std::size_t place) { return pairs.at(place); }
+    // How far the gathered bodies have come, by id.
+    const std::vector<Way>& waysOfBodies() const { return ways; }
     const PairInStep* knownPairAt(std::size_t place) const { return pairs.find(place); }
 
     ContactInStep* contactAt(std::size_t place) { return contacts.at(place); }
@@ -80,17 +85,15 @@ public:
         contact->phys = interaction.phys.get();
     }
 
-    // Asks for the data of the pair that is so many places further than this one in YADE's list.
+    // Asks for the data of the pair that is so many places further than this one in YADE's list, if it touches.
     void fetchAhead(std::size_t place) const
     {
         const PairInStep* const next = pairs.find(place + ahead);
-        if (!next)
+        if (!next || !next->touching)
             return;
-        const bool touching = next->touching;
-        const BodyInStep* const bodiesOfNext[] = { bodies.find(next->id1), bodies.find(next->id2) };
-        for (const BodyInStep* body : bodiesOfNext)
-            fetch(body, touching ? sizeof(BodyInStep) : lineSize);
-        const ContactInStep* const contact = touching ? contacts.find(place + ahead) : nullptr;
+        fetch(bodies.find(static_cast<std::size_t>(next->id1)), BodyInStep::hotSize);
+        fetch(bodies.find(static_cast<std::size_t>(next->id2)), BodyInStep::hotSize);
+        const ContactInStep* const contact = contacts.find(place + ahead);
         if (!contact)
             return;
         fetch(contact->interaction, sizeof(yade::Interaction));
@@ -121,6 +124,7 @@ private:
     static std::atomic<Step*> running;
     std::uint64_t count = 0;
     Blocks<BodyInStep> bodies;
+    std::vector<Way> ways;
     Blocks<PairInStep> pairs;
     Blocks<ContactInStep> contacts;
 };
