@@ -134,10 +134,11 @@ struct Ig2_ConicPP_ConicPP_ScGeom::Pair : PairInScene {
         noteRoom(own->apart.note(turned1(), turned2(), branch(), distance));
     }
 
+    // What has physics does not sleep: its law is called in each step.
     void noteRoom(double room)
     {
         if (known)
-            known->note(interaction, *body1, *body2, room);
+            known->note(interaction, *body1, *body2, real ? 0 : room);
     }
 
     void noteTouching()

@@ -86,9 +86,8 @@ Done cundallStrack(yade::Law2_ScGeom_FrictPhys_CundallStrack& law, yade::Scene& 
 Done knKs(yade::Law2_SCG_KnKsPhys_KnKsLaw& law, yade::Scene& scene, const yade::ScGeom& geom, yade::KnKsPhys& phys,
           const BodyInStep& one, const BodyInStep& other, LastTangent& tangent, Push& push)
 {
-    // It takes both shapes for potential particles, and both bodies for bodies with a box.
     const bool known = !law.Talesnick && !law.traceEnergy && law.initialOverlapDistance == 0 && phys.jointType != 3 && !phys.intactRock
-        && one.isPotential && other.isPotential && one.hasBox && other.hasBox;
+        && one.hasBox && other.hasBox;
     const double depth = geom.penetrationDepth;
     if (!known || (depth < 0 && law.neverErase))
         return Done::notKnown;
@@ -130,6 +129,8 @@ Done knKs(yade::Law2_SCG_KnKsPhys_KnKsLaw& law, yade::Scene& scene, const yade::
             phys.u_elastic += way;
         }
     }
+    // YADE's functor asks every shape, as if it were a PotentialParticle. Where it is none, what it finds is left to chance; no force
+    // depends on these two.
     if (one.isBoundary || other.isBoundary)
         phys.tensionBroken = phys.cohesionBroken = true;
 
