@@ -346,6 +346,7 @@ def gas(loop, steps):
     if loop is yade.ConicInteractionLoop:
         conic_loop()
         one_thread()
+    O.engines[2].loopOnSortedInteractions = True
     seen = []
     for _ in range(10):
         run(steps)

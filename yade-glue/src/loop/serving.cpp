@@ -77,9 +77,14 @@ Serving::Serving(yade::Scene& scene, Step& step, const yade::InteractionLoop& lo
         auto* const ours = dynamic_cast<Ig2_ConicPP_ConicPP_ScGeom*>(functor.get());
         functors.push_back({ functor.get(), dynamic_cast<Ig2_Flat_ConicPP*>(ours) ? nullptr : ours });
     }
-    for (const auto& law : laws.functors)
-        knownLaws.push_back({ law.get(), exactly<yade::Law2_ScGeom_FrictPhys_CundallStrack>(law.get()),
-                              exactly<yade::Law2_SCG_KnKsPhys_KnKsLaw>(law.get()), exactly<Law2_ScGeomConicPP_ConicJointPhys>(law.get()) });
+    for (const auto& law : laws.functors) {
+        Law known { law.get(), nullptr, nullptr, exactly<Law2_ScGeomConicPP_ConicJointPhys>(law.get()) };
+        if (PP_YADE_LAWS_ARE_KNOWN) {
+            known.cundallStrack = exactly<yade::Law2_ScGeom_FrictPhys_CundallStrack>(law.get());
+            known.knKs = exactly<yade::Law2_SCG_KnKsPhys_KnKsLaw>(law.get());
+        }
+        knownLaws.push_back(known);
+    }
 }
 
 Serving::Thread Serving::open() const
