@@ -218,7 +218,7 @@ def draw(best):
         left = [start + width for start, width in zip(left, widths)]
     axes.set_xlabel("a step, microseconds a body (fastest window)")
     axes.set_title("Piles at rest: where the time of a step goes")
-    axes.legend(loc="lower right")
+    axes.legend(loc="upper right")
     figure.savefig(OUT / "scale.png", dpi=120)
 
 
