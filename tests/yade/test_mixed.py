@@ -114,6 +114,8 @@ def ours():
 def one_thread():
     for engine in O.engines:
         engine.ompThreads = 1
+    if type(O.engines[2]) is yade.InteractionLoop:
+        O.engines[2].loopOnSortedInteractions = True  # in the order in which ours adds up forces
 
 
 for loop in yade.InteractionLoop, yade.ConicInteractionLoop:

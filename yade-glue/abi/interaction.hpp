@@ -22,6 +22,8 @@ public:
 
     // Throws std::logic_error when it has a geometry or physics.
     void swapOrder();
+    // As it was when it was made, without a geometry, physics and functors.
+    void reset();
 
     // In YADE's own words "real": it has been through geometry and physics functors.
     bool hasGeomAndPhys() const { return geom && phys; }

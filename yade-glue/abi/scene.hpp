@@ -6,6 +6,7 @@
 #include "body.hpp"
 #include "engine.hpp"
 #include "forces.hpp"
+#include "interaction_container.hpp"
 
 namespace yade {
 
@@ -62,7 +63,7 @@ public:
     std::vector<boost::shared_ptr<Engine>> engines;
     std::vector<boost::shared_ptr<Engine>> nextEngines;
     boost::shared_ptr<BodyContainer> bodies;
-    std::byte between[16];
+    boost::shared_ptr<InteractionContainer> interactions;
     boost::shared_ptr<EnergyTracker> energy;
     std::byte behindEnergy[40];
     boost::shared_ptr<Cell> cell;
@@ -77,6 +78,7 @@ PP_ABI_OFFSET(Scene, doSort, 498);
 PP_ABI_OFFSET(Scene, tags, 528);
 PP_ABI_OFFSET(Scene, engines, 552);
 PP_ABI_OFFSET(Scene, bodies, 600);
+PP_ABI_OFFSET(Scene, interactions, 616);
 PP_ABI_OFFSET(Scene, energy, 632);
 PP_ABI_OFFSET(Scene, cell, 688);
 

@@ -5,8 +5,10 @@
 // Python does not show are covered by the sizes compared at build time.
 #include "load_check.hpp"
 
+#include "abi/dispatcher.hpp"
 #include "abi/functor.hpp"
 #include "abi/knksphys.hpp"
+#include "abi/laws.hpp"
 #include "abi/material.hpp"
 #include "abi/primitives.hpp"
 #include "abi/scene.hpp"
@@ -332,6 +334,48 @@ namespace {
             found.push_back("GlobalEngine: virtual calls do not answer as they should");
     }
 
+    void checkLaws(Differences& found)
+    {
+        using Cundall = Law2_ScGeom_FrictPhys_CundallStrack;
+        Probe<Cundall>(found, "Law2_ScGeom_FrictPhys_CundallStrack")
+            .field("neverErase", &Cundall::neverErase)
+            .field("sphericalBodies", &Cundall::sphericalBodies)
+            .field("traceEnergy", &Cundall::traceEnergy);
+        using KnKs = Law2_SCG_KnKsPhys_KnKsLaw;
+        Probe<KnKs>(found, "Law2_SCG_KnKsPhys_KnKsLaw")
+            .field("neverErase", &KnKs::neverErase)
+            .field("traceEnergy", &KnKs::traceEnergy)
+            .field("Talesnick", &KnKs::Talesnick)
+            .field("allowBreakage", &KnKs::allowBreakage)
+            .field("initialOverlapDistance", &KnKs::initialOverlapDistance)
+            .field("allowViscousAttraction", &KnKs::allowViscousAttraction);
+    }
+
+    // A functor for two classes lies in the dispatcher's list, and in its matrix at their indices.
+    template <class Dispatcher, class First, class Second>
+    void checkDispatcher(Differences& found, const char* className, const char* functor, const char* first, const char* second)
+    {
+        const py::object wrapper = py::import("yade.wrapper"), one = wrapper.attr(first)(), other = wrapper.attr(second)();
+        py::object dispatcher = wrapper.attr(className)();
+        py::list functors;
+        functors.append(wrapper.attr(functor)());
+        dispatcher.attr("functors") = functors;
+        const Dispatcher& seen = py::extract<Dispatcher&>(dispatcher)();
+        const auto row = static_cast<std::size_t>(py::extract<const First&>(one)().getClassIndex());
+        const auto column = static_cast<std::size_t>(py::extract<const Second&>(other)().getClassIndex());
+        const bool listed = seen.functors.size() == 1 && seen.functors[0] && seen.functors[0]->getClassName() == functor;
+        if (!listed || row >= seen.callBacks.size() || column >= seen.callBacks[row].size() || seen.callBacks[row][column] != seen.functors[0]
+            || row >= seen.callBacksInfo.size() || column >= seen.callBacksInfo[row].size() || seen.callBacksInfo[row][column] != 0)
+            found.push_back(std::string(className) + ": the functor of " + first + " and " + second + " not found at its declared place");
+    }
+
+    void checkDispatchers(Differences& found)
+    {
+        checkDispatcher<IGeomDispatcher, Shape, Shape>(found, "IGeomDispatcher", "Ig2_PP_PP_ScGeom", "PotentialParticle", "PotentialParticle");
+        checkDispatcher<IPhysDispatcher, Material, Material>(found, "IPhysDispatcher", "Ip2_FrictMat_FrictMat_KnKsPhys", "FrictMat", "FrictMat");
+        checkDispatcher<LawDispatcher, IGeom, IPhys>(found, "LawDispatcher", "Law2_SCG_KnKsPhys_KnKsLaw", "ScGeom", "KnKsPhys");
+    }
+
     void checkBody(Differences& found)
     {
         Probe<Body>(found, "Body")
@@ -379,6 +423,13 @@ namespace {
         scene.bodies->body.push_back(body);
         if (Body::byId(0, &scene) != body)
             found.push_back("BodyContainer.body: not found at its declared place");
+        if (!scene.interactions || scene.interactions->getClassName() != "InteractionContainer") {
+            found.push_back("Scene.interactions: not found at its declared place");
+            return;
+        }
+        InteractionContainer& pairs = *scene.interactions;
+        if (!pairs.linIntrs.empty() || pairs.currSize != 0 || pairs.serializeSorted || pairs.iterColliderLastRun != -1)
+            found.push_back("InteractionContainer: a new one does not look empty at linIntrs, currSize, serializeSorted, iterColliderLastRun");
         const auto engine = boost::shared_ptr<Engine>(new BoundWatch);
         scene.engines.push_back(engine);
         if (scene.engineByName("BoundWatch") != engine)
@@ -391,7 +442,7 @@ std::vector<std::string> differencesOfLayout()
 {
     Differences found;
     const std::array checks = { checkShape, checkPrimitives, checkState, checkGeometry, checkPhysics, checkMaterial, checkInteraction, checkFunctor,
-                                checkBound, checkEngine, checkBody, checkScene, checkTables };
+                                checkBound, checkEngine, checkLaws, checkDispatchers, checkBody, checkScene, checkTables };
     for (const auto check : checks) {
         try {
             check(found);

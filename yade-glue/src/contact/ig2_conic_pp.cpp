@@ -9,6 +9,7 @@
 #include "pair_in_scene.hpp"
 #include "shape/particle_of.hpp"
 #include "particle/ray.hpp"
+#include "loop/relative_motion.hpp"
 #include "loop/step.hpp"
 
 #include <algorithm>
@@ -53,13 +54,6 @@ namespace {
         return std::numeric_limits<double>::quiet_NaN();
     }
 
-    bool areBoundaries(const Shape& one, const Shape& other)
-    {
-        const auto* const shape1 = potentialParticle(one);
-        const auto* const shape2 = potentialParticle(other);
-        return shape1 && shape2 && shape1->isBoundary && shape2->isBoundary;
-    }
-
 } // namespace
 
 struct Ig2_ConicPP_ConicPP_ScGeom::Pair : PairInScene {
@@ -70,6 +64,8 @@ struct Ig2_ConicPP_ConicPP_ScGeom::Pair : PairInScene {
     const BodyInStep* const body1;
     const BodyInStep* const body2;
     PairInStep* const known;
+    // Whether it is a loop of our own, which has gathered the bodies.
+    const bool gathered = false;
 
     const Particle* particle1 = nullptr;
     const Particle* particle2 = nullptr;
@@ -85,6 +81,38 @@ struct Ig2_ConicPP_ConicPP_ScGeom::Pair : PairInScene {
             particle1 = particleOf(cm1, keeper1);
             particle2 = particleOf(cm2, keeper2);
         }
+    }
+
+    pp_pose pose1() const { return gathered ? poseOf(*body1) : PairInScene::pose1(); }
+    pp_pose pose2() const { return gathered ? poseOf(*body2) : PairInScene::pose2(); }
+
+    static pp_pose poseOf(const BodyInStep& body)
+    {
+        const Vector3r& at = body.position;
+        const yade::Quaternionr& turn = body.orientation;
+        return { { at.x(), at.y(), at.z() }, { turn.w(), turn.x(), turn.y(), turn.z() } };
+    }
+
+    void precompute(const Vector3r& normal, const yade::Scene* scene)
+    {
+        if (gathered && own)
+            turnFrame(*geom, *body1, *body2, scene->dt, normal, !real);
+        else
+            PairInScene::precompute(normal, scene);
+    }
+
+    bool areBoundaries() const
+    {
+        if (gathered)
+            return body1->isBoundary && body2->isBoundary;
+        const auto* const shape1 = potentialParticle(*cm1);
+        const auto* const shape2 = potentialParticle(*cm2);
+        return shape1 && shape2 && shape1->isBoundary && shape2->isBoundary;
+    }
+
+    bool prescribesNormal(Vector3r& normal) const
+    {
+        return (!gathered || body1->fixesNormal || body2->fixesNormal) && prescribedNormal(*cm1, *cm2, normal);
     }
 
     KeptApart::Turned turned1() const { return { *particle1, state1.se3.orientation }; }
@@ -106,10 +134,11 @@ struct Ig2_ConicPP_ConicPP_ScGeom::Pair : PairInScene {
         noteRoom(own->apart.note(turned1(), turned2(), branch(), distance));
     }
 
+    // What has physics does not sleep: its law is called in each step.
     void noteRoom(double room)
     {
         if (known)
-            known->note(*interaction, *body1, *body2, room);
+            known->note(interaction, *body1, *body2, real ? 0 : room);
     }
 
     void noteTouching()
@@ -118,9 +147,12 @@ struct Ig2_ConicPP_ConicPP_ScGeom::Pair : PairInScene {
             own->apart.forget();
         if (!known)
             return;
-        known->note(*interaction, *body1, *body2, 0);
-        known->geom = geom;
-        known->phys = interaction->phys.get();
+        if (gathered) { // the loop notes the rest
+            known->wakes = 0;
+            return;
+        }
+        known->note(interaction, *body1, *body2, 0);
+        Step::current()->noteContact(static_cast<std::size_t>(interaction->linIx), *known, *interaction);
     }
 };
 
@@ -141,8 +173,8 @@ bool Ig2_ConicPP_ConicPP_ScGeom::go(const boost::shared_ptr<Shape>& cm1, const b
             body2 = step->body(interaction->id2, cm2, state2);
             known = body1 && body2 && body1->particle && body2->particle ? step->pair(*interaction) : nullptr;
             if (known) {
-                step->fetchAhead(*interaction);
-                if (!real && !force && known->sleeps(*interaction, *body1, *body2)) {
+                step->fetchAhead(static_cast<std::size_t>(interaction->linIx));
+                if (!real && !force && known->isOf(interaction) && known->sleeps(body1->way, body2->way)) {
                     counts.add(Count::calls);
                     counts.add(Count::motion);
                     return false;
@@ -150,19 +182,59 @@ bool Ig2_ConicPP_ConicPP_ScGeom::go(const boost::shared_ptr<Shape>& cm1, const b
             }
         }
         Pair pair { { state1, state2, shift2, force, interaction, counts, settings, real }, cm1, cm2, body1, body2, known };
-        if (areBoundaries(*cm1, *cm2))
-            return false;
-        if (pair.isHeldByBond())
-            return leaveApart(pair);
-        counts.add(Count::calls);
-        pair.findParticles();
-        return contact(pair);
+        return answer(pair);
     } catch (const std::exception& error) {
         fail(*interaction, state1, state2, shift2, error.what());
     } catch (...) {
         fail(*interaction, state1, state2, shift2, "unknown error");
     }
     return real || (force && interaction->geom);
+}
+
+bool Ig2_ConicPP_ConicPP_ScGeom::goInLoop(Step& step, Counters::Row& counts, BodyInStep& body1, BodyInStep& body2,
+                                          PairInStep& pairInStep, const boost::shared_ptr<Interaction>& interaction) noexcept
+{
+    const bool real = interaction->hasGeomAndPhys();
+    const boost::shared_ptr<Shape> &cm1 = body1.body->shape, &cm2 = body2.body->shape;
+    const State &state1 = *body1.body->state, &state2 = *body2.body->state;
+    const Vector3r shift2 = Vector3r::Zero();
+    try {
+        const AcceptedSettings& settings = *accepted.get();
+        const Stopwatch stopwatch(counts, settings.given.measureTime);
+        step.look(body1, cm1, state1);
+        step.look(body2, cm2, state2);
+        PairInStep* const known = body1.particle && body2.particle ? &pairInStep : nullptr;
+        // Of bodies that were not looked at before.
+        if (known && !real && known->sleeps(body1.way, body2.way)) {
+            counts.add(Count::calls);
+            counts.add(Count::motion);
+            return false;
+        }
+        Pair pair { { state1, state2, shift2, false, interaction, counts, settings, real }, cm1, cm2, &body1, &body2, known, true };
+        return answer(pair);
+    } catch (const std::exception& error) {
+        fail(*interaction, state1, state2, shift2, error.what());
+    } catch (...) {
+        fail(*interaction, state1, state2, shift2, "unknown error");
+    }
+    return real;
+}
+
+void Ig2_ConicPP_ConicPP_ScGeom::countSleeping(Counters::Row& counts, std::uint64_t pairs)
+{
+    counts.add(Count::calls, pairs);
+    counts.add(Count::motion, pairs);
+}
+
+bool Ig2_ConicPP_ConicPP_ScGeom::answer(Pair& pair)
+{
+    if (pair.areBoundaries())
+        return false;
+    if (pair.isHeldByBond())
+        return leaveApart(pair);
+    pair.counts.add(Count::calls);
+    pair.findParticles();
+    return contact(pair);
 }
 
 // The pair is solved as it comes, so there is nothing to reverse: both shapes are of one kind, and
@@ -288,7 +360,7 @@ void Ig2_ConicPP_ConicPP_ScGeom::fill(Pair& pair, pp_contact& found)
 
     const Vector3r point(found.point);
     Vector3r normal(found.normal);
-    const bool prescribed = prescribedNormal(*pair.cm1, *pair.cm2, normal);
+    const bool prescribed = pair.prescribesNormal(normal);
     if (pair.settings.given.patch && !prescribed) {
         pp_patch patch;
         const pp_status status

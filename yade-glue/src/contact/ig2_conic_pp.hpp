@@ -23,6 +23,9 @@ namespace potential_particles {
 
 class Particle;
 struct PairInScene;
+class Step;
+class BodyInStep;
+struct PairInStep;
 
 // For two ConicPotentialParticle shapes and, in the classes derived from it, for any two shapes that are particles. go()
 // runs in many threads at once, without the lock of Python: it calls no Python, and no exception leaves it.
@@ -42,6 +45,15 @@ public:
     bool goReverse(const boost::shared_ptr<yade::Shape>& shape1, const boost::shared_ptr<yade::Shape>& shape2,
                    const yade::State& state1, const yade::State& state2, const yade::Vector3r& shift2,
                    const bool& force, const boost::shared_ptr<yade::Interaction>& interaction) noexcept override;
+
+    // The same in a loop of our own outside of periodic cells, which has gathered the bodies; not for the classes that answer by
+    // another go().
+    bool goInLoop(Step& step, Counters::Row& counts, BodyInStep& body1, BodyInStep& body2, PairInStep& pairInStep,
+                  const boost::shared_ptr<yade::Interaction>& interaction) noexcept;
+    // Where this thread counts.
+    Counters::Row& counts() { return counters.ofThisThread(); }
+    // What go() counts of pairs that such a loop lets sleep.
+    static void countSleeping(Counters::Row& counts, std::uint64_t pairs);
 
 protected:
     struct Posed {
@@ -72,6 +84,7 @@ private:
     template <class Archive> void serialize(Archive& archive, unsigned);
 
     struct Pair; // the arguments of one call, put in order
+    bool answer(Pair& pair);
     bool contact(Pair& pair);
     bool acrossGap(Pair& pair);
     pp_status detect(Pair& pair, pp_contact& found);

@@ -67,9 +67,14 @@ namespace {
 
 bool Law::go(boost::shared_ptr<yade::IGeom>& geometry, boost::shared_ptr<yade::IPhys>& physics, yade::Interaction* interaction)
 {
-    const Vector3r shift = scene->isPeriodic ? Vector3r(scene->cell->hSize * interaction->cellDist.cast<double>()) : Vector3r::Zero();
-    Joint joint { static_cast<yade::ScGeom&>(*geometry), static_cast<ConicJointPhys&>(*physics),
-                  MovingBody(*scene, interaction->id1, Vector3r::Zero()), MovingBody(*scene, interaction->id2, shift) };
+    return act(*geometry, *physics, *interaction, nullptr, nullptr);
+}
+
+bool Law::act(yade::IGeom& geometry, yade::IPhys& physics, const yade::Interaction& interaction, BodyPush* onFirst, BodyPush* onSecond)
+{
+    const Vector3r shift = scene->isPeriodic ? Vector3r(scene->cell->hSize * interaction.cellDist.cast<double>()) : Vector3r::Zero();
+    Joint joint { static_cast<yade::ScGeom&>(geometry), static_cast<ConicJointPhys&>(physics),
+                  MovingBody(*scene, interaction.id1, Vector3r::Zero(), onFirst), MovingBody(*scene, interaction.id2, shift, onSecond) };
     Energies energies;
     const bool wasBonded = joint.phys.bondArea > 0;
     bool lasts = true;

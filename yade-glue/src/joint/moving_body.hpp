@@ -9,12 +9,19 @@
 
 namespace potential_particles {
 
+// What a joint does to one of its bodies; torque about the body's position.
+struct BodyPush {
+    yade::Vector3r force, torque;
+    bool any = false;
+};
+
 // A member of a clump moves as the clump does: YADE keeps its velocities up to date, its mass is the clump's.
 class MovingBody {
 public:
-    // shift: of its periodic image, world axes.
-    MovingBody(yade::Scene& scene, int id, const yade::Vector3r& shift)
+    // shift: of its periodic image, world axes. `into`: where the push of the body is added, if not to the forces of the scene.
+    MovingBody(yade::Scene& scene, int id, const yade::Vector3r& shift, BodyPush* into)
         : scene(scene)
+        , into(into)
         , body(*scene.bodies->body[static_cast<std::size_t>(id)])
         , position(body.state->se3.position + shift)
         , shift(shift)
@@ -53,12 +60,20 @@ public:
 
     void push(const yade::Vector3r& point, const yade::Vector3r& force, const yade::Vector3r& moment) const
     {
+        const yade::Vector3r torque = (point - position).cross(force) + moment;
+        if (into) {
+            into->force = force;
+            into->torque = torque;
+            into->any = true;
+            return;
+        }
         scene.forces().addForce(body.id, force);
-        scene.forces().addTorque(body.id, (point - position).cross(force) + moment);
+        scene.forces().addTorque(body.id, torque);
     }
 
 private:
     yade::Scene& scene;
+    BodyPush* const into;
     const yade::Body& body;
     yade::Vector3r position;
     yade::Vector3r shift;

@@ -35,10 +35,10 @@ public:
     }
 
     // The same without making it.
-    const Element* find(std::size_t index) const
+    Element* find(std::size_t index) const
     {
         const std::size_t block = index / blockSize;
-        const Element* elements = block < blockCount ? blocks[block].load(std::memory_order_acquire) : nullptr;
+        Element* elements = block < blockCount ? blocks[block].load(std::memory_order_acquire) : nullptr;
         return elements ? elements + index % blockSize : nullptr;
     }
 

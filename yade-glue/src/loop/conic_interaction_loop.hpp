@@ -5,6 +5,7 @@
 
 #include "abi/archive.hpp"
 #include "abi/engine.hpp"
+#include "pushes.hpp"
 #include "registration/class_table.hpp"
 #include "step.hpp"
 
@@ -12,9 +13,12 @@
 
 namespace potential_particles {
 
-// YADE's InteractionLoop, which it runs as it is: the contact functors find in its Step what they need not find out for every
-// pair anew. Bodies are looked at once a step, and pairs that are further apart than their bodies can have moved since cost a
-// comparison.
+// In the place of YADE's InteractionLoop. Bodies are looked at once a step; pairs that are further apart than their bodies can have
+// moved since cost a comparison; contacts go through our functors and through laws that are known (known_laws.hpp) without a virtual
+// call, and push their bodies in an order of their own. What YADE shows of a contact is as by its own loop, to the last bit.
+//
+// YADE's loop runs as it is in periodic cells and with callbacks, and serves, in one thread, what this one has no functor for: it
+// fills the dispatchers' tables, or says what is missing.
 class ConicInteractionLoop final : public yade::InteractionLoop {
 public:
     ConicInteractionLoop();
@@ -27,7 +31,11 @@ private:
     friend class boost::serialization::access;
     template <class Archive> void serialize(Archive& archive, unsigned);
 
+    bool isOurs() const;
+    void serveRest(const std::vector<std::size_t>& left);
+
     Step step;
+    Pushes pushes;
 };
 
 } // namespace potential_particles

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// A body as the pairs of one step see it.
+#pragma once
+
+#include "abi/body.hpp"
+#include "abi/state.hpp"
+#include "particle/particle.hpp"
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+
+namespace potential_particles {
+
+// A value that one thread writes while others read it. Readers get some value that it has had, perhaps of another step than
+// the values beside it: enough to fetch memory ahead of its use, which does no harm where it turns out wrong.
+template <class Value> class Guess {
+public:
+    Guess(Value value) : held(value) { }
+    operator Value() const noexcept { return held.load(std::memory_order_relaxed); }
+    void operator=(Value value) noexcept { held.store(value, std::memory_order_relaxed); }
+
+private:
+    std::atomic<Value> held;
+};
+
+// How far a body has come.
+struct Way {
+    // A bound on the way that any point of the body has come since the loop met it; never less, whatever is rounded.
+    double travelled = 0;
+    // Number of the period over which `travelled` has been summed. A new one begins, at 0, when the body gets another
+    // particle or moves by what has no bound (not a number, say); ways of two periods cannot be compared. 0: it is not known.
+    std::uint64_t generation = 0;
+};
+
+// Its particle and its way are looked at once a step, by the thread that meets it first; the rest is there in a loop of our own.
+class alignas(64) BodyInStep {
+public:
+    // Null when there is no valid particle or pose: the pair then finds out why by itself.
+    const Particle* particle = nullptr;
+    Way way;
+    // Null: there is none with that id.
+    yade::Body* body = nullptr;
+    yade::Vector3r position = yade::Vector3r::Zero();
+    yade::Quaternionr orientation = yade::Quaternionr::Identity();
+    yade::Vector3r velocity, spin;
+    yade::Vector3r lowest, highest; // corners of its box
+    double mass = 0;
+    int subdomain = 0;
+    bool hasShape = false, isClump = false, isHeld = false, hasBox = false;
+    // As of a PotentialParticle.
+    bool isPotential = false, isBoundary = false, fixesNormal = false;
+
+    static constexpr std::size_t hotSize = 256; // all above
+
+private:
+    friend class Step;
+    std::atomic<std::uint64_t> step { 0 }; // the one in which it was looked at last
+    std::uint64_t serial = 0; // of the particle; its address may be used again
+    const void* classOfShape = nullptr; // its virtual table
+    // Where and how it was at the last look.
+    yade::Vector3r formerPosition = yade::Vector3r::Zero();
+    yade::Quaternionr formerOrientation = yade::Quaternionr::Identity();
+    std::shared_ptr<const Particle> keeper; // of particles that the shape cannot hold itself
+};
+
+} // namespace potential_particles
