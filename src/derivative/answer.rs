@@ -97,7 +97,7 @@ impl DerivativeFlags {
     /// A plane may be about to switch: whether it is active at the contact point, or at a surface point, cannot be told within the bound on
     /// the place of the point. The derivatives are those for the side on which it is off; that of s is the same on both.
     pub const SWITCHING: Self = Self(1);
-    /// Faces or edges (k = 0, or nearly) leave a direction across the normal free: in it the point, and with it all but s and the overlap,
+    /// Faces or edges (k = 0, or nearly) leave a direction across the normal free: in it the point, and with it all but s,
     /// moves as the regularisation says ([`crate::Settings::flat_regularisation`]), by up to its inverse, and only for motions of about
     /// its size. Raise it for derivatives of practical use.
     pub const FREE: Self = Self(2);

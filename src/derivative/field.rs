@@ -175,6 +175,11 @@ impl<'a, N: Single> Place<'a, N> {
         Self { branch: self.branch + way, ..*self }
     }
 
+    /// Distance of the point from the centre.
+    pub fn length(&self) -> f64 {
+        self.branch.map(N::approximate).norm()
+    }
+
     /// The point in the local frame.
     #[inline(always)]
     fn local(&self) -> Vector3<N> {

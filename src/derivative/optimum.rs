@@ -31,6 +31,9 @@ const GRADED: f64 = 1e-4;
 const LOST: f64 = 1e-13;
 const IMPRECISE: f64 = 1e-5;
 
+/// Run of the point by rounding from which on they are taken, too.
+const RUN: f64 = 1e-10;
+
 /// Most steps of Newton's method in 32 digits, from a point that is right to the digits of a double.
 const MOST_STEPS: usize = 30;
 
@@ -58,6 +61,8 @@ pub(super) struct Optimum<'a, N: Single = f64> {
     bend: Vector2<N>,
     /// The body from whose gradient the derivative of the normal is taken: the one with the flatter level surface.
     flatter: usize,
+    /// How far the point runs with a turn by the rounding of a double, relative to its distance from the centre of A.
+    run: f64,
     pub flags: DerivativeFlags,
 }
 
@@ -153,13 +158,13 @@ impl<N: Single> Local<N> {
         stiffest.try_normalize(0.0)
     }
 
-    /// (TᵀHT)⁻¹ on the directions that are free to move in, and whether the regularisation alone resists in one.
+    /// (TᵀHT)⁻¹ on the directions that are free to move in, the least curvature, and whether the regularisation alone resists in one.
     #[inline(always)]
-    fn inverse(&self, kind: Kind, places: &[Option<Place<N>>; 2]) -> Result<(Matrix2<N>, bool), DerivativeError> {
+    fn inverse(&self, kind: Kind, places: &[Option<Place<N>>; 2]) -> Result<(Matrix2<N>, f64, bool), DerivativeError> {
         let h = self.across;
         let dimensions = if let Kind::OnBoundary(dimensions) = kind { dimensions } else { 2 };
         if dimensions == 0 {
-            return Ok((Matrix2::zeros(), false));
+            return Ok((Matrix2::zeros(), f64::INFINITY, false));
         }
         // The stiffer axis is eliminated first.
         let swapped = h.m11.approximate() < h.m22.approximate();
@@ -184,7 +189,7 @@ impl<N: Single> Local<N> {
             _ if swapped => Matrix2::new(of_soft, mixed, mixed, of_stiff),
             _ => Matrix2::new(of_stiff, mixed, mixed, of_soft),
         };
-        Ok((inverse, least.approximate() < 2.0 * added))
+        Ok((inverse, least.approximate(), least.approximate() < 2.0 * added))
     }
 }
 
@@ -209,7 +214,7 @@ impl<'a, N: Single> Optimum<'a, N> {
             axes = axes_along(axes.column(0) * x + axes.column(1) * y);
             local = Local::of(kind, &places, &axes);
         }
-        let (inverse, is_free) = local.inverse(kind, &places)?;
+        let (inverse, least, is_free) = local.inverse(kind, &places)?;
         let Local { fields: [a, b], weights, slopes, shares, bend, .. } = local;
         let curved =
             |field: &Field<N>, slope: N| ((field.hessian.xx + field.hessian.yy) / slope).magnitude().approximate();
@@ -219,7 +224,9 @@ impl<'a, N: Single> Optimum<'a, N> {
         flags.set(DerivativeFlags::IMPRECISE, imprecise(&a) || imprecise(&b));
         flags.set(DerivativeFlags::FREE, is_free);
         let flatter = usize::from(places[1].is_some() && curved(&b, slopes[1]) < curved(&a, slopes[0]));
-        Ok(Self { places, axes, fields: [a, b], kind, weights, slopes, shares, inverse, bend, flatter, flags })
+        let length = places[0].as_ref().map_or(0.0, Place::length);
+        let run = f64::EPSILON * (weights[0] * slopes[0]).approximate() / (least * length);
+        Ok(Self { places, axes, run, fields: [a, b], kind, weights, slopes, shares, inverse, bend, flatter, flags })
     }
 
     /// Refuses an optimum at which the gradients are not opposed, or are those of the regularisation.
@@ -236,7 +243,7 @@ impl<'a, N: Single> Optimum<'a, N> {
 
     /// Whether doubles have lost too many digits.
     pub fn wants_more(&self) -> bool {
-        self.fields.iter().any(|field| field.lost > LOST)
+        self.run > RUN || self.fields.iter().any(|field| field.lost > LOST)
     }
 
     /// The factor of a·δS_A + b·δS_B in the derivative of the least S, and hence of its root s: that of the body whose S is sought.

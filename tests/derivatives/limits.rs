@@ -27,6 +27,23 @@ fn faces_of_k_0_leave_the_point_free_and_the_overlap_not() {
         assert!(d.point.iter().chain(&d.normal).chain(&d.point_on_a).all(|v| v.is_finite()));
         turned.push(d.point[(0, 4)].abs());
     }
+    // Turned alike by any angle: at the contact point the overlap grows with the motion along the normal, whatever the point does.
+    for seed in 0..40 {
+        let mut chance = crate::properties::scattered(7 * seed);
+        let lower = Pose::new([0.0; 3], [chance(), chance(), chance(), chance()]).unwrap();
+        let way = lower.rotate(&Vector3::new(0.1, 0.07, 0.99));
+        let upper = Pose::new(way.into(), lower.orientation()).unwrap();
+        let settings = Settings::default();
+        let contact = detect(&cube, &lower, &cube, &upper, &settings, None).unwrap();
+        let d = contact_derivatives(&cube, &lower, &cube, &upper, &contact, &settings).unwrap();
+        let n = contact.normal;
+        let part = |column: usize| d.overlap.fixed_columns::<3>(column).transpose();
+        assert!((part(0) - n).amax() < 1e-9 && (part(6) + n).amax() < 1e-9, "{seed}: {}", d.overlap);
+        // That point, which doubles know to their bound, is the same for both bodies.
+        assert!((part(3) + part(9) - way.cross(&n)).amax() < 1e-9, "{seed}: {}", d.overlap);
+        assert!(part(3).dot(&n).abs() < 1e-9);
+        assert!((part(3) - contact.branch_a.cross(&n)).norm() < 1e-9 + contact.point_bound, "{seed}: {}", d.overlap);
+    }
     // With a turn the point runs off, by the inverse of the regularisation.
     assert!(turned[0] > 1e8 && turned[1] < 1e-5 * turned[0], "{turned:?}");
 }
