@@ -447,7 +447,7 @@ mod tests {
             let joint = Joint::through([at, at, at + 0.4], Vector3::z());
             let blocks = |least_width, largest_aspect| {
                 let settings = SliceSettings { least_width, largest_aspect, ..SliceSettings::default() };
-                slice(&domain, &[joint.clone()], &settings).unwrap().blocks.len()
+                slice(&domain, std::slice::from_ref(&joint), &settings).unwrap().blocks.len()
             };
             assert_eq!(
                 [blocks(0.0999, 20.0), blocks(0.1001, 20.0), blocks(0.0, 10.01), blocks(0.0, 9.99)],
