@@ -91,7 +91,7 @@ pub struct pp_settings {
     /// To what part of the smaller bounding radius the point of a contact has to be known that is carried on
     /// from the last one without a look at any plane (PP_FLAG_CARRIED); in [0, 0.1], default 0: every
     /// contact is solved. 1e-9 is a good choice. It takes a pp_pair_state; contacts of PP_CLOSEST and by
-    /// PP_CONIC are always solved.
+    /// PP_CONE_PROGRAM are always solved.
     pub carry_tolerance: f64,
 }
 
