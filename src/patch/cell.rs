@@ -134,6 +134,23 @@ impl Cell {
         k.is_finite().then_some((k, root))
     }
 
+    /// The first h > 0 where the curve turns back: the discriminant of its height is 0 there. Infinite where it goes on.
+    pub fn turn(&self) -> f64 {
+        let d = &self.d;
+        let a = d.hk * d.hk - 4.0 * d.kk * d.hh;
+        let b = 2.0 * d.k * d.hk - 4.0 * d.kk * d.h;
+        let c = d.k * d.k - 4.0 * d.kk * d.v;
+        if self.is_flat || (a >= 0.0 && b >= 0.0) {
+            return f64::INFINITY;
+        }
+        let inner = b * b - 4.0 * a * c;
+        if !(inner >= 0.0) {
+            return f64::INFINITY;
+        }
+        let q = -0.5 * (b + inner.sqrt().copysign(b));
+        [c / q, q / a].into_iter().filter(|h| *h > 0.0).fold(f64::INFINITY, f64::min)
+    }
+
     /// How fast the height changes along the ray.
     #[inline(always)]
     pub fn incline(&self, h: f64, k: f64) -> f64 {

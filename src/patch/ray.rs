@@ -160,9 +160,11 @@ impl Walker<'_, '_, '_> {
                 break;
             }
             let ((mut h, mut k), mut next) = self.next_crossing(&cell, tiny);
-            if next.is_none() || cell.s.value(h, k) >= 1.0 {
-                match cell.rim(h, 0.1 * self.field.radius()) {
-                    Ok(rim) => h = rim,
+            // Beyond its turn the patch is no graph, and what is met there lies on another branch.
+            let turn = cell.turn();
+            if next.is_none() || h > turn || cell.s.value(h, k) >= 1.0 {
+                match cell.rim(h.min(turn), 0.1 * self.field.radius()) {
+                    Ok(rim) => (h, ray.is_folded) = (rim, rim >= turn),
                     Err(turn) => (h, ray.is_folded) = (turn, true),
                 }
                 next = None;

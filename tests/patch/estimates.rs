@@ -1,9 +1,9 @@
 //! Estimated errors hold, from rounded to sharp bodies; points add up; deep contacts are flagged.
 
-use crate::bodies::{Chance, FAMILIES, Pair, cuboid};
+use crate::bodies::{Chance, FAMILIES, Pair, contact, cuboid};
 use crate::patch;
 use nalgebra::{Matrix3, Vector3};
-use potential_particles::{Kind, PatchFlags, PatchScratch, PatchSettings, patch_of_contact};
+use potential_particles::{Kind, Particle, PatchFlags, PatchScratch, PatchSettings, Plane, Pose, patch_of_contact};
 
 #[test]
 fn the_error_is_within_the_estimate() {
@@ -177,5 +177,52 @@ fn a_smooth_rim_takes_few_rays() {
             let found = patch(&pair, 1e-4, false);
             assert!(found.rays <= 16 && found.error < 1e-4, "k {k}, depth {depth}: {} rays", found.rays);
         }
+    }
+}
+
+/// Two stones whose cores have met: the patch runs along a side of one of them, which leans over, and ends where it turns back. Further out there
+/// is another branch of the same conic, a hundred sizes away.
+#[test]
+fn a_patch_in_two_cores_ends_where_it_turns_back() {
+    let lower = [
+        [9.408834318949266e-17, 0.9999999896244285, 0.00014405256942602584, 0.028388413257095402],
+        [-1.7735507003637937e-16, -0.9999999896244286, -0.00014405256942558176, 0.028965369815053266],
+        [-1.1535911115245767e-16, -0.09366465834754625, -0.9956038026125842, 0.1924987365861789],
+        [1.0609406657157493e-16, -0.10715119443072468, 0.9942427377316212, 0.1934654288414339],
+        [0.9659258262890689, -0.25768122549262573, 0.024242197433365854, 0.49520323418038376],
+        [-0.9659258262890683, -0.2576812254926279, 0.024242197433365913, 0.4952032341803837],
+    ];
+    let upper = [
+        [7.40850499876268e-17, 0.9999999145718116, 0.00041334775867446494, 0.02845839937067512],
+        [3.693725247488884e-17, -0.9999999145718117, -0.0004133477586743539, 0.029036778302854057],
+        [4.617291937223793e-17, -0.08064690599114122, -0.9967427333841247, 0.19096803717337207],
+        [-8.585270643253849e-17, -0.11909696198815523, 0.9928826283328721, 0.1939987575067612],
+        [0.9659258262890684, -0.24860353137690488, 0.07199709921040476, 0.47664746740157754],
+        [-0.9659258262890682, -0.2486035313769053, 0.07199709921040508, 0.4766474674015771],
+    ];
+    let a = Particle::new(&lower.map(Plane::from), 0.00017309994890990588, 0.0, 0.5615733162767249).unwrap();
+    let b = Particle::new(&upper.map(Plane::from), 0.00017352669317966362, 0.0, 0.5515733927791652).unwrap();
+    let pose_a = Pose::new(
+        [0.4953763341292937, 1.8487696478377393, 0.1926718365350889],
+        [0.990354615099656, 0.04648278708668762, -0.006119575014785643, -0.13038265857507397],
+    )
+    .unwrap();
+    let mut chance = Chance::new(41);
+    for round in 0..1000 {
+        let size = chance.pick(&[1e-4, 1e-5, 1e-6, 1e-7, 1e-9]);
+        let mut near = |value: f64| value + size * (chance.uniform() - 0.5);
+        let position = [0.4772110852824913, 1.7809518838025824, 0.5710400870810807].map(&mut near);
+        let turn = [0.9821407640728007, 0.13550315287254905, -0.01783145924943189, -0.1293075951718605].map(&mut near);
+        let pose_b = Pose::new(position, turn).unwrap();
+        let contact = contact(&a, &pose_a, &b, &pose_b);
+        let pair = Pair { a: a.clone(), b: b.clone(), pose_a, pose_b, contact };
+        let found = patch(&pair, 1e-4, false);
+        // The stones share 0.046 of their faces, at an overlap of 3.5e-4 at most.
+        assert!(
+            found.area < 0.06 && found.force.norm() < 0.06 * 3.5e-4,
+            "{round}: {} and {:?}",
+            found.area,
+            found.force
+        );
     }
 }
