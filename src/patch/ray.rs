@@ -164,7 +164,7 @@ impl Walker<'_, '_, '_> {
             let turn = cell.turn();
             if next.is_none() || h > turn || cell.s.value(h, k) >= 1.0 {
                 match cell.rim(h.min(turn), 0.1 * self.field.radius()) {
-                    Ok(rim) => (h, ray.is_folded) = (rim, rim >= turn),
+                    Ok(rim) => (h, ray.is_folded) = (rim, ray.is_folded || rim >= turn),
                     Err(turn) => (h, ray.is_folded) = (turn, true),
                 }
                 next = None;
