@@ -151,6 +151,16 @@ impl Polyhedron {
         self.corners.iter().filter(|corner| corner.state != State::Removed).map(|corner| &corner.at)
     }
 
+    /// The mean of all corners.
+    pub fn middle(&self) -> Vector3<f64> {
+        self.corners().sum::<Vector3<f64>>() / self.corners().count() as f64
+    }
+
+    /// The least and the largest coordinates of all corners.
+    pub fn extremes(&self) -> [Vector3<f64>; 2] {
+        [f64::min, f64::max].map(|of| self.corners().copied().reduce(|a, b| a.zip_map(&b, of)).unwrap_or_default())
+    }
+
     /// All corners with the numbers of their faces, counter-clockwise from outside.
     pub fn corners_with_faces(&self) -> impl Iterator<Item = (&Vector3<f64>, [usize; 3])> {
         self.corners.iter().filter(|corner| corner.state != State::Removed).map(|corner| (&corner.at, corner.faces))

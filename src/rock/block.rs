@@ -79,8 +79,7 @@ impl Block {
             faces.map(|face| (face.number, face.corners.iter().map(|corner| corner.0).collect())).collect();
         // About a corner of the block, so that no digits are lost far from the origin.
         let pole = faces[0].1[0];
-        let count = polyhedron.corners().count() as f64;
-        let inside = polyhedron.corners().sum::<Vector3<f64>>() / count;
+        let inside = polyhedron.middle();
         let (mut volume, mut moment) = (0.0, Vector3::zeros());
         let made = faces.iter().map(|(number, corners)| {
             let mut doubled = Vector3::zeros();

@@ -19,8 +19,7 @@ pub(super) struct Part {
 
 impl Part {
     pub fn of(polyhedron: Polyhedron) -> Self {
-        let count = polyhedron.corners().count() as f64;
-        let middle = polyhedron.corners().sum::<Vector3<f64>>() / count;
+        let middle = polyhedron.middle();
         let radius = polyhedron.corners().map(|at| (at - middle).norm()).fold(0.0, f64::max);
         Self { polyhedron, middle, radius, parent: 0, region: None }
     }
@@ -86,8 +85,7 @@ impl<'a> Cuts<'a> {
         if least_width == 0.0 && largest_aspect == f64::INFINITY {
             return false;
         }
-        let [low, high] = [f64::min, f64::max]
-            .map(|of| part.corners().copied().reduce(|a, b| a.zip_map(&b, of)).unwrap_or_else(Vector3::zeros));
+        let [low, high] = part.extremes();
         let extent = (high - low).max();
         let width = self.width(part, extent);
         !(width >= least_width && extent <= largest_aspect * width)
@@ -95,7 +93,7 @@ impl<'a> Cuts<'a> {
 
     /// Diameter of the largest ball in a part.
     fn width(&self, part: &Polyhedron, extent: f64) -> f64 {
-        let middle = Part::of(part.clone()).middle;
+        let middle = part.middle();
         let about = |number: usize| {
             let ((n, _), height) = (self.plane(number), self.height(number, &middle));
             // A part beyond a plane has it turned.
@@ -106,48 +104,48 @@ impl<'a> Cuts<'a> {
     }
 }
 
-/// A part that a joint cut off another one of its family.
-pub(super) struct Birth {
+/// A piece that a joint cut off another piece of the same part.
+pub(super) struct CutOff {
     pub joint: usize,
-    /// The number of that one in the family.
-    pub mother: usize,
+    /// The number of that other piece.
+    pub from: usize,
     pub part: Part,
 }
 
-/// What was cut off one part, and off what was cut off: member 0 of the family is what is left of the part itself, birth i made member i + 1.
+/// The pieces of one part: piece 0 is what is left of the part itself, cut i made piece i + 1.
 #[derive(Default)]
-pub(super) struct Family {
-    pub births: Vec<Birth>,
+pub(super) struct Pieces {
+    pub cut_off: Vec<CutOff>,
     pub too_small: usize,
     pub unclosed: usize,
 }
 
 /// Cuts a part by some joints in their order; `None` if none of them did, or tried to.
-pub(super) fn descent(part: &mut Part, cuts: &Cuts<'_>, joints: Range<usize>) -> Option<Family> {
-    let mut family = Family::default();
+pub(super) fn cut_in_order(part: &mut Part, cuts: &Cuts<'_>, joints: Range<usize>) -> Option<Pieces> {
+    let mut pieces = Pieces::default();
     for joint in joints {
         let number = cuts.first + joint;
         let (n, height) = cuts.plane(number);
-        for member in 0..=family.births.len() {
-            let whole = if member == 0 { &mut *part } else { &mut family.births[member - 1].part };
+        for piece in 0..=pieces.cut_off.len() {
+            let whole = if piece == 0 { &mut *part } else { &mut pieces.cut_off[piece - 1].part };
             if !cuts.comes_near(joint, whole) || !whole.polyhedron.is_crossed(&n, height) {
                 continue;
             }
             let Some([below, beyond]) = whole.polyhedron.split(number, &n, height) else {
-                family.unclosed += 1;
+                pieces.unclosed += 1;
                 continue;
             };
             if !cuts.reaches(joint, &below) {
                 continue;
             }
             if cuts.is_too_small(&below) || cuts.is_too_small(&beyond) {
-                family.too_small += 1;
+                pieces.too_small += 1;
                 continue;
             }
             *whole = Part::of(below);
-            family.births.push(Birth { joint, mother: member, part: Part::of(beyond) });
+            pieces.cut_off.push(CutOff { joint, from: piece, part: Part::of(beyond) });
         }
     }
-    let is_one = !family.births.is_empty() || family.too_small + family.unclosed > 0;
-    is_one.then_some(family)
+    let was_met = !pieces.cut_off.is_empty() || pieces.too_small + pieces.unclosed > 0;
+    was_met.then_some(pieces)
 }

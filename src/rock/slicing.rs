@@ -3,7 +3,7 @@
 use crate::particle::plane::Plane;
 use crate::particle::polyhedron::{OF_CUBE, Polyhedron};
 use crate::rock::block::{Block, FaceOf};
-use crate::rock::cutting::{Birth, Cuts, Part, descent};
+use crate::rock::cutting::{CutOff, Cuts, Part, cut_in_order};
 use crate::rock::error::{RockError, within};
 use crate::rock::in_order::{found, mapped};
 use crate::rock::joint::Joint;
@@ -101,34 +101,35 @@ pub fn slice_with_regions(
     let mut mass = RockMass { blocks: Vec::new(), missing: Vec::new(), too_small: 0, unclosed: 0, joints: 0 };
     while mass.joints < joints.len() && progress(mass.joints, parts.len()) {
         let round = mass.joints..(mass.joints + round(joints.len(), parts.len(), settings)).min(joints.len());
-        let families = found(settings.threads, &mut parts, |part| descent(part, &cuts, round.clone()));
-        let mut births: Vec<Vec<(usize, usize, Birth)>> = round.clone().map(|_| Vec::new()).collect();
-        // Of each family that has grown, the places of its members among all parts: that of the first is known.
+        let cut = found(settings.threads, &mut parts, |part| cut_in_order(part, &cuts, round.clone()));
+        // By joints, what they cut off: the number of the part that was cut, that of the cut, the piece.
+        let mut cut_off: Vec<Vec<(usize, usize, CutOff)>> = round.clone().map(|_| Vec::new()).collect();
+        // Of each part that was cut, the places of its pieces among all parts: that of the first is known.
         let mut places: Vec<Vec<usize>> = Vec::new();
-        for (place, family) in families {
-            mass.too_small += family.too_small;
-            mass.unclosed += family.unclosed;
-            if !family.births.is_empty() {
-                for (number, birth) in family.births.into_iter().enumerate() {
-                    births[birth.joint - round.start].push((places.len(), number, birth));
+        for (place, pieces) in cut {
+            mass.too_small += pieces.too_small;
+            mass.unclosed += pieces.unclosed;
+            if !pieces.cut_off.is_empty() {
+                for (number, piece) in pieces.cut_off.into_iter().enumerate() {
+                    cut_off[piece.joint - round.start].push((places.len(), number, piece));
                 }
                 places.push(vec![place]);
             }
         }
         // A joint goes through the blocks in their order and puts what it cuts off behind the last one.
-        for (joint, mut of_joint) in round.clone().zip(births) {
-            of_joint.sort_by_key(|(family, _, birth)| places[*family][birth.mother]);
+        for (joint, mut of_joint) in round.clone().zip(cut_off) {
+            of_joint.sort_by_key(|(whole, _, piece)| places[*whole][piece.from]);
             if of_joint.is_empty() {
                 mass.missing.push(joint);
             }
-            for (family, number, birth) in of_joint {
+            for (whole, number, piece) in of_joint {
                 if parts.len() == settings.most_blocks {
                     return Err(RockError::TooManyBlocks { joint, most: settings.most_blocks });
                 }
-                let place = &mut places[family];
-                place.resize(place.len().max(number + 2), usize::MAX);
-                place[number + 1] = parts.len();
-                parts.push(birth.part);
+                let places = &mut places[whole];
+                places.resize(places.len().max(number + 2), usize::MAX);
+                places[number + 1] = parts.len();
+                parts.push(piece.part);
             }
         }
         mass.joints = round.end;
@@ -195,7 +196,7 @@ fn parted(part: Part, region: usize, range: std::ops::Range<usize>, cuts: &Cuts<
             }
             beside.push(Part { parent, ..Part::of(beyond) });
             inside = below;
-        } else if n.dot(&Part::of(inside.clone()).middle) > height {
+        } else if n.dot(&inside.middle()) > height {
             return vec![part];
         }
     }
@@ -255,8 +256,7 @@ fn enclosed(planes: &[(Vector3<f64>, f64)]) -> Result<(Vector3<f64>, Polyhedron)
         if is_open {
             return Err(RockError::Open);
         }
-        let [low, high] = [f64::min, f64::max].map(|of| polyhedron.corners().copied().reduce(|a, b| a.zip_map(&b, of)));
-        let (low, high) = low.zip(high).ok_or(RockError::Empty)?;
+        let [low, high] = polyhedron.extremes();
         let extent = 0.5 * (high - low).max();
         if half <= 4.0 * extent {
             return Ok((origin, polyhedron));
