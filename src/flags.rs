@@ -1,6 +1,36 @@
 //! What else is to be known about an answer.
 
-use std::fmt;
+/// What all sets of flags have: their bits, and the names of those that are set, by `NAMES`.
+macro_rules! flag_set {
+    ($flags:ident) => {
+        impl $flags {
+            /// The bits, as in the C interface.
+            pub const fn bits(self) -> u32 {
+                self.0
+            }
+
+            /// Whether all bits of `other` are set.
+            pub const fn contains(self, other: Self) -> bool {
+                self.0 & other.0 == other.0
+            }
+
+            /// Adds the bits of `other` where `on`.
+            pub(crate) fn set(&mut self, other: Self, on: bool) {
+                self.0 |= if on { other.0 } else { 0 };
+            }
+        }
+
+        /// The names of the flags that are set, with commas between them; "none" where none is.
+        impl std::fmt::Display for $flags {
+            fn fmt(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
+                let mut names = Self::NAMES.iter().filter(|(flag, _)| self.contains(*flag)).map(|(_, name)| *name);
+                f.write_str(names.next().unwrap_or("none"))?;
+                names.try_for_each(|name| write!(f, ", {name}"))
+            }
+        }
+    };
+}
+pub(crate) use flag_set;
 
 /// What else is to be known about an answer; a set of bits.
 ///
@@ -66,23 +96,9 @@ impl Flags {
         Self(bits)
     }
 
-    /// The bits, as in the C interface.
-    pub const fn bits(self) -> u32 {
-        self.0
-    }
-
-    /// Whether all bits of `other` are set.
-    pub const fn contains(self, other: Self) -> bool {
-        self.0 & other.0 == other.0
-    }
-
     /// The bits of both.
     pub(crate) const fn with(self, other: Self) -> Self {
         Self(self.0 | other.0)
-    }
-
-    pub(crate) fn insert(&mut self, other: Self) {
-        self.0 |= other.0;
     }
 }
 
@@ -94,16 +110,4 @@ impl std::ops::BitOr for Flags {
     }
 }
 
-/// The names of the flags that are set, with commas between them; "none" where none is.
-impl fmt::Display for Flags {
-    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        if self.0 == 0 {
-            return f.write_str("none");
-        }
-        let set = Self::NAMES.iter().filter(|(flag, _)| self.contains(*flag));
-        for (i, (_, name)) in set.enumerate() {
-            write!(f, "{}{name}", if i == 0 { "" } else { ", " })?;
-        }
-        Ok(())
-    }
-}
+flag_set!(Flags);

@@ -1,7 +1,7 @@
 //! Contacts with planes and triangles.
 
 use crate::arrays::{to_vector, vector};
-use crate::contact::{PyPairState, getters, names};
+use crate::contact::{PyPairState, getters, getters_of_contact, names};
 use crate::errors::{of_contact, refused};
 use crate::particle::PyParticle;
 use crate::pose::PyPose;
@@ -63,19 +63,10 @@ impl PyTriangle {
 pub struct PyFlatContact(pub FlatContact);
 
 getters!(PyFlatContact: s, gap, point_bound, overlap, distance; normal, point, branch, on_boundary, on_particle);
+getters_of_contact!(PyFlatContact);
 
 #[pymethods]
 impl PyFlatContact {
-    #[getter]
-    fn kind(&self) -> String {
-        self.0.kind.to_string()
-    }
-
-    #[getter]
-    fn overlapping(&self) -> bool {
-        self.0.kind == Kind::Overlapping
-    }
-
     #[getter]
     fn feature(&self) -> (&'static str, u8) {
         match self.0.feature {
@@ -83,16 +74,6 @@ impl PyFlatContact {
             Feature::Edge(i) => ("edge", i),
             Feature::Vertex(i) => ("vertex", i),
         }
-    }
-
-    #[getter]
-    fn flags(&self) -> Vec<String> {
-        names(self.0.flags.bits(), self.0.flags)
-    }
-
-    #[getter]
-    fn iterations(&self) -> u32 {
-        self.0.iterations
     }
 
     fn __repr__(&self) -> String {

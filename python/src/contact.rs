@@ -60,33 +60,43 @@ macro_rules! getters {
 }
 pub(crate) use getters;
 
+/// Getters that the contacts of two particles, with a boundary and in the plane have in common.
+macro_rules! getters_of_contact {
+    ($class:ident) => {
+        #[pymethods]
+        impl $class {
+            #[getter]
+            fn kind(&self) -> String {
+                self.0.kind.to_string()
+            }
+
+            #[getter]
+            fn overlapping(&self) -> bool {
+                self.0.kind == Kind::Overlapping
+            }
+
+            #[getter]
+            fn flags(&self) -> Vec<String> {
+                names(self.0.flags.bits(), self.0.flags)
+            }
+
+            #[getter]
+            fn iterations(&self) -> u32 {
+                self.0.iterations
+            }
+        }
+    };
+}
+pub(crate) use getters_of_contact;
+
 getters!(PyContact: s, s_b, weight, gap, point_bound, overlap, distance; normal, point, branch_a, branch_b, point_on_a, point_on_b);
+getters_of_contact!(PyContact);
 
 #[pymethods]
 impl PyContact {
     #[getter]
-    fn kind(&self) -> String {
-        self.0.kind.to_string()
-    }
-
-    #[getter]
-    fn overlapping(&self) -> bool {
-        self.0.kind == Kind::Overlapping
-    }
-
-    #[getter]
     fn formulation(&self) -> String {
         self.0.formulation.to_string()
-    }
-
-    #[getter]
-    fn flags(&self) -> Vec<String> {
-        names(self.0.flags.bits(), self.0.flags)
-    }
-
-    #[getter]
-    fn iterations(&self) -> u32 {
-        self.0.iterations
     }
 
     fn record<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {

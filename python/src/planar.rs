@@ -1,7 +1,7 @@
 //! Particles of the plane.
 
 use crate::arrays::{rows, to_rows, to_vector, vector};
-use crate::contact::{PyPairState, getters, names};
+use crate::contact::{PyPairState, getters, getters_of_contact, names};
 use crate::errors::{of_contact, refused};
 use crate::settings::{PySettings, or_default};
 use numpy::{PyArray1, PyArray2};
@@ -152,29 +152,10 @@ impl PyPlanarPose {
 pub struct PyPlanarContact(Contact);
 
 getters!(PyPlanarContact: s, s_b, weight, gap, point_bound, overlap, distance; normal, point, branch_a, branch_b, point_on_a, point_on_b);
+getters_of_contact!(PyPlanarContact);
 
 #[pymethods]
 impl PyPlanarContact {
-    #[getter]
-    fn kind(&self) -> String {
-        self.0.kind.to_string()
-    }
-
-    #[getter]
-    fn overlapping(&self) -> bool {
-        self.0.kind == Kind::Overlapping
-    }
-
-    #[getter]
-    fn flags(&self) -> Vec<String> {
-        names(self.0.flags.bits(), self.0.flags)
-    }
-
-    #[getter]
-    fn iterations(&self) -> u32 {
-        self.0.iterations
-    }
-
     fn __repr__(&self) -> String {
         match self.0.kind {
             Kind::Separated => format!("<planar.Contact: separated, s={:.6}>", self.0.s),

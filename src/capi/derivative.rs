@@ -354,9 +354,13 @@ fn weights_from(weights: &pp_contact_weights) -> Result<ContactWeights, pp_statu
     Ok(ContactWeights { s, s_b, overlap, normal, point, point_on_a, point_on_b })
 }
 
+/// The rows of x, y and z.
+pub(super) fn rows(rows: &PoseRows) -> [[f64; 12]; 3] {
+    std::array::from_fn(|i| std::array::from_fn(|column| rows[(i, column)]))
+}
+
 fn derivatives_to(found: &ContactDerivatives) -> pp_derivatives {
     let row = |row: &PoseRow| std::array::from_fn(|column| row[column]);
-    let rows = |rows: &PoseRows| std::array::from_fn(|i| std::array::from_fn(|column| rows[(i, column)]));
     pp_derivatives {
         flags: found.flags.bits(),
         reserved: 0,

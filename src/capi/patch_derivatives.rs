@@ -1,7 +1,7 @@
 //! Derivatives of the force and the torques of a contact patch.
 
 use super::convert::pose_from;
-use super::derivative::triangle_from;
+use super::derivative::{rows, triangle_from};
 use super::fence::{Output, borrow, fenced, output};
 use super::flat::pp_flat_contact;
 use super::particle::pp_particle;
@@ -9,8 +9,8 @@ use super::patch::{contact_for_patch, flat, is_on, settings, with_points};
 use super::status::*;
 use super::types::*;
 use crate::{
-    Patch, PatchError, PatchPoint, PatchScratch, PatchSettings, PoseRows, patch_derivatives, patch_of_contact,
-    patch_on_plane, patch_on_triangle,
+    Patch, PatchError, PatchPoint, PatchScratch, PatchSettings, patch_derivatives, patch_of_contact, patch_on_plane,
+    patch_on_triangle,
 };
 use nalgebra::Vector3;
 use std::ptr;
@@ -93,7 +93,6 @@ fn write(
     let none = ptr::null_mut::<u8>();
     let patch = unsafe { with_points(run, |patch: &Patch| patch.points, |_| 0_u8, none, 0, ptr::null_mut()) }?;
     let found = patch_derivatives(&patch, to_point).ok_or(PP_NO_DERIVATIVE)?;
-    let rows = |rows: &PoseRows| std::array::from_fn(|i| std::array::from_fn(|column| rows[(i, column)]));
     out.write(pp_patch_derivatives {
         force: rows(&found.force),
         torque_on_a: rows(&found.torque_on_a),

@@ -180,7 +180,7 @@ fn solved(
     let start = match last {
         Some(last) => {
             if settings.back_end == BackEnd::Fast {
-                call.flags.insert(Flags::WARM);
+                call.flags.set(Flags::WARM, true);
             }
             Start { x: last.x, lambda: last.lambda }
         }

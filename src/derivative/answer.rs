@@ -1,10 +1,10 @@
 //! What is given and what is asked for.
 
 use crate::contact::detect::DetectError;
+use crate::flags::flag_set;
 use crate::particle::particle::{Particle, Plane};
 use crate::settings::SettingsError;
 use nalgebra::{RowSVector, SMatrix, Vector3};
-use std::fmt;
 use thiserror::Error;
 
 /// The derivative of a number in both poses: [`PoseRows`] has the order of the columns.
@@ -113,30 +113,9 @@ impl DerivativeFlags {
         (Self::SEPARATED, "separated"),
         (Self::IMPRECISE, "imprecise"),
     ];
-
-    /// The bits, as in the C interface.
-    pub const fn bits(self) -> u32 {
-        self.0
-    }
-
-    /// Whether all bits of `other` are set.
-    pub const fn contains(self, other: Self) -> bool {
-        self.0 & other.0 == other.0
-    }
-
-    pub(super) fn set(&mut self, other: Self, on: bool) {
-        self.0 |= if on { other.0 } else { 0 };
-    }
 }
 
-/// The names of the flags that are set, with commas between them; "none" where none is.
-impl fmt::Display for DerivativeFlags {
-    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        let mut names = Self::NAMES.iter().filter(|(flag, _)| self.contains(*flag)).map(|(_, name)| *name);
-        f.write_str(names.next().unwrap_or("none"))?;
-        names.try_for_each(|name| write!(f, ", {name}"))
-    }
-}
+flag_set!(DerivativeFlags);
 
 /// Why a contact has no derivatives.
 #[derive(Clone, Debug, Error)]

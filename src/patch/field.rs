@@ -98,10 +98,11 @@ impl<'a, 's> Field<'a, 's> {
         self.radius
     }
 
-    /// Bound on the rounding of s on the patch: of the distances from planes, which √w makes parts of s, and of s itself.
-    pub fn rounding(&self) -> f64 {
+    /// The rounding of s over the depth 1 − s of a patch whose least S this is: the relative error of its force by rounding, at most about.
+    /// √w makes the rounding of distances from planes a part of s.
+    pub fn rounding(&self, deepest: f64) -> f64 {
         let of = |body: &Placed| body.plane_weight.sqrt() * (body.particle.bounding_radius() + body.origin.norm());
-        ROUNDING * (1.0 + self.b.iter().map(of).fold(of(&self.a), f64::max))
+        ROUNDING * (1.0 + self.b.iter().map(of).fold(of(&self.a), f64::max)) / (1.0 - deepest.max(0.0).sqrt())
     }
 
     /// Number of planes of both bodies.

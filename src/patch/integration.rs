@@ -11,7 +11,7 @@ use super::pieces::{Estimate, PieceScratch, pieces};
 use super::ray::{Line, Node, Walker};
 use super::rules::order_of;
 use super::scratch::PatchScratch;
-use super::settings::{COARSEST, PatchSettings};
+use super::settings::PatchSettings;
 use super::smoothness::norm;
 use super::stiffness::{stiffness, turned};
 use nalgebra::{Matrix3, Matrix6, Vector3};
@@ -55,8 +55,8 @@ pub(super) fn patch(task: &Task, scratch: &mut PatchScratch, mut visit: impl FnM
     let mut field = Field::new(task.a, task.b, task.edges, task.near, planes);
     let start = on_patch(&mut field, 0.0, 0.0, 0.0).unwrap_or_default();
     let deepest = field.values(&start)[0].0;
-    let rounding = field.rounding() / (1.0 - deepest.max(0.0).sqrt());
-    let tolerance = task.settings.tolerance.max(rounding.min(COARSEST));
+    let rounding = field.rounding(deepest);
+    let tolerance = task.settings.above(rounding);
     let state = field.state();
     let outcome = in_parts(task, &mut field, (start, deepest, tolerance), (ray_planes, nodes), pieces, points)
         .unwrap_or_else(|| {

@@ -1,7 +1,7 @@
 //! The answer: what a law of contact needs of a patch.
 
+use crate::flags::flag_set;
 use nalgebra::{Matrix3, Matrix6, Vector3};
-use std::fmt;
 
 /// The contact patch of two bodies, or of a body and a flat boundary, world axes, lengths in the caller's unit.
 ///
@@ -96,27 +96,6 @@ impl PatchFlags {
         (Self::EMPTY, "empty"),
         (Self::CARRIED, "carried"),
     ];
-
-    /// The bits, as in the C interface.
-    pub const fn bits(self) -> u32 {
-        self.0
-    }
-
-    /// Whether all bits of `other` are set.
-    pub const fn contains(self, other: Self) -> bool {
-        self.0 & other.0 == other.0
-    }
-
-    pub(super) fn set(&mut self, other: Self, on: bool) {
-        self.0 |= if on { other.0 } else { 0 };
-    }
 }
 
-/// The names of the flags that are set, with commas between them; "none" where none is.
-impl fmt::Display for PatchFlags {
-    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        let mut names = Self::NAMES.iter().filter(|(flag, _)| self.contains(*flag)).map(|(_, name)| *name);
-        f.write_str(names.next().unwrap_or("none"))?;
-        names.try_for_each(|name| write!(f, ", {name}"))
-    }
-}
+flag_set!(PatchFlags);

@@ -7,7 +7,7 @@ use super::patch::PatchFlags;
 use super::ray::{Line, Node, Ray, SUMS, Walker};
 use super::rules::order_of;
 use super::scratch::PatchScratch;
-use super::settings::{COARSEST, PatchError, PatchSettings};
+use super::settings::{PatchError, PatchSettings};
 use crate::planar::{Contact, Particle, Pose};
 use nalgebra::{Matrix3, Vector2, Vector3};
 
@@ -102,8 +102,8 @@ pub fn patch_of_contact(
     field.is_planar = true;
     let start = on_patch(&mut field, 0.0, 0.0, 0.0).unwrap_or_default();
     let deepest = field.values(&start)[0].0;
-    let rounding = field.rounding() / (1.0 - deepest.max(0.0).sqrt());
-    let tolerance = settings.tolerance.max(rounding.min(COARSEST));
+    let rounding = field.rounding(deepest);
+    let tolerance = settings.above(rounding);
     let mut walker = Walker {
         field: &mut field,
         planes: ray_planes,

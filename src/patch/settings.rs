@@ -17,6 +17,13 @@ pub struct PatchSettings {
     pub with_stiffness: bool,
 }
 
+impl PatchSettings {
+    /// The tolerance, no finer than a relative rounding.
+    pub(super) fn above(&self, rounding: f64) -> f64 {
+        self.tolerance.max(rounding.min(COARSEST))
+    }
+}
+
 impl Default for PatchSettings {
     fn default() -> Self {
         Self { tolerance: 1e-4, with_energy: false, with_stiffness: false }

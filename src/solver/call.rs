@@ -180,7 +180,7 @@ impl<'a> Call<'a> {
         if !settled {
             return Err(SolveError::Unsettled);
         }
-        self.flags.insert(Flags::EXTENDED);
+        self.flags.set(Flags::EXTENDED, true);
         *model = self.model(&solution.start(), goal.problem);
         Ok(solution)
     }
@@ -203,9 +203,7 @@ impl<'a> Call<'a> {
 
     pub(super) fn count(&mut self, solution: &Solution) {
         self.iterations += solution.iterations;
-        if solution.ending == Ending::RoundingLimited {
-            self.flags.insert(Flags::ROUNDING_LIMITED);
-        }
+        self.flags.set(Flags::ROUNDING_LIMITED, solution.ending == Ending::RoundingLimited);
     }
 
     pub(super) fn goal(&self, problem: Problem) -> Goal {

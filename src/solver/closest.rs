@@ -52,7 +52,7 @@ impl Call<'_> {
                 return Ok(Some([p1, p2]));
             }
         }
-        self.flags.insert(Flags::SLACK);
+        self.flags.set(Flags::SLACK, true);
         Ok(None)
     }
 
