@@ -1,6 +1,6 @@
 //! A cell on a ray: the stretch on which the active planes do not change.
 //!
-//! In the half-plane of the ray, with h along it and k along z, both from the start of the cell, S_A and D = S_A − S_B are
+//! In the half-plane of the ray, with h along it and k upwards, both from the start of the cell, S_A and D = S_A − S_B are
 //! quadratics. The patch is the curve D = 0 on the branch where D rises with k.
 
 use super::field::Owner;
@@ -20,9 +20,6 @@ pub(super) struct Quadratic {
 }
 
 impl Quadratic {
-    /// The height itself: D of a rigid boundary.
-    pub const HEIGHT: Self = Self { v: 0.0, h: 0.0, k: 1.0, hh: 0.0, hk: 0.0, kk: 0.0, p: 0.0, ph: 0.0, pk: 0.0 };
-
     /// Adds w·⟨plane⟩² of an active plane.
     #[inline(always)]
     pub fn add(&mut self, w: f64, plane: &RayPlane) {

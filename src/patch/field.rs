@@ -58,6 +58,22 @@ impl<'a> Placed<'a> {
     }
 }
 
+/// Both potentials at a point ([`Field::look`]).
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Look {
+    pub s: [f64; 2],
+    pub gradients: [[f64; 3]; 2],
+    pub active: u128,
+}
+
+impl Look {
+    /// S_A − S_B and its gradient; of a boundary the height and its.
+    pub fn difference(&self, of_two: bool) -> (f64, [f64; 3]) {
+        let [a, b] = &self.gradients;
+        if of_two { (self.s[0] - self.s[1], std::array::from_fn(|i| a[i] - b[i])) } else { (self.s[1], *b) }
+    }
+}
+
 /// One or two bodies, and those of their planes that may be active within a distance of the origin.
 pub(super) struct Field<'a, 's> {
     pub a: Placed<'a>,
@@ -158,6 +174,28 @@ impl<'a, 's> Field<'a, 's> {
             (w * square + m * dot(&y, &y), 2.0 * (w * slope + m * y[2]))
         };
         [of(&self.a, sums[0]), self.b.map_or((0.0, 0.0), |b| of(&b, sums[1]))]
+    }
+
+    /// S and its gradient of both bodies at a point of the frame (of a boundary the height), and the active planes, a bit each.
+    pub fn look(&self, x: &[f64; 3]) -> Look {
+        let mut look = Look { s: [0.0, x[2]], gradients: [[0.0; 3], [0.0, 0.0, 1.0]], active: 0 };
+        let bodies = [Some(&self.a), self.b.as_ref()];
+        for (i, body) in bodies.into_iter().enumerate().filter_map(|(i, body)| Some((i, body?))) {
+            let y: [f64; 3] = std::array::from_fn(|j| body.from_centre[j] + x[j]);
+            look.s[i] = body.sphere_weight * dot(&y, &y);
+            look.gradients[i] = y.map(|c| 2.0 * body.sphere_weight * c);
+        }
+        for (bit, plane) in self.planes.iter().enumerate() {
+            let excess = plane.excess + dot(&plane.normal, x);
+            if excess > 0.0 && plane.owner != Owner::Edge {
+                look.active |= 1 << bit;
+                let i = usize::from(plane.owner == Owner::B);
+                let weighted = bodies[i].map_or(0.0, |body| body.plane_weight) * excess;
+                look.s[i] += weighted * excess;
+                (0..3).for_each(|j| look.gradients[i][j] += 2.0 * weighted * plane.normal[j]);
+            }
+        }
+        look
     }
 
     /// The height at which S_A = S_B above a point of the plane z = 0, sought from a height nearby: on the boundary 0.

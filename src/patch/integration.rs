@@ -2,6 +2,7 @@
 
 use super::border::around;
 use super::cell::RayPlane;
+use super::cells::{CellScratch, cells};
 use super::centre::{flattest_axis, middle, on_patch};
 use super::fan::{Fan, Integral};
 use super::field::{Field, FramePlane, Placed};
@@ -51,18 +52,22 @@ pub(super) struct Task<'a> {
 /// In pieces where that is possible, else by a fan of rays, as well as with the energy. No finer than the rounding of s allows, over the
 /// depth: faces that touch to rounding would be refined without end.
 pub(super) fn patch(task: &Task, scratch: &mut PatchScratch, mut visit: impl FnMut(PatchPoint)) -> Patch {
-    let PatchScratch { planes, ray_planes, nodes, points, pieces, rays, sectors, stack } = scratch;
+    let PatchScratch { planes, ray_planes, nodes, points, pieces, cells, rays, sectors, stack } = scratch;
     let mut field = Field::new(task.a, task.b, task.edges, task.near, planes);
     let start = on_patch(&mut field, 0.0, 0.0, 0.0).unwrap_or_default();
     let deepest = field.values(&start)[0].0;
     let rounding = field.rounding(deepest);
     let tolerance = task.settings.above(rounding);
     let state = field.state();
-    let outcome = in_parts(task, &mut field, (start, deepest, tolerance), (ray_planes, nodes), pieces, points)
+    let mut parts = Parts { task, field: &mut field, start, deepest, tolerance, planes: ray_planes, nodes, points };
+    let outcome = parts
+        .zones(pieces)
+        .or_else(|| parts.cells(cells))
+        .or_else(|| parts.around(pieces))
         .unwrap_or_else(|| {
-            field.restore(state);
-            let (order, budget, with_energy) = (2, f64::INFINITY, false);
-            let walker = Walker { field: &mut field, planes: ray_planes, nodes, order, with_energy, budget };
+            parts.field.restore(state);
+            let Parts { field, planes, nodes, points, .. } = &mut parts;
+            let walker = Walker { field, planes, nodes, order: 2, with_energy: false, budget: f64::INFINITY };
             let mut fan = Fan::new(walker, rays, sectors, stack, [0.0; 3], tolerance);
             spread(task, &mut fan, start, points)
         });
@@ -99,26 +104,57 @@ struct Outcome {
     rays: usize,
 }
 
-/// In zones that need no search or, where those do not suffice, by rays around the flat part; `None` where that is not possible either, or the
-/// fan is asked for: with the energy, and by the finest tolerances.
-fn in_parts(
-    task: &Task,
-    field: &mut Field,
-    (start, deepest, tolerance): ([f64; 3], f64, f64),
-    (ray_planes, nodes): (&mut Vec<RayPlane>, &mut Vec<Node>),
-    scratch: &mut PieceScratch,
-    points: &mut Vec<Node>,
-) -> Option<Outcome> {
-    if task.settings.with_energy || tolerance < FINEST_OF_PIECES {
-        return None;
+/// The ways to integrate a patch but for the fan of rays, which serves for all: each gives `None` where it does not.
+///
+/// None of them has the energy, or the finest tolerances.
+struct Parts<'p, 'f, 'a, 's> {
+    task: &'p Task<'a>,
+    field: &'f mut Field<'a, 's>,
+    start: [f64; 3],
+    deepest: f64,
+    tolerance: f64,
+    planes: &'f mut Vec<RayPlane>,
+    nodes: &'f mut Vec<Node>,
+    points: &'f mut Vec<Node>,
+}
+
+impl<'a, 's> Parts<'_, '_, 'a, 's> {
+    fn is_asked(&self) -> bool {
+        !self.task.settings.with_energy && self.tolerance >= FINEST_OF_PIECES
     }
-    let estimate = pieces(field, &start, deepest, tolerance, scratch, points).or_else(|| {
-        let (level, polygon) = scratch.flat()?;
-        let (order, budget, with_energy) = (order_of(tolerance), f64::INFINITY, false);
-        let mut walker = Walker { field, planes: ray_planes, nodes, order, with_energy, budget };
-        around(&mut walker, level, polygon, tolerance, points)
-    })?;
-    Some(Outcome::of(&estimate, points))
+
+    /// In zones that need no search.
+    fn zones(&mut self, scratch: &mut PieceScratch) -> Option<Outcome> {
+        if !self.is_asked() {
+            return None;
+        }
+        let Self { field, start, deepest, tolerance, points, .. } = self;
+        let estimate = pieces(field, start, *deepest, *tolerance, scratch, points)?;
+        Some(Outcome::of(&estimate, points))
+    }
+
+    /// In the cells of the network.
+    fn cells(&mut self, scratch: &mut CellScratch) -> Option<Outcome> {
+        if !self.is_asked() || !self.task.edges.is_empty() || self.field.is_planar {
+            return None;
+        }
+        let axis = flattest_axis(self.field);
+        let Self { deepest, tolerance, .. } = *self;
+        let Self { field, planes, nodes, points, .. } = self;
+        let mut walker = Walker { field, planes, nodes, order: 2, with_energy: false, budget: f64::INFINITY };
+        let estimate = cells(&mut walker, axis, deepest, tolerance, scratch, points)?;
+        Some(Outcome::of(&estimate, points))
+    }
+
+    /// By rays around the flat part that the zones have found.
+    fn around(&mut self, scratch: &PieceScratch) -> Option<Outcome> {
+        let (level, polygon) = self.is_asked().then(|| scratch.flat()).flatten()?;
+        let (order, tolerance) = (order_of(self.tolerance), self.tolerance);
+        let Self { field, planes, nodes, points, .. } = self;
+        let mut walker = Walker { field, planes, nodes, order, with_energy: false, budget: f64::INFINITY };
+        let estimate = around(&mut walker, level, polygon, tolerance, points)?;
+        Some(Outcome::of(&estimate, points))
+    }
 }
 
 impl Outcome {

@@ -8,9 +8,16 @@
 //! | `settings` | what is asked for |
 //! | `patch` | the answer |
 //! | `field` | the potentials in the frame of the patch |
+//! | `half_plane` | in which a walk over the patch takes place |
 //! | `cell` | a stretch of a ray on which they are quadratics |
 //! | `energy` | the elastic energy as an integral over the patch |
 //! | `ray` | the walk over a ray |
+//! | `curve` | the walk over the curve where a plane goes on |
+//! | `rim` | points and arcs of the rim |
+//! | `network` | curves and rim, and where they meet |
+//! | `form` | the potentials of a cell |
+//! | `triangle_rule` | quadrature over a curved triangle |
+//! | `cells` | the patch in cells |
 //! | `chart` | coordinates in which the patch is explicit |
 //! | `polygon` | its flat part |
 //! | `zone` | the parts about edges and corners |
@@ -29,13 +36,18 @@
 
 mod border;
 mod cell;
+mod cells;
 mod centre;
 mod chart;
 mod contact;
+mod curve;
 mod energy;
 mod fan;
 mod field;
+mod form;
+mod half_plane;
 mod integration;
+mod network;
 mod oval;
 #[allow(clippy::module_inception)]
 mod patch;
@@ -44,11 +56,13 @@ mod pieces;
 pub(crate) mod planar;
 mod polygon;
 mod ray;
+mod rim;
 mod rules;
 mod scratch;
 mod settings;
 mod smoothness;
 mod stiffness;
+mod triangle_rule;
 mod zone;
 
 pub use contact::{patch_of_contact, patch_on_plane, patch_on_triangle};

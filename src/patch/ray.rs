@@ -2,7 +2,8 @@
 
 use super::cell::{Cell, Quadratic, RayPlane};
 use super::energy;
-use super::field::{Field, Owner, Placed};
+use super::field::{Field, Owner, dot};
+use super::half_plane::HalfPlane;
 use super::rules::gauss;
 
 /// Events of a ray that are kept; of a longer one the last place holds the end.
@@ -28,6 +29,16 @@ pub(super) struct Line {
     pub direction: [f64; 2],
     /// Whether lengths are weighted by the distance, as for an integral over an area in polar coordinates.
     pub is_polar: bool,
+}
+
+/// Where the way through a cell ends.
+pub(super) struct CellEnd {
+    pub h: f64,
+    pub k: f64,
+    /// Place of the plane that goes on or off, or of the edge that is met; `None` on the rim.
+    pub next: Option<usize>,
+    /// Whether the patch turns back there.
+    pub is_folded: bool,
 }
 
 /// A point of quadrature on the patch.
@@ -150,26 +161,17 @@ impl Walker<'_, '_, '_> {
             count: 0,
             is_folded: false,
         };
-        self.set_out(line);
-        let tiny = TINY * self.field.radius();
+        let half_plane = HalfPlane::upright(line.origin, line.direction);
+        self.set_out(&half_plane);
         let (mut rho, mut zeta) = (0.0, 0.0);
         for _ in 0..MOST_CELLS {
-            let cell = self.cell(line, rho, zeta);
+            let cell = self.cell(&half_plane, rho, zeta);
             if !(cell.s.v < 1.0) {
                 ray.push(Event { id: RIM, rho, zeta, before: ray.sums[2] });
                 break;
             }
-            let ((mut h, mut k), mut next) = self.next_crossing(&cell, tiny);
-            // Beyond its turn the patch is no graph, and what is met there lies on another branch.
-            let turn = cell.turn();
-            if next.is_none() || h > turn || cell.s.value(h, k) >= 1.0 {
-                match cell.rim(h.min(turn), 0.1 * self.field.radius()) {
-                    Ok(rim) => (h, ray.is_folded) = (rim, ray.is_folded || rim >= turn),
-                    Err(turn) => (h, ray.is_folded) = (turn, true),
-                }
-                next = None;
-                k = cell.height(h).map_or(0.0, |(k, _)| k);
-            }
+            let CellEnd { h, k, next, is_folded } = self.end_of(&cell);
+            ray.is_folded |= is_folded;
             let end = [line.origin[0] + (rho + h) * line.direction[0], line.origin[1] + (rho + h) * line.direction[1]];
             let away = end[0].hypot(end[1]).hypot(line.origin[2] + zeta + k);
             if away > self.field.loaded() {
@@ -192,21 +194,35 @@ impl Walker<'_, '_, '_> {
         Ok(ray)
     }
 
-    /// The planes at the origin of a ray.
-    fn set_out(&mut self, line: &Line) {
-        let ([x, y, z], [e, f]) = (line.origin, line.direction);
+    /// Where the way through a cell ends: at the nearest plane or edge, or on the rim.
+    pub fn end_of(&self, cell: &Cell) -> CellEnd {
+        let ((h, k), next) = self.next_crossing(cell, TINY * self.field.radius());
+        // Beyond its turn the patch is no graph, and what is met there lies on another branch.
+        let turn = cell.turn();
+        if next.is_some() && h <= turn && cell.s.value(h, k) < 1.0 {
+            return CellEnd { h, k, next, is_folded: false };
+        }
+        let (h, is_folded) = match cell.rim(h.min(turn), 0.1 * self.field.radius()) {
+            Ok(rim) => (rim, rim >= turn),
+            Err(turn) => (turn, true),
+        };
+        CellEnd { h, k: cell.height(h).map_or(0.0, |(k, _)| k), next: None, is_folded }
+    }
+
+    /// The planes at the origin of a half-plane.
+    pub fn set_out(&mut self, half_plane: &HalfPlane) {
+        let HalfPlane { origin, along, across, up } = half_plane;
         self.planes.clear();
         self.planes.extend(self.field.planes.iter().map(|plane| {
-            let [a, b, c] = plane.normal;
-            let excess = plane.excess + (a * x + b * y + c * z);
-            let (along, across) = (a * e + b * f, b * e - a * f);
+            let excess = plane.excess + dot(&plane.normal, origin);
+            let [along, across, up] = [along, across, up].map(|axis| dot(&plane.normal, axis));
             let active = excess > 0.0 && plane.owner != Owner::Edge;
-            RayPlane { at_origin: excess, excess, along, up: c, across, active, owner: plane.owner }
+            RayPlane { at_origin: excess, excess, along, up, across, active, owner: plane.owner }
         }));
     }
 
-    /// The quadratics from a point of the ray on.
-    fn cell(&mut self, line: &Line, rho: f64, zeta: f64) -> Cell {
+    /// The quadratics from a point of the half-plane on.
+    pub fn cell(&mut self, half_plane: &HalfPlane, rho: f64, zeta: f64) -> Cell {
         let field = &self.field;
         let weights = [field.a.plane_weight, field.b.map_or(0.0, |b| b.plane_weight)];
         let mut sums = [Quadratic::default(); 2];
@@ -221,13 +237,13 @@ impl Walker<'_, '_, '_> {
         }
         let is_flat = active[0] == 1 && field.a.sphere_weight == 0.0;
         if field.a.sphere_weight > 0.0 {
-            sums[0].add_sphere(field.a.sphere_weight, &on_ray(&field.a, line, rho, zeta));
+            sums[0].add_sphere(field.a.sphere_weight, &half_plane.from_centre(&field.a, rho, zeta));
         }
-        let mut cell = Cell { s: sums[0], d: Quadratic::HEIGHT, is_flat, flat_incline: 0.0 };
+        let mut cell = Cell { s: sums[0], d: half_plane.height(rho, zeta), is_flat, flat_incline: 0.0 };
         if let Some(b) = &field.b {
             cell.is_flat &= active[1] == 1 && b.sphere_weight == 0.0;
             if b.sphere_weight > 0.0 {
-                sums[1].add_sphere(b.sphere_weight, &on_ray(b, line, rho, zeta));
+                sums[1].add_sphere(b.sphere_weight, &half_plane.from_centre(b, rho, zeta));
             }
             cell.d = sums[0].minus(&sums[1]);
             if cell.is_flat {
@@ -363,14 +379,15 @@ impl Walker<'_, '_, '_> {
     /// The integral of a plane or of the rim (as an inverse distance from the origin) in the cell that follows the first `m` events of a
     /// ray: where it would be met if nothing else were before.
     pub fn inverse_distance(&mut self, line: &Line, ray: &Ray, m: usize, id: u32) -> Option<f64> {
-        self.set_out(line);
+        let half_plane = HalfPlane::upright(line.origin, line.direction);
+        self.set_out(&half_plane);
         for event in &ray.events[..m] {
             if let Some(plane) = self.planes.get_mut(event.id as usize) {
                 plane.active = !plane.active;
             }
         }
         let (rho, zeta) = if m == 0 { (0.0, 0.0) } else { (ray.events[m - 1].rho, ray.events[m - 1].zeta) };
-        let cell = self.cell(line, rho, zeta);
+        let cell = self.cell(&half_plane, rho, zeta);
         let radius = self.field.radius();
         if id == RIM {
             return cell.rim(f64::INFINITY, 0.1 * radius).ok().map(|h| 1.0 / (rho + h));
@@ -381,12 +398,4 @@ impl Walker<'_, '_, '_> {
         }
         (m == 0).then(|| cell.linear_inverse(plane)).filter(|inverse| inverse.is_finite())
     }
-}
-
-/// From the centre of a body to a point of the ray, in the axes of the ray.
-#[inline(always)]
-fn on_ray(body: &Placed, line: &Line, rho: f64, zeta: f64) -> [f64; 3] {
-    let ([e, f], [x, y, z]) = (line.direction, line.origin);
-    let (u, v) = (body.from_centre[0] + x, body.from_centre[1] + y);
-    [u * e + v * f + rho, v * e - u * f, body.from_centre[2] + z + zeta]
 }

@@ -1,6 +1,7 @@
 //! What the integration of a patch works in.
 
 use super::cell::RayPlane;
+use super::cells::CellScratch;
 use super::fan::Sector;
 use super::field::FramePlane;
 use super::pieces::PieceScratch;
@@ -16,6 +17,7 @@ pub struct PatchScratch {
     pub(super) nodes: Vec<Node>,
     pub(super) points: Vec<Node>,
     pub(super) pieces: PieceScratch,
+    pub(super) cells: CellScratch,
     pub(super) rays: Vec<Ray>,
     pub(super) sectors: Vec<Sector>,
     pub(super) stack: Vec<(usize, usize, u32)>,

@@ -1,0 +1,238 @@
+//! The patch in cells, on each of which both potentials are quadratic forms: the meshes of the network, cut into curved triangles.
+
+use super::curve::Trouble;
+use super::form::Form;
+use super::network::{Drawing, MOST_PLANES, Network};
+use super::pieces::Estimate;
+use super::ray::{Node, RIM, Walker};
+use super::smoothness::norm;
+use super::triangle_rule::{CurvedTriangle, INTEGRALS, Integrals, POINTS, WHOLE, quarters};
+
+/// Buffers.
+#[derive(Debug, Default)]
+pub(super) struct CellScratch {
+    network: Network,
+    /// The sides of each cell: its active planes, and the side.
+    sides: Vec<(u128, u32)>,
+    outline: Vec<Corner>,
+    triangles: Vec<(CurvedTriangle, Form)>,
+    parts: Vec<Part>,
+}
+
+/// A corner of a cell, and the middle of the side to the next one.
+#[derive(Clone, Copy, Debug)]
+struct Corner {
+    at: [f64; 2],
+    middle: [f64; 2],
+}
+
+/// A part of a triangle: its corners in barycentric coordinates, and its integrals.
+#[derive(Clone, Copy, Debug)]
+struct Part {
+    triangle: u32,
+    corners: [[f64; 3]; 3],
+    value: [f64; INTEGRALS],
+    error: [f64; 2],
+}
+
+/// Error of the rule over the load and the square of the relative difference to that of degree 4.
+const OF_DIFFERENCE: f64 = 5.0;
+
+/// Part of the tolerance that the rules may take.
+const SHARE: f64 = 0.9;
+
+/// Most parts.
+const MOST_PARTS: usize = 256;
+
+/// Fills `points`; `None` where the network does not close, or the error is above the tolerance.
+pub(super) fn cells(
+    walker: &mut Walker,
+    axis: [f64; 2],
+    deepest: f64,
+    tolerance: f64,
+    scratch: &mut CellScratch,
+    points: &mut Vec<Node>,
+) -> Option<Estimate> {
+    let drawing = Drawing { axis, depth: 1.0 - deepest, tolerance };
+    loop {
+        if walker.field.planes.len() > MOST_PLANES {
+            return None;
+        }
+        match scratch.network.draw(walker, &drawing) {
+            Ok(()) => break,
+            Err(Trouble::Far(distance)) => walker.field.load(distance.max(2.0 * walker.field.loaded())),
+            Err(Trouble::Lost) => return None,
+        }
+    }
+    scratch.triangulate(walker)?;
+    scratch.integrate(tolerance, points)
+}
+
+impl CellScratch {
+    /// Cuts all cells into triangles; `None` where the sides of one make no outline.
+    fn triangulate(&mut self, walker: &Walker) -> Option<()> {
+        self.sides.clear();
+        self.triangles.clear();
+        for (i, side) in self.network.sides.iter().enumerate() {
+            self.sides.push((side.active, i as u32));
+            if side.plane != RIM {
+                self.sides.push((side.active | 1 << side.plane, i as u32));
+            }
+        }
+        self.sides.sort_unstable();
+        let mut from = 0;
+        while from < self.sides.len() {
+            let active = self.sides[from].0;
+            let count = self.sides[from..].iter().take_while(|(other, _)| *other == active).count();
+            self.trace(from, from + count)?;
+            let form = Form::new(walker.field, active);
+            let triangles = &mut self.triangles;
+            cut(&self.outline, |triangle| triangles.push((triangle, form)))?;
+            from += count;
+        }
+        Some(())
+    }
+
+    /// The outline of the cell with these sides, counter-clockwise.
+    fn trace(&mut self, from: usize, to: usize) -> Option<()> {
+        let Network { vertices, sides, .. } = &self.network;
+        let group = &mut self.sides[from..to];
+        self.outline.clear();
+        let first = &sides[group[0].1 as usize];
+        let (start, mut at) = (first.ends[0], first.ends[0]);
+        for done in 0..group.len() {
+            let next = (done..group.len()).find(|i| sides[group[*i].1 as usize].ends.contains(&at))?;
+            group.swap(done, next);
+            let side = &sides[group[done].1 as usize];
+            let [u, v, _] = vertices[at as usize].x;
+            self.outline.push(Corner { at: [u, v], middle: side.middle });
+            at = if side.ends[0] == at { side.ends[1] } else { side.ends[0] };
+            if at == start && done + 1 < group.len() {
+                return None;
+            }
+        }
+        if at != start {
+            return None;
+        }
+        let knots = self.outline.iter().flat_map(|corner| [corner.at, corner.middle]);
+        let after = self.outline.iter().flat_map(|corner| [corner.at, corner.middle]).cycle().skip(1);
+        let area: f64 = knots.zip(after).map(|(a, b)| a[0] * b[1] - a[1] * b[0]).sum();
+        if area < 0.0 {
+            self.outline.reverse();
+            let count = self.outline.len();
+            // The middle of a side stands with the corner before it.
+            let last = self.outline[0].middle;
+            for i in 0..count {
+                self.outline[i].middle = if i + 1 < count { self.outline[i + 1].middle } else { last };
+            }
+        }
+        Some(())
+    }
+
+    /// Integrates over all triangles, in parts where one rule does not do.
+    fn integrate(&mut self, tolerance: f64, points: &mut Vec<Node>) -> Option<Estimate> {
+        points.clear();
+        self.parts.clear();
+        for triangle in 0..self.triangles.len() {
+            self.add(triangle as u32, &WHOLE, points, None)?;
+        }
+        loop {
+            let mut sums = [0.0; INTEGRALS];
+            let misfit = self.network.misfit;
+            let mut errors = [misfit.load, misfit.area];
+            let mut worst = (0, 0.0);
+            for (i, part) in self.parts.iter().enumerate() {
+                (0..INTEGRALS).for_each(|j| sums[j] += part.value[j]);
+                (0..2).for_each(|j| errors[j] += part.error[j]);
+                if part.error[0] > worst.1 {
+                    worst = (i, part.error[0]);
+                }
+            }
+            let force = norm(&sums[..3]);
+            if !(force > 0.0) {
+                return None;
+            }
+            if errors[0] <= SHARE * tolerance * force {
+                return Some(Estimate { force: errors[0], area: errors[1], rays: 0 });
+            }
+            if self.parts.len() > MOST_PARTS {
+                return None;
+            }
+            let least = (0.5 * worst.1).min(SHARE * tolerance * force / self.parts.len() as f64);
+            for i in 0..self.parts.len() {
+                if self.parts[i].error[0] >= least {
+                    let Part { triangle, corners, .. } = self.parts[i];
+                    for (which, quarter) in quarters(&corners).iter().enumerate() {
+                        self.add(triangle, quarter, points, (which == 0).then_some(i))?;
+                    }
+                }
+            }
+        }
+    }
+
+    /// Integrates over a part of a triangle, which is new or takes the place of another.
+    fn add(&mut self, triangle: u32, corners: &[[f64; 3]; 3], points: &mut Vec<Node>, place: Option<usize>) -> Option<()> {
+        let (curved, form) = &self.triangles[triangle as usize];
+        let mut nodes = [Node { x: [0.0; 3], weight: 0.0, pressure: 0.0, normal: [0.0; 2] }; POINTS];
+        let Integrals { value, off } = curved.integrate(corners, form, &mut nodes)?;
+        let size = norm(&value[..3]);
+        let reach = nodes.iter().map(|node| node.x[0].hypot(node.x[1])).fold(0.0, f64::max);
+        let difference = norm(&off[..3]).max(norm(&off[3..5]) / reach);
+        let of = |off: f64, size: f64| if off > 0.0 { off * (OF_DIFFERENCE * off / size).min(1.0) } else { 0.0 };
+        let part = Part { triangle, corners: *corners, value, error: [of(difference, size), of(off[5].abs(), value[5])] };
+        match place {
+            Some(i) => {
+                self.parts[i] = part;
+                points[POINTS * i..POINTS * (i + 1)].copy_from_slice(&nodes);
+            }
+            None => {
+                self.parts.push(part);
+                points.extend_from_slice(&nodes);
+            }
+        }
+        Some(())
+    }
+}
+
+/// Cuts the outline of a cell into triangles: from one of its corners, or from its middle; `None` where neither will do.
+fn cut(outline: &[Corner], mut give: impl FnMut(CurvedTriangle)) -> Option<()> {
+    let count = outline.len();
+    let corner = |i: usize| &outline[i % count];
+    if count == 2 {
+        return lens(outline, give);
+    }
+    for apex in 0..count {
+        let triangle = |i: usize| {
+            let [a, b, c] = [corner(apex), corner(apex + i), corner(apex + i + 1)];
+            let first = (i == 1).then_some(a.middle);
+            let last = (i + 2 == count).then_some(c.middle);
+            CurvedTriangle::new([a.at, b.at, c.at], [first, Some(b.middle), last])
+        };
+        if (1..count - 1).all(|i| triangle(i).is_regular()) {
+            (1..count - 1).for_each(|i| give(triangle(i)));
+            return Some(());
+        }
+    }
+    let middle = [0, 1].map(|c| outline.iter().map(|k| k.at[c] + k.middle[c]).sum::<f64>() / (2 * count) as f64);
+    let triangle = |i: usize| CurvedTriangle::new([middle, corner(i).at, corner(i + 1).at], [None, Some(corner(i).middle), None]);
+    if (0..count).all(|i| triangle(i).is_regular()) {
+        (0..count).for_each(|i| give(triangle(i)));
+        return Some(());
+    }
+    None
+}
+
+/// A cell with two corners, in two triangles on either side of the line between the middles of its sides.
+fn lens(outline: &[Corner], mut give: impl FnMut(CurvedTriangle)) -> Option<()> {
+    let [a, b] = [outline[0], outline[1]];
+    // The parabola of a side at a quarter of it.
+    let quarter = |from: &Corner, to: &Corner, t: f64| {
+        let [p, m, q] = [2.0 * (t - 0.5) * (t - 1.0), 4.0 * t * (1.0 - t), 2.0 * t * (t - 0.5)];
+        Some([0, 1].map(|c| p * from.at[c] + m * from.middle[c] + q * to.at[c]))
+    };
+    let halves = [
+        CurvedTriangle::new([a.at, a.middle, b.middle], [quarter(&a, &b, 0.25), None, quarter(&b, &a, 0.75)]),
+        CurvedTriangle::new([b.at, b.middle, a.middle], [quarter(&b, &a, 0.25), None, quarter(&a, &b, 0.75)]),
+    ];
+    halves.iter().all(CurvedTriangle::is_regular).then(|| halves.into_iter().for_each(&mut give))
+}

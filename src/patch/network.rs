@@ -1,0 +1,218 @@
+//! The patch as a network: the curves on which planes go on, the rim around them, and the places where they meet.
+
+use super::curve::{Stretch, Trouble};
+use super::field::Field;
+use super::half_plane::HalfPlane;
+use super::ray::{RIM, Walker};
+use super::rim::{Misfit, RimPoint, unmet_plane};
+
+/// Most planes that may be loaded, vertices, and rounds in which planes are found.
+pub(super) const MOST_PLANES: usize = 128;
+const MOST_VERTICES: usize = 400;
+const MOST_ROUNDS: usize = 12;
+
+/// Largest turn of an arc.
+const TURN: f64 = 1.6;
+
+/// Relative distance within which two walks meet the same vertex.
+const SAME: f64 = 1e-6;
+
+/// What one arc may be off, over the tolerance: of the area, and of the load.
+const OF_AREA: f64 = 1.0;
+const OF_LOAD: f64 = 0.02;
+
+/// Part of the tolerance up to which a plane may change the depth where its curve is left out.
+const LEFT_OUT: f64 = 0.1;
+
+/// Most halvings of an arc.
+const MOST_HALVINGS: usize = 6;
+
+/// Where two curves meet, or one meets the rim.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Vertex {
+    pub x: [f64; 3],
+    /// The planes of both curves; [`RIM`] for the rim, twice where a ray met it.
+    planes: [u32; 2],
+    /// Number of curves that lead through it.
+    uses: u32,
+}
+
+/// A side of cells: the part of a curve or of the rim between two vertices.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Side {
+    pub ends: [u32; 2],
+    /// u, v of its middle.
+    pub middle: [f64; 2],
+    /// The plane of the curve, or [`RIM`].
+    pub plane: u32,
+    /// The active planes, a bit each, without that of the curve.
+    pub active: u128,
+}
+
+/// Buffers, and what they hold at last.
+#[derive(Debug, Default)]
+pub(super) struct Network {
+    pub vertices: Vec<Vertex>,
+    pub sides: Vec<Side>,
+    queue: Vec<(u32, [f64; 3])>,
+    /// The planes whose curves are drawn, and those that are active at the origin, a bit each.
+    walked: u128,
+    at_origin: u128,
+    ring: Vec<(f64, u32)>,
+    /// What an arc may be off, and what all are.
+    allowed: Misfit,
+    pub misfit: Misfit,
+    stretches: [Vec<Stretch>; 2],
+}
+
+/// What the network is drawn with.
+#[derive(Clone, Copy)]
+pub(super) struct Drawing {
+    /// The axis of the frame's plane along which the first rays go, and across it.
+    pub axis: [f64; 2],
+    /// 1 − S at the origin.
+    pub depth: f64,
+    pub tolerance: f64,
+}
+
+impl Network {
+    /// Draws the network; of a walk that left the rim or the loaded planes, the trouble.
+    pub fn draw(&mut self, walker: &mut Walker, drawing: &Drawing) -> Result<(), Trouble> {
+        self.vertices.clear();
+        self.sides.clear();
+        self.queue.clear();
+        (self.walked, self.at_origin) = (0, walker.field.look(&[0.0; 3]).active);
+        let [e, f] = drawing.axis;
+        let mut lengths = [0.0; 2];
+        for (i, direction) in [[e, f], [-f, e], [-e, -f], [f, -e]].into_iter().enumerate() {
+            let [_, ray] = &mut self.stretches;
+            ray.clear();
+            walker.walk_to_rim(&HalfPlane::upright([0.0; 3], direction), None, ray)?;
+            for stretch in ray.iter() {
+                match stretch.id {
+                    RIM => {
+                        self.vertices.push(Vertex { x: stretch.end, planes: [RIM; 2], uses: 1 });
+                        lengths[i % 2] += stretch.end[0].hypot(stretch.end[1]);
+                    }
+                    id => self.queue.push((id, stretch.end)),
+                }
+            }
+        }
+        // Of an ellipse with these axes and a paraboloid of s over it.
+        let area = 0.25 * std::f64::consts::PI * lengths[0] * lengths[1];
+        let load = 0.25 * drawing.depth * area;
+        self.allowed = Misfit { area: OF_AREA * drawing.tolerance * area, load: OF_LOAD * drawing.tolerance * load };
+        for _ in 0..MOST_ROUNDS {
+            while let Some((id, through)) = self.queue.pop() {
+                self.follow(walker, id, through)?;
+            }
+            if self.close(walker.field, drawing)? {
+                let met = self.vertices.iter().all(|vertex| vertex.planes.contains(&RIM) || vertex.uses == 2);
+                return if met { Ok(()) } else { Err(Trouble::Lost) };
+            }
+        }
+        Err(Trouble::Lost)
+    }
+
+    /// Adds the curve of a plane.
+    fn follow(&mut self, walker: &mut Walker, id: u32, through: [f64; 3]) -> Result<(), Trouble> {
+        if id as usize >= MOST_PLANES || self.vertices.len() > MOST_VERTICES {
+            return Err(Trouble::Lost);
+        }
+        if self.walked >> id & 1 == 1 {
+            return Ok(());
+        }
+        self.walked |= 1 << id;
+        let [backwards, forwards] = &mut self.stretches;
+        walker.curve(id as usize, through, backwards, forwards)?;
+        let count = self.stretches[1].len();
+        let mut last = u32::MAX;
+        for i in 0..count {
+            let Stretch { id: met, end, middle, active } = self.stretches[1][i];
+            let vertex = self.vertex([id, met], &end)?;
+            if i > 0 {
+                self.sides.push(Side { ends: [last, vertex], middle: [middle[0], middle[1]], plane: id, active });
+            }
+            last = vertex;
+            if met != RIM && self.walked >> met & 1 == 0 {
+                self.queue.push((met, end));
+            }
+        }
+        Ok(())
+    }
+
+    /// The vertex of two curves at a place: as it is known, or a new one.
+    fn vertex(&mut self, [own, met]: [u32; 2], x: &[f64; 3]) -> Result<u32, Trouble> {
+        if met != RIM {
+            let size = x.iter().map(|c| c.abs()).fold(0.0, f64::max);
+            for (i, vertex) in self.vertices.iter_mut().enumerate().filter(|(_, v)| v.planes == [met, own]) {
+                let apart = (0..3).map(|c| (vertex.x[c] - x[c]).abs()).fold(0.0, f64::max);
+                if apart <= SAME * size {
+                    vertex.uses += 1;
+                    return Ok(i as u32);
+                }
+            }
+        }
+        self.vertices.push(Vertex { x: *x, planes: [own, met], uses: 1 });
+        Ok(self.vertices.len() as u32 - 1)
+    }
+
+    /// Adds the arcs of the rim; whether no plane was found on them whose curve was not known.
+    fn close(&mut self, field: &Field, drawing: &Drawing) -> Result<bool, Trouble> {
+        let known = (self.sides.len(), self.vertices.len());
+        self.misfit = Misfit::default();
+        self.ring.clear();
+        for (i, vertex) in self.vertices.iter().enumerate().filter(|(_, vertex)| vertex.planes[1] == RIM) {
+            self.ring.push((vertex.x[1].atan2(vertex.x[0]), i as u32));
+        }
+        self.ring.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
+        let mut is_complete = true;
+        for i in 0..self.ring.len() {
+            let ends = [self.ring[i].1, self.ring[(i + 1) % self.ring.len()].1];
+            let at = |end: u32| RimPoint::new(field, self.vertices[end as usize].x).ok_or(Trouble::Lost);
+            let (from, to) = (at(ends[0])?, at(ends[1])?);
+            is_complete &= self.arc(field, drawing, (ends, [&from, &to]), 0)?;
+        }
+        if !is_complete {
+            self.sides.truncate(known.0);
+            self.vertices.truncate(known.1);
+        }
+        Ok(is_complete)
+    }
+
+    /// Adds an arc of the rim, in parts where it turns much; whether no unknown plane was found on it.
+    fn arc(
+        &mut self,
+        field: &Field,
+        drawing: &Drawing,
+        (ends, [from, to]): ([u32; 2], [&RimPoint; 2]),
+        halvings: usize,
+    ) -> Result<bool, Trouble> {
+        let middle = from.middle(to, field).ok_or(Trouble::Lost)?;
+        let own = ends.map(|end| self.vertices[end as usize].planes[0]);
+        if let Some((id, through)) = unmet_plane(field, [from, &middle, to], own, LEFT_OUT * drawing.tolerance * drawing.depth) {
+            if self.walked >> id & 1 == 1 {
+                return Err(Trouble::Lost);
+            }
+            self.queue.push((id as u32, through));
+            return Ok(false);
+        }
+        let turns = from.turn_to(&middle).max(middle.turn_to(to)).max(0.5 * from.turn_to(to).abs());
+        let misfit = Misfit::new(field, [from, &middle, to]).ok_or(Trouble::Lost)?;
+        let is_off = turns > 0.5 * TURN || misfit.area > self.allowed.area || misfit.load > self.allowed.load;
+        if is_off && halvings < MOST_HALVINGS {
+            self.vertices.push(Vertex { x: middle.x, planes: [RIM; 2], uses: 1 });
+            let between = self.vertices.len() as u32 - 1;
+            let first = self.arc(field, drawing, ([ends[0], between], [from, &middle]), halvings + 1)?;
+            let second = self.arc(field, drawing, ([between, ends[1]], [&middle, to]), halvings + 1)?;
+            return Ok(first && second);
+        }
+        self.misfit.area += misfit.area;
+        self.misfit.load += misfit.load;
+        let [u, v, _] = middle.x;
+        // A plane whose curve does not count is everywhere as at the origin.
+        let active = middle.active & self.walked | self.at_origin & !self.walked;
+        self.sides.push(Side { ends, middle: [u, v], plane: RIM, active });
+        Ok(true)
+    }
+}

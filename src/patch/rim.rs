@@ -1,0 +1,143 @@
+//! The rim of the patch, on which both potentials are 1: its points, and the arcs between them.
+
+use super::field::{Field, Owner, dot};
+
+/// Most steps of Newton's method.
+const MOST_STEPS: usize = 12;
+
+/// Relative to the length of an arc, how near its middle is to the rim: the error of the patch is of second order in it.
+const NEAR: f64 = 1e-9;
+
+/// A point of the rim.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct RimPoint {
+    pub x: [f64; 3],
+    /// Along the rim, counter-clockwise: a unit vector of the frame's plane.
+    pub tangent: [f64; 2],
+    pub active: u128,
+}
+
+impl RimPoint {
+    /// What the field has at a point of the rim; `None` where the patch is no graph.
+    pub fn new(field: &Field, x: [f64; 3]) -> Option<Self> {
+        let look = field.look(&x);
+        let [of_a, _] = look.gradients;
+        let (_, d) = look.difference(field.b.is_some());
+        // The slope of s over the frame's plane points outwards.
+        let slope = [0, 1].map(|i| of_a[i] - of_a[2] * d[i] / d[2]);
+        let length = slope[0].hypot(slope[1]);
+        let tangent = [-slope[1] / length, slope[0] / length];
+        (d[2] > 0.0 && tangent[0].is_finite() && tangent[1].is_finite())
+            .then_some(Self { x, tangent, active: look.active })
+    }
+
+    /// The angle by which the rim turns from here to another point.
+    pub fn turn_to(&self, other: &Self) -> f64 {
+        let ([a, b], [c, d]) = (self.tangent, other.tangent);
+        (a * d - b * c).atan2(a * c + b * d)
+    }
+
+    /// The point of the rim across the middle of the chord to another one.
+    pub fn middle(&self, other: &Self, field: &Field) -> Option<Self> {
+        let chord = [other.x[0] - self.x[0], other.x[1] - self.x[1]];
+        let length = chord[0].hypot(chord[1]);
+        let out = [chord[1] / length, -chord[0] / length];
+        let sagitta = 0.5 * length * (0.25 * self.turn_to(other).clamp(-2.0, 2.0)).tan();
+        let mut x: [f64; 3] = std::array::from_fn(|i| 0.5 * (self.x[i] + other.x[i]));
+        (0..2).for_each(|i| x[i] += sagitta * out[i]);
+        for _ in 0..MOST_STEPS {
+            let look = field.look(&x);
+            let [of_a, _] = look.gradients;
+            let (off, (d, rises)) = (look.s[0] - 1.0, look.difference(field.b.is_some()));
+            let across = |g: &[f64; 3]| g[0] * out[0] + g[1] * out[1];
+            let determinant = across(&of_a) * rises[2] - of_a[2] * across(&rises);
+            let step = (off * rises[2] - of_a[2] * d) / determinant;
+            let up = (across(&of_a) * d - across(&rises) * off) / determinant;
+            (0..2).for_each(|i| x[i] -= step * out[i]);
+            x[2] -= up;
+            if !(step.abs() < length) {
+                return None;
+            }
+            if step.abs() <= NEAR * length {
+                return Self::new(field, x);
+            }
+        }
+        None
+    }
+}
+
+/// How far the parabola through an arc's ends and middle is off the rim.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Misfit {
+    /// The area between both.
+    pub area: f64,
+    /// ∫ p on it.
+    pub load: f64,
+}
+
+impl Misfit {
+    /// From the distances at a quarter and three quarters: in between the parabola meets the rim.
+    pub fn new(field: &Field, [from, middle, to]: [&RimPoint; 3]) -> Option<Self> {
+        let length = (to.x[0] - from.x[0]).hypot(to.x[1] - from.x[1]);
+        let mut misfit = Self::default();
+        let mut signed = 0.0;
+        for (a, b) in [(from, to), (to, from)] {
+            let x = std::array::from_fn(|i| 0.375 * a.x[i] + 0.75 * middle.x[i] - 0.125 * b.x[i]);
+            let look = field.look(&x);
+            let (d, rises) = look.difference(field.b.is_some());
+            let [of_a, _] = look.gradients;
+            let slope = [0, 1].map(|i| of_a[i] - of_a[2] * rises[i] / rises[2]);
+            let steepness = slope[0].hypot(slope[1]);
+            let distance = (look.s[0] - 1.0 - of_a[2] * d / rises[2]) / steepness;
+            if !distance.is_finite() {
+                return None;
+            }
+            signed += 32.0 / 90.0 * length * distance;
+            // s changes half as fast as S.
+            misfit.load += 0.25 * 32.0 / 90.0 * length * steepness * distance * distance;
+        }
+        misfit.area = signed.abs();
+        Some(misfit)
+    }
+}
+
+/// A plane that goes on or off between two points of an arc though it is in the same state at both: its number, and a point of its curve.
+///
+/// `known`: the planes whose own curve ends at an end of the arc. Along a parabola through the three points the excess of a plane is one.
+/// What would change S by less than `least` is left out.
+pub(super) fn unmet_plane(
+    field: &Field,
+    [from, middle, to]: [&RimPoint; 3],
+    known: [u32; 2],
+    least: f64,
+) -> Option<(usize, [f64; 3])> {
+    for (i, plane) in field.planes.iter().enumerate().filter(|(_, plane)| plane.owner != Owner::Edge) {
+        let [a, m, b] = [from, middle, to].map(|point| plane.excess + dot(&plane.normal, &point.x));
+        let is_on = m > 0.0;
+        let sign = if is_on { -1.0 } else { 1.0 };
+        let weight = if plane.owner == Owner::A { field.a.plane_weight } else { field.b.map_or(0.0, |b| b.plane_weight) };
+        // a + t (4 m − 3 a − b) + t² (2 a + 2 b − 4 m).
+        let (rise, bend) = (4.0 * m - 3.0 * a - b, 2.0 * (a + b) - 4.0 * m);
+        let peak = -0.5 * rise / bend;
+        let mut candidates = [(f64::NAN, f64::NEG_INFINITY); 3];
+        for (candidate, (t, own)) in candidates.iter_mut().zip([(0.0, known[0]), (1.0, known[1]), (peak, u32::MAX)]) {
+            if own != i as u32 && t >= 0.0 && t <= 1.0 {
+                *candidate = (t, sign * (a + t * (rise + t * bend)));
+            }
+        }
+        let (t, beyond) = candidates.into_iter().fold((f64::NAN, 0.0), |best, c| if c.1 > best.1 { c } else { best });
+        if !(beyond > 0.0) || weight * beyond * beyond <= least {
+            continue;
+        }
+        let on_arc = |t: f64| -> [f64; 3] {
+            std::array::from_fn(|c| {
+                let (p, q, r) = (from.x[c], middle.x[c], to.x[c]);
+                p + t * (4.0 * q - 3.0 * p - r + t * (2.0 * (p + r) - 4.0 * q))
+            })
+        };
+        // Between there and the middle the excess changes its sign, linearly on the chord.
+        let (there, share) = (on_arc(t), beyond / (beyond + m.abs()));
+        return Some((i, std::array::from_fn(|c| there[c] + share * (middle.x[c] - there[c]))));
+    }
+    None
+}
