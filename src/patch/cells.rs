@@ -6,7 +6,7 @@ use super::network::{Drawing, MOST_PLANES, Network};
 use super::pieces::Estimate;
 use super::ray::{Node, RIM, Walker};
 use super::smoothness::norm;
-use super::triangle_rule::{CurvedTriangle, INTEGRALS, Integrals, POINTS, WHOLE, quarters};
+use super::triangle_rule::{CurvedTriangle, INTEGRALS, Integrals, POINTS, Rule, WHOLE, quarters};
 
 /// Buffers.
 #[derive(Debug, Default)]
@@ -17,6 +17,8 @@ pub(super) struct CellScratch {
     outline: Vec<Corner>,
     triangles: Vec<(CurvedTriangle, Form)>,
     parts: Vec<Part>,
+    /// [`POINTS`] for each part, of which it may use less.
+    nodes: Vec<Node>,
 }
 
 /// A corner of a cell, and the middle of the side to the next one.
@@ -31,12 +33,19 @@ struct Corner {
 struct Part {
     triangle: u32,
     corners: [[f64; 3]; 3],
+    rule: Rule,
     value: [f64; INTEGRALS],
     error: [f64; 2],
 }
 
 /// Error of the rule over the load and the square of the relative difference to that of degree 4.
-const OF_DIFFERENCE: f64 = 5.0;
+const OF_DIFFERENCE: f64 = 10.0;
+
+/// Error of the load by the sides over its estimate, at most about.
+const OF_MISFIT: f64 = 3.0;
+
+/// Part of the tolerance that the coarse rule may take in a triangle.
+const OF_COARSE: f64 = 0.01;
 
 /// Part of the tolerance that the rules may take.
 const SHARE: f64 = 0.9;
@@ -131,66 +140,81 @@ impl CellScratch {
 
     /// Integrates over all triangles, in parts where one rule does not do.
     fn integrate(&mut self, tolerance: f64, points: &mut Vec<Node>) -> Option<Estimate> {
-        points.clear();
         self.parts.clear();
+        self.nodes.clear();
+        let least = OF_COARSE * tolerance * self.network.rough_load;
         for triangle in 0..self.triangles.len() {
-            self.add(triangle as u32, &WHOLE, points, None)?;
+            let is_coarse = self.triangles[triangle].0.is_nearly_straight();
+            let mut part = None;
+            if is_coarse {
+                part = Some(self.part(triangle as u32, &WHOLE, Rule::Coarse)?).filter(|part| part.0.error[0] <= least);
+            }
+            let part = if part.is_none() { self.part(triangle as u32, &WHOLE, Rule::Fine) } else { part };
+            self.put(part?, None);
         }
         loop {
             let mut sums = [0.0; INTEGRALS];
             let misfit = self.network.misfit;
-            let mut errors = [misfit.load, misfit.area];
-            let mut worst = (0, 0.0);
-            for (i, part) in self.parts.iter().enumerate() {
+            let mut errors = [OF_MISFIT * misfit.load, misfit.area];
+            let mut worst = 0.0_f64;
+            for part in &self.parts {
                 (0..INTEGRALS).for_each(|j| sums[j] += part.value[j]);
                 (0..2).for_each(|j| errors[j] += part.error[j]);
-                if part.error[0] > worst.1 {
-                    worst = (i, part.error[0]);
-                }
+                worst = worst.max(part.error[0]);
             }
-            let force = norm(&sums[..3]);
-            if !(force > 0.0) {
+            let allowed = SHARE * tolerance * norm(&sums[..3]);
+            if !(allowed > 0.0) || misfit.load > allowed {
                 return None;
             }
-            if errors[0] <= SHARE * tolerance * force {
+            if errors[0] <= allowed {
+                points.clear();
+                for (part, nodes) in self.parts.iter().zip(self.nodes.chunks_exact(POINTS)) {
+                    points.extend_from_slice(&nodes[..part.rule.count()]);
+                }
                 return Some(Estimate { force: errors[0], area: errors[1], rays: 0 });
             }
             if self.parts.len() > MOST_PARTS {
                 return None;
             }
-            let least = (0.5 * worst.1).min(SHARE * tolerance * force / self.parts.len() as f64);
+            let least = (0.5 * worst).min(allowed / self.parts.len() as f64);
             for i in 0..self.parts.len() {
                 if self.parts[i].error[0] >= least {
                     let Part { triangle, corners, .. } = self.parts[i];
                     for (which, quarter) in quarters(&corners).iter().enumerate() {
-                        self.add(triangle, quarter, points, (which == 0).then_some(i))?;
+                        let part = self.part(triangle, quarter, Rule::Fine)?;
+                        self.put(part, (which == 0).then_some(i));
                     }
                 }
             }
         }
     }
 
-    /// Integrates over a part of a triangle, which is new or takes the place of another.
-    fn add(&mut self, triangle: u32, corners: &[[f64; 3]; 3], points: &mut Vec<Node>, place: Option<usize>) -> Option<()> {
+    /// Integrates over a part of a triangle; `None` where the patch is no graph.
+    #[inline(always)]
+    fn part(&self, triangle: u32, corners: &[[f64; 3]; 3], rule: Rule) -> Option<(Part, [Node; POINTS])> {
         let (curved, form) = &self.triangles[triangle as usize];
         let mut nodes = [Node { x: [0.0; 3], weight: 0.0, pressure: 0.0, normal: [0.0; 2] }; POINTS];
-        let Integrals { value, off } = curved.integrate(corners, form, &mut nodes)?;
-        let size = norm(&value[..3]);
-        let reach = nodes.iter().map(|node| node.x[0].hypot(node.x[1])).fold(0.0, f64::max);
-        let difference = norm(&off[..3]).max(norm(&off[3..5]) / reach);
+        let Integrals { value, off } = curved.integrate(corners, form, rule, &mut nodes)?;
+        let square = |node: &Node| node.x[0] * node.x[0] + node.x[1] * node.x[1];
+        let reach = nodes[..rule.count()].iter().map(square).fold(0.0, f64::max).sqrt();
+        let (size, difference) = (norm(&value[..3]), norm(&off[..3]).max(norm(&off[3..5]) / reach));
         let of = |off: f64, size: f64| if off > 0.0 { off * (OF_DIFFERENCE * off / size).min(1.0) } else { 0.0 };
-        let part = Part { triangle, corners: *corners, value, error: [of(difference, size), of(off[5].abs(), value[5])] };
+        let error = [of(difference, size), of(off[5].abs(), value[5])];
+        Some((Part { triangle, corners: *corners, rule, value, error }, nodes))
+    }
+
+    /// Adds a part, or puts it in the place of another.
+    fn put(&mut self, (part, nodes): (Part, [Node; POINTS]), place: Option<usize>) {
         match place {
             Some(i) => {
                 self.parts[i] = part;
-                points[POINTS * i..POINTS * (i + 1)].copy_from_slice(&nodes);
+                self.nodes[POINTS * i..POINTS * (i + 1)].copy_from_slice(&nodes);
             }
             None => {
                 self.parts.push(part);
-                points.extend_from_slice(&nodes);
+                self.nodes.extend_from_slice(&nodes);
             }
         }
-        Some(())
     }
 }
 
@@ -214,7 +238,8 @@ fn cut(outline: &[Corner], mut give: impl FnMut(CurvedTriangle)) -> Option<()> {
         }
     }
     let middle = [0, 1].map(|c| outline.iter().map(|k| k.at[c] + k.middle[c]).sum::<f64>() / (2 * count) as f64);
-    let triangle = |i: usize| CurvedTriangle::new([middle, corner(i).at, corner(i + 1).at], [None, Some(corner(i).middle), None]);
+    let triangle =
+        |i: usize| CurvedTriangle::new([middle, corner(i).at, corner(i + 1).at], [None, Some(corner(i).middle), None]);
     if (0..count).all(|i| triangle(i).is_regular()) {
         (0..count).for_each(|i| give(triangle(i)));
         return Some(());

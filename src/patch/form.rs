@@ -79,11 +79,10 @@ impl Form {
             normal = [by_u * run, by_v * run];
         }
         let Quadratic { c, g, h } = &self.s;
-        let s = c
-            + u * (g[0] + h[0] * u + h[3] * v + h[4] * z)
-            + v * (g[1] + h[1] * v + h[5] * z)
-            + z * (g[2] + h[2] * z);
-        let pressure = 1.0 - s.max(0.0).sqrt();
+        let s =
+            c + u * (g[0] + h[0] * u + h[3] * v + h[4] * z) + v * (g[1] + h[1] * v + h[5] * z) + z * (g[2] + h[2] * z);
+        // The parabola of an arc may lie beyond the rim.
+        let pressure = (1.0 - s.max(0.0).sqrt()).max(0.0);
         z.is_finite().then_some(Node { x: [u, v, z], weight: 1.0, pressure, normal })
     }
 }

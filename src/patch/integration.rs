@@ -26,6 +26,13 @@ const MOST_STARTS: usize = 3;
 /// Least tolerance for which a patch is taken in pieces: the rules of their zones have no more points for a finer one.
 const FINEST_OF_PIECES: f64 = 1e-8;
 
+/// Least tolerance for which it is taken in cells: the sides of those are parabolas, which stray from the curves.
+const FINEST_OF_CELLS: f64 = 1e-5;
+
+/// Up to so many planes of both bodies zones are tried before cells: of boxes they are the cheaper ones, while of bodies with many planes
+/// they mostly end in vain.
+const FEW: usize = 16;
+
 /// What a patch is computed from.
 pub(super) struct Task<'a> {
     pub a: Placed<'a>,
@@ -60,17 +67,18 @@ pub(super) fn patch(task: &Task, scratch: &mut PatchScratch, mut visit: impl FnM
     let tolerance = task.settings.above(rounding);
     let state = field.state();
     let mut parts = Parts { task, field: &mut field, start, deepest, tolerance, planes: ray_planes, nodes, points };
-    let outcome = parts
-        .zones(pieces)
-        .or_else(|| parts.cells(cells))
-        .or_else(|| parts.around(pieces))
-        .unwrap_or_else(|| {
-            parts.field.restore(state);
-            let Parts { field, planes, nodes, points, .. } = &mut parts;
-            let walker = Walker { field, planes, nodes, order: 2, with_energy: false, budget: f64::INFINITY };
-            let mut fan = Fan::new(walker, rays, sectors, stack, [0.0; 3], tolerance);
-            spread(task, &mut fan, start, points)
-        });
+    let outcome = if parts.field.plane_count() <= FEW {
+        parts.zones(pieces).or_else(|| parts.cells(cells))
+    } else {
+        parts.cells(cells).or_else(|| parts.zones(pieces))
+    };
+    let outcome = outcome.or_else(|| parts.around(pieces)).unwrap_or_else(|| {
+        parts.field.restore(state);
+        let Parts { field, planes, nodes, points, .. } = &mut parts;
+        let walker = Walker { field, planes, nodes, order: 2, with_energy: false, budget: f64::INFINITY };
+        let mut fan = Fan::new(walker, rays, sectors, stack, [0.0; 3], tolerance);
+        spread(task, &mut fan, start, points)
+    });
     let mut flags = task.flags;
     let is_empty = points.is_empty() || !outcome.error.is_finite();
     if is_empty {
@@ -135,7 +143,7 @@ impl<'a, 's> Parts<'_, '_, 'a, 's> {
 
     /// In the cells of the network.
     fn cells(&mut self, scratch: &mut CellScratch) -> Option<Outcome> {
-        if !self.is_asked() || !self.task.edges.is_empty() || self.field.is_planar {
+        if !self.is_asked() || self.task.settings.tolerance < FINEST_OF_CELLS || !self.task.edges.is_empty() {
             return None;
         }
         let axis = flattest_axis(self.field);

@@ -1,10 +1,10 @@
 //! The patch as a network: the curves on which planes go on, the rim around them, and the places where they meet.
 
 use super::curve::{Stretch, Trouble};
-use super::field::Field;
+use super::field::{Field, dot};
 use super::half_plane::HalfPlane;
 use super::ray::{RIM, Walker};
-use super::rim::{Misfit, RimPoint, unmet_plane};
+use super::rim::{CurvePart, Misfit, RimPoint, unmet_plane};
 
 /// Most planes that may be loaded, vertices, and rounds in which planes are found.
 pub(super) const MOST_PLANES: usize = 128;
@@ -24,7 +24,10 @@ const OF_LOAD: f64 = 0.02;
 /// Part of the tolerance up to which a plane may change the depth where its curve is left out.
 const LEFT_OUT: f64 = 0.1;
 
-/// Most halvings of an arc.
+/// How much farther from the origin an arc may be than its ends and its middle.
+const BEYOND: f64 = 1.1;
+
+/// Most halvings of an arc or a curve.
 const MOST_HALVINGS: usize = 6;
 
 /// Where two curves meet, or one meets the rim.
@@ -62,6 +65,10 @@ pub(super) struct Network {
     /// What an arc may be off, and what all are.
     allowed: Misfit,
     pub misfit: Misfit,
+    /// What the curves may be off, of ∫ p.
+    curved_load: f64,
+    /// ∫ p over the patch, roughly.
+    pub rough_load: f64,
     stretches: [Vec<Stretch>; 2],
 }
 
@@ -81,6 +88,7 @@ impl Network {
         self.vertices.clear();
         self.sides.clear();
         self.queue.clear();
+        self.curved_load = 0.0;
         (self.walked, self.at_origin) = (0, walker.field.look(&[0.0; 3]).active);
         let [e, f] = drawing.axis;
         let mut lengths = [0.0; 2];
@@ -100,8 +108,9 @@ impl Network {
         }
         // Of an ellipse with these axes and a paraboloid of s over it.
         let area = 0.25 * std::f64::consts::PI * lengths[0] * lengths[1];
-        let load = 0.25 * drawing.depth * area;
-        self.allowed = Misfit { area: OF_AREA * drawing.tolerance * area, load: OF_LOAD * drawing.tolerance * load };
+        self.rough_load = 0.25 * drawing.depth * area;
+        let [of_area, of_load] = [OF_AREA * drawing.tolerance, OF_LOAD * drawing.tolerance];
+        self.allowed = Misfit { area: of_area * area, load: of_load * self.rough_load };
         for _ in 0..MOST_ROUNDS {
             while let Some((id, through)) = self.queue.pop() {
                 self.follow(walker, id, through)?;
@@ -131,13 +140,37 @@ impl Network {
             let Stretch { id: met, end, middle, active } = self.stretches[1][i];
             let vertex = self.vertex([id, met], &end)?;
             if i > 0 {
-                self.sides.push(Side { ends: [last, vertex], middle: [middle[0], middle[1]], plane: id, active });
+                let from = self.vertices[last as usize].x;
+                let part = CurvePart { id, from, middle, to: end };
+                self.add(walker.field, &part, [last, vertex], active, 0)?;
             }
             last = vertex;
             if met != RIM && self.walked >> met & 1 == 0 {
                 self.queue.push((met, end));
             }
         }
+        Ok(())
+    }
+
+    /// Adds a part of a curve, in halves where it is no parabola.
+    fn add(
+        &mut self,
+        field: &Field,
+        part: &CurvePart,
+        ends: [u32; 2],
+        active: u128,
+        halvings: usize,
+    ) -> Result<(), Trouble> {
+        let straying = part.straying(field);
+        if straying > self.allowed.load && halvings < MOST_HALVINGS {
+            let [first, second] = part.halves(field).ok_or(Trouble::Lost)?;
+            self.vertices.push(Vertex { x: part.middle, planes: [part.id; 2], uses: 2 });
+            let between = self.vertices.len() as u32 - 1;
+            self.add(field, &first, [ends[0], between], active, halvings + 1)?;
+            return self.add(field, &second, [between, ends[1]], active, halvings + 1);
+        }
+        self.curved_load += straying;
+        self.sides.push(Side { ends, middle: [part.middle[0], part.middle[1]], plane: part.id, active });
         Ok(())
     }
 
@@ -160,7 +193,7 @@ impl Network {
     /// Adds the arcs of the rim; whether no plane was found on them whose curve was not known.
     fn close(&mut self, field: &Field, drawing: &Drawing) -> Result<bool, Trouble> {
         let known = (self.sides.len(), self.vertices.len());
-        self.misfit = Misfit::default();
+        self.misfit = Misfit { load: self.curved_load, area: 0.0 };
         self.ring.clear();
         for (i, vertex) in self.vertices.iter().enumerate().filter(|(_, vertex)| vertex.planes[1] == RIM) {
             self.ring.push((vertex.x[1].atan2(vertex.x[0]), i as u32));
@@ -189,8 +222,14 @@ impl Network {
         halvings: usize,
     ) -> Result<bool, Trouble> {
         let middle = from.middle(to, field).ok_or(Trouble::Lost)?;
+        let away = BEYOND * dot(&middle.x, &middle.x).sqrt();
+        if away > field.loaded() {
+            return Err(Trouble::Far(away));
+        }
         let own = ends.map(|end| self.vertices[end as usize].planes[0]);
-        if let Some((id, through)) = unmet_plane(field, [from, &middle, to], own, LEFT_OUT * drawing.tolerance * drawing.depth) {
+        if let Some((id, through)) =
+            unmet_plane(field, [from, &middle, to], own, LEFT_OUT * drawing.tolerance * drawing.depth)
+        {
             if self.walked >> id & 1 == 1 {
                 return Err(Trouble::Lost);
             }

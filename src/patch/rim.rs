@@ -1,12 +1,15 @@
-//! The rim of the patch, on which both potentials are 1: its points, and the arcs between them.
+//! Points and arcs of the rim of the patch, on which both potentials are 1, and of the curves inside.
 
-use super::field::{Field, Owner, dot};
+use super::field::{Field, Look, Owner, dot};
 
 /// Most steps of Newton's method.
 const MOST_STEPS: usize = 12;
 
 /// Relative to the length of an arc, how near its middle is to the rim: the error of the patch is of second order in it.
 const NEAR: f64 = 1e-9;
+
+/// Weight of a point of quadrature beside a curve over the square of its length.
+const OF_POINT: f64 = 1.0 / 32.0;
 
 /// A point of the rim.
 #[derive(Clone, Copy, Debug)]
@@ -27,8 +30,11 @@ impl RimPoint {
         let slope = [0, 1].map(|i| of_a[i] - of_a[2] * d[i] / d[2]);
         let length = slope[0].hypot(slope[1]);
         let tangent = [-slope[1] / length, slope[0] / length];
-        (d[2] > 0.0 && tangent[0].is_finite() && tangent[1].is_finite())
-            .then_some(Self { x, tangent, active: look.active })
+        (d[2] > 0.0 && tangent[0].is_finite() && tangent[1].is_finite()).then_some(Self {
+            x,
+            tangent,
+            active: look.active,
+        })
     }
 
     /// The angle by which the rim turns from here to another point.
@@ -45,24 +51,79 @@ impl RimPoint {
         let sagitta = 0.5 * length * (0.25 * self.turn_to(other).clamp(-2.0, 2.0)).tan();
         let mut x: [f64; 3] = std::array::from_fn(|i| 0.5 * (self.x[i] + other.x[i]));
         (0..2).for_each(|i| x[i] += sagitta * out[i]);
-        for _ in 0..MOST_STEPS {
-            let look = field.look(&x);
-            let [of_a, _] = look.gradients;
-            let (off, (d, rises)) = (look.s[0] - 1.0, look.difference(field.b.is_some()));
-            let across = |g: &[f64; 3]| g[0] * out[0] + g[1] * out[1];
-            let determinant = across(&of_a) * rises[2] - of_a[2] * across(&rises);
-            let step = (off * rises[2] - of_a[2] * d) / determinant;
-            let up = (across(&of_a) * d - across(&rises) * off) / determinant;
-            (0..2).for_each(|i| x[i] -= step * out[i]);
-            x[2] -= up;
-            if !(step.abs() < length) {
-                return None;
-            }
-            if step.abs() <= NEAR * length {
-                return Self::new(field, x);
-            }
+        let x = on_line(field, x, (out, length), |look, _| (look.s[0] - 1.0, look.gradients[0]))?;
+        Self::new(field, x)
+    }
+}
+
+/// The point of the patch near x, off it in one direction of the frame's plane only, where a function is 0; `function` has its value and
+/// gradient. `None` where it is farther than a length.
+fn on_line(
+    field: &Field,
+    mut x: [f64; 3],
+    (out, length): ([f64; 2], f64),
+    function: impl Fn(&Look, &[f64; 3]) -> (f64, [f64; 3]),
+) -> Option<[f64; 3]> {
+    for _ in 0..MOST_STEPS {
+        let look = field.look(&x);
+        let (d, rises) = look.difference(field.b.is_some());
+        let (off, slopes) = function(&look, &x);
+        let across = |g: &[f64; 3]| g[0] * out[0] + g[1] * out[1];
+        let determinant = across(&slopes) * rises[2] - slopes[2] * across(&rises);
+        let step = (off * rises[2] - slopes[2] * d) / determinant;
+        let up = (across(&slopes) * d - across(&rises) * off) / determinant;
+        (0..2).for_each(|i| x[i] -= step * out[i]);
+        x[2] -= up;
+        if !(step.abs() < length) {
+            return None;
         }
-        None
+        if step.abs() <= NEAR * length {
+            return Some(x);
+        }
+    }
+    None
+}
+
+/// A part of the curve on which plane `id` goes on.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct CurvePart {
+    pub id: u32,
+    pub from: [f64; 3],
+    pub middle: [f64; 3],
+    pub to: [f64; 3],
+}
+
+impl CurvePart {
+    fn quarters(&self) -> [[f64; 3]; 2] {
+        [(&self.from, &self.to), (&self.to, &self.from)]
+            .map(|(a, b)| std::array::from_fn(|i| 0.375 * a[i] + 0.75 * self.middle[i] - 0.125 * b[i]))
+    }
+
+    /// Estimate of what ∫ p is off where the parabola through the three points strays from the curve: a point of quadrature in between
+    /// counts the square of the plane's excess, or does not.
+    pub fn straying(&self, field: &Field) -> f64 {
+        let plane = &field.planes[self.id as usize];
+        let weight =
+            if plane.owner == Owner::A { field.a.plane_weight } else { field.b.map_or(0.0, |b| b.plane_weight) };
+        let square = (self.to[0] - self.from[0]).powi(2) + (self.to[1] - self.from[1]).powi(2);
+        let excess = self.quarters().map(|mut x| {
+            let (d, rises) = field.look(&x).difference(field.b.is_some());
+            x[2] -= d / rises[2];
+            plane.excess + dot(&plane.normal, &x)
+        });
+        OF_POINT * 0.5 * weight * square * excess[0].powi(2).max(excess[1].powi(2))
+    }
+
+    /// Its halves, each with its middle on the curve.
+    pub fn halves(&self, field: &Field) -> Option<[Self; 2]> {
+        let plane = &field.planes[self.id as usize];
+        let chord = [self.to[0] - self.from[0], self.to[1] - self.from[1]];
+        let length = chord[0].hypot(chord[1]);
+        let out = [chord[1] / length, -chord[0] / length];
+        let excess = |_: &Look, x: &[f64; 3]| (plane.excess + dot(&plane.normal, x), plane.normal);
+        let [a, b] = self.quarters().map(|x| on_line(field, x, (out, length), excess));
+        let Self { id, from, middle, to } = *self;
+        Some([Self { id, from, middle: a?, to: middle }, Self { id, from: middle, middle: b?, to }])
     }
 }
 
@@ -115,7 +176,8 @@ pub(super) fn unmet_plane(
         let [a, m, b] = [from, middle, to].map(|point| plane.excess + dot(&plane.normal, &point.x));
         let is_on = m > 0.0;
         let sign = if is_on { -1.0 } else { 1.0 };
-        let weight = if plane.owner == Owner::A { field.a.plane_weight } else { field.b.map_or(0.0, |b| b.plane_weight) };
+        let weight =
+            if plane.owner == Owner::A { field.a.plane_weight } else { field.b.map_or(0.0, |b| b.plane_weight) };
         // a + t (4 m − 3 a − b) + t² (2 a + 2 b − 4 m).
         let (rise, bend) = (4.0 * m - 3.0 * a - b, 2.0 * (a + b) - 4.0 * m);
         let peak = -0.5 * rise / bend;
