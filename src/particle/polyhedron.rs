@@ -211,7 +211,10 @@ impl Polyhedron {
     /// All faces, in the place of what was read before.
     pub fn read_outlines(&self, into: &mut Outlines) {
         let Outlines { faces, corners, beyond, seen } = into;
-        (faces.clear(), corners.clear(), beyond.clear(), seen.clear());
+        faces.clear();
+        corners.clear();
+        beyond.clear();
+        seen.clear();
         seen.resize(self.corners.len(), [false; 3]);
         for i in 0..self.corners.len() {
             for side in 0..3 {
