@@ -833,27 +833,6 @@ typedef struct pp_joint {
     double radius;
 } pp_joint;
 
-// Joints of about one orientation at about one spacing. Axes: x east, y north, z up.
-typedef struct pp_joint_set {
-    // Mean dip, degrees, 0 to 90.
-    double dip;
-    // Mean dip direction, degrees, clockwise from north.
-    double dip_direction;
-    // Mean spacing along the mean normal, length.
-    double spacing;
-    // Concentration of the normals in Fisher's distribution; infinite: none scatters.
-    double fisher;
-    // Radius of joints that are discs, length; infinite for joints without end.
-    double radius;
-    // What is drawn depends on it alone.
-    uint64_t seed;
-    // 1: spacings are drawn from an exponential distribution; 0: all are the same. Without a meaning for
-    // discs.
-    uint32_t exponential;
-    // Always 0.
-    uint32_t reserved;
-} pp_joint_set;
-
 // Limits of a rock mass.
 typedef struct pp_slice_settings {
     // A joint leaves a block whole if a part would have less than this volume.
@@ -871,9 +850,9 @@ typedef struct pp_slice_settings {
     uint64_t threads;
 } pp_slice_settings;
 
-// Is told how many joints have cut and how many blocks there are, before each joint, in the calling
-// thread. Returns 0 to go on; anything else ends the cuts of joints, and what was cut is kept. No
-// exception and no longjmp may leave it.
+// Is told how many joints have cut and how many blocks there are, before the first joint and again after
+// every few, in the calling thread. Returns 0 to go on; anything else ends the cuts of joints, and what was
+// cut is kept. No exception and no longjmp may leave it.
 typedef int32_t (*pp_rock_progress)(void *context, uint64_t joints, uint64_t blocks);
 
 // A rock mass in numbers.
@@ -943,6 +922,27 @@ typedef struct pp_face_partners {
     // Area that they share; those of all partners of a face sum to its own.
     double area;
 } pp_face_partners;
+
+// Joints of about one orientation at about one spacing. Axes: x east, y north, z up.
+typedef struct pp_joint_set {
+    // Mean dip, degrees, 0 to 90.
+    double dip;
+    // Mean dip direction, degrees, clockwise from north.
+    double dip_direction;
+    // Mean spacing along the mean normal, length.
+    double spacing;
+    // Concentration of the normals in Fisher's distribution; infinite: none scatters.
+    double fisher;
+    // Radius of joints that are discs, length; infinite for joints without end.
+    double radius;
+    // What is drawn depends on it alone.
+    uint64_t seed;
+    // 1: spacings are drawn from an exponential distribution; 0: all are the same. Without a meaning for
+    // discs.
+    uint32_t exponential;
+    // Always 0.
+    uint32_t reserved;
+} pp_joint_set;
 
 // Volume and inertia of a particle of unit density, in its local frame.
 typedef struct pp_mass_properties {
@@ -1664,51 +1664,6 @@ pp_status pp_particle_outline_2d(const struct pp_particle_2d *particle,
                                  size_t capacity,
                                  size_t *count);
 
-// The joint through a point that descends most, by the angle dip in degrees, towards the azimuth
-// dip_direction in degrees, clockwise from north.
-//
-// point: x east, y north, z up. radius: as of struct pp_joint. out: receives the joint, with the unit
-// normal that points upwards.
-// message: receives, on failure, a sentence that names the value (may be NULL).
-// Errors: PP_NULL_POINTER, PP_BAD_ROCK.
-// Pointers: point points to 3 doubles, message to message_size bytes.
-pp_status pp_joint_from_dip(const double *point,
-                            double dip,
-                            double dip_direction,
-                            double radius,
-                            struct pp_joint *out,
-                            char *message,
-                            size_t message_size);
-
-// The joint that is a convex polygon, by its corners in their order; pp_rock_new is given the corners again.
-//
-// corners: count rows of x, y, z. out: receives the joint, with a unit normal.
-// message: receives, on failure, a sentence (may be NULL).
-// Errors: PP_NULL_POINTER, PP_BAD_ROCK (corners off one plane, on one line, or not of a convex polygon).
-// Pointers: corners points to 3*count doubles, message to message_size bytes.
-pp_status pp_joint_from_corners(const double *corners,
-                                size_t count,
-                                struct pp_joint *out,
-                                char *message,
-                                size_t message_size);
-
-// The joints of a set within reach of a point, both lengths: those that cross the line through it along
-// the mean normal, of equal spacings one at the point itself; discs that reach into the ball.
-//
-// joints: room for capacity joints; may be NULL when capacity is 0. count: receives their number, also
-// when the buffer is too small (PP_BUFFER_TOO_SMALL), so that one call asks the size.
-// message: receives, on failure, a sentence that names the value (may be NULL).
-// Errors: PP_NULL_POINTER, PP_BAD_ROCK, PP_BUFFER_TOO_SMALL.
-// Pointers: centre points to 3 doubles, message to message_size bytes.
-pp_status pp_joint_set_joints(const struct pp_joint_set *set,
-                              const double *centre,
-                              double reach,
-                              struct pp_joint *joints,
-                              size_t capacity,
-                              size_t *count,
-                              char *message,
-                              size_t message_size);
-
 // Cuts a convex domain by joints, one after the other: each cuts the blocks that it meets in two, a disc
 // or polygon all of a block that it reaches. Regions (a tunnel, a bench, what a domain that is not convex
 // leaves out) then cut the blocks that they meet into what lies in the region and the parts beside it,
@@ -1801,6 +1756,51 @@ pp_status pp_rock_missing_joints(const struct pp_rock *rock,
                                  uint64_t *joints,
                                  size_t capacity,
                                  size_t *count);
+
+// The joint through a point that descends most, by the angle dip in degrees, towards the azimuth
+// dip_direction in degrees, clockwise from north.
+//
+// point: x east, y north, z up. radius: as of struct pp_joint. out: receives the joint, with the unit
+// normal that points upwards.
+// message: receives, on failure, a sentence that names the value (may be NULL).
+// Errors: PP_NULL_POINTER, PP_BAD_ROCK.
+// Pointers: point points to 3 doubles, message to message_size bytes.
+pp_status pp_joint_from_dip(const double *point,
+                            double dip,
+                            double dip_direction,
+                            double radius,
+                            struct pp_joint *out,
+                            char *message,
+                            size_t message_size);
+
+// The joint that is a convex polygon, by its corners in their order; pp_rock_new is given the corners again.
+//
+// corners: count rows of x, y, z. out: receives the joint, with a unit normal.
+// message: receives, on failure, a sentence (may be NULL).
+// Errors: PP_NULL_POINTER, PP_BAD_ROCK (corners off one plane, on one line, or not of a convex polygon).
+// Pointers: corners points to 3*count doubles, message to message_size bytes.
+pp_status pp_joint_from_corners(const double *corners,
+                                size_t count,
+                                struct pp_joint *out,
+                                char *message,
+                                size_t message_size);
+
+// The joints of a set within reach of a point, both lengths: those that cross the line through it along
+// the mean normal, of equal spacings one at the point itself; discs that reach into the ball.
+//
+// joints: room for capacity joints; may be NULL when capacity is 0. count: receives their number, also
+// when the buffer is too small (PP_BUFFER_TOO_SMALL), so that one call asks the size.
+// message: receives, on failure, a sentence that names the value (may be NULL).
+// Errors: PP_NULL_POINTER, PP_BAD_ROCK, PP_BUFFER_TOO_SMALL.
+// Pointers: centre points to 3 doubles, message to message_size bytes.
+pp_status pp_joint_set_joints(const struct pp_joint_set *set,
+                              const double *centre,
+                              double reach,
+                              struct pp_joint *joints,
+                              size_t capacity,
+                              size_t *count,
+                              char *message,
+                              size_t message_size);
 
 // f = S - 1 at a world point (3 doubles), and its gradient (3 doubles, world axes, 1/length; may
 // be NULL).

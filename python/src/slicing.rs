@@ -129,8 +129,9 @@ impl PyBlock {
     /// Corners of each face, counter-clockwise from outside.
     #[getter]
     fn polygons<'py>(&self, py: Python<'py>) -> Vec<Bound<'py, PyArray2<f64>>> {
-        let faces = self.block().faces.iter();
-        faces.map(|face| to_rows(py, face.corners.iter().map(|&corner| <[f64; 3]>::from(corner)))).collect()
+        let block = self.block();
+        let corners = |face| block.corners_of(face).iter().map(|&corner| <[f64; 3]>::from(corner));
+        block.faces.iter().map(|face| to_rows(py, corners(face))).collect()
     }
 
     /// As a particle about its centroid, edges rounded by r, length.

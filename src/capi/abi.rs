@@ -6,9 +6,9 @@ use super::packing::{pp_packing, pp_placement};
 use super::patch::{pp_patch, pp_patch_point, pp_patch_state};
 use super::patch_derivatives::pp_patch_derivatives;
 use super::planar::{pp_area_properties, pp_closest_2d, pp_contact_2d, pp_patch_2d, pp_patch_point_2d, pp_pose_2d};
-use super::rock::{
-    pp_block, pp_block_face, pp_face_partners, pp_joint, pp_joint_set, pp_rock_summary, pp_slice_settings,
-};
+use super::rock::pp_slice_settings;
+use super::rock_arrays::{pp_block, pp_block_face, pp_face_partners, pp_rock_summary};
+use super::rock_joints::{pp_joint, pp_joint_set};
 use super::types::{pp_closest, pp_contact, pp_mass_properties, pp_pair_state, pp_pose, pp_settings};
 use std::ffi::{CStr, c_char};
 

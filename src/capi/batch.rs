@@ -90,7 +90,7 @@ pub(super) unsafe fn detect_batch<'a, P: 'a, Q: 'a, B: Sync, C: Send>(
 
         let outputs = contacts.chunks_mut(CHUNK).zip(statuses.chunks_mut(CHUNK));
         let chunks = pairs.chunks(CHUNK).zip(optional_chunks(states)).zip(outputs);
-        in_parallel(threads as usize, pair_count, chunks, |((pairs, states), (contacts, statuses))| {
+        in_parallel(threads as usize, pair_count.div_ceil(CHUNK), chunks, |((pairs, states), (contacts, statuses))| {
             let mut states = states.iter_mut();
             for ((&[i, j], out), status) in pairs.iter().zip(contacts).zip(statuses) {
                 let state = states.next().map(state_of);

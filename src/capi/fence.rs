@@ -142,18 +142,28 @@ pub(super) unsafe fn write_rows<const N: usize>(
     capacity: usize,
     count: *mut usize,
 ) -> Result<(), pp_status> {
+    unsafe { write_all(rows, to.cast::<[f64; N]>(), capacity, count) }
+}
+
+/// Writes all rows and how many there are; with too little room, only how many there are.
+///
+/// # Safety
+/// `to` is NULL or valid for writing capacity rows, `count` NULL or valid for writing one number.
+pub(super) unsafe fn write_all<T>(
+    rows: impl ExactSizeIterator<Item = T>,
+    to: *mut T,
+    capacity: usize,
+    count: *mut usize,
+) -> Result<(), pp_status> {
     let count = unsafe { output(count) }?;
     check_room(to, capacity)?;
-    if rows.len() > capacity {
-        count.write(rows.len());
+    let there_are = rows.len();
+    count.write(there_are);
+    if there_are > capacity {
         return Err(PP_BUFFER_TOO_SMALL);
     }
-    let there_are = rows.len();
-    let places = unsafe { outputs(to.cast::<[f64; N]>(), there_are) }?;
-    for (place, row) in places.iter_mut().zip(rows) {
-        place.write(row);
-    }
-    count.write(there_are);
+    let places = unsafe { outputs(to, there_are) }?;
+    places.iter_mut().zip(rows).for_each(|(place, row)| _ = place.write(row));
     Ok(())
 }
 

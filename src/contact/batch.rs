@@ -152,7 +152,7 @@ pub(crate) fn detect_batch_by<P: Sync, Q: Sync, T: Send>(
         _ => Err(DetectError::NoSuchBody { index, bodies: particles.len() }),
     };
     let chunks = pairs.chunks(CHUNK).zip(answers.chunks_mut(CHUNK)).zip(optional_chunks(states));
-    in_parallel(threads, pairs.len(), chunks.enumerate(), |(chunk, ((pairs, answers), states))| {
+    in_parallel(threads, pairs.len().div_ceil(CHUNK), chunks.enumerate(), |(chunk, ((pairs, answers), states))| {
         let mut states = states.iter_mut();
         for (number, (&[i, j], answer)) in (chunk * CHUNK..).zip(pairs.iter().zip(answers)) {
             let state = states.next();
@@ -174,7 +174,7 @@ pub(crate) fn optional_chunks<T>(all: &mut [T]) -> impl Iterator<Item = &mut [T]
     all.chunks_mut(CHUNK).chain(std::iter::repeat_with(|| &mut [][..]))
 }
 
-/// Has every chunk of `count` items worked on once, by so many threads, of which the calling one is the first.
+/// Has each of `count` chunks worked on once, by so many threads, of which the calling one is the first.
 ///
 /// Which thread has which chunk is left to time, so that pairs of unlike cost do not hold up the others; as no chunk depends
 /// on another, no result depends on it. A thread that the system refuses to start is done without.
@@ -184,7 +184,7 @@ pub(crate) fn in_parallel<T: Send>(
     chunks: impl Iterator<Item = T> + Send,
     work: impl Fn(T) + Sync,
 ) {
-    let threads = threads.min(count.div_ceil(CHUNK)).min(MOST_THREADS);
+    let threads = threads.min(count).min(MOST_THREADS);
     if threads <= 1 {
         return chunks.for_each(work);
     }
@@ -220,7 +220,7 @@ mod tests {
             for count in [0, 1, CHUNK, CHUNK + 1, 10 * CHUNK + 7] {
                 let mut visits = vec![0; count];
                 let calls = AtomicUsize::new(0);
-                in_parallel(threads, count, visits.chunks_mut(CHUNK), |chunk| {
+                in_parallel(threads, count.div_ceil(CHUNK), visits.chunks_mut(CHUNK), |chunk| {
                     calls.fetch_add(1, Ordering::Relaxed);
                     chunk.iter_mut().for_each(|visit| *visit += 1);
                 });

@@ -9,7 +9,9 @@
 //! The quadrilaterals share corners and edges, so that each direction is covered once whatever rounding does to the corners, if one that is
 //! folded over counts as negative.
 
-use crate::particle::polyhedron::{Face, OF_CUBE, Polyhedron};
+use crate::particle::cutter::Cutter;
+use crate::particle::outlines::Outline;
+use crate::particle::polyhedron::{OF_CUBE, Polyhedron};
 use crate::particle::shape::Shape;
 use nalgebra::{Matrix3, Vector3};
 
@@ -67,24 +69,23 @@ impl Patch {
 /// Patches along the faces of a particle, or along those of a cube where there are many and most are all rounding.
 pub(crate) fn of(shape: &Shape) -> Vec<Patch> {
     let mut polyhedron = Polyhedron::cube(shape.bounds.radius, LEAST * shape.bounds.radius);
-    let cube = polyhedron.faces();
+    let cube = polyhedron.outlines();
+    let mut cutter = Cutter::default();
     let count = if shape.is_sphere() { 0 } else { shape.len() };
     for number in OF_CUBE..OF_CUBE + count {
         let (normal, height) = plane(shape, number);
-        polyhedron.cut(number, &normal, height);
+        polyhedron.cut(&mut cutter, number, &normal, height);
     }
-    let mut faces = polyhedron.faces();
-    let mut divided: Vec<Option<Vec<Patch>>> = faces.iter().map(|face| with_strips(face, shape)).collect();
+    let mut faces = polyhedron.outlines();
+    let mut divided: Vec<Option<Vec<Patch>>> = faces.iter().map(|face| with_strips(&face, shape)).collect();
     if faces.len() > FEW && 2 * divided.iter().flatten().count() < faces.len() {
         divided = vec![None; cube.len()];
         faces = cube;
     }
-    let patches = divided.into_iter().zip(&faces).map(|(divided, face)| {
-        divided.unwrap_or_else(|| {
-            let corners: Vec<Vector3<f64>> = face.corners.iter().map(|(at, _)| *at).collect();
-            triangles(&corners, &plane(shape, face.number).0)
-        })
-    });
+    let patches = divided
+        .into_iter()
+        .zip(faces.iter())
+        .map(|(divided, face)| divided.unwrap_or_else(|| triangles(face.corners, &plane(shape, face.number).0)));
     patches.flatten().collect()
 }
 
@@ -106,13 +107,13 @@ fn triangles(rim: &[Vector3<f64>], normal: &Vector3<f64>) -> Vec<Patch> {
 }
 
 /// The inner part of a face as triangles, and a strip along each edge, if there are such.
-fn with_strips(face: &Face, shape: &Shape) -> Option<Vec<Patch>> {
+fn with_strips(face: &Outline<'_>, shape: &Shape) -> Option<Vec<Patch>> {
     let normal = plane(shape, face.number).0;
     let inner = inner(face, &normal, shape)?;
     let mut patches = triangles(&inner, &normal);
     for i in 0..inner.len() {
         let next = (i + 1) % inner.len();
-        let corners = [inner[i], inner[next], face.corners[i].0, face.corners[next].0];
+        let corners = [inner[i], inner[next], face.corners[i], face.corners[next]];
         patches.push(Patch::of(corners, &normal, cuts(face, i, shape)));
     }
     let least = -LEAST * shape.bounds.radius.powi(2);
@@ -120,16 +121,16 @@ fn with_strips(face: &Face, shape: &Shape) -> Option<Vec<Patch>> {
 }
 
 /// Normal and offset of the plane beyond the edge from corner i of a face; `None` for the cube.
-fn beyond(face: &Face, i: usize, shape: &Shape) -> Option<(Vector3<f64>, f64)> {
-    let plane = face.corners[i].1.checked_sub(OF_CUBE)?;
+fn beyond(face: &Outline<'_>, i: usize, shape: &Shape) -> Option<(Vector3<f64>, f64)> {
+    let plane = face.beyond[i].checked_sub(OF_CUBE)?;
     Some((shape.normal(plane), shape.offset(plane)))
 }
 
 /// For each corner of a face the point where the planes beyond both of its edges begin to be active.
-fn inner(face: &Face, normal: &Vector3<f64>, shape: &Shape) -> Option<Vec<Vector3<f64>>> {
+fn inner(face: &Outline<'_>, normal: &Vector3<f64>, shape: &Shape) -> Option<Vec<Vector3<f64>>> {
     let count = face.corners.len();
     let of_corner = |i: usize| {
-        let at = face.corners[i].0;
+        let at = face.corners[i];
         let (before, after) = (beyond(face, (i + count - 1) % count, shape)?, beyond(face, i, shape)?);
         let rows = Matrix3::from_rows(&[normal.transpose(), before.0.transpose(), after.0.transpose()]);
         let excess = Vector3::new(0.0, before.0.dot(&at) - before.1, after.0.dot(&at) - after.1);
@@ -141,9 +142,9 @@ fn inner(face: &Face, normal: &Vector3<f64>, shape: &Shape) -> Option<Vec<Vector
 }
 
 /// Where on the edge from corner i the planes beyond the edges before and after it cease to be active.
-fn cuts(face: &Face, i: usize, shape: &Shape) -> [f64; 2] {
+fn cuts(face: &Outline<'_>, i: usize, shape: &Shape) -> [f64; 2] {
     let count = face.corners.len();
-    let (from, to) = (&face.corners[i].0, &face.corners[(i + 1) % count].0);
+    let (from, to) = (&face.corners[i], &face.corners[(i + 1) % count]);
     let share = |edge: usize, here: &Vector3<f64>, there: &Vector3<f64>| {
         let excess = |x: &Vector3<f64>| beyond(face, edge, shape).map_or(0.0, |(n, d)| n.dot(x) - d);
         excess(here) / (excess(here) - excess(there))

@@ -12,19 +12,21 @@
 //! | `potential` | S, its gradient and its Hessian |
 //! | `ray_cast` | the distance from a point inside to the surface |
 //! | `gauge` | where rays through a piece of a plane leave the particle, and which planes are active there |
-//! | `polyhedron` | a polyhedron that stays closed while planes cut it |
+//! | `cutter`, `polyhedron`, `outlines` | a polyhedron that stays closed while planes cut it, what a plane takes away, and the faces |
 //! | `direction_mesh` | a partition of all directions along faces and edges |
 //! | `quadrature` | a rule on an interval, and what its error is at most |
 //! | `mass_properties` | volume, centroid and inertia |
 //! | `particle` | the public interface |
 
 pub mod bounding_volumes;
+pub mod cutter;
 pub mod direction_mesh;
 pub mod error;
 pub mod gauge;
 pub mod largest_ball;
 pub mod linear_program;
 pub mod mass_properties;
+pub mod outlines;
 pub mod particle;
 pub mod plane;
 pub mod plane_clusters;

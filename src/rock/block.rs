@@ -1,8 +1,8 @@
 //! A block of rock.
 
+use crate::particle::outlines::{Outline, Outlines};
 use crate::particle::particle::{Particle, ParticleError};
 use crate::particle::plane::Plane;
-use crate::particle::polyhedron::Polyhedron;
 use nalgebra::{Matrix3, Vector3};
 
 /// What a face of a block comes from.
@@ -30,8 +30,9 @@ pub struct BlockFace {
     pub plane: Plane,
     /// Area.
     pub area: f64,
-    /// Corners, counter-clockwise from outside, axes and origin of the domain.
-    pub corners: Vec<Vector3<f64>>,
+    /// Its corners among those of the block.
+    first: u32,
+    count: u32,
 }
 
 /// A convex block.
@@ -43,45 +44,28 @@ pub struct Block {
     pub centroid: Vector3<f64>,
     /// Its faces.
     pub faces: Vec<BlockFace>,
+    /// Corners of all faces, one face after the other ([`Block::corners_of`]), axes and origin of the domain.
+    pub corners: Vec<Vector3<f64>>,
     /// Blocks of the same number were one before regions cut it: where none of them lies inside a region they are still one piece of rock.
     pub parent: usize,
     /// The region that it lies in, by its index.
     pub region: Option<usize>,
 }
 
-/// Volume and surface of a polyhedron.
-pub(super) fn volume_and_area(polyhedron: &Polyhedron) -> (f64, f64) {
-    // About a corner, so that no digits are lost far from the origin.
-    let pole = polyhedron.corners().next().copied().unwrap_or_else(Vector3::zeros);
-    let (mut six_volumes, mut area) = (0.0, 0.0);
-    for face in polyhedron.faces() {
-        let first = face.corners[0].0 - pole;
-        let mut doubled = Vector3::zeros();
-        for pair in face.corners[1..].windows(2) {
-            let [b, c] = [pair[0].0 - pole, pair[1].0 - pole];
-            six_volumes += first.dot(&b.cross(&c));
-            doubled += (b - first).cross(&(c - first));
-        }
-        area += 0.5 * doubled.norm();
-    }
-    (six_volumes / 6.0, area)
-}
-
 impl Block {
-    /// From a polyhedron about `origin`; `plane`: what its faces come from and their unit normals and heights, by their numbers.
+    /// From the faces of a polyhedron about `origin`, and a point inside; `plane`: what they come from and their unit normals and heights, by their numbers.
     pub(super) fn of(
-        polyhedron: &Polyhedron,
+        outlines: &Outlines,
+        inside: &Vector3<f64>,
         origin: &Vector3<f64>,
         plane: impl Fn(usize) -> (FaceOf, Vector3<f64>, f64),
     ) -> Self {
-        let faces = polyhedron.faces().into_iter();
-        let faces: Vec<(usize, Vec<Vector3<f64>>)> =
-            faces.map(|face| (face.number, face.corners.iter().map(|corner| corner.0).collect())).collect();
+        let mut faces = Vec::with_capacity(outlines.len());
+        let mut all = Vec::with_capacity(outlines.corner_count());
         // About a corner of the block, so that no digits are lost far from the origin.
-        let pole = faces[0].1[0];
-        let inside = polyhedron.middle();
+        let pole = outlines.iter().next().map_or_else(Vector3::zeros, |face| face.corners[0]);
         let (mut volume, mut moment) = (0.0, Vector3::zeros());
-        let made = faces.iter().map(|(number, corners)| {
+        for Outline { number, corners, .. } in outlines.iter() {
             let mut doubled = Vector3::zeros();
             for pair in corners[1..].windows(2) {
                 let [a, b, c] = [corners[0] - pole, pair[0] - pole, pair[1] - pole];
@@ -90,16 +74,22 @@ impl Block {
                 moment += six / 24.0 * (a + b + c);
                 doubled += (b - a).cross(&(c - a));
             }
-            let (of, mut normal, mut height) = plane(*number);
-            if normal.dot(&inside) > height {
+            let (of, mut normal, mut height) = plane(number);
+            if normal.dot(inside) > height {
                 (normal, height) = (-normal, -height);
             }
-            let offset = height + normal.dot(origin);
-            let corners = corners.iter().map(|at| at + origin).collect();
-            BlockFace { of, plane: Plane { normal, offset }, area: 0.5 * doubled.norm(), corners }
-        });
-        let made = made.collect();
-        Self { volume, centroid: origin + (pole + moment / volume), faces: made, parent: 0, region: None }
+            let plane = Plane { normal, offset: height + normal.dot(origin) };
+            let (first, count) = (all.len() as u32, corners.len() as u32);
+            all.extend(corners.iter().map(|at| at + origin));
+            faces.push(BlockFace { of, plane, area: 0.5 * doubled.norm(), first, count });
+        }
+        let centroid = origin + (pole + moment / volume);
+        Self { volume, centroid, faces, corners: all, parent: 0, region: None }
+    }
+
+    /// Corners of one of its faces, counter-clockwise from outside, axes and origin of the domain.
+    pub fn corners_of(&self, face: &BlockFace) -> &[Vector3<f64>] {
+        &self.corners[face.first as usize..][..face.count as usize]
     }
 
     /// Moments and products of inertia about its centroid for density 1, axes of the domain: ∫ (|x|² 1 − x xᵀ) dV.
@@ -107,8 +97,9 @@ impl Block {
         // Over a tetrahedron at the centroid with the corners a, b, c beyond: ∫ x xᵀ = V/20 (a aᵀ + b bᵀ + c cᵀ + s sᵀ), s = a + b + c.
         let mut second = Matrix3::zeros();
         for face in &self.faces {
-            for pair in face.corners[1..].windows(2) {
-                let [a, b, c] = [face.corners[0] - self.centroid, pair[0] - self.centroid, pair[1] - self.centroid];
+            let corners = self.corners_of(face);
+            for pair in corners[1..].windows(2) {
+                let [a, b, c] = [corners[0] - self.centroid, pair[0] - self.centroid, pair[1] - self.centroid];
                 let squares = [a, b, c, a + b + c].iter().map(|x| x * x.transpose()).sum::<Matrix3<f64>>();
                 second += a.dot(&b.cross(&c)) / 120.0 * squares;
             }

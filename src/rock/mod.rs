@@ -8,25 +8,34 @@
 //! | `joint` | a plane, a disc or a polygon in the rock, by dip and dip direction |
 //! | `joint_set` | joints of one orientation and spacing, with their scatter |
 //! | `block` | what is cut out, with the joint or the side of the domain that each face comes from |
-//! | `in_order` | work on several threads |
-//! | `cutting` | what joints make of one part of the domain |
-//! | `slicing` | the cuts |
+//! | `settings` | limits of a rock mass |
+//! | `domain` | the polyhedron of the domain, and all planes |
+//! | `cutting` | what one plane makes of one part of the domain |
+//! | `regions` | what regions make of a part that joints have left |
+//! | `round` | what some joints make of many parts, on several threads |
+//! | `slicing` | the whole |
 //! | `partners` | which faces lie on each other |
 //!
 //! docs/rock.md has an example.
 
 mod block;
 mod cutting;
+mod domain;
 mod error;
-mod in_order;
 mod joint;
 mod joint_set;
 mod partners;
+mod regions;
+mod round;
+mod settings;
 mod slicing;
+#[cfg(test)]
+mod tests;
 
 pub use block::{Block, BlockFace, FaceOf};
 pub use error::RockError;
 pub use joint::Joint;
 pub use joint_set::JointSet;
 pub use partners::Partners;
-pub use slicing::{RockMass, SliceSettings, slice, slice_with_regions};
+pub use settings::SliceSettings;
+pub use slicing::{RockMass, slice, slice_with_regions};

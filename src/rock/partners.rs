@@ -44,15 +44,20 @@ impl RockMass {
         planes.values().flat_map(|faces| self.in_plane(faces)).collect()
     }
 
+    fn corners(&self, [i, j]: [usize; 2]) -> &[Vector3<f64>] {
+        let block = &self.blocks[i];
+        block.corners_of(&block.faces[j])
+    }
+
     /// Those among the faces of one plane.
     fn in_plane(&self, faces: &[[usize; 2]]) -> Vec<Partners> {
         let face = |[i, j]: [usize; 2]| &self.blocks[i].faces[j];
-        let (normal, origin) = (face(faces[0]).plane.normal, face(faces[0]).corners[0]);
+        let (normal, origin) = (face(faces[0]).plane.normal, self.corners(faces[0])[0]);
         let u = normal.cross(&Vector3::ith(normal.iamin(), 1.0)).normalize();
         let v = normal.cross(&u);
         let outline = |&at: &[usize; 2]| {
             let place = |x: &Vector3<f64>| Vector2::new(u.dot(&(x - origin)), v.dot(&(x - origin)));
-            let corners: Vec<_> = face(at).corners.iter().map(place).collect();
+            let corners: Vec<_> = self.corners(at).iter().map(place).collect();
             let [low, high] = [f64::min, f64::max].map(|of| corners.iter().fold(corners[0], |a, b| a.zip_map(b, of)));
             Outline { at, area: face(at).area, low, high, corners }
         };
@@ -110,7 +115,8 @@ mod tests {
     use crate::particle::plane::Plane;
     use crate::random::Random;
     use crate::rock::joint::Joint;
-    use crate::rock::slicing::{SliceSettings, slice, slice_with_regions};
+    use crate::rock::settings::SliceSettings;
+    use crate::rock::slicing::{slice, slice_with_regions};
 
     fn cube(half: f64, at: f64) -> Vec<Plane> {
         let side =

@@ -4,6 +4,7 @@
 //! the same cutter as the blocks of a rock mass.
 
 use super::error::ShapeError;
+use crate::particle::cutter::Cutter;
 use crate::particle::plane::Plane;
 use crate::particle::polyhedron::{OF_CUBE, Polyhedron};
 use nalgebra::Vector3;
@@ -70,13 +71,13 @@ fn triangles(points: &[Vector3<f64>], first: &[usize; 4], inside: &Vector3<f64>)
         normal.norm() / normal.dot(&(a - inside)).abs()
     };
     let half = 1.01 * (0..4).map(reach).fold(0.0, f64::max);
-    let mut polar = Polyhedron::cube(half, LEAST_CUT * half);
+    let (mut polar, mut cutter) = (Polyhedron::cube(half, LEAST_CUT * half), Cutter::default());
     for i in first.iter().copied().chain(0..points.len()) {
         let from = points[i] - inside;
         let distance = from.norm();
         // One at the place of `inside` is no corner.
         if 1.0 / distance < 2.0 * half {
-            polar.cut(OF_CUBE + i, &(from / distance), 1.0 / distance);
+            polar.cut(&mut cutter, OF_CUBE + i, &(from / distance), 1.0 / distance);
         }
     }
     polar.corners_with_faces().map(|(_, faces)| faces.map(|face| face.saturating_sub(OF_CUBE))).collect()

@@ -93,10 +93,8 @@ impl Shape {
         let centroid = block.centroid;
         let heights: Vec<_> = block.faces.iter().map(|face| (face.plane.normal, face.plane.offset)).collect();
         let about = |centre: &Vector3<f64>| heights.iter().map(|(n, h)| (*n, h - n.dot(centre))).collect::<Vec<_>>();
-        let farthest = |centre: &Vector3<f64>| {
-            let corners = block.faces.iter().flat_map(|face| &face.corners);
-            corners.map(|corner| (corner - centre).norm()).fold(0.0, f64::max)
-        };
+        let farthest =
+            |centre: &Vector3<f64>| block.corners.iter().map(|corner| (corner - centre).norm()).fold(0.0, f64::max);
         let radius = largest_ball::radius(&about(&centroid), farthest(&centroid)).ok_or(ShapeError::Empty)?;
         let (r, k, shadow_radius) = rounding.lengths(2.0 * radius)?;
         let definition = |centre: &Vector3<f64>| {

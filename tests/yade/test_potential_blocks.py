@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Scripts of YADE's potential blocks: shapes against closed forms, YADE's potential_utils, stacks that stand, boundaries, and BlockGen against sums.
 import math
+import os
+import tempfile
 
 import numpy as np
 import potential_particles.potential_blocks
@@ -10,6 +12,8 @@ from pathlib import Path
 from potential_particles import rock
 
 check = Checks()
+# Files are written here, also where the script is run by hand.
+os.chdir(tempfile.mkdtemp())
 CUBE = dict(a=[1, -1, 0, 0, 0, 0], b=[0, 0, 1, -1, 0, 0], c=[0, 0, 0, 0, 1, -1])
 
 
@@ -147,6 +151,12 @@ p = generator(jointProbabilistic=False, saveBlockGenData=True)
 p.joint_a, p.joint_b, p.joint_c, p.joint_d = [0, 0], [0, 0], [2, 1], [8, 6]
 p.load()
 check.equal(sorted(round(b.shape.volume, 9) for b in O.bodies), [80.0, 160.0, 160.0], "joints given in the script")
+# YADE's checkBlockGen expects 6 blocks of 32 faces and 38 corners: those of the three joints that BlockGen reads from a table whose rows end without a separator (docs/converting.md).
+Path("shifted.csv").write_text("dip;dipDir;x;y;z;half;half\n90;315;0;0;0;10000;10000\n40;40;0;0;0;10000;787000\n40;0;0;0;0;787000;76000\n")
+shifted = rock.slice(rock.Domain.box((-20, -20, 0), (20, 20, 40)), rock.read_blockgen("shifted.csv", "probabilistic"), least_width=7.0, progress=False)
+# The first joint passes through edges of the box: faces and corners are counted but for rounding.
+corners = sum(len(np.unique(np.round(shifted[one].corners, 6) + 0.0, axis=0)) for one in range(len(shifted)))
+check.equal((len(shifted), int((shifted.faces["area"] > 1e-6).sum()), corners), (6, 32, 38), "the blocks, faces and corners of YADE's checkBlockGen")
 check.raises(AttributeError, lambda: BlockGen(minsize=3), "a name that is none", "BlockGen has no attribute minsize")
 check.raises(ValueError, lambda: generator(slopeFace=True).load(), "slopeFace", "slopeFace=True is not served")
 check.raises(ValueError, lambda: generator(directionA=(1, 1, 0)).load(), "directions", "directionA=(1, 1, 0)")

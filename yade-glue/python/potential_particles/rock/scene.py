@@ -126,11 +126,17 @@ def _give(physics, values):
 def excavate(ids, settle=0, slow=1e-3, check_every=100):
     """Takes bodies out of the scene, clumps with all their members, and runs up to `settle` steps until none is faster than `slow` (length per time).
 
-    ids: of the bodies, as ids[mass.inside(0)]; one that is gone already is passed over. Returns the steps that were run. A sequence is a loop over regions.
+    ids: of the bodies, as ids[mass.inside(0)]; one that is gone already is passed over, one that never was is a ValueError. Returns the steps that were run. A sequence
+    is a loop over regions.
     """
     import yade
     scene = yade.O
-    chosen = [body for body in (scene.bodies[one] for one in sorted({int(one) for one in np.atleast_1d(ids)}) if one < len(scene.bodies)) if body is not None]
+    wanted = sorted({_id(one) for one in np.atleast_1d(ids)})
+    unknown = [one for one in wanted if not 0 <= one < len(scene.bodies)]
+    if unknown:
+        raise ValueError(f"ids holds {', '.join(map(str, unknown[:5]))}{' ...' if len(unknown) > 5 else ''}: there is no such body among the {len(scene.bodies)} of O.bodies; "
+                         "give ids as bodies() returned them, as in excavate(ids[mass.inside(0)])")
+    chosen = [body for body in (scene.bodies[one] for one in wanted) if body is not None]
     carriers = {body.clumpId if body.isClumpMember else body.id for body in chosen}
     gone = carriers | {member for one in carriers if scene.bodies[one].isClump for member in scene.bodies[one].shape.members}
     # YADE would leave their contacts until the next step.
@@ -145,6 +151,12 @@ def excavate(ids, settle=0, slow=1e-3, check_every=100):
         if max((body.state.vel.norm() for body in scene.bodies if body.state.mass > 0.0), default=0.0) < slow:
             break
     return done
+
+
+def _id(given):
+    if given != int(given):
+        raise ValueError(f"ids holds {given}: an id is a whole number")
+    return int(given)
 
 
 def _shape(block, r, overlap):

@@ -1,0 +1,81 @@
+//! The polyhedron of a domain, and the planes that bound and cut it.
+
+use crate::particle::cutter::Cutter;
+use crate::particle::plane::Plane;
+use crate::particle::polyhedron::{OF_CUBE, Polyhedron};
+use crate::rock::block::FaceOf;
+use crate::rock::error::RockError;
+use crate::rock::joint::Joint;
+use nalgebra::Vector3;
+
+/// Least depth of a cut over the size of the domain: some rounding of corners.
+const LEAST_CUT: f64 = 1e-13;
+
+/// Half of the cube in which a domain is looked for, over the largest distance of its planes from the origin.
+const FAR: f64 = 1e4;
+
+/// A unit normal, and the height of its plane above some origin.
+pub(super) type Oriented = (Vector3<f64>, f64);
+
+/// What each face comes from, with unit normal and height above the origin of the polyhedra, in the order of their numbers.
+pub(super) fn faces(
+    outer: &[Oriented],
+    joints: &[Joint],
+    regions: &[Vec<Plane>],
+    origin: &Vector3<f64>,
+) -> Result<Vec<(FaceOf, Vector3<f64>, f64)>, RockError> {
+    let about = |of: FaceOf, (n, d): Oriented| (of, n, d - n.dot(origin));
+    let mut planes: Vec<_> = outer.iter().enumerate().map(|(i, plane)| about(FaceOf::Domain(i), *plane)).collect();
+    for (i, joint) in joints.iter().enumerate() {
+        let n = joint.normal.normalize();
+        let height = n.dot(&(joint.point - origin));
+        if !(height.is_finite() && joint.radius > 0.0) {
+            return Err(RockError::NoJoint(i));
+        }
+        planes.push((FaceOf::Joint(i), n, height));
+    }
+    for (region, given) in regions.iter().enumerate() {
+        let given = unit_planes(given).map_err(|plane| RockError::NoRegion { region, plane })?;
+        planes.extend(given.into_iter().enumerate().map(|(plane, of)| about(FaceOf::Region { region, plane }, of)));
+    }
+    Ok(planes)
+}
+
+/// Unit normals and distances from the origin; the index of a plane that is none.
+pub(super) fn unit_planes(planes: &[Plane]) -> Result<Vec<Oriented>, usize> {
+    let unit = |(i, plane): (usize, &Plane)| {
+        let length = plane.normal.norm();
+        let is_plane = length > 0.0 && length.is_finite() && plane.offset.is_finite();
+        is_plane.then(|| (plane.normal / length, plane.offset / length)).ok_or(i)
+    };
+    planes.iter().enumerate().map(unit).collect()
+}
+
+/// What planes enclose, about an origin in its middle: twice, as corners that are cut from a cube far away are known less well.
+pub(super) fn enclosed(planes: &[Oriented]) -> Result<(Vector3<f64>, Polyhedron), RockError> {
+    let farthest = planes.iter().map(|(_, d)| d.abs()).fold(0.0, f64::max);
+    let (mut origin, mut half, mut cutter) = (Vector3::zeros(), FAR * farthest, Cutter::default());
+    for _ in 0..3 {
+        let mut polyhedron = Polyhedron::cube(half, LEAST_CUT * half);
+        for (i, (n, d)) in planes.iter().enumerate() {
+            let height = d - n.dot(&origin);
+            let lowest = polyhedron.corners().map(|at| n.dot(at)).fold(f64::INFINITY, f64::min);
+            if !(lowest < height - LEAST_CUT * half) {
+                return Err(RockError::Empty);
+            }
+            polyhedron.cut(&mut cutter, OF_CUBE + i, n, height);
+        }
+        let is_open = polyhedron.outlines().iter().any(|face| face.number < OF_CUBE);
+        if is_open {
+            return Err(RockError::Open);
+        }
+        let [low, high] = polyhedron.extremes();
+        let extent = 0.5 * (high - low).max();
+        if half <= 4.0 * extent {
+            return Ok((origin, polyhedron));
+        }
+        origin += 0.5 * (low + high);
+        half = 2.0 * extent;
+    }
+    Err(RockError::Empty)
+}
