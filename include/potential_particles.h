@@ -162,6 +162,9 @@
 // struct pp_patch_derivatives, for pp_struct_size.
 #define PP_STRUCT_PATCH_DERIVATIVES 33
 
+// struct pp_built, for pp_struct_size.
+#define PP_STRUCT_BUILT 34
+
 // A plane may be about to switch: whether it is active at the contact point cannot be told. The derivatives
 // are those for the side on which it is off; that of s is the same on both.
 #define PP_DERIVATIVE_SWITCHING 1
@@ -427,6 +430,32 @@ typedef struct pp_contact {
     // overlapping.
     double distance;
 } pp_contact;
+
+// Volume and inertia of a particle of unit density, in its local frame.
+typedef struct pp_mass_properties {
+    // Volume, length^3.
+    double volume;
+    // Centroid, local frame. YADE wants it at the local origin.
+    double centroid[3];
+    // Inertia about the local origin for density 1: xx, yy, zz, xy, yz, zx of the integral of
+    // (|x|^2 I - x x^T) dV, length^5.
+    double inertia[6];
+    // Estimated bound on the relative error of the volume and of every moment of inertia about an axis through
+    // the origin, and of the centroid as a share of the radii of gyration. No unit.
+    double error;
+} pp_mass_properties;
+
+// How a particle that was built stands in the frame of its planes or points: x_given = centroid +
+// orientation x.
+typedef struct pp_built {
+    // Origin of the particle's frame, which is its centroid; in the given frame, length.
+    double centroid[3];
+    // Quaternion (w, x, y, z) of unit length, w >= 0, that turns from the particle's frame, whose axes are
+    // principal axes of inertia, to the given one.
+    double orientation[4];
+    // Of the particle in its own frame, to 1e-6.
+    struct pp_mass_properties mass;
+} pp_built;
 
 // One closest point alone; frames and units as in struct pp_contact.
 typedef struct pp_closest {
@@ -944,20 +973,6 @@ typedef struct pp_face_partners {
     double area;
 } pp_face_partners;
 
-// Volume and inertia of a particle of unit density, in its local frame.
-typedef struct pp_mass_properties {
-    // Volume, length^3.
-    double volume;
-    // Centroid, local frame. YADE wants it at the local origin.
-    double centroid[3];
-    // Inertia about the local origin for density 1: xx, yy, zz, xy, yz, zx of the integral of
-    // (|x|^2 I - x x^T) dV, length^5.
-    double inertia[6];
-    // Estimated bound on the relative error of the volume and of every moment of inertia about an axis through
-    // the origin, and of the centroid as a share of the radii of gyration. No unit.
-    double error;
-} pp_mass_properties;
-
 // The call did what it says; its outputs are written.
 #define PP_OK 0
 
@@ -1084,6 +1099,50 @@ pp_status pp_contact_detect_batch(const struct pp_particle *const *particles,
                                   struct pp_pair_state *states,
                                   struct pp_contact *contacts,
                                   pp_status *statuses);
+
+// Builds a particle whose faces are at given planes, about its centroid and along its principal axes.
+//
+// planes: count rows of a, b, c, h; inside is a x + b y + c z <= h. (a, b, c) may have any length. These
+// are the faces themselves; the planes of pp_particle_new lie deeper, by about r. Planes that make no face
+// are left out.
+// r: rounding radius over the size, in (0, 0.5). The size is the diameter of the largest ball between the
+// planes. k: sphericity, in [0, 1]. shadow_radius: R over the size, or 0 for the distance from the centroid to
+// the farthest corner.
+// out: receives the particle; release it with pp_particle_free.
+// built: receives how it stands in the given frame, and its mass properties (may be NULL).
+// message: receives, on failure, a sentence that names the plane or value (may be NULL).
+// Errors: PP_NULL_POINTER, PP_PLANE_ZERO_NORMAL (also of a plane whose numbers are not finite), PP_UNBOUNDED (the
+// planes enclose no volume), and those of pp_particle_new.
+// Pointers: planes points to 4*count doubles, out to one pointer, built to one struct, message to
+// message_size bytes.
+pp_status pp_particle_from_faces(const double *planes,
+                                 size_t count,
+                                 double r,
+                                 double k,
+                                 double shadow_radius,
+                                 struct pp_particle **out,
+                                 struct pp_built *built,
+                                 char *message,
+                                 size_t message_size);
+
+// Builds a particle from the convex hull of points, about its centroid and along its principal axes.
+//
+// points: count rows of x, y, z, in any order; those inside the hull do not matter. No part of the particle
+// lies outside the hull. Triangles of the hull that are coplanar to 1e-6 of its extent are one face.
+// All else as pp_particle_from_faces.
+// Errors: PP_NULL_POINTER, PP_BAD_POINT, PP_UNBOUNDED (fewer than four points, or all in one plane), and those of
+// pp_particle_new.
+// Pointers: points points to 3*count doubles, out to one pointer, built to one struct, message to
+// message_size bytes.
+pp_status pp_particle_from_points(const double *points,
+                                  size_t count,
+                                  double r,
+                                  double k,
+                                  double shadow_radius,
+                                  struct pp_particle **out,
+                                  struct pp_built *built,
+                                  char *message,
+                                  size_t message_size);
 
 // Fills settings with the defaults.
 //

@@ -180,7 +180,7 @@ pub(super) unsafe fn explain_status(status: pp_status, null: &str, message: *mut
     unsafe { write_message(text, message, size) };
 }
 
-fn particle_status(error: &ParticleError) -> pp_status {
+pub(super) fn particle_status(error: &ParticleError) -> pp_status {
     match error {
         ParticleError::PlaneNotFinite { .. }
         | ParticleError::LineNotFinite { .. }

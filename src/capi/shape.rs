@@ -166,13 +166,7 @@ pub unsafe extern "C" fn pp_particle_mass_properties(
         let particle = &unsafe { borrow(particle) }?.0;
         let out = unsafe { output(properties) }?;
         let mass = particle.mass_properties(tolerance).map_err(|_| PP_BAD_SETTING)?;
-        let i = mass.inertia;
-        out.write(pp_mass_properties {
-            volume: mass.volume,
-            centroid: mass.centroid.into(),
-            inertia: [i.m11, i.m22, i.m33, i.m12, i.m23, i.m13],
-            error: mass.error,
-        });
+        out.write((&mass).into());
         Ok(())
     })
 }

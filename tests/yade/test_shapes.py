@@ -148,7 +148,7 @@ for action, words in [
         (lambda: shapes.random_rock(1, flatness=2), "flatness=2"), (lambda: shapes.random_rock(1, faces=4), "faces"),
         (lambda: shapes.from_planes([]), "planes is empty"), (lambda: shapes.from_planes([(1, 0, 0)]), "row 0 has 3 numbers"),
         (lambda: shapes.from_planes([(1, 0, 0, nan)]), "row 0"),
-        (lambda: shapes.from_planes([(0, 0, 0, 1)] + planes), "length zero"),
+        (lambda: shapes.from_planes([(0, 0, 0, 1)] + planes), "must have a length"),
         (lambda: shapes.from_planes(planes[:4], k=0.0), "enclose no volume"), (lambda: shapes.from_planes(planes[1:], k=0.1), "enclose no volume"),
         (lambda: shapes.from_planes([(1, 0, 0, 1), (-1, 0, 0, 1)]), "enclose no volume"),
         (lambda: shapes.from_planes([(1, 0, 0, -1), (-1, 0, 0, -1), (0, 1, 0, 1), (0, -1, 0, 1), (0, 0, 1, 1), (0, 0, -1, 1)]), "no point lies inside"),
