@@ -12,17 +12,21 @@ from scipy.spatial import ConvexHull
 from yade import utils
 
 PART = 0.02  # s of the simulated time between looks whether the blocks are at rest
+GAP = 1e-7
 RISE = 0.2  # s in which weight and loads come up
 
 task = json.load(open(os.environ["TASK"]))
-size = lambda corners: 2.0 * potential_particles.polyhedron.Polyhedron.of_points(np.array(corners)).ball_radius
+size = lambda corners: 2.0 * potential_particles.polyhedron.Polyhedron.of_points(corners).ball_radius
 materials, nodes, frames = {}, {}, {}
 for block in task["blocks"]:
     density = block["density"]
     if density not in materials:
         materials[density] = O.materials.append(ConicJointMat(
             density=density, normalStiffness=task["stiffness"], shearStiffness=0.5 * task["stiffness"], frictionAngle=math.atan(task["friction"]), restitution=0.3))
-    shape = shapes.from_vertices(block["vertices"], r=task["rounding"] / size(block["vertices"]), k=0)
+    # Faces that touch to rounding alone have no patch that could be found: they begin so far apart, as a share of the size.
+    corners = np.array(block["vertices"])
+    corners = corners.mean(0) + (1.0 - GAP) * (corners - corners.mean(0))
+    shape = shapes.from_vertices(corners, r=task["rounding"] / size(corners), k=0)
     made = potential_particles.body(shape, O.materials[materials[density]], fixed=block["fixed"])
     nodes[O.bodies.append(made)] = block
     frames[made.id] = (Vector3(made.state.pos), Quaternion(made.state.ori))
@@ -50,7 +54,7 @@ while O.time < task["longest"]:
 
 
 
-def corners(contact, normal):
+def outline_of(contact, normal):
     """Of the patch: its convex outline, without points that lie on a line with their neighbours."""
     points = patches([contact]).corners.reshape(-1, 3)
     if len(points) < 3:
@@ -77,7 +81,7 @@ for contact in O.interactions:
     if not contact.isReal or not contact.phys.normalForce.norm() > 0:
         continue
     normal = Vector3(contact.geom.normal)
-    rim = corners(contact, np.array(normal))
+    rim = outline_of(contact, np.array(normal))
     # On the first block: what pushes it away from the second one.
     force = -(contact.phys.normalForce + contact.phys.shearForce)
     joints.append({"nodes": [nodes[contact.id1]["node"], nodes[contact.id2]["node"]], "corners": rim.tolist(), "point": list(contact.geom.contactPoint),

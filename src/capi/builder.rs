@@ -33,8 +33,8 @@ pub struct pp_built {
 /// out: receives the particle; release it with pp_particle_free.
 /// built: receives how it stands in the given frame, and its mass properties (may be NULL).
 /// message: receives, on failure, a sentence that names the plane or value (may be NULL).
-/// Errors: PP_NULL_POINTER, PP_PLANE_ZERO_NORMAL (also of a plane whose numbers are not finite), PP_UNBOUNDED (the
-/// planes enclose no volume), and those of pp_particle_new.
+/// Errors: PP_NULL_POINTER, PP_PLANE_ZERO_NORMAL (also of a plane whose numbers are not finite),
+/// PP_UNBOUNDED (the planes enclose no volume), and those of pp_particle_new.
 /// Pointers: planes points to 4*count doubles, out to one pointer, built to one struct, message to
 /// message_size bytes.
 #[unsafe(no_mangle)]
@@ -64,8 +64,8 @@ pub unsafe extern "C" fn pp_particle_from_faces(
 /// points: count rows of x, y, z, in any order; those inside the hull do not matter. No part of the particle
 /// lies outside the hull. Triangles of the hull that are coplanar to 1e-6 of its extent are one face.
 /// All else as pp_particle_from_faces.
-/// Errors: PP_NULL_POINTER, PP_BAD_POINT, PP_UNBOUNDED (fewer than four points, or all in one plane), and those of
-/// pp_particle_new.
+/// Errors: PP_NULL_POINTER, PP_BAD_POINT, PP_UNBOUNDED (fewer than four points, or all in one plane), and
+/// those of pp_particle_new.
 /// Pointers: points points to 3*count doubles, out to one pointer, built to one struct, message to
 /// message_size bytes.
 #[unsafe(no_mangle)]

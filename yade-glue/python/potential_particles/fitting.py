@@ -18,7 +18,7 @@ from . import rounding
 from .arguments import positive, whole
 from .polyhedron import Polyhedron, refuse_flat
 from .shape import Fit
-from .solids import rounded_faces, rounded_hull, sizes
+from .solids import rounded_hull, sizes
 
 # Of the size: between them r is chosen. Below, overlaps would have to be tiny; beyond, faces are hardly flat any more.
 LEAST_R, MOST_R = 0.02, 0.3
@@ -26,6 +26,8 @@ LEAST_R, MOST_R = 0.02, 0.3
 LOST = 0.01
 # Beyond this difference of volume a warning is given.
 WARNED = 0.02
+# Of mass properties, relative, as they bound it: what they are off is below a thousandth of that, and a fit is off by more.
+TOLERANCE = 1e-3
 
 _ROUNDS, _RAYS, _SAMPLES = 15, 600, 2000
 # Numbers of planes that are tried for a given error.
@@ -104,10 +106,8 @@ def _of_planes(hull, points, samples, volume, number, r, k, R, name):
             raise ValueError(f"{name}: {number} planes about its hull, moved by less than 0.3 of the size, do not have the volume of the surface: "
                              "the surface is far from convex (shapes.clump_from_mesh cuts it into convex parts), or r is too large")
         shift = brentq(lambda moved: surplus(fraction, moved), least, most, xtol=1e-6 * size) if k < 1.0 else 0.0
-    # The ball grows with the planes.
-    inner = size + 2.0 * shift
-    faces = np.column_stack([outer.normals, outer.offsets + shift])
-    shape = rounded_faces(faces, size * fraction / inner, k, None if shadow is None else shadow / inner, name)
+    polyhedron = outer if shift == 0.0 else Polyhedron.of_planes(outer.normals, outer.offsets + shift)
+    shape = rounding.rounded(polyhedron, size * fraction, k, shadow, name, TOLERANCE)
     factor = (volume / shape.volume) ** (1.0 / 3.0)
     # About its own centroid: it stays where it is.
     shape = dataclasses.replace(shape.scaled(factor), centroid=shape.centroid)
