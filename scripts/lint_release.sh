@@ -32,7 +32,7 @@ else
     look "Rust interface since $last" cargo semver-checks --baseline-rev "$last"
 fi
 
-[ -x "$TOOLS/bin/python" ] || python3 -m venv "$TOOLS"
+[ -x "$TOOLS/bin/python" ] || "${PYTHON:-/usr/bin/python3}" -m venv "$TOOLS"
 if "$TOOLS/bin/python" -m pip install --quiet --disable-pip-version-check py-rattler-build; then
     look "recipes" "$TOOLS/bin/python" scripts/recipes.py
 else
