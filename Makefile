@@ -30,6 +30,7 @@ Contact detection between potential particles.
   make library  the library alone: target/release/libpotential_particles.so
   make header   write include/potential_particles.h anew from src/capi
   make lint     formatting and warnings
+  make lint-release  before a release: licences of dependencies, changes of the Rust interface, recipes of conda and Spack; skips tools that are not there
   make bench    run time, each target beside what was measured, and run time against error; results in out/bench
   make side-by-side  YADE's own contact functor and this one on the same scenes; results in out/side_by_side
   make patch    contact patches: closed forms, the gradient of their energy, time by kind; results in out/patch
@@ -91,7 +92,7 @@ export PATH := $(PATH):$(HOME)/.cargo/bin
 
 heading = @printf '== %s\n' '$(1)'
 
-.PHONY: check lammps lammps-scale sanitize wheel guide deb packages-test install help demo wedge classics mpi scale mpi-scale test test-debian13 side-by-side patch rock patch-yade time-step peers roofline setup build library glue header lint bench stress fuzz long clean
+.PHONY: check lammps lammps-scale sanitize wheel guide deb packages-test install help demo wedge classics mpi scale mpi-scale test test-debian13 side-by-side patch rock patch-yade time-step peers roofline setup build library glue header lint lint-release bench stress fuzz long clean
 .DEFAULT_GOAL := help
 # The steps of one goal build on each other in the order in which they are named.
 .NOTPARALLEL:
@@ -257,6 +258,10 @@ lint:
 	$(call heading,Warnings)
 	@if cargo clippy --version >/dev/null 2>&1; then cargo clippy --all-targets -- -D warnings; \
 	else echo 'skipped: clippy is not installed (rustup component add clippy)'; fi
+
+lint-release:
+	$(call heading,Before a release)
+	@scripts/lint_release.sh
 
 # Without YADE its functor is left out, and the table says so.
 bench:

@@ -6,12 +6,12 @@ import subprocess
 import sys
 from pathlib import Path
 
-from contestants import BULLET, COAL, OURS, PARRY, YADE
+from contestants import BULLET, COAL, DRAKE, MUJOCO, OURS, PARRY, YADE
 
 HERE = Path(__file__).resolve().parent
 TOP = HERE.parents[1]
 OUT = TOP / "out" / "peers"
-COAL_VERSION = "3.0.3"
+COAL_VERSION, MUJOCO_VERSION, DRAKE_VERSION = "3.0.3", "4.0.0", "1.51.1"
 DEBIAN = ("libbullet-dev", "lammps", "pkgconf", "python3-venv", "python3-scipy", "python3-matplotlib")
 YADE_PROGRAM = Path("/usr/bin/yade")
 WARNINGS = ["-O3", "-DNDEBUG", "-std=c++17", "-Wall", "-Wextra"]
@@ -41,6 +41,8 @@ def everybody():
     found.add(PARRY, lambda: rust("parry"))
     found.add(COAL, _coal)
     found.add(BULLET, _bullet)
+    found.add(MUJOCO, _mujoco)
+    found.add(DRAKE, _drake)
     found.add(YADE, _yade)
     found.add("lammps", _lammps)
     return found
@@ -85,15 +87,32 @@ def _locked(package):
     return f"{package} " + next(line for line in block.splitlines() if line.startswith("version")).split('"')[1]
 
 
-def _coal():
+def _wheel(package, version):
+    """The folder of the packages of an environment that has this one, from PyPI."""
     environment = OUT / "venv"
     if not (environment / "bin" / "python").exists():
         _run([sys.executable, "-m", "venv", environment])
     python = environment / "bin" / "python"
-    present = subprocess.run([python, "-c", "import coal; print(coal.__version__)"], capture_output=True, text=True)
-    if present.stdout.strip() != COAL_VERSION:
-        _run([python, "-m", "pip", "install", "--quiet", "--only-binary", ":all:", f"coal=={COAL_VERSION}"])
-    prefix = next(environment.glob("lib/python*/site-packages/cmeel.prefix"))
+    asked = f"import importlib.metadata as m; print(m.version({package!r}))"
+    if subprocess.run([python, "-c", asked], capture_output=True, text=True).stdout.strip() != version:
+        _run([python, "-m", "pip", "install", "--quiet", "--only-binary", ":all:", f"{package}=={version}"])
+    return next(environment.glob("lib/python*/site-packages"))
+
+
+def _mujoco():
+    folder = _wheel("mujoco", MUJOCO_VERSION) / "mujoco"
+    library = next(folder.glob("libmujoco.so.*"))
+    _compile("mujoco", [f"-isystem{folder}/include"], [library, f"-Wl,-rpath,{folder}"])
+    return [OUT / "bin" / "mujoco"], f"MuJoCo {MUJOCO_VERSION}, the wheel's library"
+
+
+def _drake():
+    _wheel("drake", DRAKE_VERSION)
+    return [OUT / "venv" / "bin" / "python", HERE / "drake_pairs.py"], f"Drake {DRAKE_VERSION}, the wheel"
+
+
+def _coal():
+    prefix = _wheel("coal", COAL_VERSION) / "cmeel.prefix"
     links = [f"-L{prefix}/lib", "-lcoal", f"-Wl,-rpath,{prefix}/lib", f"-Wl,-rpath-link,{prefix}/lib"]
     _compile("coal", [f"-isystem{prefix}/include", "-isystem/usr/include/eigen3"], links)
     return [OUT / "bin" / "coal"], f"Coal {COAL_VERSION}, the wheel's library"

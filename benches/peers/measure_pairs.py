@@ -7,12 +7,13 @@ import subprocess
 
 import install
 import pairs
-from contestants import BULLET, COAL, CONTESTANTS, OURS, PARRY, YADE, Server
+from contestants import BULLET, COAL, CONTESTANTS, DRAKE, MUJOCO, OURS, PARRY, YADE, Server
 from judge import SETTLED, Judge
-from pairs import FAR, LYING, NEAR_BY, OVERLAP, POTENTIAL, ROUNDED, SHARP, TOUCHING
+from pairs import CHUNKY, FAR, LYING, NEAR_BY, OVERLAP, POTENTIAL, ROUNDED, SHARP, TOUCHING
 
 SEED = 2012
 PLANES = (4, 5, 12, 20, 100, 1000)
+CHUNKY_PLANES = (8, 16, 32, 64, 128)
 CURVE_GROUPS = ("5-potential-touching", "5-sharp-touching", "100-potential-touching")
 CURVES = {
     (OURS, "midway"): ("1e-2", "1e-4", "1e-6", "1e-8", "1e-10", "1e-12", "1e-14"),
@@ -25,7 +26,7 @@ class Effort:
         # Batches so short that some of them have a core to themselves, and many of them.
         self.rounds, self.seconds = (2, 2e-3) if quick else (15, 2e-3)
         self.pairs, self.many = (10, 4) if quick else (100, 30)
-        self.planes = (5, 100) if quick else PLANES
+        self.planes, self.chunky = ((5, 100), (8, 128)) if quick else (PLANES, CHUNKY_PLANES)
         self.slow_rounds = 1 if quick else 2
 
 
@@ -34,6 +35,7 @@ def named_groups(effort):
     wanted = [(n, edges, TOUCHING) for n in effort.planes for edges in (SHARP, ROUNDED, POTENTIAL)]
     wanted += [(n, edges, LYING) for n in effort.planes if n in (5, 12) for edges in (SHARP, ROUNDED, POTENTIAL)]
     wanted += [(n, edges, NEAR_BY) for n in effort.planes if n in (5, 100, 1000) for edges in (SHARP, POTENTIAL)]
+    wanted += [(n, CHUNKY, TOUCHING) for n in effort.chunky]
     return wanted + [(n, SHARP, FAR) for n in effort.planes if n in (5, 1000)]
 
 
@@ -51,7 +53,7 @@ class Measurement:
         pairs.write(moved, potential)
         self.servers = {
             name: Server([*found.commands[name], potential if name == OURS else swept])
-            for name in (OURS, PARRY, COAL, BULLET)
+            for name in (OURS, PARRY, COAL, BULLET, MUJOCO, DRAKE)
             if name in found.commands
         }
         if YADE in found.commands:

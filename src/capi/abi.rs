@@ -1,5 +1,6 @@
 //! Which library was loaded, and whether its structs are those that the caller was compiled with.
 
+use super::builder::pp_built;
 use super::derivative::{pp_contact_weights, pp_derivatives, pp_pose_gradient, pp_shape_gradient};
 use super::flat::pp_flat_contact;
 use super::packing::{pp_packing, pp_placement};
@@ -85,6 +86,8 @@ pub const PP_STRUCT_SHAPE_GRADIENT: u32 = 31;
 pub const PP_STRUCT_POSE_GRADIENT: u32 = 32;
 /// struct pp_patch_derivatives, for pp_struct_size.
 pub const PP_STRUCT_PATCH_DERIVATIVES: u32 = 33;
+/// struct pp_built, for pp_struct_size.
+pub const PP_STRUCT_BUILT: u32 = 34;
 
 /// Version of the loaded library as "major.minor.patch". Static text: do not free it.
 #[unsafe(no_mangle)]
@@ -137,6 +140,7 @@ pub extern "C" fn pp_struct_size(which: u32) -> usize {
         PP_STRUCT_SHAPE_GRADIENT => size_of::<pp_shape_gradient>(),
         PP_STRUCT_POSE_GRADIENT => size_of::<pp_pose_gradient>(),
         PP_STRUCT_PATCH_DERIVATIVES => size_of::<pp_patch_derivatives>(),
+        PP_STRUCT_BUILT => size_of::<pp_built>(),
         _ => 0,
     }
 }

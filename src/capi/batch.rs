@@ -12,7 +12,8 @@ use crate::{PairState, Particle, Pose, Settings};
 /// Finds the contacts of many pairs of bodies: the way for a DEM program to hand over a whole step.
 ///
 /// Body i is particles[i] at poses[i]; pair n is that of the bodies pairs[2n] (A) and pairs[2n+1] (B),
-/// counted from 0. What a pose costs is paid once for each body. Each contact and state is, to the last
+/// counted from 0. Each pose is converted once, however many pairs its body is in. Each contact and state is,
+/// to the last
 /// bit, that of pp_contact_detect for the pair alone, whatever the number of threads.
 ///
 /// particles, poses: body_count of each; several bodies may share a particle. A particle may be NULL and

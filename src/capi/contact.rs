@@ -101,9 +101,9 @@ pub unsafe extern "C" fn pp_closest_point(
 /// normal, makes through the intersection of both particles.
 ///
 /// contact: an overlapping answer of pp_contact_detect for the same particles and poses.
-/// relative_tolerance: in [1e-12, 0.1]; 1e-6 is a good choice. The area is exact but for rounding
-/// (1e-12 of it, or 2e-16 size/r where that is more) and this is not used, unless rounding forbids;
-/// such areas are known to no better than 1e-9. With r near 1e-9 of the size or less, thin sections
+/// relative_tolerance: in [1e-12, 0.1]; 1e-6 is a good choice. It is used only where rounding prevents a
+/// closed form, and the area is then known to 1e-9 at best. Elsewhere the area is exact but for rounding:
+/// 1e-12 of it, or 2e-16 size/r where that is more. With r near 1e-9 of the size or less, thin sections
 /// may be wrong. area: receives length^2; 0 when separated.
 /// Errors: PP_NULL_POINTER, PP_BAD_POSITION, PP_BAD_ORIENTATION, PP_BAD_POINT (the contact
 /// was not filled: no kind, point or normal; or its point is outside a particle), PP_BAD_SETTING.

@@ -3,8 +3,8 @@
 use super::status::*;
 use super::types::*;
 use crate::{
-    BackEnd, ClosestPoint, Contact, DetectError, Formulation, Kind, PairState, Pose, PoseError, Role, Settings,
-    SettingsError,
+    BackEnd, ClosestPoint, Contact, DetectError, Formulation, Kind, MassProperties, PairState, Pose, PoseError, Role,
+    Settings, SettingsError,
 };
 use nalgebra::Vector3;
 
@@ -24,6 +24,14 @@ const _: () = assert!(
 pub(super) fn state_of(state: &mut pp_pair_state) -> &mut PairState {
     // SAFETY: it holds as many bytes, all of them numbers of which any value is one; the remembered solution comes first in both.
     unsafe { &mut *std::ptr::from_mut(state).cast::<PairState>() }
+}
+
+impl From<&MassProperties> for pp_mass_properties {
+    fn from(mass: &MassProperties) -> Self {
+        let i = mass.inertia;
+        let inertia = [i.m11, i.m22, i.m33, i.m12, i.m23, i.m13];
+        Self { volume: mass.volume, centroid: mass.centroid.into(), inertia, error: mass.error }
+    }
 }
 
 /// A point or direction.

@@ -15,19 +15,20 @@ use crate::{
 };
 use nalgebra::Vector3;
 
-/// A plane may be about to switch: whether it is active at the contact point cannot be told. The derivatives
-/// are those for the side on which it is off; that of s is the same on both.
+/// Whether a plane is active at the contact point cannot be told. The derivatives are those with the plane
+/// inactive; the derivative of s is the same either way.
 pub const PP_DERIVATIVE_SWITCHING: u32 = 1;
-/// Faces or edges (k = 0, or nearly) leave a direction across the normal free: in it the point moves as the
-/// regularisation says (flat_regularisation), by up to its inverse.
+/// Flat faces or edges touch (k = 0, or nearly): along them flat_regularisation alone holds the point, whose
+/// derivatives may be as large as 1/flat_regularisation.
 pub const PP_DERIVATIVE_FREE: u32 = 2;
 /// The contact is separated: overlap and surface points have no derivatives, and are NaN.
 pub const PP_DERIVATIVE_SEPARATED: u32 = 4;
 /// Fewer than four digits may be right: depths of planes are of the size of their rounding.
 pub const PP_DERIVATIVE_IMPRECISE: u32 = 8;
 
-/// Derivatives of a contact in the poses of A and B, as of struct pp_contact. Columns of each row: a shift of
-/// A along x, y, z and a turn of A about its position and x, y, z (world axes, radians), then the same of B.
+/// Derivatives of a contact in the poses of A and B, as of struct pp_contact. Columns of each row: shift of A
+/// along x, y, z; rotation of A about x, y, z through its position (world axes, radians); then the same six
+/// of B.
 /// What is NaN in the contact is NaN here.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
@@ -52,7 +53,8 @@ pub struct pp_derivatives {
     pub point_on_b: [[f64; 12]; 3],
 }
 
-/// Derivatives of a cost in the numbers of a contact. Those in what is NaN in the contact must be 0.
+/// Derivatives of the caller's cost with respect to the fields of a contact. For a field that is NaN in the
+/// contact the derivative must be 0.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct pp_contact_weights {
@@ -72,8 +74,8 @@ pub struct pp_contact_weights {
     pub point_on_b: [f64; 3],
 }
 
-/// Derivatives of a cost in the shape of a particle, to which calls add: set numbers and planes to 0 to begin
-/// with.
+/// Derivatives of a cost with respect to the shape of a particle. Calls add to it: set all numbers, and the
+/// planes, to 0 first.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct pp_shape_gradient {

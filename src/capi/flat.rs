@@ -18,7 +18,7 @@ pub const PP_ON_VERTEX: u32 = 4;
 /// The contact of a particle A with a flat boundary T, a plane or a closed triangle of no thickness. World
 /// axes; lengths in the caller's unit; s and gap have no unit. Fields that do not apply are NaN.
 ///
-/// x*, the point of T where the scale s of A is least, decides: A touches T where it is below 1.
+/// x* is the point of T where the scale s of A is least. A overlaps T if that scale is below 1.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct pp_flat_contact {
@@ -32,11 +32,11 @@ pub struct pp_flat_contact {
     /// Quadratics solved.
     pub iterations: u32,
     /// Scale of A at x*, the least on T, of A as regularised (flat_regularisation). Rejected: a lower bound,
-    /// no less than 1. Triangles that share the edge or vertex on which x* lies get the same bits: so the
-    /// contact at a seam can be given to the triangle with the least s, and ties broken by the caller's own
-    /// numbering. Under a flat face (k = 0) on several triangles s differs by flat_regularisation only, and
-    /// the place of the contact is known to some percent of the size with the default, to 1e-6 of the size
-    /// with 1e-4.
+    /// no less than 1. Triangles that share the edge or vertex on which x* lies get the same s to the last
+    /// bit: a caller can give the contact at a seam to the triangle with the least s, and break ties by its
+    /// own numbering. If a flat face (k = 0) lies on several triangles, their s differ by flat_regularisation
+    /// only; the place of the contact is then known to some percent of the size with the default, to 1e-6 of
+    /// the size with 1e-4.
     pub s: f64,
     /// Bound on the error of s, with rounding to first order in doubles (as in struct pp_contact).
     pub gap: f64,

@@ -12,6 +12,7 @@
 
 mod abi;
 mod batch;
+mod builder;
 mod contact;
 mod convert;
 mod derivative;
@@ -32,6 +33,7 @@ mod types;
 
 pub use abi::*;
 pub use batch::*;
+pub use builder::*;
 pub use contact::*;
 pub use derivative::*;
 pub use flat::*;

@@ -22,8 +22,8 @@ pub const PP_SETTLED: u32 = 1;
 pub const PP_BY_NUMBER: u32 = 0;
 /// Rows of sizes: a size, and its share of the mass; shares add up to 1.
 pub const PP_BY_MASS: u32 = 1;
-/// Rows of sizes: a grading curve, linear between its rows: a size, and the share of the mass in bodies
-/// below it; both grow, the shares from 0 to 1.
+/// Rows of sizes: a grading curve, each row a size and the share of the mass in smaller bodies, linear
+/// between rows. Sizes increase from row to row, and shares from 0 to 1.
 pub const PP_PASSING: u32 = 2;
 
 /// What pp_pack fills, and how.

@@ -19,7 +19,9 @@ pub const PP_MESSAGE_SIZE: usize = 512;
 /// Creates a particle from count planes.
 ///
 /// planes: count rows of a, b, c, d (outward normal and offset; local frame; the normal is used as
-/// given). They are the planes of the core: for k = 0 a face lies at a x + b y + c z = d + r. May be
+/// given). They are the planes of the core. For k = 0 a face lies at a x + b y + c z = d + r where no other
+/// plane counts; where many planes nearly share a place the surface lies deeper. pp_particle_from_faces puts
+/// the faces themselves where they are wanted. May be
 /// NULL when count is 0.
 /// r: rounding radius, length. k: sphericity, in [0, 1]. shadow_radius: R, length.
 /// out: receives the particle; release it with pp_particle_free.
@@ -180,7 +182,7 @@ pub(super) unsafe fn explain_status(status: pp_status, null: &str, message: *mut
     unsafe { write_message(text, message, size) };
 }
 
-fn particle_status(error: &ParticleError) -> pp_status {
+pub(super) fn particle_status(error: &ParticleError) -> pp_status {
     match error {
         ParticleError::PlaneNotFinite { .. }
         | ParticleError::LineNotFinite { .. }

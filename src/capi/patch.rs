@@ -36,8 +36,8 @@ pub struct pp_patch {
     pub flags: u32,
     /// Number of rays that were followed.
     pub rays: u32,
-    /// Estimated error of the force over its size, of the torque over |force| times the reach of the patch,
-    /// and of the energy, if asked for, over itself: the largest.
+    /// Estimated relative error, the largest of three: of the force; of the torque, relative to |force| times
+    /// the reach of the patch; of the energy, if asked for.
     pub error: f64,
     /// Estimated relative error of the area.
     pub area_error: f64,
@@ -93,12 +93,12 @@ pub struct pp_patch_point {
 /// integral.
 ///
 /// Owned by the caller: set all bytes to 0 to begin with or to forget; copy it freely within a process. One
-/// caller at a time. Not to be saved: an answer rests on it. It is used for the particles, tolerance and
-/// with_energy alone for which it was written, while they exist.
+/// caller at a time. Not to be saved, as answers depend on it. It is used only for the particles, the
+/// tolerance and the with_energy for which it was written, while the particles exist.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct pp_patch_state {
-    /// Library's own; not for reading.
+    /// Private to the library.
     pub last_patch: [f64; 112],
 }
 
@@ -137,9 +137,9 @@ pub unsafe extern "C" fn pp_particle_depth_length(particle: *const pp_particle, 
 ///
 /// contact: an answer of pp_contact_detect for the same particles and poses. tolerance: relative, in
 /// [1e-12, 0.1]; 1e-4 is a good choice. with_energy: 0 or 1. state: may be NULL; else that of the pair, read
-/// and updated, by which the patch may be carried on from an earlier one (PP_PATCH_CARRIED); not used if
-/// capacity is not 0. points: receives the points of quadrature, if
-/// capacity is not 0; may be NULL then. count: receives their number; may be NULL with a capacity of 0.
+/// and updated: the patch may then be carried on from an earlier one (PP_PATCH_CARRIED). It is not used where
+/// points are asked for. points: room for capacity points of quadrature; may be NULL with a capacity of 0.
+/// count: receives their number; may be NULL with a capacity of 0.
 /// Buffers: the library keeps some 100 kilobytes for each thread that calls this, until the thread ends.
 /// Errors: PP_NULL_POINTER, PP_BAD_POSITION, PP_BAD_ORIENTATION, PP_BAD_POINT (the contact was not filled, or is
 /// separated), PP_BAD_SETTING (tolerance, with_energy), PP_BUFFER_TOO_SMALL (count receives the needed size).

@@ -13,12 +13,13 @@ use std::ffi::{c_char, c_void};
 pub struct pp_slice_settings {
     /// A joint leaves a block whole if a part would have less than this volume.
     pub least_volume: f64,
-    /// Or be thinner than this in the mean, 2 V / A of volume and surface, length: a cube has a third of its
-    /// edge.
+    /// It also leaves it whole if a part would be thinner than this: 2 V / A of the part's volume and
+    /// surface, length (a third of the edge of a cube).
     pub least_thickness: f64,
-    /// Or if the largest ball in it would have a smaller diameter than this.
+    /// And if the largest ball in a part would have a smaller diameter than this.
     pub least_width: f64,
-    /// Or if its extent along x, y or z would be more than so many times that diameter; 0: no limit.
+    /// And if the extent of a part along x, y or z would be more than so many times the diameter of that
+    /// ball; 0: no limit.
     pub largest_aspect: f64,
     /// More blocks than this are an error; 0: a million.
     pub most_blocks: u64,
@@ -26,8 +27,8 @@ pub struct pp_slice_settings {
     pub threads: u64,
 }
 
-/// Is told how many joints have cut and how many blocks there are, before the first joint and again after
-/// every few, in the calling thread. Returns 0 to go on; anything else ends the cuts of joints, and what was
+/// Called before the first joint and again after every few, in the calling thread, with the numbers of
+/// joints that have cut and of blocks that there are. Returns 0 to go on; anything else ends the cuts of joints, and what was
 /// cut is kept. No exception and no longjmp may leave it.
 pub type pp_rock_progress = Option<unsafe extern "C" fn(context: *mut c_void, joints: u64, blocks: u64) -> i32>;
 

@@ -32,7 +32,7 @@ pub struct pp_joint_set {
     pub fisher: f64,
     /// Radius of joints that are discs, length; infinite for joints without end.
     pub radius: f64,
-    /// What is drawn depends on it alone.
+    /// Seed of what is drawn at random: the same one gives the same joints.
     pub seed: u64,
     /// 1: spacings are drawn from an exponential distribution; 0: all are the same. Without a meaning for
     /// discs.

@@ -35,7 +35,8 @@ pub unsafe extern "C" fn pp_particle_potential(
     })
 }
 
-/// Axis-aligned box in world axes that holds the particle at this pose: the box of its corners.
+/// Axis-aligned box, world axes, that holds the particle at this pose: that of the corners of
+/// pp_particle_corners.
 ///
 /// lower, upper: receive 3 doubles each, world frame.
 /// Errors: PP_NULL_POINTER, PP_BAD_POSITION, PP_BAD_ORIENTATION.
@@ -105,8 +106,9 @@ pub unsafe extern "C" fn pp_particle_corners(
     })
 }
 
-/// Upper bound of how far the particle reaches along a direction (3 doubles, local frame, any length): of
-/// e . x over all its points, e = direction / |direction|, by the corners of pp_particle_corners.
+/// How far the particle reaches along a direction (3 doubles, local frame, any length): an upper bound of e .
+/// x over all its points x, where e = direction / |direction|. It follows from the corners of
+/// pp_particle_corners.
 ///
 /// Errors: PP_NULL_POINTER, PP_BAD_POINT.
 /// Pointers: direction points to 3 doubles.
@@ -166,13 +168,7 @@ pub unsafe extern "C" fn pp_particle_mass_properties(
         let particle = &unsafe { borrow(particle) }?.0;
         let out = unsafe { output(properties) }?;
         let mass = particle.mass_properties(tolerance).map_err(|_| PP_BAD_SETTING)?;
-        let i = mass.inertia;
-        out.write(pp_mass_properties {
-            volume: mass.volume,
-            centroid: mass.centroid.into(),
-            inertia: [i.m11, i.m22, i.m33, i.m12, i.m23, i.m13],
-            error: mass.error,
-        });
+        out.write((&mass).into());
         Ok(())
     })
 }

@@ -16,9 +16,8 @@ pub const PP_SEPARATED: i32 = 1;
 /// The two particles overlap: s < 1.
 pub const PP_OVERLAPPING: i32 = 2;
 
-/// "closest" was asked for, but its constraint is slack: a centre (for k = 0, the core) of one particle
-/// lies inside the other, or cannot be told from that, so that |P1 - P2| is no overlap distance. All fields
-/// are those of midway.
+/// "closest" was asked for and has no answer: the centre (for k = 0, the core) of one particle lies inside
+/// the other, or may do so within rounding, and |P1 - P2| is no overlap then. All fields are those of midway.
 pub const PP_FLAG_SLACK: u32 = 1;
 /// Separation was proved without solving to the end: s is a proved lower bound >= 1; of the geometry only
 /// distance is set.
@@ -82,16 +81,15 @@ pub struct pp_settings {
     /// Weight of the point on A in the contact point of PP_CLOSEST: point = w*P1 + (1-w)*P2,
     /// in [0, 1], default 0.5 (equal stiffness). Paper: relative stiffness of the particles.
     pub weight_on_a: f64,
-    /// Smallest sphericity that the solver treats as given; below it, the point on a flat face
-    /// is chosen as if k were this value (shape, s and overlap stay those of the given k).
-    /// In [0, 0.1], default 1e-13; less counts as that. Raise it (1e-4, say) when flat faces jitter. Whether
-    /// the particles overlap at all is never left to it: where it would be, the default decides
-    /// (PP_FLAG_DEFAULT_REGULARISATION).
+    /// Where k is below this, the contact point on a flat face is chosen as if k were this value; shape, s
+    /// and overlap stay those of the given k. In [0, 0.1], default 1e-13; smaller values count as 1e-13.
+    /// Raise it to 1e-4, say, when points on flat faces jump from step to step. It never decides whether
+    /// particles overlap: where it would, the default is used (PP_FLAG_DEFAULT_REGULARISATION).
     pub flat_regularisation: f64,
-    /// To what part of the smaller bounding radius the point of a contact has to be known that is carried on
-    /// from the last one without a look at any plane (PP_FLAG_CARRIED); in [0, 0.1], default 0: every
-    /// contact is solved. 1e-9 is a good choice. It takes a pp_pair_state; contacts of PP_CLOSEST and by
-    /// PP_CONE_PROGRAM are always solved.
+    /// 0 (default): every contact is solved. Above 0: a contact may be carried on from the last one of its
+    /// pair without evaluating a plane (PP_FLAG_CARRIED), as long as its point is known to this share of the
+    /// smaller bounding radius. In [0, 0.1]; 1e-9 is a good choice. Needs a pp_pair_state; contacts of
+    /// PP_CLOSEST and by PP_CONE_PROGRAM are always solved.
     pub carry_tolerance: f64,
 }
 
@@ -102,13 +100,11 @@ pub struct pp_settings {
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct pp_pair_state {
-    /// The last solution, from which the next call starts. Library's own; not for reading. May be saved, and
-    /// loaded into a state whose other bytes are 0: it never changes an answer beyond its gap, whatever bytes
-    /// it holds.
+    /// The last solution, from which the next call starts. Private to the library. It may be saved and loaded
+    /// again, with all other bytes 0: whatever it holds, an answer changes by no more than its gap.
     pub solution: [f64; 8],
-    /// What the last contact says about poses near by, with carry_tolerance above 0. Library's own; not for
-    /// reading, and not to be saved: an answer rests on it. It is used for the two particles alone for which
-    /// it was written, while they exist.
+    /// What carry_tolerance needs of the last contact. Private to the library. Not to be saved, as answers
+    /// depend on it. It is used only for the two particles for which it was written, while they exist.
     pub last_contact: [f64; 40],
 }
 
@@ -137,9 +133,9 @@ pub struct pp_contact {
     pub s_b: f64,
     /// Weight u of B, in [0, 1]: (1-u) grad S_A + u grad S_B = 0 at the solution (closest: at P2).
     pub weight: f64,
-    /// Bound on the error of s, and of s_b: |s - s*| <= gap. Every constant in it is
-    /// derived (docs/theory.md). In extended precision it is proved; in doubles it counts rounding to first
-    /// order: estimated.
+    /// Bound on the error of s, and of s_b: |s - s*| <= gap. Proved for answers in extended precision
+    /// (PP_FLAG_EXTENDED); in doubles rounding is counted to first order, so that it is an estimate
+    /// (docs/theory.md).
     pub gap: f64,
     /// Estimated bound on the distance of the point (closest: of each of P1 and P2) to the exact optimum,
     /// length: of first order in the rounding of the data.

@@ -4,7 +4,7 @@ use crate::contact::detect::DetectError;
 use crate::flags::flag_set;
 use crate::particle::particle::{Particle, Plane};
 use crate::settings::SettingsError;
-use nalgebra::{RowSVector, SMatrix, Vector3};
+use nalgebra::{ArrayStorage, RowSVector, SMatrix, Vector3};
 use thiserror::Error;
 
 /// The derivative of a number in both poses: [`PoseRows`] has the order of the columns.
@@ -34,6 +34,23 @@ pub struct ContactDerivatives {
     pub point_on_b: PoseRows,
     /// What else is to be known.
     pub flags: DerivativeFlags,
+}
+
+/// Of what does not apply.
+pub(super) const NO_ROW: PoseRow = PoseRow::from_array_storage(ArrayStorage([[f64::NAN]; 12]));
+const NO_ROWS: PoseRows = PoseRows::from_array_storage(ArrayStorage([[f64::NAN; 3]; 12]));
+
+impl ContactDerivatives {
+    pub(super) const NONE: Self = Self {
+        s: NO_ROW,
+        s_b: NO_ROW,
+        overlap: NO_ROW,
+        normal: NO_ROWS,
+        point: NO_ROWS,
+        point_on_a: NO_ROWS,
+        point_on_b: NO_ROWS,
+        flags: DerivativeFlags(0),
+    };
 }
 
 /// Weights on the numbers of a contact: the derivative of a cost in them. Zero by default; weights on what is NaN in the contact

@@ -4,7 +4,7 @@ use super::answer::{
     ContactDerivatives, ContactWeights, DerivativeError, DerivativeFlags, PoseGradient, ShapeGradient,
 };
 use super::contact::{Gradient, Linearised, is_finite, least_sphericity};
-use super::field::Place;
+use super::field::{Place, Potential};
 use super::midway::AlongNormal;
 use super::optimum::{Kind as Problem, Optimum};
 use super::surface::SurfacePoint;
@@ -41,7 +41,8 @@ pub fn boundary_derivatives(
     contact: &FlatContact,
     settings: &Settings,
 ) -> Result<ContactDerivatives, DerivativeError> {
-    let mut derivatives = linearised(a, pose, triangle, contact, settings)?.in_poses();
+    let mut derivatives = ContactDerivatives::NONE;
+    linearised(a, pose, triangle, contact, settings, |linearised| linearised.in_poses(&mut derivatives))?;
     derivatives.flags.set(DerivativeFlags::SEPARATED, contact.kind == Kind::Separated);
     Ok(derivatives)
 }
@@ -63,8 +64,8 @@ pub fn boundary_gradient(
 ) -> Result<([PoseGradient; 2], DerivativeFlags), DerivativeError> {
     let mut sum = Gradient { poses: Default::default(), shapes: [shape, None] };
     sum.check([a, a])?;
-    let linearised = linearised(a, pose, triangle, contact, settings)?;
-    let mut flags = linearised.add_to(&mut sum, weights);
+    let mut flags =
+        linearised(a, pose, triangle, contact, settings, |linearised| linearised.add_to(&mut sum, weights))?;
     flags.set(DerivativeFlags::SEPARATED, contact.kind == Kind::Separated);
     // Where both move alike, points and normal go with them.
     let mut both =
@@ -79,13 +80,15 @@ pub fn boundary_gradient(
     Ok(([of_a, PoseGradient { shift: both.shift - of_a.shift, turn: both.turn - of_a.turn }], flags))
 }
 
-fn linearised<'a>(
-    a: &'a Particle,
-    pose: &'a Pose,
+/// `then` of the optimality conditions.
+fn linearised<T>(
+    a: &Particle,
+    pose: &Pose,
     triangle: Option<&Triangle>,
     contact: &FlatContact,
     settings: &Settings,
-) -> Result<AlongNormal<'a>, DerivativeError> {
+    then: impl FnOnce(&AlongNormal) -> T,
+) -> Result<T, DerivativeError> {
     settings.validate()?;
     let is_overlap = contact.kind == Kind::Overlapping;
     let surface = !is_overlap || contact.overlap.is_finite() && is_finite(&contact.on_particle);
@@ -97,8 +100,8 @@ fn linearised<'a>(
         return Err(DerivativeError::NoGradient);
     }
     let to_optimum = if is_overlap { contact.branch - 0.5 * contact.overlap * contact.normal } else { contact.branch };
-    let least = least_sphericity(settings, contact.flags);
-    let place = Place::new((a, pose), to_optimum, [contact.point_bound, 0.0], least);
+    let body = Potential::new((a, pose), least_sphericity(settings, contact.flags));
+    let place = Place::new(&body, to_optimum, [contact.point_bound, 0.0]);
     let (dimensions, along) = match (contact.feature, triangle) {
         (Feature::Interior, _) => (2, None),
         (Feature::Edge(i), Some(triangle)) => {
@@ -111,6 +114,6 @@ fn linearised<'a>(
     let optimum = Optimum::new(Problem::OnBoundary(dimensions), [Some(place), None], &contact.normal, along)?;
     optimum.check()?;
     let surfaces =
-        if is_overlap { Some((SurfacePoint::new(&place, &optimum.axes, contact.overlap)?, None)) } else { None };
-    Ok(AlongNormal { optimum, s: contact.s, surfaces })
+        if is_overlap { Some((SurfacePoint::new(place, &optimum.axes, contact.overlap)?, None)) } else { None };
+    Ok(then(&AlongNormal { optimum, s: contact.s, surfaces }))
 }

@@ -1,9 +1,8 @@
 //! The contact of closest: two optima, P1 on A and P2 on B.
 
-use super::answer::{ContactDerivatives, ContactWeights};
-use super::midway::{NO_ROW, NO_ROWS};
+use super::answer::{ContactDerivatives, ContactWeights, PoseRows};
 use super::optimum::{FieldWeights, Optimum, unit};
-use super::rows::{Moved, Row, ToWorld, vector};
+use super::rows::{ByA, ToWorld};
 use crate::linalg::number::Single;
 use nalgebra::Vector3;
 
@@ -32,35 +31,31 @@ impl<'a, N: Single> ClosestPoints<'a, N> {
         Self { optima, scales, sum_of_normals, across, weight_on_a, is_overlap }
     }
 
-    pub fn in_poses(&self) -> ContactDerivatives {
-        let moved = [0, 1].map(|i| {
+    /// Written to its place, which holds what does not apply.
+    pub fn in_poses(&self, to: &mut ContactDerivatives) {
+        let [mut p1, mut p2, mut turned_2] = [PoseRows::zeros(); 3];
+        let scales = [&mut to.s_b, &mut to.s];
+        let places = [(&mut p1, &mut to.normal), (&mut p2, &mut turned_2)];
+        for (i, ((point, normal), scale)) in places.into_iter().zip(scales).enumerate() {
             let optimum = &self.optima[i];
-            Moved::of(optimum, &ToWorld::of(optimum), self.scales[i]).0
-        });
-        let [p1, p2] = [0, 1].map(|i| vector(&self.optima[i].axes, &moved[i].point));
-        let turned = |i: usize| {
-            let [x, y] = moved[i].normal;
-            vector(&self.optima[i].axes, &[x, y, Row::zero()])
-        };
-        let (turned, length) = (turned(0) + turned(1), self.sum_of_normals.norm());
-        let normal = self.sum_of_normals / length;
-        let mut flags = self.optima[0].flags;
-        flags.set(self.optima[1].flags, true);
-        let derivatives = ContactDerivatives {
-            s: moved[1].s.pose_row(),
-            s_b: moved[0].s.pose_row(),
-            overlap: NO_ROW,
-            normal: (turned - normal * normal.tr_mul(&turned)) / length,
-            point: p2 + (p1 - p2) * self.weight_on_a,
-            point_on_a: NO_ROWS,
-            point_on_b: NO_ROWS,
-            flags,
-        };
-        if !self.is_overlap {
-            return derivatives;
+            let (to_world, by_a) = (ToWorld::of(optimum), ByA::of(optimum, self.scales[i]));
+            to_world.of_number(&by_a.s, scale);
+            to_world.of_point(&by_a.point, point);
+            to_world.of_normal(&by_a.normal, normal);
+            to.flags.set(optimum.flags, true);
         }
-        let overlap = self.across.tr_mul(&(p1 - p2));
-        ContactDerivatives { overlap, point_on_a: p1, point_on_b: p2, ..derivatives }
+        let length = self.sum_of_normals.norm();
+        let normal = self.sum_of_normals / length;
+        let apart = p1 - p2;
+        for j in 0..12 {
+            let turned = to.normal.column(j) + turned_2.column(j);
+            to.normal.set_column(j, &((turned - normal * normal.dot(&turned)) / length));
+        }
+        to.point = p2 + apart * self.weight_on_a;
+        if self.is_overlap {
+            (0..12).for_each(|j| to.overlap[j] = self.across.dot(&apart.column(j)));
+            (to.point_on_a, to.point_on_b) = (p1, p2);
+        }
     }
 
     /// The optima with the weights on the potentials there.

@@ -4,7 +4,7 @@ use super::answer::{
     ContactDerivatives, ContactWeights, DerivativeError, DerivativeFlags, PoseGradient, ShapeGradient,
 };
 use super::closest::ClosestPoints;
-use super::field::Place;
+use super::field::{Place, Potential};
 use super::midway::AlongNormal;
 use super::optimum::{FieldWeights, Kind as Problem, Optimum, normal_at};
 use super::surface::SurfacePoint;
@@ -49,11 +49,10 @@ pub fn contact_derivatives(
     contact: &Contact,
     settings: &Settings,
 ) -> Result<ContactDerivatives, DerivativeError> {
-    linearised((a, pose_a), (b, pose_b), contact, settings, |linearised| {
-        let mut derivatives = linearised.derivatives();
-        derivatives.flags.set(DerivativeFlags::SEPARATED, contact.kind == Kind::Separated);
-        derivatives
-    })
+    let mut derivatives = ContactDerivatives::NONE;
+    linearised((a, pose_a), (b, pose_b), contact, settings, |linearised| linearised.in_poses(&mut derivatives))?;
+    derivatives.flags.set(DerivativeFlags::SEPARATED, contact.kind == Kind::Separated);
+    Ok(derivatives)
 }
 
 /// The derivative of a cost in poses and shapes of both bodies, from its derivatives in the numbers of their contact.
@@ -142,14 +141,14 @@ impl Gradient<'_> {
 
 /// A contact with its linearised optimality conditions, in doubles or in 32 digits.
 pub(super) trait Linearised {
-    fn derivatives(&self) -> ContactDerivatives;
+    fn in_poses(&self, to: &mut ContactDerivatives);
 
     fn add_to(&self, sum: &mut Gradient, weights: &ContactWeights) -> DerivativeFlags;
 }
 
 impl<N: Single> Linearised for AlongNormal<'_, N> {
-    fn derivatives(&self) -> ContactDerivatives {
-        self.in_poses()
+    fn in_poses(&self, to: &mut ContactDerivatives) {
+        self.in_poses(to);
     }
 
     fn add_to(&self, sum: &mut Gradient, weights: &ContactWeights) -> DerivativeFlags {
@@ -168,8 +167,8 @@ impl<N: Single> Linearised for AlongNormal<'_, N> {
 }
 
 impl<N: Single> Linearised for ClosestPoints<'_, N> {
-    fn derivatives(&self) -> ContactDerivatives {
-        self.in_poses()
+    fn in_poses(&self, to: &mut ContactDerivatives) {
+        self.in_poses(to);
     }
 
     fn add_to(&self, sum: &mut Gradient, weights: &ContactWeights) -> DerivativeFlags {
@@ -216,26 +215,26 @@ impl<'a> Task<'a, '_> {
 
     /// In doubles.
     #[inline(always)]
-    fn midway(&self) -> Result<Optimum<'a>, DerivativeError> {
+    fn midway<'p>(&self, bodies: &'p [Potential<'a>; 2]) -> Result<Optimum<'p>, DerivativeError> {
         let contact = self.contact;
         let branches = [contact.branch_a, contact.branch_b];
         let error = [contact.point_bound, 0.0];
-        let place = |i: usize| Some(Place::new(self.bodies[i], branches[i], error, self.least_sphericity));
+        let place = |i: usize| Some(Place::new(&bodies[i], branches[i], error));
         Optimum::new(Problem::Midway, [place(0), place(1)], &contact.normal, None)
     }
 
     /// `then` of the contact along the normal from an optimum.
     #[inline(always)]
-    fn along_normal<N: Single, T>(
+    fn along_normal<'p, N: Single, T>(
         &self,
-        optimum: Optimum<'a, N>,
+        optimum: Optimum<'p, N>,
         then: impl FnOnce(&dyn Linearised) -> T,
     ) -> Result<T, DerivativeError> {
         optimum.check()?;
-        let [Some(a), Some(b)] = &optimum.places else { return Err(DerivativeError::NoPoint) };
+        let [Some(a), Some(b)] = optimum.places else { return Err(DerivativeError::NoPoint) };
         let guesses = self.guesses();
-        let surface = |place: &Place<'a, N>, i: usize| SurfacePoint::new(&place.by_sign(), &optimum.axes, guesses[i]);
-        let surfaces = if self.is_overlap() { Some((surface(a, 0)?, Some(surface(b, 1)?))) } else { None };
+        let surface = |i: usize, place: Place<'p, N>| SurfacePoint::new(place.by_sign(), &optimum.axes, guesses[i]);
+        let surfaces = if self.is_overlap() { Some((surface(0, a)?, Some(surface(1, b)?))) } else { None };
         Ok(then(&AlongNormal { s: self.contact.s, surfaces, optimum }))
     }
 
@@ -257,10 +256,14 @@ impl<'a> Task<'a, '_> {
     }
 
     #[inline(always)]
-    fn closest(&self, branches: &[Seen; 2]) -> Result<Option<ClosestPoints<'a>>, DerivativeError> {
+    fn closest<'p>(
+        &self,
+        bodies: &'p [Potential<'a>; 2],
+        branches: &[Seen; 2],
+    ) -> Result<Option<ClosestPoints<'p>>, DerivativeError> {
         let optimum = |j: usize| -> Result<_, DerivativeError> {
             let (branches, error) = branches[j];
-            let place = |i: usize| Place::new(self.bodies[i], branches[i], error, self.least_sphericity);
+            let place = |i: usize| Place::new(&bodies[i], branches[i], error);
             let places = [place(0), place(1)];
             let normal = normal_at(ON[j], &places);
             let [a, b] = places;
@@ -279,36 +282,48 @@ impl<'a> Task<'a, '_> {
         Ok(Some(self.closest_points([on_a, on_b])))
     }
 
-    fn closest_points<N: Single>(&self, optima: [Optimum<'a, N>; 2]) -> ClosestPoints<'a, N> {
+    fn closest_points<'p, N: Single>(&self, optima: [Optimum<'p, N>; 2]) -> ClosestPoints<'p, N> {
         let scales = [self.contact.s_b, self.contact.s];
         ClosestPoints::new(optima, scales, self.settings.weight_on_a, self.is_overlap())
     }
 
+    #[cold]
+    fn precise_bodies(&self) -> [Potential<'a, DoubleDouble>; 2] {
+        [0, 1].map(|i| Potential::precise(self.bodies[i], self.least_sphericity))
+    }
+
     /// An optimum in 32 digits, from how far it lies from B.
     #[cold]
-    fn precise(&self, kind: Problem, branch_b: &Vector3<f64>) -> Result<Optimum<'a, DoubleDouble>, DerivativeError> {
+    fn precise<'p>(
+        &self,
+        bodies: &'p [Potential<'a, DoubleDouble>; 2],
+        kind: Problem,
+        branch_b: &Vector3<f64>,
+    ) -> Result<Optimum<'p, DoubleDouble>, DerivativeError> {
         let [pose_a, pose_b] = self.bodies.map(|body| body.1);
         let branch_b = wide(branch_b);
         let branch_a = branch_b + difference(pose_b.position(), pose_a.position());
-        let place = |i: usize, branch| Place::precise(self.bodies[i], branch, self.least_sphericity);
-        Optimum::refined(kind, [place(0, branch_a), place(1, branch_b)])
+        Optimum::refined(kind, [Place::precise(&bodies[0], branch_a), Place::precise(&bodies[1], branch_b)])
     }
 
-    #[inline(always)]
     /// `then` of the contact: in 32 digits where doubles have lost too many. It stays where it is made, as it is large.
+    #[inline(always)]
     fn linearised<T>(&self, then: impl FnOnce(&dyn Linearised) -> T) -> Result<T, DerivativeError> {
+        let bodies = [0, 1].map(|i| Potential::new(self.bodies[i], self.least_sphericity));
         if self.contact.formulation == Formulation::Midway {
-            let optimum = self.midway()?;
+            let optimum = self.midway(&bodies)?;
             if !optimum.wants_more() {
                 return self.along_normal(optimum, then);
             }
-            return self.along_normal(self.precise(Problem::Midway, &self.contact.branch_b)?, then);
+            let bodies = self.precise_bodies();
+            return self.along_normal(self.precise(&bodies, Problem::Midway, &self.contact.branch_b)?, then);
         }
         let branches = self.closest_branches()?;
-        if let Some(contact) = self.closest(&branches)? {
+        if let Some(contact) = self.closest(&bodies, &branches)? {
             return Ok(then(&contact));
         }
-        let optimum = |j: usize| self.precise(ON[j], &branches[j].0[1]);
+        let bodies = self.precise_bodies();
+        let optimum = |j: usize| self.precise(&bodies, ON[j], &branches[j].0[1]);
         Ok(then(&self.closest_points([optimum(0)?, optimum(1)?])))
     }
 }

@@ -12,12 +12,20 @@ use crate::particle::plane::Plane;
 use crate::pose::Pose;
 use nalgebra::{Matrix3, Vector3};
 
-/// A body and a point, seen from its centre.
-#[derive(Clone, Copy)]
-pub(super) struct Place<'a, N: Single = f64> {
+/// The potential of a body, as the solver had it.
+pub(super) struct Potential<'a, N: Single = f64> {
     pub particle: &'a Particle,
     /// Local to world.
     rotation: Matrix3<N>,
+    plane_weight: N,
+    /// Weight of the shadow sphere that the solver used.
+    pub sphere_weight: N,
+}
+
+/// A point, seen from the centre of a body.
+#[derive(Clone, Copy)]
+pub(super) struct Place<'a, N: Single = f64> {
+    pub body: &'a Potential<'a, N>,
     /// From the centre to the point, world axes.
     pub branch: Vector3<N>,
     /// Bound on the distance of the point to the optimum, and on what it has lost to rounding, lengths.
@@ -27,9 +35,6 @@ pub(super) struct Place<'a, N: Single = f64> {
     /// rounding of the point. 0 where the sign of the depth decides.
     blur: f64,
     listed: Listed,
-    plane_weight: N,
-    /// Weight of the shadow sphere that the solver used.
-    pub sphere_weight: N,
 }
 
 /// Places of planes, of which there are few.
@@ -83,46 +88,46 @@ fn regularised(particle: &Particle, least_sphericity: f64) -> f64 {
     least_sphericity / particle.bounding_radius().powi(2)
 }
 
-impl<'a> Place<'a> {
-    /// A point that is known to within `error`, and in which lengths of `from` were rounded.
+impl<'a> Potential<'a> {
     #[inline(always)]
-    pub fn new(
-        (particle, pose): (&'a Particle, &'a Pose),
-        branch: Vector3<f64>,
-        [error, from]: [f64; 2],
-        least_sphericity: f64,
-    ) -> Self {
+    pub fn new((particle, pose): (&'a Particle, &Pose), least_sphericity: f64) -> Self {
         Self {
             particle,
             rotation: *pose.rotation(),
-            branch,
-            error,
-            rounding: f64::EPSILON * (branch.norm() + from),
-            blur: 0.0,
-            listed: Listed::default(),
             plane_weight: particle.plane_weight,
             sphere_weight: particle.sphere_weight.max(regularised(particle, least_sphericity)),
         }
     }
 }
 
-impl<'a> Place<'a, DoubleDouble> {
+impl<'a> Potential<'a, DoubleDouble> {
     /// The same with the digits of the pose and the weights as they were given.
-    pub fn precise((particle, pose): (&'a Particle, &'a Pose), branch: Wide, least_sphericity: f64) -> Self {
+    pub fn precise((particle, pose): (&'a Particle, &Pose), least_sphericity: f64) -> Self {
         let (plane_weight, own) = extended_body::weights(particle);
         let least = regularised(particle, least_sphericity);
-        let mut place = Self {
+        Self {
             particle,
             rotation: Matrix3::from_columns(&extended_body::axes(pose)),
-            branch,
-            error: 0.0,
-            rounding: 0.0,
-            blur: 0.0,
-            listed: Listed::default(),
             plane_weight,
             sphere_weight: if particle.sphere_weight >= least { own } else { DoubleDouble::from(least) },
-        };
-        place.blur = rounding_in_doubles(particle, branch.map(DoubleDouble::rounded).norm());
+        }
+    }
+}
+
+impl<'a> Place<'a> {
+    /// A point that is known to within `error`, and in which lengths of `from` were rounded.
+    #[inline(always)]
+    pub fn new(body: &'a Potential<'a>, branch: Vector3<f64>, [error, from]: [f64; 2]) -> Self {
+        let rounding = f64::EPSILON * (branch.norm() + from);
+        Self { body, branch, error, rounding, blur: 0.0, listed: Listed::default() }
+    }
+}
+
+impl<'a> Place<'a, DoubleDouble> {
+    /// A point that is to be refined.
+    pub fn precise(body: &'a Potential<'a, DoubleDouble>, branch: Wide) -> Self {
+        let blur = rounding_in_doubles(body.particle, branch.map(DoubleDouble::rounded).norm());
+        let place = Self { body, branch, error: 0.0, rounding: 0.0, blur, listed: Listed::default() };
         let mut listed = Listed::default();
         place.visit_near(&place.local(), |plane, _, depth| {
             if depth.rounded().abs() <= place.blur {
@@ -164,6 +169,16 @@ fn rounding_in_doubles(particle: &Particle, length: f64) -> f64 {
     bounds.longest_normal * shift_in_a(length, length) + f64::EPSILON * bounds.offset_within(length)
 }
 
+impl<N: Single> Potential<'_, N> {
+    /// A direction in the local frame.
+    #[inline(always)]
+    fn local(&self, v: &Vector3<N>) -> Vector3<N> {
+        let r = &self.rotation;
+        let component = |i: usize| r[(0, i)] * v.x + r[(1, i)] * v.y + r[(2, i)] * v.z;
+        Vector3::new(component(0), component(1), component(2))
+    }
+}
+
 impl<'a, N: Single> Place<'a, N> {
     /// With the planes as the signs of their depths say.
     pub fn by_sign(self) -> Self {
@@ -183,14 +198,13 @@ impl<'a, N: Single> Place<'a, N> {
     /// The point in the local frame.
     #[inline(always)]
     fn local(&self) -> Vector3<N> {
-        let component = |i: usize| dot3(&self.rotation.column(i).into_owned(), &self.branch);
-        Vector3::new(component(0), component(1), component(2))
+        self.body.local(&self.branch)
     }
 
     /// Calls `visit` with place, normal and depth of each plane that may be active. Returns an upper bound on the depths of all others.
     #[inline(always)]
     fn visit_near(&self, y: &Vector3<N>, mut visit: impl FnMut(usize, Vector3<N>, N)) -> f64 {
-        let (near, shape) = (y.map(N::approximate), self.particle);
+        let (near, shape) = (y.map(N::approximate), self.body.particle);
         let doubles = N::UNIT >= 0.5 * f64::EPSILON;
         let early = if doubles { 0.0 } else { 2.0 * rounding_in_doubles(shape, near.norm()) };
         shape.visit_near(&near, early, |place, n, excess| {
@@ -219,32 +233,33 @@ impl<'a, N: Single> Place<'a, N> {
     #[inline(always)]
     pub fn field(&self, axes: &Matrix3<N>) -> Field<N> {
         // Written out: products of generic matrices are no loops that compilers unroll.
-        let turn = Matrix3::from_fn(|i, j| dot3(&axes.column(i).into_owned(), &self.rotation.column(j).into_owned()));
+        let axis = |i: usize| self.body.local(&axes.column(i).into_owned());
+        let (first, second, normal) = (axis(0), axis(1), axis(2));
+        let turn = |v: &Vector3<N>| Vector3::new(dot3(&first, v), dot3(&second, v), dot3(&normal, v));
         let y = self.local();
         let (mut square, mut pull, mut count) = (N::of(0.0), N::of(0.0), 0.0);
         let mut g = Vector3::zeros();
         let mut squares = Symmetric::default();
         let clear = self.visit_active(&y, |_, n, depth| {
-            let n = times(&turn, &n);
             square += depth * depth;
             pull += depth;
             count += 1.0;
             g += n * depth;
-            squares.add_square(&n);
+            squares.add_square(&turn(&n));
         });
-        let (w, m) = (self.plane_weight, self.sphere_weight);
+        let (w, m) = (self.body.plane_weight, self.body.sphere_weight);
         let two = N::of(2.0);
         let mut hessian = squares.weighted(two * w, &Symmetric::default(), N::of(0.0));
         for entry in [&mut hessian.xx, &mut hessian.yy, &mut hessian.zz] {
             *entry += two * m;
         }
-        let bounds = &self.particle.bounds;
+        let bounds = &self.body.particle.bounds;
         let length = self.branch.map(N::approximate).norm();
-        let is_told = clear > N::UNIT / f64::EPSILON * 2.0 * rounding_in_doubles(self.particle, length);
+        let is_told = clear > N::UNIT / f64::EPSILON * 2.0 * rounding_in_doubles(self.body.particle, length);
         let lost = count * bounds.longest_normal * self.rounding / pull.approximate();
         Field {
             value: w * square + m * self.branch.dot(&self.branch),
-            gradient: g * (two * w) + times(&turn, &y) * (two * m),
+            gradient: turn(&(g * (two * w) + y * (two * m))),
             hessian,
             clear: is_told && clear > bounds.longest_normal * self.error,
             lost: match count {
@@ -252,7 +267,7 @@ impl<'a, N: Single> Place<'a, N> {
                 0.0 => 0.0,
                 _ => lost,
             },
-            sloped: count > 0.0 || self.particle.sphere_weight > 0.0,
+            sloped: count > 0.0 || self.body.particle.sphere_weight > 0.0,
         }
     }
 
@@ -265,18 +280,18 @@ impl<'a, N: Single> Place<'a, N> {
             square += depth * depth;
             g += n * depth;
         });
-        let own = self.particle.sphere_weight;
+        let own = self.body.particle.sphere_weight;
         // The sphere of a regularised particle is its own to a double, which is enough of it.
-        let m = if self.sphere_weight.approximate() > own { N::of(own) } else { self.sphere_weight };
-        let w = self.plane_weight;
-        (w * square + m * dot3(&y, &y), times(&self.rotation, &((g * w + y * m) * N::of(2.0))))
+        let m = if self.body.sphere_weight.approximate() > own { N::of(own) } else { self.body.sphere_weight };
+        let w = self.body.plane_weight;
+        (w * square + m * dot3(&y, &y), times(&self.body.rotation, &((g * w + y * m) * N::of(2.0))))
     }
 
     /// Adds the derivative of σ·S + Γ·∇S at the point, Γ in world axes, in the shape.
     pub fn add_to_shape(&self, sigma: N, gamma: &Vector3<N>, sum: &mut ShapeGradient) {
-        let shape = self.particle;
-        let (y, gamma) = (self.local(), self.rotation.tr_mul(gamma));
-        let w2 = N::of(2.0) * self.plane_weight;
+        let shape = self.body.particle;
+        let (y, gamma) = (self.local(), self.body.rotation.tr_mul(gamma));
+        let w2 = N::of(2.0) * self.body.plane_weight;
         let mut of_weight = N::of(0.0);
         let mut add = |place: usize, n: Vector3<N>, depth: N| {
             let turned = gamma.dot(&n);

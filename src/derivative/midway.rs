@@ -1,11 +1,11 @@
 //! The contact of midway, and that of a boundary: one optimum, and the surfaces along the normal from there.
 
-use super::answer::{ContactDerivatives, ContactWeights, PoseRow, PoseRows};
-use super::optimum::{FieldWeights, Optimum};
-use super::rows::{Moved, Row, ToWorld, along, vector};
+use super::answer::{ContactDerivatives, ContactWeights, NO_ROW, PoseRows};
+use super::optimum::{ByMotion, FieldWeights, Optimum};
+use super::rows::{ByA, ToWorld};
 use super::surface::SurfacePoint;
 use crate::linalg::number::Single;
-use nalgebra::{ArrayStorage, Vector3};
+use nalgebra::Vector3;
 
 /// A contact along the normal from its optimum.
 pub(super) struct AlongNormal<'a, N: Single = f64> {
@@ -15,46 +15,43 @@ pub(super) struct AlongNormal<'a, N: Single = f64> {
     pub surfaces: Option<(SurfacePoint<'a, N>, Option<SurfacePoint<'a, N>>)>,
 }
 
-/// Of what does not apply.
-pub(super) const NO_ROW: PoseRow = PoseRow::from_array_storage(ArrayStorage([[f64::NAN]; 12]));
-pub(super) const NO_ROWS: PoseRows = PoseRows::from_array_storage(ArrayStorage([[f64::NAN; 3]; 12]));
-
 impl<N: Single> AlongNormal<'_, N> {
+    /// Written to its place, which holds what does not apply.
     #[inline(always)]
-    pub fn in_poses(&self) -> ContactDerivatives {
-        let axes = &self.optimum.axes;
+    pub fn in_poses(&self, to: &mut ContactDerivatives) {
         let to_world = ToWorld::of(&self.optimum);
-        let (moved, [point, normal]) = Moved::of(&self.optimum, &to_world, self.s);
-        let across = |rows: &[Row<N>; 2]| vector(axes, &[rows[0], rows[1], Row::zero()]);
-        let along = |row: &Row<N>| along(&axes.column(2).map(N::approximate), &row.pose_row());
-        let [x, y, z] = moved.point;
-        let (point_across, turned) = (across(&[x, y]), across(&moved.normal));
-        let at_optimum = point_across + along(&z);
-        let is_boundary = self.optimum.places[1].is_none();
-        let mut derivatives = ContactDerivatives {
-            s: moved.s.pose_row(),
-            s_b: NO_ROW,
-            overlap: NO_ROW,
-            normal: turned,
-            point: at_optimum,
-            point_on_a: NO_ROWS,
-            point_on_b: if is_boundary { at_optimum } else { NO_ROWS },
-            flags: self.optimum.flags,
-        };
-        let Some((on_a, on_b)) = &self.surfaces else { return derivatives };
-        let on_surface = |surface: &SurfacePoint<N>, is_of_a: bool| {
-            let row = to_world.of_point(surface.along_normal(&point, &normal, is_of_a), 2);
-            (point_across + turned * surface.way().approximate() + along(&row), row)
-        };
-        let (point_on_a, along_a) = on_surface(on_a, true);
-        let mut along_b = z;
-        derivatives.point_on_a = point_on_a;
-        match on_b {
-            Some(on_b) => (derivatives.point_on_b, along_b) = on_surface(on_b, false),
-            None => derivatives.point = 0.5 * (point_on_a + at_optimum),
+        let by_a = ByA::of(&self.optimum, self.s);
+        to_world.of_number(&by_a.s, &mut to.s);
+        to_world.of_point(&by_a.point, &mut to.point);
+        to_world.of_normal(&by_a.normal, &mut to.normal);
+        to.flags = self.optimum.flags;
+        if self.optimum.places[1].is_none() {
+            to.point_on_b = to.point;
         }
-        derivatives.overlap = (along_a - along_b).pose_row();
-        derivatives
+        let Some((on_a, on_b)) = &self.surfaces else { return };
+        let normal = to_world.normal();
+        // From the optimum along the normal, as far as the way there is.
+        let on_surface =
+            |surface: &SurfacePoint<N>, by_a: &ByMotion<N>, [point, turned]: [&PoseRows; 2], to: &mut PoseRows| {
+                let (length, mut way) = (surface.way().approximate(), NO_ROW);
+                to_world.of_number(by_a, &mut way);
+                for j in 0..12 {
+                    for i in 0..3 {
+                        to[(i, j)] = point[(i, j)] + length * turned[(i, j)] + normal[i] * way[j];
+                    }
+                }
+            };
+        let mut way = on_a.way_by_a(&by_a, true);
+        on_surface(on_a, &way, [&to.point, &to.normal], &mut to.point_on_a);
+        match on_b {
+            Some(on_b) => {
+                let way_b = on_b.way_by_a(&by_a, false);
+                on_surface(on_b, &way_b, [&to.point, &to.normal], &mut to.point_on_b);
+                (0..5).for_each(|column| way[column] -= way_b[column]);
+            }
+            None => to.point = 0.5 * (to.point_on_a + to.point),
+        }
+        to_world.of_number(&way, &mut to.overlap);
     }
 
     /// The weights on the potentials at the optimum, and on S at both surface points.

@@ -1,12 +1,12 @@
 //! How an optimum moves with the potentials, forward and reverse.
 //!
 //! All vectors are in the axes of the optimum: two directions across the normal and the normal. Motions of a body are those at the optimum:
-//! three columns of the velocity of its point there and three of its turn.
+//! three columns of the velocity of its point there and two of its turn.
 
 use super::answer::{DerivativeError, DerivativeFlags};
-use super::field::{Field, Place, dot3};
+use super::field::{Field, Place, Potential, dot3};
 use crate::linalg::double_double::DoubleDouble;
-use crate::linalg::graded_basis::any_across;
+use crate::linalg::graded_basis::least_axis;
 use crate::linalg::number::Single;
 use crate::linalg::symmetric::Symmetric;
 use nalgebra::{Matrix2, Matrix2x3, Matrix3, Vector2, Vector3};
@@ -66,8 +66,9 @@ pub(super) struct Optimum<'a, N: Single = f64> {
     pub flags: DerivativeFlags,
 }
 
-/// The derivative of a number in the motion of A: three components of the velocity of its point at the optimum, three of its turn.
-pub(super) type ByMotion<N> = [N; 6];
+/// The derivative of a number in the motion of A: three components of the velocity of its point at the optimum, and two of its turn; one
+/// about the normal, along which the gradient is, changes nothing there.
+pub(super) type ByMotion<N> = [N; 5];
 
 /// Weights σ on δS and Γ on δg of a body, Γ in world axes.
 #[derive(Clone, Copy)]
@@ -172,12 +173,12 @@ impl<N: Single> Local<N> {
         let ratio = h.m12 / stiff;
         let least = if dimensions == 2 { soft - ratio * h.m12 } else { h.m11 };
         // Of the two spheres, in all and by regularisation.
-        let weighted = |of: fn(&Place<N>) -> N| -> N {
-            let weight = |i: usize| places[i].as_ref().map_or(N::of(0.0), |place| self.weights[i] * of(place));
+        let weighted = |of: fn(&Potential<N>) -> N| -> N {
+            let weight = |i: usize| places[i].as_ref().map_or(N::of(0.0), |place| self.weights[i] * of(place.body));
             N::of(2.0) * (weight(0) + weight(1))
         };
-        let least = least.larger(weighted(|place| place.sphere_weight));
-        let added = weighted(|place| place.sphere_weight - N::of(place.particle.sphere_weight)).approximate();
+        let least = least.larger(weighted(|body| body.sphere_weight));
+        let added = weighted(|body| body.sphere_weight - N::of(body.particle.sphere_weight)).approximate();
         if !(least.is_positive() && least.is_finite()) {
             return Err(DerivativeError::NoCurvature);
         }
@@ -202,12 +203,14 @@ impl<'a, N: Single> Optimum<'a, N> {
         normal: &Vector3<N>,
         along: Option<Vector3<N>>,
     ) -> Result<Self, DerivativeError> {
-        let axes_along = |near: Vector3<N>| {
-            let first = unit(&(near - normal * dot3(normal, &near)));
+        let axes_along = |across: Vector3<N>| {
+            let first = across * (N::of(1.0) / dot3(&across, &across).root());
             Matrix3::from_columns(&[first, normal.cross(&first), *normal])
         };
-        let first = along.unwrap_or_else(|| any_across(&normal.map(N::approximate)).map(N::of));
-        let mut axes = axes_along(first);
+        let mut axes = axes_along(match along {
+            Some(along) => along - normal * dot3(normal, &along),
+            None => normal.cross(&least_axis(&normal.map(N::approximate)).map(N::of)),
+        });
         let mut local = Local::of(kind, &places, &axes);
         if let Some(stiffest) = local.graded().filter(|_| along.is_none()) {
             let [x, y] = [N::of(stiffest.x), N::of(stiffest.y)];
@@ -274,13 +277,13 @@ impl<'a, N: Single> Optimum<'a, N> {
     pub fn moved_by_a(&self) -> [ByMotion<N>; 3] {
         let (weight, along, zero) = (self.weights[0], self.shares[0], N::of(0.0));
         let (h, k) = (&self.fields[0].hessian, &self.inverse);
-        // a(ω × g − H v) + ζ H n for the six columns.
+        // a(ω × g − H v) + ζ H n for the five columns.
         let turned = weight * self.slopes[0];
         let bent = [along * self.bend.x - weight * h.zx, along * self.bend.y - weight * h.zy];
-        let first = [-weight * h.xx, -weight * h.yx, bent[0], zero, turned, zero];
-        let second = [-weight * h.yx, -weight * h.yy, bent[1], -turned, zero, zero];
+        let first = [-weight * h.xx, -weight * h.yx, bent[0], zero, turned];
+        let second = [-weight * h.yx, -weight * h.yy, bent[1], -turned, zero];
         let row = |x: N, y: N| std::array::from_fn(|column| -(x * first[column] + y * second[column]));
-        [row(k.m11, k.m12), row(k.m21, k.m22), [zero, zero, along, zero, zero, zero]]
+        [row(k.m11, k.m12), row(k.m21, k.m22), [zero, zero, along, zero, zero]]
     }
 
     /// How the normal turns with A, along the axes across it, where its point moves so.
@@ -299,7 +302,7 @@ impl<'a, N: Single> Optimum<'a, N> {
             turned[1][3] -= N::of(1.0);
         }
         // On a boundary it stays at right angles to that.
-        (0..self.held()).for_each(|i| turned[i] = [N::of(0.0); 6]);
+        (0..self.held()).for_each(|i| turned[i] = [N::of(0.0); 5]);
         turned
     }
 

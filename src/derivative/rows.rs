@@ -1,148 +1,110 @@
-//! Derivatives of numbers in both poses, and their way from the axes of an optimum to the world.
+//! How points, normals and numbers move with both poses, from how they move with A alone.
+//!
+//! If both bodies move alike, a point and a normal go with them and a number stays: the motion of B is that of both less that of A.
 
 use super::answer::{PoseRow, PoseRows};
 use super::field::times;
 use super::optimum::{ByMotion, Optimum};
 use crate::linalg::number::Single;
 use nalgebra::{Matrix3, Vector3};
-use std::ops::{Add, Mul, Sub};
 
-/// The derivative of a number: in the shift and turn of A, and in those of B.
-#[derive(Clone, Copy)]
-pub(super) struct Row<N>(pub [Vector3<N>; 4]);
-
-impl<N: Single> Row<N> {
-    pub fn zero() -> Self {
-        Self([Vector3::zeros(); 4])
-    }
-
-    #[inline(always)]
-    pub fn pose_row(&self) -> PoseRow {
-        PoseRow::from_fn(|_, column| self.0[column / 3][column % 3].approximate())
-    }
-}
-
-impl<N: Single> Add for Row<N> {
-    type Output = Self;
-
-    fn add(self, other: Self) -> Self {
-        Self([0, 1, 2, 3].map(|i| self.0[i] + other.0[i]))
-    }
-}
-
-impl<N: Single> Sub for Row<N> {
-    type Output = Self;
-
-    fn sub(self, other: Self) -> Self {
-        Self([0, 1, 2, 3].map(|i| self.0[i] - other.0[i]))
-    }
-}
-
-impl<N: Single> Mul<N> for Row<N> {
-    type Output = Self;
-
-    fn mul(self, factor: N) -> Self {
-        Self(self.0.map(|v| v * factor))
-    }
-}
-
-/// The derivative of a vector from those of its components along axes (columns).
-#[inline(always)]
-pub(super) fn vector<N: Single>(axes: &Matrix3<N>, components: &[Row<N>; 3]) -> PoseRows {
-    let axes = axes.map(N::approximate);
-    let [x, y, z] = components.each_ref().map(Row::pose_row);
-    let mut rows = PoseRows::zeros();
-    for column in 0..12 {
-        for i in 0..3 {
-            rows[(i, column)] = axes[(i, 0)] * x[column] + axes[(i, 1)] * y[column] + axes[(i, 2)] * z[column];
-        }
-    }
-    rows
-}
-
-/// The derivative of a vector along an axis from that of its length.
-#[inline(always)]
-pub(super) fn along(axis: &Vector3<f64>, row: &PoseRow) -> PoseRows {
-    let mut rows = PoseRows::zeros();
-    for column in 0..12 {
-        (0..3).for_each(|i| rows[(i, column)] = axis[i] * row[column]);
-    }
-    rows
-}
-
-/// How an optimum, and the normal there, move with both poses; components along its axes.
-pub(super) struct Moved<N> {
-    /// Across the normal, and along it.
-    pub point: [Row<N>; 3],
-    /// Across the normal.
-    pub normal: [Row<N>; 2],
-    /// Of the root of the least S.
-    pub s: Row<N>,
-}
+/// The columns of a matrix.
+type Columns = [Vector3<f64>; 3];
 
 /// From motions at the optimum in its axes to those of both bodies in the world.
-pub(super) struct ToWorld<N> {
-    axes: Matrix3<N>,
+pub(super) struct ToWorld {
+    axes: Matrix3<f64>,
     /// From the centres to the optimum; of a boundary from that of A.
-    branches: [Vector3<N>; 2],
+    branches: [Vector3<f64>; 2],
 }
 
-impl<N: Single> ToWorld<N> {
+/// M [b]×, which takes a turn about a centre to the motion at a point so far from it, and that to M.
+#[inline(always)]
+fn crossed([x, y, z]: &Columns, b: &Vector3<f64>) -> Columns {
+    [y * b.z - z * b.y, z * b.x - x * b.z, x * b.y - y * b.x]
+}
+
+impl ToWorld {
     #[inline(always)]
-    pub fn of(optimum: &Optimum<N>) -> Self {
-        let of_a = optimum.places[0].as_ref().map_or_else(Vector3::zeros, |place| place.branch);
-        let of_b = optimum.places[1].as_ref().map_or(of_a, |place| place.branch);
-        Self { axes: optimum.axes, branches: [of_a, of_b] }
+    pub fn of<N: Single>(optimum: &Optimum<N>) -> Self {
+        let branch = |i: usize| optimum.places[i].as_ref().map(|place| place.branch.map(N::approximate));
+        let of_a = branch(0).unwrap_or_else(Vector3::zeros);
+        Self { axes: optimum.axes.map(N::approximate), branches: [of_a, branch(1).unwrap_or(of_a)] }
     }
 
-    /// From the derivative in the motion of A, and that of both together: in the velocity, and in the turn, world axes.
-    #[inline(always)]
-    fn row(&self, by_a: ByMotion<N>, together: [Vector3<N>; 2]) -> Row<N> {
-        let [vx, vy, vz, tx, ty, tz] = by_a;
-        let (velocity, turn) =
-            (times(&self.axes, &Vector3::new(vx, vy, vz)), times(&self.axes, &Vector3::new(tx, ty, tz)));
-        self.of_both([velocity, turn], [together[0] - velocity, together[1] - turn])
+    pub fn normal(&self) -> Vector3<f64> {
+        self.axes.column(2).into_owned()
     }
 
-    /// A body turned about its centre moves the point as well.
+    /// From the derivative in the motion of A, and from that in motions of both together, world axes. Written out, and into its place: closures
+    /// and copies would take longer than the numbers.
     #[inline(always)]
-    fn of_both(&self, a: [Vector3<N>; 2], b: [Vector3<N>; 2]) -> Row<N> {
-        Row([a[0], a[1] + self.branches[0].cross(&a[0]), b[0], b[1] + self.branches[1].cross(&b[0])])
+    fn of_both<N: Single>(&self, [x, y, z]: &[ByMotion<N>; 3], together: &[Columns; 2], rows: &mut PoseRows) {
+        let q = &self.axes;
+        let mut own = [Vector3::zeros(); 5];
+        for i in 0..5 {
+            own[i] = times(q, &Vector3::new(x[i].approximate(), y[i].approximate(), z[i].approximate()));
+        }
+        let (mut by_a, mut by_b) = ([Vector3::zeros(); 3], [Vector3::zeros(); 3]);
+        for j in 0..3 {
+            by_a[j] = own[0] * q[(j, 0)] + own[1] * q[(j, 1)] + own[2] * q[(j, 2)];
+            by_b[j] = together[0][j] - by_a[j];
+        }
+        let (arm_a, arm_b) = (crossed(&by_a, &self.branches[0]), crossed(&by_b, &self.branches[1]));
+        let columns = &mut rows.data.0;
+        for j in 0..3 {
+            let turn = own[3] * q[(j, 0)] + own[4] * q[(j, 1)];
+            columns[j] = by_a[j].into();
+            columns[3 + j] = (turn - arm_a[j]).into();
+            columns[6 + j] = by_b[j].into();
+            columns[9 + j] = (together[1][j] - turn - arm_b[j]).into();
+        }
     }
 
-    /// Of a component that a motion of both moves with the bodies along this axis.
+    /// Of a point.
     #[inline(always)]
-    pub fn of_point(&self, by_a: ByMotion<N>, axis: usize) -> Row<N> {
-        self.row(by_a, [self.axes.column(axis).into_owned(), Vector3::zeros()])
+    pub fn of_point<N: Single>(&self, by_a: &[ByMotion<N>; 3], rows: &mut PoseRows) {
+        self.of_both(by_a, &[UNIT, ZERO], rows);
     }
 
-    /// Of a component of the normal along this axis.
+    /// Of the normal, whose components across itself move so.
     #[inline(always)]
-    fn of_normal(&self, by_a: ByMotion<N>, axis: usize) -> Row<N> {
-        let turn = self.axes.column(2).cross(&self.axes.column(axis));
-        self.row(by_a, [Vector3::zeros(), turn])
+    pub fn of_normal<N: Single>(&self, [x, y]: &[ByMotion<N>; 2], rows: &mut PoseRows) {
+        self.of_both(&[*x, *y, [N::of(0.0); 5]], &[ZERO, crossed(&UNIT, &-self.normal())], rows);
     }
 
-    /// Of a number that is the same wherever both bodies are, and changes with how far A moves along the normal alone.
+    /// Of a number that is the same wherever both bodies are.
     #[inline(always)]
-    fn of_invariant(&self, by_approach: N) -> Row<N> {
-        let along = self.axes.column(2) * by_approach;
-        self.of_both([along, Vector3::zeros()], [-along, Vector3::zeros()])
+    pub fn of_number<N: Single>(&self, [x, y, z, on_x, on_y]: &ByMotion<N>, row: &mut PoseRow) {
+        let velocity = times(&self.axes, &Vector3::new(x.approximate(), y.approximate(), z.approximate()));
+        let turn = times(&self.axes, &Vector3::new(on_x.approximate(), on_y.approximate(), 0.0));
+        let turn_a = turn + self.branches[0].cross(&velocity);
+        let turn_b = turn + self.branches[1].cross(&velocity);
+        for j in 0..3 {
+            row[j] = velocity[j];
+            row[3 + j] = turn_a[j];
+            row[6 + j] = -velocity[j];
+            row[9 + j] = -turn_b[j];
+        }
     }
 }
 
-impl<N: Single> Moved<N> {
-    /// `s` is the root of the least S. Also gives how the point moves across the normal, and the normal, with A alone: own axes.
+const ZERO: Columns = [Vector3::new(0.0, 0.0, 0.0); 3];
+const UNIT: Columns = [Vector3::new(1.0, 0.0, 0.0), Vector3::new(0.0, 1.0, 0.0), Vector3::new(0.0, 0.0, 1.0)];
+
+/// How an optimum moves with A alone, own axes: the point, across the normal and along it, the normal across itself, and the root of the least S.
+pub(super) struct ByA<N> {
+    pub point: [ByMotion<N>; 3],
+    pub normal: [ByMotion<N>; 2],
+    pub s: ByMotion<N>,
+}
+
+impl<N: Single> ByA<N> {
+    /// `s` is the root of the least S.
     #[inline(always)]
-    pub fn of(optimum: &Optimum<N>, to_world: &ToWorld<N>, s: f64) -> (Self, [[ByMotion<N>; 2]; 2]) {
-        let by_a = optimum.moved_by_a();
-        let normal = optimum.normal_by_a(&by_a);
-        let slope = -optimum.of_value() * optimum.weights[0] * optimum.slope(0) / N::of(2.0 * s);
-        let moved = Self {
-            point: [0, 1, 2].map(|axis| to_world.of_point(by_a[axis], axis)),
-            normal: [0, 1].map(|axis| to_world.of_normal(normal[axis], axis)),
-            s: to_world.of_invariant(slope),
-        };
-        (moved, [[by_a[0], by_a[1]], normal])
+    pub fn of(optimum: &Optimum<N>, s: f64) -> Self {
+        let point = optimum.moved_by_a();
+        let (zero, slope) = (N::of(0.0), optimum.of_value() * optimum.weights[0] * optimum.slope(0));
+        Self { normal: optimum.normal_by_a(&point), point, s: [zero, zero, -slope / N::of(2.0 * s), zero, zero] }
     }
 }

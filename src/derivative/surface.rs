@@ -3,6 +3,7 @@
 use super::answer::DerivativeError;
 use super::field::Place;
 use super::optimum::ByMotion;
+use super::rows::ByA;
 use crate::linalg::number::Single;
 use nalgebra::{Matrix3, Vector3};
 
@@ -20,13 +21,13 @@ pub(super) struct SurfacePoint<'a, N: Single = f64> {
 impl<'a, N: Single> SurfacePoint<'a, N> {
     /// Of a body at an optimum, near a guess.
     #[inline(always)]
-    pub fn new(place: &Place<'a, N>, axes: &Matrix3<N>, guess: f64) -> Result<Self, DerivativeError> {
+    pub fn new(at_optimum: Place<'a, N>, axes: &Matrix3<N>, guess: f64) -> Result<Self, DerivativeError> {
         let normal = axes.column(2).into_owned();
         let mut way = N::of(guess);
-        let rounding = 8.0 * N::UNIT * (place.branch.map(N::approximate).norm() + guess.abs());
+        let rounding = 8.0 * N::UNIT * (at_optimum.branch.map(N::approximate).norm() + guess.abs());
         let mut corrections = 0;
         loop {
-            let place = place.moved(&(normal * way));
+            let place = at_optimum.moved(&(normal * way));
             let (value, gradient) = place.tangent();
             let gradient = axes.tr_mul(&gradient);
             let correction = (N::of(1.0) - value) / gradient.z;
@@ -51,16 +52,16 @@ impl<'a, N: Single> SurfacePoint<'a, N> {
         self.gradient
     }
 
-    /// How it moves along the normal with A, where optimum and normal move so across it.
+    /// How the way there changes with A, where optimum and normal move so.
     #[inline(always)]
-    pub fn along_normal(&self, point: &[ByMotion<N>; 2], normal: &[ByMotion<N>; 2], is_of_a: bool) -> ByMotion<N> {
+    pub fn way_by_a(&self, ByA { point, normal, .. }: &ByA<N>, is_of_a: bool) -> ByMotion<N> {
         let mut across = [0, 1]
             .map(|i| -> ByMotion<N> { std::array::from_fn(|column| point[i][column] + normal[i][column] * self.way) });
-        let (zero, one) = (N::of(0.0), N::of(1.0));
-        let mut along = [zero; 6];
+        let one = N::of(1.0);
+        let mut along = point[2].map(|z| -z);
         if is_of_a {
             // Beside what the body moves by itself at P, v + ω × way·n.
-            along[2] = one;
+            along[2] += one;
             across[0][0] -= one;
             across[1][1] -= one;
             across[0][4] -= self.way;

@@ -97,9 +97,20 @@ impl Stiffest {
 
 /// A unit vector at right angles to a unit vector.
 pub(crate) fn any_across(n: &Vector3<f64>) -> Vector3<f64> {
-    // Of equally good axes the last: across a normal in the plane z = 0 that gives another one in it.
-    let axis = (0..3).rev().min_by(|&i, &j| n[i].abs().total_cmp(&n[j].abs())).unwrap_or(2);
-    n.cross(&Vector3::ith(axis, 1.0)).normalize()
+    n.cross(&least_axis(n)).normalize()
+}
+
+/// The axis to which a vector is nearest to being at right angles; of equally good ones the last: across a normal in the plane z = 0 that gives
+/// another one in it.
+pub(crate) fn least_axis(n: &Vector3<f64>) -> Vector3<f64> {
+    let [x, y, z] = [n.x.abs(), n.y.abs(), n.z.abs()];
+    if z <= x && z <= y {
+        Vector3::z()
+    } else if y <= x {
+        Vector3::y()
+    } else {
+        Vector3::x()
+    }
 }
 
 #[cfg(test)]

@@ -34,8 +34,9 @@ static void sizes_are_those_of_the_library(void) {
     CHECK(pp_struct_size(PP_STRUCT_SHAPE_GRADIENT) == sizeof(pp_shape_gradient));
     CHECK(pp_struct_size(PP_STRUCT_POSE_GRADIENT) == sizeof(pp_pose_gradient));
     CHECK(pp_struct_size(PP_STRUCT_PATCH_DERIVATIVES) == sizeof(pp_patch_derivatives));
+    CHECK(pp_struct_size(PP_STRUCT_BUILT) == sizeof(pp_built));
     /* 3, 10 and 11 were structs of an older interface. */
-    const uint32_t unknown[] = {0, 3, 10, 11, 34, UINT32_MAX};
+    const uint32_t unknown[] = {0, 3, 10, 11, 35, UINT32_MAX};
     for (int i = 0; i < 6; i++) CHECK(pp_struct_size(unknown[i]) == 0);
 }
 

@@ -43,5 +43,6 @@ int main(int count, char **arguments) {
     test_patch();
     test_derivatives();
     test_rock();
+    test_builder();
     return check_report();
 }

@@ -28,5 +28,6 @@ void test_packing(void);
 void test_patch(void);
 void test_derivatives(void);
 void test_rock(void);
+void test_builder(void);
 
 #endif

@@ -4,11 +4,9 @@
 #include "potential_particles.h"
 #include "registration/python_bytes.hpp"
 
-#include <boost/python/errors.hpp>
 #include <boost/python/extract.hpp>
 
 #include <algorithm>
-#include <cstring>
 #include <memory>
 #include <stdexcept>
 #include <vector>
@@ -20,21 +18,6 @@ namespace potential_particles {
 namespace {
 
     template <class T> T field(const py::dict& from, const char* name) { return py::extract<T>(from[name]); }
-
-    // Rows that numpy wrote.
-    template <class T> std::vector<T> rows(const py::object& bytes)
-    {
-        char* data = nullptr;
-        Py_ssize_t size = 0;
-        if (PyBytes_AsStringAndSize(bytes.ptr(), &data, &size) != 0)
-            py::throw_error_already_set();
-        if (size % static_cast<Py_ssize_t>(sizeof(T)) != 0)
-            throw std::invalid_argument("an array of a rock mass has another length than its rows");
-        std::vector<T> read(static_cast<std::size_t>(size) / sizeof(T));
-        if (size > 0)
-            std::memcpy(read.data(), data, static_cast<std::size_t>(size));
-        return read;
-    }
 
     void require(pp_status status, const char* message)
     {
@@ -89,7 +72,7 @@ namespace {
 
 py::object jointFromCorners(const py::object& corners)
 {
-    const auto given = rows<Point>(corners);
+    const auto given = rowsOf<Point>(corners);
     std::vector<pp_joint> made(1);
     char message[PP_MESSAGE_SIZE] = "";
     require(pp_joint_from_corners(given.empty() ? nullptr : given[0].at, given.size(), made.data(), message, sizeof message), message);
@@ -128,9 +111,9 @@ py::dict sliceRock(const py::object& domain, const py::object& joints, const py:
     struct Row {
         Plane plane;
     };
-    const auto outer = rows<Row>(domain), regions = rows<Row>(regionPlanes);
-    const auto planes = rows<pp_joint>(joints);
-    const auto corners = rows<Point>(outlines);
+    const auto outer = rowsOf<Row>(domain), regions = rowsOf<Row>(regionPlanes);
+    const auto planes = rowsOf<pp_joint>(joints);
+    const auto corners = rowsOf<Point>(outlines);
     const auto ofJoints = counts(outlineCounts), ofRegions = counts(regionCounts);
     pp_slice_settings limits {};
     limits.least_volume = field<double>(settings, "least_volume");

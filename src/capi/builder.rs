@@ -1,0 +1,138 @@
+//! Builders of particles over the C boundary: from half-spaces or points to a particle about its centroid.
+
+use super::fence::{array, fenced, output};
+use super::particle::{explain_status, particle_status, pp_particle, write_message};
+use super::status::*;
+use super::types::pp_mass_properties;
+use crate::Plane;
+use crate::shapes::{self, Rounding, Shape, ShapeError};
+use std::ffi::c_char;
+
+/// How a particle that was built stands in the frame of its planes or points: x_given = centroid +
+/// orientation x.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct pp_built {
+    /// Origin of the particle's frame, which is its centroid; in the given frame, length.
+    pub centroid: [f64; 3],
+    /// Quaternion (w, x, y, z) of unit length, w >= 0, that turns from the particle's frame, whose axes are
+    /// principal axes of inertia, to the given one.
+    pub orientation: [f64; 4],
+    /// Of the particle in its own frame, to 1e-6.
+    pub mass: pp_mass_properties,
+}
+
+/// Builds a particle whose faces are at given planes, about its centroid and along its principal axes.
+///
+/// planes: count rows of a, b, c, h; inside is a x + b y + c z <= h. (a, b, c) may have any length. These
+/// are the faces themselves; the planes of pp_particle_new lie deeper, by about r. Planes that make no face
+/// are left out.
+/// r: rounding radius over the size, in (0, 0.5). The size is the diameter of the largest ball between the
+/// planes. k: sphericity, in [0, 1]. shadow_radius: R over the size, or 0 for the distance from the centroid to
+/// the farthest corner.
+/// out: receives the particle; release it with pp_particle_free.
+/// built: receives how it stands in the given frame, and its mass properties (may be NULL).
+/// message: receives, on failure, a sentence that names the plane or value (may be NULL).
+/// Errors: PP_NULL_POINTER, PP_PLANE_ZERO_NORMAL (also of a plane whose numbers are not finite),
+/// PP_UNBOUNDED (the planes enclose no volume), and those of pp_particle_new.
+/// Pointers: planes points to 4*count doubles, out to one pointer, built to one struct, message to
+/// message_size bytes.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn pp_particle_from_faces(
+    planes: *const f64,
+    count: usize,
+    r: f64,
+    k: f64,
+    shadow_radius: f64,
+    out: *mut *mut pp_particle,
+    built: *mut pp_built,
+    message: *mut c_char,
+    message_size: usize,
+) -> pp_status {
+    let make = || {
+        // SAFETY: the caller promised 4*count doubles.
+        let rows = unsafe { array(planes.cast::<[f64; 4]>(), count) }?;
+        let planes: Vec<Plane> = rows.iter().map(|&row| Plane::from(row)).collect();
+        Ok(shapes::half_spaces(&planes, &rounding(r, k, shadow_radius)))
+    };
+    // SAFETY: out, built and message are the caller's, as promised.
+    unsafe { build(make, "planes and out must not be NULL", out, built, message, message_size) }
+}
+
+/// Builds a particle from the convex hull of points, about its centroid and along its principal axes.
+///
+/// points: count rows of x, y, z, in any order; those inside the hull do not matter. No part of the particle
+/// lies outside the hull. Triangles of the hull that are coplanar to 1e-6 of its extent are one face.
+/// All else as pp_particle_from_faces.
+/// Errors: PP_NULL_POINTER, PP_BAD_POINT, PP_UNBOUNDED (fewer than four points, or all in one plane), and
+/// those of pp_particle_new.
+/// Pointers: points points to 3*count doubles, out to one pointer, built to one struct, message to
+/// message_size bytes.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn pp_particle_from_points(
+    points: *const f64,
+    count: usize,
+    r: f64,
+    k: f64,
+    shadow_radius: f64,
+    out: *mut *mut pp_particle,
+    built: *mut pp_built,
+    message: *mut c_char,
+    message_size: usize,
+) -> pp_status {
+    let make = || {
+        // SAFETY: the caller promised 3*count doubles.
+        let points = unsafe { array(points.cast::<[f64; 3]>(), count) }?;
+        Ok(shapes::hull(points, &rounding(r, k, shadow_radius)))
+    };
+    // SAFETY: out, built and message are the caller's, as promised.
+    unsafe { build(make, "points and out must not be NULL", out, built, message, message_size) }
+}
+
+fn rounding(r: f64, k: f64, shadow_radius: f64) -> Rounding {
+    let rounding = Rounding::new(r, k);
+    if shadow_radius == 0.0 { rounding } else { rounding.with_shadow_radius(shadow_radius) }
+}
+
+/// Hands a shape to the caller, or the reason why there is none.
+/// Pointers: out and built are NULL or valid for writing, message is NULL or valid for writing size bytes.
+unsafe fn build(
+    make: impl FnOnce() -> Result<Result<Shape, ShapeError>, pp_status>,
+    null: &str,
+    out: *mut *mut pp_particle,
+    built: *mut pp_built,
+    message: *mut c_char,
+    message_size: usize,
+) -> pp_status {
+    let status = fenced(|| {
+        // SAFETY: by contract.
+        let out = unsafe { output(out) }?;
+        let shape = make()?.map_err(|error| {
+            // SAFETY: by contract.
+            unsafe { write_message(&error.to_string(), message, message_size) };
+            status_of(&error)
+        })?;
+        // SAFETY: by contract.
+        if let Ok(built) = unsafe { output(built) } {
+            let (centroid, orientation) = (shape.centroid.into(), shape.orientation);
+            built.write(pp_built { centroid, orientation, mass: (&shape.mass).into() });
+        }
+        out.write(Box::into_raw(Box::new(pp_particle(shape.particle))));
+        Ok(())
+    });
+    // SAFETY: by contract.
+    unsafe { explain_status(status, null, message, message_size) };
+    status
+}
+
+fn status_of(error: &ShapeError) -> pp_status {
+    match error {
+        ShapeError::OutOfRange { name: "r", .. } => PP_BAD_ROUNDING_RADIUS,
+        ShapeError::OutOfRange { name: "k", .. } => PP_BAD_SPHERICITY,
+        ShapeError::OutOfRange { .. } | ShapeError::NoCentre { .. } => PP_BAD_SHADOW_RADIUS,
+        ShapeError::PointNotFinite(_) => PP_BAD_POINT,
+        ShapeError::NoPlane(_) => PP_PLANE_ZERO_NORMAL,
+        ShapeError::Particle(error) => particle_status(error),
+        _ => PP_UNBOUNDED,
+    }
+}
