@@ -162,12 +162,15 @@
 // struct pp_patch_derivatives, for pp_struct_size.
 #define PP_STRUCT_PATCH_DERIVATIVES 33
 
-// A plane may be about to switch: whether it is active at the contact point cannot be told. The derivatives
-// are those for the side on which it is off; that of s is the same on both.
+// struct pp_built, for pp_struct_size.
+#define PP_STRUCT_BUILT 34
+
+// Whether a plane is active at the contact point cannot be told. The derivatives are those with the plane
+// inactive; the derivative of s is the same either way.
 #define PP_DERIVATIVE_SWITCHING 1
 
-// Faces or edges (k = 0, or nearly) leave a direction across the normal free: in it the point moves as the
-// regularisation says (flat_regularisation), by up to its inverse.
+// Flat faces or edges touch (k = 0, or nearly): along them flat_regularisation alone holds the point, whose
+// derivatives may be as large as 1/flat_regularisation.
 #define PP_DERIVATIVE_FREE 2
 
 // The contact is separated: overlap and surface points have no derivatives, and are NaN.
@@ -203,8 +206,8 @@
 // Rows of sizes: a size, and its share of the mass; shares add up to 1.
 #define PP_BY_MASS 1
 
-// Rows of sizes: a grading curve, linear between its rows: a size, and the share of the mass in bodies
-// below it; both grow, the shares from 0 to 1.
+// Rows of sizes: a grading curve, each row a size and the share of the mass in smaller bodies, linear
+// between rows. Sizes increase from row to row, and shares from 0 to 1.
 #define PP_PASSING 2
 
 // Most planes that a particle may have.
@@ -259,9 +262,8 @@
 // The two particles overlap: s < 1.
 #define PP_OVERLAPPING 2
 
-// "closest" was asked for, but its constraint is slack: a centre (for k = 0, the core) of one particle
-// lies inside the other, or cannot be told from that, so that |P1 - P2| is no overlap distance. All fields
-// are those of midway.
+// "closest" was asked for and has no answer: the centre (for k = 0, the core) of one particle lies inside
+// the other, or may do so within rounding, and |P1 - P2| is no overlap then. All fields are those of midway.
 #define PP_FLAG_SLACK 1
 
 // Separation was proved without solving to the end: s is a proved lower bound >= 1; of the geometry only
@@ -347,16 +349,15 @@ typedef struct pp_settings {
     // Weight of the point on A in the contact point of PP_CLOSEST: point = w*P1 + (1-w)*P2,
     // in [0, 1], default 0.5 (equal stiffness). Paper: relative stiffness of the particles.
     double weight_on_a;
-    // Smallest sphericity that the solver treats as given; below it, the point on a flat face
-    // is chosen as if k were this value (shape, s and overlap stay those of the given k).
-    // In [0, 0.1], default 1e-13; less counts as that. Raise it (1e-4, say) when flat faces jitter. Whether
-    // the particles overlap at all is never left to it: where it would be, the default decides
-    // (PP_FLAG_DEFAULT_REGULARISATION).
+    // Where k is below this, the contact point on a flat face is chosen as if k were this value; shape, s
+    // and overlap stay those of the given k. In [0, 0.1], default 1e-13; smaller values count as 1e-13.
+    // Raise it to 1e-4, say, when points on flat faces jump from step to step. It never decides whether
+    // particles overlap: where it would, the default is used (PP_FLAG_DEFAULT_REGULARISATION).
     double flat_regularisation;
-    // To what part of the smaller bounding radius the point of a contact has to be known that is carried on
-    // from the last one without a look at any plane (PP_FLAG_CARRIED); in [0, 0.1], default 0: every
-    // contact is solved. 1e-9 is a good choice. It takes a pp_pair_state; contacts of PP_CLOSEST and by
-    // PP_CONE_PROGRAM are always solved.
+    // 0 (default): every contact is solved. Above 0: a contact may be carried on from the last one of its
+    // pair without evaluating a plane (PP_FLAG_CARRIED), as long as its point is known to this share of the
+    // smaller bounding radius. In [0, 0.1]; 1e-9 is a good choice. Needs a pp_pair_state; contacts of
+    // PP_CLOSEST and by PP_CONE_PROGRAM are always solved.
     double carry_tolerance;
 } pp_settings;
 
@@ -365,13 +366,11 @@ typedef struct pp_settings {
 // Owned by the caller: set all bytes to 0 to begin with or to forget; copy it freely within a process. One
 // caller at a time.
 typedef struct pp_pair_state {
-    // The last solution, from which the next call starts. Library's own; not for reading. May be saved, and
-    // loaded into a state whose other bytes are 0: it never changes an answer beyond its gap, whatever bytes
-    // it holds.
+    // The last solution, from which the next call starts. Private to the library. It may be saved and loaded
+    // again, with all other bytes 0: whatever it holds, an answer changes by no more than its gap.
     double solution[8];
-    // What the last contact says about poses near by, with carry_tolerance above 0. Library's own; not for
-    // reading, and not to be saved: an answer rests on it. It is used for the two particles alone for which
-    // it was written, while they exist.
+    // What carry_tolerance needs of the last contact. Private to the library. Not to be saved, as answers
+    // depend on it. It is used only for the two particles for which it was written, while they exist.
     double last_contact[40];
 } pp_pair_state;
 
@@ -398,9 +397,9 @@ typedef struct pp_contact {
     double s_b;
     // Weight u of B, in [0, 1]: (1-u) grad S_A + u grad S_B = 0 at the solution (closest: at P2).
     double weight;
-    // Bound on the error of s, and of s_b: |s - s*| <= gap. Every constant in it is
-    // derived (docs/theory.md). In extended precision it is proved; in doubles it counts rounding to first
-    // order: estimated.
+    // Bound on the error of s, and of s_b: |s - s*| <= gap. Proved for answers in extended precision
+    // (PP_FLAG_EXTENDED); in doubles rounding is counted to first order, so that it is an estimate
+    // (docs/theory.md).
     double gap;
     // Estimated bound on the distance of the point (closest: of each of P1 and P2) to the exact optimum,
     // length: of first order in the rounding of the data.
@@ -428,6 +427,32 @@ typedef struct pp_contact {
     double distance;
 } pp_contact;
 
+// Volume and inertia of a particle of unit density, in its local frame.
+typedef struct pp_mass_properties {
+    // Volume, length^3.
+    double volume;
+    // Centroid, local frame. YADE wants it at the local origin.
+    double centroid[3];
+    // Inertia about the local origin for density 1: xx, yy, zz, xy, yz, zx of the integral of
+    // (|x|^2 I - x x^T) dV, length^5.
+    double inertia[6];
+    // Estimated bound on the relative error of the volume and of every moment of inertia about an axis through
+    // the origin, and of the centroid as a share of the radii of gyration. No unit.
+    double error;
+} pp_mass_properties;
+
+// How a particle that was built stands in the frame of its planes or points: x_given = centroid +
+// orientation x.
+typedef struct pp_built {
+    // Origin of the particle's frame, which is its centroid; in the given frame, length.
+    double centroid[3];
+    // Quaternion (w, x, y, z) of unit length, w >= 0, that turns from the particle's frame, whose axes are
+    // principal axes of inertia, to the given one.
+    double orientation[4];
+    // Of the particle in its own frame, to 1e-6.
+    struct pp_mass_properties mass;
+} pp_built;
+
 // One closest point alone; frames and units as in struct pp_contact.
 typedef struct pp_closest {
     // 1 when there is no such point: for PP_ON_A because the centre of B (for k = 0, its core) lies inside A,
@@ -449,8 +474,9 @@ typedef struct pp_closest {
     double branch_b[3];
 } pp_closest;
 
-// Derivatives of a contact in the poses of A and B, as of struct pp_contact. Columns of each row: a shift of
-// A along x, y, z and a turn of A about its position and x, y, z (world axes, radians), then the same of B.
+// Derivatives of a contact in the poses of A and B, as of struct pp_contact. Columns of each row: shift of A
+// along x, y, z; rotation of A about x, y, z through its position (world axes, radians); then the same six
+// of B.
 // What is NaN in the contact is NaN here.
 typedef struct pp_derivatives {
     // Sum of PP_DERIVATIVE_... bits.
@@ -473,7 +499,8 @@ typedef struct pp_derivatives {
     double point_on_b[3][12];
 } pp_derivatives;
 
-// Derivatives of a cost in the numbers of a contact. Those in what is NaN in the contact must be 0.
+// Derivatives of the caller's cost with respect to the fields of a contact. For a field that is NaN in the
+// contact the derivative must be 0.
 typedef struct pp_contact_weights {
     // In s.
     double s;
@@ -491,8 +518,8 @@ typedef struct pp_contact_weights {
     double point_on_b[3];
 } pp_contact_weights;
 
-// Derivatives of a cost in the shape of a particle, to which calls add: set numbers and planes to 0 to begin
-// with.
+// Derivatives of a cost with respect to the shape of a particle. Calls add to it: set all numbers, and the
+// planes, to 0 first.
 typedef struct pp_shape_gradient {
     // Four numbers for each plane of the particle, in a, b, c and d; the caller's memory.
     double *planes;
@@ -517,7 +544,7 @@ typedef struct pp_pose_gradient {
 // The contact of a particle A with a flat boundary T, a plane or a closed triangle of no thickness. World
 // axes; lengths in the caller's unit; s and gap have no unit. Fields that do not apply are NaN.
 //
-// x*, the point of T where the scale s of A is least, decides: A touches T where it is below 1.
+// x* is the point of T where the scale s of A is least. A overlaps T if that scale is below 1.
 typedef struct pp_flat_contact {
     // PP_SEPARATED or PP_OVERLAPPING. A failed solve has no kind: it returns a status.
     int32_t kind;
@@ -529,11 +556,11 @@ typedef struct pp_flat_contact {
     // Quadratics solved.
     uint32_t iterations;
     // Scale of A at x*, the least on T, of A as regularised (flat_regularisation). Rejected: a lower bound,
-    // no less than 1. Triangles that share the edge or vertex on which x* lies get the same bits: so the
-    // contact at a seam can be given to the triangle with the least s, and ties broken by the caller's own
-    // numbering. Under a flat face (k = 0) on several triangles s differs by flat_regularisation only, and
-    // the place of the contact is known to some percent of the size with the default, to 1e-6 of the size
-    // with 1e-4.
+    // no less than 1. Triangles that share the edge or vertex on which x* lies get the same s to the last
+    // bit: a caller can give the contact at a seam to the triangle with the least s, and break ties by its
+    // own numbering. If a flat face (k = 0) lies on several triangles, their s differ by flat_regularisation
+    // only; the place of the contact is then known to some percent of the size with the default, to 1e-6 of
+    // the size with 1e-4.
     double s;
     // Bound on the error of s, with rounding to first order in doubles (as in struct pp_contact).
     double gap;
@@ -605,10 +632,10 @@ typedef int32_t (*pp_placed)(void *context, const struct pp_placement *placement
 // integral.
 //
 // Owned by the caller: set all bytes to 0 to begin with or to forget; copy it freely within a process. One
-// caller at a time. Not to be saved: an answer rests on it. It is used for the particles, tolerance and
-// with_energy alone for which it was written, while they exist.
+// caller at a time. Not to be saved, as answers depend on it. It is used only for the particles, the
+// tolerance and the with_energy for which it was written, while the particles exist.
 typedef struct pp_patch_state {
-    // Library's own; not for reading.
+    // Private to the library.
     double last_patch[112];
 } pp_patch_state;
 
@@ -621,8 +648,8 @@ typedef struct pp_patch {
     uint32_t flags;
     // Number of rays that were followed.
     uint32_t rays;
-    // Estimated error of the force over its size, of the torque over |force| times the reach of the patch,
-    // and of the energy, if asked for, over itself: the largest.
+    // Estimated relative error, the largest of three: of the force; of the torque, relative to |force| times
+    // the reach of the patch; of the energy, if asked for.
     double error;
     // Estimated relative error of the area.
     double area_error;
@@ -837,12 +864,13 @@ typedef struct pp_joint {
 typedef struct pp_slice_settings {
     // A joint leaves a block whole if a part would have less than this volume.
     double least_volume;
-    // Or be thinner than this in the mean, 2 V / A of volume and surface, length: a cube has a third of its
-    // edge.
+    // It also leaves it whole if a part would be thinner than this: 2 V / A of the part's volume and
+    // surface, length (a third of the edge of a cube).
     double least_thickness;
-    // Or if the largest ball in it would have a smaller diameter than this.
+    // And if the largest ball in a part would have a smaller diameter than this.
     double least_width;
-    // Or if its extent along x, y or z would be more than so many times that diameter; 0: no limit.
+    // And if the extent of a part along x, y or z would be more than so many times the diameter of that
+    // ball; 0: no limit.
     double largest_aspect;
     // More blocks than this are an error; 0: a million.
     uint64_t most_blocks;
@@ -850,8 +878,8 @@ typedef struct pp_slice_settings {
     uint64_t threads;
 } pp_slice_settings;
 
-// Is told how many joints have cut and how many blocks there are, before the first joint and again after
-// every few, in the calling thread. Returns 0 to go on; anything else ends the cuts of joints, and what was
+// Called before the first joint and again after every few, in the calling thread, with the numbers of
+// joints that have cut and of blocks that there are. Returns 0 to go on; anything else ends the cuts of joints, and what was
 // cut is kept. No exception and no longjmp may leave it.
 typedef int32_t (*pp_rock_progress)(void *context, uint64_t joints, uint64_t blocks);
 
@@ -935,7 +963,7 @@ typedef struct pp_joint_set {
     double fisher;
     // Radius of joints that are discs, length; infinite for joints without end.
     double radius;
-    // What is drawn depends on it alone.
+    // Seed of what is drawn at random: the same one gives the same joints.
     uint64_t seed;
     // 1: spacings are drawn from an exponential distribution; 0: all are the same. Without a meaning for
     // discs.
@@ -943,20 +971,6 @@ typedef struct pp_joint_set {
     // Always 0.
     uint32_t reserved;
 } pp_joint_set;
-
-// Volume and inertia of a particle of unit density, in its local frame.
-typedef struct pp_mass_properties {
-    // Volume, length^3.
-    double volume;
-    // Centroid, local frame. YADE wants it at the local origin.
-    double centroid[3];
-    // Inertia about the local origin for density 1: xx, yy, zz, xy, yz, zx of the integral of
-    // (|x|^2 I - x x^T) dV, length^5.
-    double inertia[6];
-    // Estimated bound on the relative error of the volume and of every moment of inertia about an axis through
-    // the origin, and of the centroid as a share of the radii of gyration. No unit.
-    double error;
-} pp_mass_properties;
 
 // The call did what it says; its outputs are written.
 #define PP_OK 0
@@ -1056,7 +1070,8 @@ size_t pp_struct_size(uint32_t which);
 // Finds the contacts of many pairs of bodies: the way for a DEM program to hand over a whole step.
 //
 // Body i is particles[i] at poses[i]; pair n is that of the bodies pairs[2n] (A) and pairs[2n+1] (B),
-// counted from 0. What a pose costs is paid once for each body. Each contact and state is, to the last
+// counted from 0. Each pose is converted once, however many pairs its body is in. Each contact and state is,
+// to the last
 // bit, that of pp_contact_detect for the pair alone, whatever the number of threads.
 //
 // particles, poses: body_count of each; several bodies may share a particle. A particle may be NULL and
@@ -1084,6 +1099,50 @@ pp_status pp_contact_detect_batch(const struct pp_particle *const *particles,
                                   struct pp_pair_state *states,
                                   struct pp_contact *contacts,
                                   pp_status *statuses);
+
+// Builds a particle whose faces are at given planes, about its centroid and along its principal axes.
+//
+// planes: count rows of a, b, c, h; inside is a x + b y + c z <= h. (a, b, c) may have any length. These
+// are the faces themselves; the planes of pp_particle_new lie deeper, by about r. Planes that make no face
+// are left out.
+// r: rounding radius over the size, in (0, 0.5). The size is the diameter of the largest ball between the
+// planes. k: sphericity, in [0, 1]. shadow_radius: R over the size, or 0 for the distance from the centroid to
+// the farthest corner.
+// out: receives the particle; release it with pp_particle_free.
+// built: receives how it stands in the given frame, and its mass properties (may be NULL).
+// message: receives, on failure, a sentence that names the plane or value (may be NULL).
+// Errors: PP_NULL_POINTER, PP_PLANE_ZERO_NORMAL (also of a plane whose numbers are not finite),
+// PP_UNBOUNDED (the planes enclose no volume), and those of pp_particle_new.
+// Pointers: planes points to 4*count doubles, out to one pointer, built to one struct, message to
+// message_size bytes.
+pp_status pp_particle_from_faces(const double *planes,
+                                 size_t count,
+                                 double r,
+                                 double k,
+                                 double shadow_radius,
+                                 struct pp_particle **out,
+                                 struct pp_built *built,
+                                 char *message,
+                                 size_t message_size);
+
+// Builds a particle from the convex hull of points, about its centroid and along its principal axes.
+//
+// points: count rows of x, y, z, in any order; those inside the hull do not matter. No part of the particle
+// lies outside the hull. Triangles of the hull that are coplanar to 1e-6 of its extent are one face.
+// All else as pp_particle_from_faces.
+// Errors: PP_NULL_POINTER, PP_BAD_POINT, PP_UNBOUNDED (fewer than four points, or all in one plane), and
+// those of pp_particle_new.
+// Pointers: points points to 3*count doubles, out to one pointer, built to one struct, message to
+// message_size bytes.
+pp_status pp_particle_from_points(const double *points,
+                                  size_t count,
+                                  double r,
+                                  double k,
+                                  double shadow_radius,
+                                  struct pp_particle **out,
+                                  struct pp_built *built,
+                                  char *message,
+                                  size_t message_size);
 
 // Fills settings with the defaults.
 //
@@ -1129,9 +1188,9 @@ pp_status pp_closest_point(const struct pp_particle *a,
 // normal, makes through the intersection of both particles.
 //
 // contact: an overlapping answer of pp_contact_detect for the same particles and poses.
-// relative_tolerance: in [1e-12, 0.1]; 1e-6 is a good choice. The area is exact but for rounding
-// (1e-12 of it, or 2e-16 size/r where that is more) and this is not used, unless rounding forbids;
-// such areas are known to no better than 1e-9. With r near 1e-9 of the size or less, thin sections
+// relative_tolerance: in [1e-12, 0.1]; 1e-6 is a good choice. It is used only where rounding prevents a
+// closed form, and the area is then known to 1e-9 at best. Elsewhere the area is exact but for rounding:
+// 1e-12 of it, or 2e-16 size/r where that is more. With r near 1e-9 of the size or less, thin sections
 // may be wrong. area: receives length^2; 0 when separated.
 // Errors: PP_NULL_POINTER, PP_BAD_POSITION, PP_BAD_ORIENTATION, PP_BAD_POINT (the contact
 // was not filled: no kind, point or normal; or its point is outside a particle), PP_BAD_SETTING.
@@ -1284,7 +1343,9 @@ pp_status pp_pack(const struct pp_particle *const *shapes,
 // Creates a particle from count planes.
 //
 // planes: count rows of a, b, c, d (outward normal and offset; local frame; the normal is used as
-// given). They are the planes of the core: for k = 0 a face lies at a x + b y + c z = d + r. May be
+// given). They are the planes of the core. For k = 0 a face lies at a x + b y + c z = d + r where no other
+// plane counts; where many planes nearly share a place the surface lies deeper. pp_particle_from_faces puts
+// the faces themselves where they are wanted. May be
 // NULL when count is 0.
 // r: rounding radius, length. k: sphericity, in [0, 1]. shadow_radius: R, length.
 // out: receives the particle; release it with pp_particle_free.
@@ -1356,9 +1417,9 @@ pp_status pp_particle_depth_length(const struct pp_particle *particle,
 //
 // contact: an answer of pp_contact_detect for the same particles and poses. tolerance: relative, in
 // [1e-12, 0.1]; 1e-4 is a good choice. with_energy: 0 or 1. state: may be NULL; else that of the pair, read
-// and updated, by which the patch may be carried on from an earlier one (PP_PATCH_CARRIED); not used if
-// capacity is not 0. points: receives the points of quadrature, if
-// capacity is not 0; may be NULL then. count: receives their number; may be NULL with a capacity of 0.
+// and updated: the patch may then be carried on from an earlier one (PP_PATCH_CARRIED). It is not used where
+// points are asked for. points: room for capacity points of quadrature; may be NULL with a capacity of 0.
+// count: receives their number; may be NULL with a capacity of 0.
 // Buffers: the library keeps some 100 kilobytes for each thread that calls this, until the thread ends.
 // Errors: PP_NULL_POINTER, PP_BAD_POSITION, PP_BAD_ORIENTATION, PP_BAD_POINT (the contact was not filled, or is
 // separated), PP_BAD_SETTING (tolerance, with_energy), PP_BUFFER_TOO_SMALL (count receives the needed size).
@@ -1814,7 +1875,8 @@ pp_status pp_particle_potential(const struct pp_particle *particle,
                                 double *f,
                                 double *gradient);
 
-// Axis-aligned box in world axes that holds the particle at this pose: the box of its corners.
+// Axis-aligned box, world axes, that holds the particle at this pose: that of the corners of
+// pp_particle_corners.
 //
 // lower, upper: receive 3 doubles each, world frame.
 // Errors: PP_NULL_POINTER, PP_BAD_POSITION, PP_BAD_ORIENTATION.
@@ -1848,8 +1910,9 @@ pp_status pp_particle_corners(const struct pp_particle *particle,
                               size_t capacity,
                               size_t *count);
 
-// Upper bound of how far the particle reaches along a direction (3 doubles, local frame, any length): of
-// e . x over all its points, e = direction / |direction|, by the corners of pp_particle_corners.
+// How far the particle reaches along a direction (3 doubles, local frame, any length): an upper bound of e .
+// x over all its points x, where e = direction / |direction|. It follows from the corners of
+// pp_particle_corners.
 //
 // Errors: PP_NULL_POINTER, PP_BAD_POINT.
 // Pointers: direction points to 3 doubles.
