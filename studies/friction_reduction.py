@@ -28,7 +28,7 @@ from yade import O
 
 from joint_planes import sliding_on
 from stepping import advance
-from wedge_scene import GRAVITY, JOINTS
+from wedge_scene import GRAVITY
 
 HEADROOM = 3.0  # degrees above the plunge to begin with
 STEP = 1.0  # degrees
@@ -38,7 +38,7 @@ WINDOW = 200  # steps between looks
 RUN_IN = 0.01  # of the size
 REST_FORCE, REST_SPEED = 1e-7, 1e-8
 SLIDE_DISTANCE = 5.0
-MOST_STEPS = 800_000 if JOINTS else 80_000  # of one angle; nearer to the limit than that the bracket stays as it is
+MOST_STEPS = 80_000  # of one angle; nearer to the limit than that the bracket stays as it is
 
 LAYING_FORCE, LAYING_STEPS = 1e-5, 10_000  # without friction: balanced to this part of the weight, or so long
 RELEASE_STAGES, RELEASE_STEPS = 40, 50

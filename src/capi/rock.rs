@@ -28,8 +28,8 @@ pub struct pp_slice_settings {
 }
 
 /// Called before the first joint and again after every few, in the calling thread, with the numbers of
-/// joints that have cut and of blocks that there are. Returns 0 to go on; anything else ends the cuts of joints, and what was
-/// cut is kept. No exception and no longjmp may leave it.
+/// joints that have cut and of blocks that there are. Returns 0 to go on; anything else ends the cuts of
+/// joints, and what was cut is kept. No exception and no longjmp may leave it.
 pub type pp_rock_progress = Option<unsafe extern "C" fn(context: *mut c_void, joints: u64, blocks: u64) -> i32>;
 
 /// A rock mass that was cut. Created by pp_rock_new, released by pp_rock_free; it never changes.

@@ -28,7 +28,7 @@ VARIED = (
     (20, ROUNDING, 0.01), (20, ROUNDING, 0.1), (20, 1e-2, 0.1),
 )  # fmt: skip
 BULGES = 1e-4  # k r over t: above that stones are no trapezia any more
-MOVED = 100.0  # overlaps: it falls; an arch that stands settles by some 0.6 of them a stone
+MOVED = 100.0  # overlaps of points: it falls; an arch that stands settles by some 0.6 of them a stone
 PATIENCE = 1.5  # s; what stands rests after a tenth of that
 
 
@@ -128,8 +128,8 @@ class Arch:
         scene.start(FRICTION)
 
     def moved(self):
-        """The largest way of a centroid so far, overlaps."""
-        return max((one.state.pos - one.state.refPos).norm() for one in self.stones) / self.scene.overlap
+        """The largest way of a centroid so far, overlaps of points."""
+        return max((one.state.pos - one.state.refPos).norm() for one in self.stones) / self.scene.motion_unit
 
     def stands(self):
         """Whether it comes to rest before a stone has moved by MOVED, and within PATIENCE."""
@@ -208,7 +208,7 @@ def _picture(stands, falls, stones):
     line = eccentricities(least, stones, line_of_thrust(least, stones, ROUNDING))
     data["line"] = [np.degrees(joints(stones)).tolist(), line.tolist()]
     arch = Arch(0.9 * falls, stones)
-    while arch.moved() * arch.scene.overlap < 1.5 * arch.thickness and O.time < 2.0 * PATIENCE:
+    while arch.moved() * arch.scene.motion_unit < 1.5 * arch.thickness and O.time < 2.0 * PATIENCE:
         arch.scene.run(0.02)
     data["fallen"] = arch.outlines()
     return data

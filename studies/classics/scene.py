@@ -9,8 +9,8 @@ Every length below is relative to the size of the scene, the diameter of the lar
   the tilt: it crosses a face while the block tilts by some 1e-6 rad (docs/wedge.md).
 - The time step follows from the stiffest motion, springs or tilting.
 - With LAW=joint in the environment, contacts are patches with the law of joints: the load on a square of the size makes an overlap of
-  OVERLAP_OF_JOINTS, less than of points, since a face that tilts on its edge gives way (docs/classics.md), and of OVERLAP_OF_MOVING_JOINTS where it
-  lands; nothing else need be chosen, but RESTITUTION in motion.
+  OVERLAP_OF_JOINTS, less than of points, since a face that tilts on its edge gives way (docs/classics.md). Their dashpots have RESTITUTION_AT_REST, so that
+  blocks that slide do not swing on their springs, of which YADE's damping would make a drag; in motion RESTITUTION.
 - What is looked for at rest has YADE's local damping, which vanishes at rest and delays all motion of a block alike. What is looked for
   in motion (`moving`) has none, but dashpots beside the normal springs, so that what lands does not bounce. (Dashpots in shear would
   add to the friction of YADE's law, which limits the spring alone.)
@@ -35,8 +35,8 @@ BULGE = 0.1
 SHEAR = 0.5  # of the normal stiffness
 DAMPING = 0.5  # YADE's local one
 DASHPOT = 2.0  # over sqrt(k m), m the mass of the load
-OVERLAP_OF_JOINTS, OVERLAP_OF_MOVING_JOINTS = 1e-6, 1e-7
-RESTITUTION = 0.01  # of joints in motion
+OVERLAP_OF_JOINTS = 1e-8
+RESTITUTION_AT_REST, RESTITUTION = 0.3, 0.01  # of joints
 # Of the time in which the springs, and tilting, turn one radian.
 SPRING_STEP, TILT_STEP = 0.2, 0.4
 QUIET = 1e-5  # of the speed that belongs to the overlap
@@ -57,14 +57,13 @@ class Scene:
         self.moving = moving
         self.size, self.rounding, self.sphericity = size, rounding * size, sphericity
         self.load = load * DENSITY * GRAVITY
-        self.overlap = size * max(self._least_overlap(), min(OVERLAP_OVER_BULGE * sphericity, MOST_OVERLAP) * rounding)
+        self.overlap = size * max(OVERLAP_OF_JOINTS if JOINTS else OVERLAP, min(OVERLAP_OVER_BULGE * sphericity, MOST_OVERLAP) * rounding)
         self.stiffness = self.load / self.overlap
+        # In which motions are told: joints give way by more than their overlap.
+        self.motion_unit = max(self.overlap, size * OVERLAP)
         self.friction = 0.0
         self.functor = None
         self.material = O.materials[O.materials.append(self._material())]
-
-    def _least_overlap(self):
-        return OVERLAP if not JOINTS else OVERLAP_OF_MOVING_JOINTS if self.moving else OVERLAP_OF_JOINTS
 
     def _material(self):
         if not self.moving:
@@ -112,7 +111,7 @@ class Scene:
         ]
         if JOINTS:
             use_joints(normalStiffness=self.stiffness / self.size**2, shearStiffness=SHEAR * self.stiffness / self.size**2,
-                       restitution=RESTITUTION if self.moving else 1.0)
+                       restitution=RESTITUTION if self.moving else RESTITUTION_AT_REST)
         O.dt = self._time_step_of_joints() if JOINTS else self._time_step(max(bulge, self.sphericity))
         self.set_friction(friction)
 

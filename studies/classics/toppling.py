@@ -21,7 +21,7 @@ STEP = 1.0  # m
 HELD = 43.0  # friction angle with which the columns come to rest at first, degrees
 SEARCH = (36.0, HELD)  # degrees
 BRACKET = 0.02  # degrees
-MOVED = 10.0  # overlaps: it fails
+MOVED = 10.0  # overlaps of points: it fails
 PATIENCE = 5.0  # s; what rests does so after a tenth of that
 BELOW, ABOVE = 5.0, 5.0  # by how much tops step down towards the toe, and down behind the crest, m
 
@@ -91,7 +91,7 @@ class Slope:
     def holds(self, friction):
         """Whether the columns come to rest again after friction was lowered, degrees, before one has moved by MOVED, and within PATIENCE."""
         self.scene.set_friction(friction)
-        return self.scene.comes_to_rest(PATIENCE, every=50.0, fails=lambda: self.moved() > MOVED * self.scene.overlap)
+        return self.scene.comes_to_rest(PATIENCE, every=50.0, fails=lambda: self.moved() > MOVED * self.scene.motion_unit)
 
     def pushes(self):
         """Normal force between columns n and n - 1, n = 16..2, per unit weight of rock, m^2."""

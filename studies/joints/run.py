@@ -14,6 +14,7 @@ import bonds  # noqa: E402
 import buildings  # noqa: E402
 import cost  # noqa: E402
 import impacts  # noqa: E402
+import pictures  # noqa: E402
 import piles  # noqa: E402
 import rows  # noqa: E402
 from summary import print_table, write_summary  # noqa: E402
@@ -31,23 +32,6 @@ def targets(name, row):
         yield {"name": f"{name}, falls below", "sense": "is", "target": True, "measured": row["falls"], "met": bool(row["falls"])}
 
 
-def picture(listed, path):
-    import matplotlib
-    matplotlib.use("Agg")
-    from matplotlib import pyplot
-    listed = [entry for entry in listed if entry["sense"] == "at most"]
-    names = [entry["name"] for entry in listed]
-    figure, axes = pyplot.subplots(figsize=(7, 0.45 * len(names) + 1.2))
-    shares = [max(entry["measured"] / entry["target"], 1e-6) for entry in listed]
-    axes.barh(names, shares, left=1e-6, color=["#4a7fb5" if share <= 1 else "#c0563b" for share in shares])
-    axes.axvline(1, color="black", linewidth=1)
-    axes.set_xscale("log")
-    axes.set_xlabel("measured / target")
-    axes.invert_yaxis()
-    figure.tight_layout()
-    figure.savefig(path, dpi=120)
-
-
 def main():
     chosen = os.environ.get("CASES", "").split() or list(ROWS)
     folder = Path(os.environ.get("OUTPUT") or HERE.parents[1] / "out/patch-yade")
@@ -58,7 +42,9 @@ def main():
         print(f"{name}: {found[name]}", flush=True)
     listed = [target for name, row in found.items() for target in targets(name, row)]
     write_summary(folder / "summary.json", {"rows": found, "targets": listed})
-    picture(listed, folder / "joints.png")
+    pictures.all_rows([entry for entry in listed if entry["sense"] == "at most"], folder / "joints.png")
+    for name in found.keys() & pictures.OF_ROWS.keys():
+        pictures.OF_ROWS[name](found[name], folder / f"{name}.png")
     print_table([(entry["name"], f"{entry['measured']:.3g}  (target {entry['target']:g}) {'met' if entry['met'] else 'MISSED'}") for entry in listed])
 
 

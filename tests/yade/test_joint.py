@@ -169,6 +169,32 @@ for wanted in (0.9, 0.5, 0.1):
     check.close(body.state.vel[2] / 0.1, wanted, 0.01, "restitution")
     check.close(O.energy["viscDissip"], before - energy([body]), 5e-3 * before, "what the dashpot took")
 
+# --- a block that lands on its face is pushed at the edge that comes down: Housner's impact ------------------------------
+
+for ratio, restitution in ((0.5, 0.1), (0.7, 0.03)):
+    scene(restitution=restitution, frictionAngle=1.5, track=True)
+    wall()
+    half, height, spin, radius = 0.5, 1 / ratio, 0.01, 1e-4
+    planes = [(*(sign * (i == axis) for i in range(3)), (half, half, height / 2)[axis] - radius) for axis in range(3) for sign in (1, -1)]
+    body = O.bodies[add(yade.ConicPotentialParticle(planes=planes, r=radius, k=0, R=2 * height), Vector3(0, 0, height / 2 - 1e-9))]
+    body.state.mass, body.state.inertia = height * DENSITY, height * DENSITY / 12 * Vector3(1 + height**2, 1 + height**2, 2)
+    # It turns about its edge at x = -half.
+    body.state.vel, body.state.angVel = Vector3(spin * height / 2, 0, -spin * half), Vector3(0, spin, 0)
+    body.state.angMom = Vector3(0, spin * body.state.inertia[1], 0)
+    O.dt = 1e-5
+    before = energy([body])
+    run(10)
+    while O.interactions.countReal() and O.iter < 40000:
+        run(10)
+    check.equal(O.interactions.countReal(), 0, "it leaves the floor, as there is no weight")
+    # What it has once the other edge rests, however often that bounces: its angular momentum about that edge stays.
+    inertia, velocity = body.state.inertia[1], body.state.vel
+    momentum = inertia * body.state.angVel[1] + body.state.mass * (height / 2 * velocity[0] + half * velocity[2])
+    kept = momentum / (inertia + body.state.mass * (half**2 + height**2 / 4)) / spin
+    check.close(kept, 1 - 1.5 * math.sin(math.atan(ratio))**2, 2.5e-3, f"Housner's impact, width over height {ratio}, restitution {restitution}")
+    lost = before - energy([body])
+    check.close(O.energy["viscDissip"] + O.energy["plastDissip"] + O.energy["patchChange"], lost, 3e-2 * lost, "what the dashpots took")
+
 # --- patches of bodies at rest are carried on ---------------------------------------------------------------------
 
 scene(gravity=(0, 0, -9.81), restitution=0.3, damping=0.3)
@@ -202,6 +228,19 @@ check.raises(ValueError, lambda: yade.Ig2_ConicPP_ConicPP_ScGeom(patch=True, two
 scene()
 O.engines[2].geomDispatcher.functors[1].patch = False
 check.raises(ValueError, O.step, "a functor without patch", "give Ig2_Wall_ConicPP_ScGeom the keyword patch=True")
+# A normal that a boundary prescribes is none of a patch.
+for normal, contacts in ((Vector3(0, 0, 1), 0), (Vector3.Zero, 1)):
+    scene()
+    floor = block((0, 0, 0), fixed=True)
+    block((0, 0, 2 * HALF - 1e-5))
+    floor.shape.isBoundary, floor.shape.fixedNormal, floor.shape.boundaryNormal = True, True, normal
+    functor = O.engines[2].geomDispatcher.functors[0]
+    O.step()
+    check.equal((O.interactions.countReal(), functor.failures), (contacts, 1 - contacts), f"fixedNormal, normal {normal}")
+    for found in functor.failureReport:
+        check.true(all(part in str(found) for part in ("fixedNormal = True", "patch = False")), f"what failed: {found}")
+    told = [str(one) for one in potential_particles.check() if "fixedNormal" in str(one)]
+    check.true(len(told) == 1 - contacts and all("Ig2_ConicPP_ConicPP_ScGeom(patch=True)" in one for one in told), f"check() says so: {told}")
 
 # --- the same with ConicInteractionLoop and after a save ----------------------------------------------------------
 

@@ -16,7 +16,7 @@ patch holds against turning as well: its stiffness has a part for turns alone, K
 of the patch or, where there is one, of the bond. So does the point of a contact of flat faces, which moves as they turn (rolling.py).
 
 Dashpots lower the limit. Those of joints, of the ratio z to the critical one, to dt < 2/omega (sqrt(1 + z^2) - z), which is taken into
-account; for others safety leaves room, below about half of the critical damping.
+account, omega with three times the stiffness of patches against tilting, as their dashpots stand at the edges; for others safety leaves room, below about half of the critical damping.
 """
 import itertools
 import math
@@ -162,7 +162,8 @@ def _of_contact(scene, contact):
     # Only physics of joints hold against turns.
     if not hasattr(physics, "twistStiffness"):
         return geometry.normal, geometry.contactPoint, physics.kn, physics.ks, 0.0, 0.0
-    normal, point, polar_moment = geometry.normal, geometry.contactPoint, geometry.polarMoment
+    # Dashpots at the edges of a patch resist tilting as three times its springs.
+    normal, point, polar_moment = geometry.normal, geometry.contactPoint, geometry.polarMoment * (3.0 if physics.dampingRatio > 0.0 else 1.0)
     if physics.bondArea > 0.0:
         # The contact of a bond may lie elsewhere: where the bodies overlap now.
         one = scene.bodies[contact.id1].state

@@ -275,6 +275,11 @@ bool Ig2_ConicPP_ConicPP_ScGeom::contact(Pair& pair)
             pair.counts.add(Count::extended);
 
         if (found.kind == PP_OVERLAPPING) {
+            if (Vector3r normal; given.patch && pair.prescribesNormal(normal)) {
+                fail(pair, "patch = True and a shape with fixedNormal = True: a patch has the normal of its pressure; set fixedNormal = False, or "
+                           "patch = False for a point along boundaryNormal");
+                return keep(pair);
+            }
             pair.counts.add(Count::overlapping);
             pair.noteTouching();
             fill(pair, found);
@@ -360,8 +365,7 @@ void Ig2_ConicPP_ConicPP_ScGeom::fill(Pair& pair, pp_contact& found)
 
     const Vector3r point(found.point);
     Vector3r normal(found.normal);
-    const bool prescribed = pair.prescribesNormal(normal);
-    if (pair.settings.given.patch && !prescribed) {
+    if (pair.settings.given.patch) {
         pp_patch patch;
         const pp_status status
             = pp_patch_of_contact(body1.particle->handle(), &body1.pose, body2.particle->handle(), &body2.pose, &found,
@@ -371,9 +375,7 @@ void Ig2_ConicPP_ConicPP_ScGeom::fill(Pair& pair, pp_contact& found)
             return;
         }
     }
-    if (prescribed) {
-        if (pair.settings.given.patch)
-            pair.counts.add(Count::patchFallbacks);
+    if (!pair.settings.given.patch && pair.prescribesNormal(normal)) {
         // Overlap, and the points on both surfaces, along that normal through the contact point.
         const double depth1 = distanceToSurface(*pair.particle1, pair.pose1(), point, normal);
         const double depth2 = distanceToSurface(*pair.particle2, pair.pose2(), point, -normal);

@@ -10,6 +10,8 @@
 #include "pair/sc_geom_conic_pp.hpp"
 #include "strength.hpp"
 
+#include <algorithm>
+
 namespace potential_particles {
 
 using Law = Law2_ScGeomConicPP_ConicJointPhys;
@@ -40,8 +42,14 @@ namespace {
         return mobility > 0 ? 2 * phys.dampingRatio * std::sqrt(stiffness / (mobility * area)) : 0;
     }
 
-    // The resistance of a bed of dashpots to the approach of the bodies, at the centre of pressure. It pulls nowhere more than the
-    // springs push.
+    // The resistance of dashpots to the approach of the bodies, at the centre of pressure. Half of them stand at either edge of the
+    // patch, not spread over it, so that what lands on a face is pushed at the edge that comes down, as Housner has it. The edges: of the
+    // direction g in which the approach changes, sqrt(3) times the radius of gyration from the centroid, those of a rectangle along a side of it,
+    //
+    //     y = -+ sqrt(3) I g / sqrt(A g.I g),
+    //
+    // with I the second moments of the area A. Neither edge is pulled more than the springs push there: what springs and dashpots do
+    // together lies within the patch.
     Wrench dashpot(const ConicJointPhys& phys, const yade::ScGeom& geom, const ContactPatch& patch, const MovingBody& one,
                    const MovingBody& other)
     {
@@ -49,18 +57,19 @@ namespace {
         const double mobility = one.mobility(geom.contactPoint, n) + other.mobility(geom.contactPoint, n);
         if (!(mobility > 0))
             return { Vector3r::Zero(), Vector3r::Zero() };
-        const double perArea = dashpotPerArea(phys, phys.normalStiffness, mobility, patch.area);
+        const double half = 0.5 * dashpotPerArea(phys, phys.normalStiffness, mobility, patch.area) * patch.area;
         const Vector3r centre = geom.contactPoint + patch.centroid;
         const double opening = (other.velocityAt(centre) - one.velocityAt(centre)).dot(n);
-        const Vector3r tilting = n.cross(other.spin() - one.spin());
-        const double spring = phys.normalStiffness * patch.force;
-        double force = -perArea * patch.area * opening;
-        Vector3r moment = -perArea * (patch.secondMoment * tilting).cross(n);
-        if (force < -spring) {
-            moment *= spring / -force;
-            force = -spring;
-        }
-        return { force * n, moment + patch.centroid.cross(force * n) };
+        const Vector3r gradient = n.cross(other.spin() - one.spin()), moved = patch.secondMoment * gradient;
+        const double spread = patch.area * gradient.dot(moved);
+        const Vector3r edge = spread > 0 ? Vector3r(std::sqrt(3 / spread) * moved) : Vector3r::Zero();
+        const double reach = edge.squaredNorm();
+        const double off = reach > 0 ? std::clamp(-patch.centroid.dot(edge) / reach, -1.0, 1.0) : 0;
+        const double spring = 0.5 * phys.normalStiffness * patch.force, tilting = gradient.dot(edge);
+        const double above = std::max(-half * (opening + tilting), -spring * (1 + off));
+        const double below = std::max(-half * (opening - tilting), -spring * (1 - off));
+        const Vector3r force = (above + below) * n;
+        return { force, (above - below) * edge.cross(n) + patch.centroid.cross(force) };
     }
 
 } // namespace
