@@ -879,8 +879,8 @@ typedef struct pp_slice_settings {
 } pp_slice_settings;
 
 // Called before the first joint and again after every few, in the calling thread, with the numbers of
-// joints that have cut and of blocks that there are. Returns 0 to go on; anything else ends the cuts of joints, and what was
-// cut is kept. No exception and no longjmp may leave it.
+// joints that have cut and of blocks that there are. Returns 0 to go on; anything else ends the cuts of
+// joints, and what was cut is kept. No exception and no longjmp may leave it.
 typedef int32_t (*pp_rock_progress)(void *context, uint64_t joints, uint64_t blocks);
 
 // A rock mass in numbers.
