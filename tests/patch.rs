@@ -6,6 +6,8 @@ mod bodies;
 mod boundaries;
 #[path = "patch/carried.rs"]
 mod carried;
+#[path = "patch/cells.rs"]
+mod cells;
 #[path = "patch/closed_forms.rs"]
 mod closed_forms;
 #[path = "patch/definition.rs"]

@@ -183,7 +183,7 @@ pub(super) fn unmet_plane(
         let peak = -0.5 * rise / bend;
         let mut candidates = [(f64::NAN, f64::NEG_INFINITY); 3];
         for (candidate, (t, own)) in candidates.iter_mut().zip([(0.0, known[0]), (1.0, known[1]), (peak, u32::MAX)]) {
-            if own != i as u32 && t >= 0.0 && t <= 1.0 {
+            if own != i as u32 && (0.0..=1.0).contains(&t) {
                 *candidate = (t, sign * (a + t * (rise + t * bend)));
             }
         }

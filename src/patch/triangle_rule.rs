@@ -32,7 +32,7 @@ const COARSE: [Point; 7] = {
     const SQUARES_B: f64 = (1.0 - 2.0 * B) * (1.0 - 2.0 * B) + 2.0 * B * B;
     const LOW: f64 = (0.5 - SQUARES_B) / (3.0 * (SQUARES_A - SQUARES_B));
     const OF_A: [f64; 2] = [0.125_939_180_544_827_15, LOW];
-    const OF_B: [f64; 2] = [0.132_394_152_788_506_19, 1.0 / 3.0 - LOW];
+    const OF_B: [f64; 2] = [0.132_394_152_788_506_2, 1.0 / 3.0 - LOW];
     [
         ([1.0 / 3.0; 3], 0.225, 0.0),
         twice(A, 0, OF_A),

@@ -1,0 +1,110 @@
+//! Patches in cells against the same by rays, which share nothing with them but the walk through a cell.
+
+use crate::bodies::{Chance, FAMILIES, Pair, body};
+use crate::boundaries::resting;
+use nalgebra::{Matrix3, Rotation3, Vector3};
+use potential_particles::{
+    Particle, Patch, PatchFlags, PatchScratch, PatchSettings, Plane, Pose, Settings, Wall, contact_with_plane,
+    patch_of_contact, patch_on_plane,
+};
+
+/// A rock of many faces, as in a pile: 24 planes about a ball.
+fn grain(r: f64, k: f64, chance: &mut Chance) -> (Particle, Vec<Vector3<f64>>) {
+    loop {
+        let normals: Vec<_> = (0..24).map(|_| chance.direction()).collect();
+        let planes: Vec<_> =
+            normals.iter().map(|n| Plane { normal: *n, offset: 0.4 + 0.1 * chance.uniform() - r }).collect();
+        if let Ok(grain) = Particle::new(&planes, r, k, 0.8) {
+            if grain.bounding_radius() < 1.2 {
+                return (grain, normals);
+            }
+        }
+    }
+}
+
+/// A turn that brings a direction close to another one.
+fn facing(from: &Vector3<f64>, to: &Vector3<f64>, chance: &mut Chance) -> Matrix3<f64> {
+    let tilt = 10f64.powf(-4.0 * chance.uniform()) * 0.3 * chance.direction();
+    let turn =
+        Rotation3::rotation_between(from, to).unwrap_or_else(|| Rotation3::new(std::f64::consts::PI * Vector3::x()));
+    (Rotation3::new(tilt) * Rotation3::new(6.0 * chance.uniform() * to) * turn).into_inner()
+}
+
+/// The patch at a tolerance.
+type Taken = Box<dyn Fn(f64) -> Patch>;
+
+fn pair(chance: &mut Chance) -> Taken {
+    let (k, depth) = ([0; 2].map(|_| chance.pick(&[0.0, 1e-6, 0.02, 0.3])), 10f64.powf(-3.0 * chance.uniform()));
+    let pair = if chance.uniform() < 0.5 {
+        let families = [0; 2].map(|_| chance.pick(&FAMILIES));
+        let r = chance.pick(&[1e-4, 1e-2, 0.1, 0.5]);
+        Pair::random(families, k, r, 0.8 * depth, chance)
+    } else {
+        let r = chance.pick(&[1e-3, 0.05]);
+        let ((a, of_a), (b, of_b)) = (grain(r, k[0], chance), grain(r, k[1], chance));
+        let way = chance.pick(&of_a);
+        let turn = facing(&chance.pick(&of_b), &-way, chance);
+        let aside = (way + 0.2 * chance.direction()).normalize();
+        Pair::at_overlap(a, &Matrix3::identity(), b, &turn, &aside, 0.8 * depth * r)
+    };
+    Box::new(move |tolerance| {
+        let Pair { a, pose_a, b, pose_b, contact } = &pair;
+        let settings = PatchSettings { tolerance, ..PatchSettings::default() };
+        patch_of_contact(a, pose_a, b, pose_b, contact, &settings, &mut PatchScratch::new(), |_| ()).unwrap()
+    })
+}
+
+fn on_a_plane(chance: &mut Chance) -> Taken {
+    let (k, depth) = (chance.pick(&[0.0, 1e-6, 0.02, 0.3]), 10f64.powf(-3.0 * chance.uniform()));
+    let (a, turn, overlap) = if chance.uniform() < 0.5 {
+        let a = body(chance.pick(&FAMILIES[..5]), chance.pick(&[1e-4, 1e-2, 0.1, 0.5]), k, chance);
+        let overlap = 0.8 * depth * a.rounding_radius();
+        (a, chance.rotation(), overlap)
+    } else {
+        let r = chance.pick(&[1e-3, 0.05]);
+        let (a, normals) = grain(r, k, chance);
+        let turn = facing(&chance.pick(&normals), &-Vector3::z(), chance);
+        (a, turn, 0.8 * depth * r)
+    };
+    let pose: Pose = resting(&a, &turn, overlap);
+    Box::new(move |tolerance| {
+        let wall = Wall::new([0.0; 3], [0.0, 0.0, 1.0]).unwrap();
+        let contact = contact_with_plane(&a, &pose, &wall, &Settings::default(), None).unwrap();
+        let settings = PatchSettings { tolerance, ..PatchSettings::default() };
+        patch_on_plane(&a, &pose, &contact, &settings, &mut PatchScratch::new(), |_| ()).unwrap()
+    })
+}
+
+/// PATCH_SEED and PATCH_ROUNDS in the environment choose other ones.
+#[test]
+fn cells_are_as_rays() {
+    let of = |name: &str, otherwise| std::env::var(name).map_or(otherwise, |value| value.parse().expect("a number"));
+    let (seed, rounds) = (of("PATCH_SEED", 21), of("PATCH_ROUNDS", 400));
+    let mut chance = Chance::new(seed);
+    let (mut in_cells, mut above, mut estimated, mut compared) = (0, 0, 0, 0);
+    for round in 0..rounds {
+        let taken = if round % 2 == 0 { pair(&mut chance) } else { on_a_plane(&mut chance) };
+        let (found, exact) = (taken(1e-4), taken(1e-7));
+        if [found, exact]
+            .iter()
+            .any(|patch| patch.flags.contains(PatchFlags::FOLDED) || patch.flags.contains(PatchFlags::EMPTY))
+        {
+            continue;
+        }
+        let (force, reach) = (exact.force.norm(), exact.area.sqrt());
+        let off = ((found.force - exact.force).norm() / force)
+            .max(0.1 * (found.torque - exact.torque).norm() / (force * reach));
+        let area = (found.area / exact.area - 1.0).abs();
+        compared += 1;
+        in_cells += u64::from(found.rays == 0);
+        above += u64::from(off > 1e-4);
+        estimated += u64::from(off > 2.0 * found.error.max(1e-5));
+        assert!(off < 1e-3, "seed {seed}, round {round}: force off by {off:e}, estimated {:e}", found.error);
+        assert!(area < 0.02, "seed {seed}, round {round}: area off by {area:e}, estimated {:e}", found.area_error);
+    }
+    println!(
+        "seed {seed}: of {compared} patches {in_cells} without rays, {above} off by more than 1e-4, {estimated} by more than twice the estimate"
+    );
+    assert!(compared > rounds * 9 / 10 && in_cells > compared * 8 / 10, "{in_cells} of {compared}");
+    assert!(200 * above <= compared + 199 && 50 * estimated <= compared + 49, "{above} and {estimated} of {compared}");
+}
