@@ -22,7 +22,7 @@ impl HalfPlane {
     pub fn within(origin: [f64; 3], normal: &[f64; 3]) -> Option<Self> {
         let length = dot(normal, normal).sqrt();
         let [a, b, c] = normal.map(|x| x / length);
-        let run = a.hypot(b);
+        let run = (a * a + b * b).sqrt();
         let along = [b / run, -a / run, 0.0];
         let up = [-a * c / run, -b * c / run, run];
         along.iter().chain(&up).all(|x| x.is_finite()).then_some(Self { origin, along, across: [a, b, c], up })

@@ -11,8 +11,8 @@ pub(super) const MOST_PLANES: usize = 128;
 const MOST_VERTICES: usize = 400;
 const MOST_ROUNDS: usize = 12;
 
-/// Largest turn of an arc.
-const TURN: f64 = 1.6;
+/// tan ½θ of the largest turn θ = 0.8 of half an arc.
+const HALF_TURN: f64 = 0.42;
 
 /// Relative distance within which two walks meet the same vertex.
 const SAME: f64 = 1e-6;
@@ -196,7 +196,7 @@ impl Network {
         self.misfit = Misfit { load: self.curved_load, area: 0.0 };
         self.ring.clear();
         for (i, vertex) in self.vertices.iter().enumerate().filter(|(_, vertex)| vertex.planes[1] == RIM) {
-            self.ring.push((vertex.x[1].atan2(vertex.x[0]), i as u32));
+            self.ring.push((around(&vertex.x), i as u32));
         }
         self.ring.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
         let mut is_complete = true;
@@ -236,9 +236,9 @@ impl Network {
             self.queue.push((id as u32, through));
             return Ok(false);
         }
-        let turns = from.turn_to(&middle).max(middle.turn_to(to)).max(0.5 * from.turn_to(to).abs());
+        let turns = from.half_turn_to(&middle).abs().max(middle.half_turn_to(to).abs()) > HALF_TURN;
         let misfit = Misfit::new(field, [from, &middle, to]).ok_or(Trouble::Lost)?;
-        let is_off = turns > 0.5 * TURN || misfit.area > self.allowed.area || misfit.load > self.allowed.load;
+        let is_off = turns || misfit.area > self.allowed.area || misfit.load > self.allowed.load;
         if is_off && halvings < MOST_HALVINGS {
             self.vertices.push(Vertex { x: middle.x, planes: [RIM; 2], uses: 1 });
             let between = self.vertices.len() as u32 - 1;
@@ -254,4 +254,10 @@ impl Network {
         self.sides.push(Side { ends, middle: [u, v], plane: RIM, active });
         Ok(true)
     }
+}
+
+/// Rises with the angle of a point about the origin, from −2 to 2.
+fn around([u, v, _]: &[f64; 3]) -> f64 {
+    let along = u / (u.abs() + v.abs());
+    if *v < 0.0 { along - 1.0 } else { 1.0 - along }
 }

@@ -28,7 +28,7 @@ impl RimPoint {
         let (_, d) = look.difference(field.b.is_some());
         // The slope of s over the frame's plane points outwards.
         let slope = [0, 1].map(|i| of_a[i] - of_a[2] * d[i] / d[2]);
-        let length = slope[0].hypot(slope[1]);
+        let length = length_of(slope);
         let tangent = [-slope[1] / length, slope[0] / length];
         (d[2] > 0.0 && tangent[0].is_finite() && tangent[1].is_finite()).then_some(Self {
             x,
@@ -37,18 +37,20 @@ impl RimPoint {
         })
     }
 
-    /// The angle by which the rim turns from here to another point.
-    pub fn turn_to(&self, other: &Self) -> f64 {
+    /// tan ½θ of the angle θ by which the rim turns from here to another point.
+    pub fn half_turn_to(&self, other: &Self) -> f64 {
         let ([a, b], [c, d]) = (self.tangent, other.tangent);
-        (a * d - b * c).atan2(a * c + b * d)
+        (a * d - b * c) / (1.0 + (a * c + b * d))
     }
 
     /// The point of the rim across the middle of the chord to another one.
     pub fn middle(&self, other: &Self, field: &Field) -> Option<Self> {
         let chord = [other.x[0] - self.x[0], other.x[1] - self.x[1]];
-        let length = chord[0].hypot(chord[1]);
+        let length = length_of(chord);
         let out = [chord[1] / length, -chord[0] / length];
-        let sagitta = 0.5 * length * (0.25 * self.turn_to(other).clamp(-2.0, 2.0)).tan();
+        // Of a circle: half the chord times tan ¼θ.
+        let half = self.half_turn_to(other).clamp(-1.5, 1.5);
+        let sagitta = 0.5 * length * half / (1.0 + (1.0 + half * half).sqrt());
         let mut x: [f64; 3] = std::array::from_fn(|i| 0.5 * (self.x[i] + other.x[i]));
         (0..2).for_each(|i| x[i] += sagitta * out[i]);
         let x = on_line(field, x, (out, length), |look, _| (look.s[0] - 1.0, look.gradients[0]))?;
@@ -118,7 +120,7 @@ impl CurvePart {
     pub fn halves(&self, field: &Field) -> Option<[Self; 2]> {
         let plane = &field.planes[self.id as usize];
         let chord = [self.to[0] - self.from[0], self.to[1] - self.from[1]];
-        let length = chord[0].hypot(chord[1]);
+        let length = length_of(chord);
         let out = [chord[1] / length, -chord[0] / length];
         let excess = |_: &Look, x: &[f64; 3]| (plane.excess + dot(&plane.normal, x), plane.normal);
         let [a, b] = self.quarters().map(|x| on_line(field, x, (out, length), excess));
@@ -139,7 +141,7 @@ pub(super) struct Misfit {
 impl Misfit {
     /// From the distances at a quarter and three quarters: in between the parabola meets the rim.
     pub fn new(field: &Field, [from, middle, to]: [&RimPoint; 3]) -> Option<Self> {
-        let length = (to.x[0] - from.x[0]).hypot(to.x[1] - from.x[1]);
+        let length = length_of([to.x[0] - from.x[0], to.x[1] - from.x[1]]);
         let mut misfit = Self::default();
         let mut signed = 0.0;
         for (a, b) in [(from, to), (to, from)] {
@@ -148,7 +150,7 @@ impl Misfit {
             let (d, rises) = look.difference(field.b.is_some());
             let [of_a, _] = look.gradients;
             let slope = [0, 1].map(|i| of_a[i] - of_a[2] * rises[i] / rises[2]);
-            let steepness = slope[0].hypot(slope[1]);
+            let steepness = length_of(slope);
             let distance = (look.s[0] - 1.0 - of_a[2] * d / rises[2]) / steepness;
             if !distance.is_finite() {
                 return None;
@@ -202,4 +204,9 @@ pub(super) fn unmet_plane(
         return Some((i, std::array::from_fn(|c| there[c] + share * (middle.x[c] - there[c]))));
     }
     None
+}
+
+/// Of a vector of the frame's plane. A patch is as large as its bodies: squares neither overflow nor vanish.
+fn length_of([u, v]: [f64; 2]) -> f64 {
+    (u * u + v * v).sqrt()
 }
