@@ -23,7 +23,7 @@ for block in task["blocks"]:
     if density not in materials:
         materials[density] = O.materials.append(ConicJointMat(
             density=density, normalStiffness=task["stiffness"], shearStiffness=0.5 * task["stiffness"], frictionAngle=math.atan(task["friction"]), restitution=0.3))
-    # Faces that touch to rounding alone have no patch that could be found: they begin so far apart, as a share of the size.
+    # Faces begin so far apart, as a share of the size: no contact is then one of rounding, which would be there in one step and gone in the next.
     corners = np.array(block["vertices"])
     corners = corners.mean(0) + (1.0 - GAP) * (corners - corners.mean(0))
     shape = shapes.from_vertices(corners, r=task["rounding"] / size(corners), k=0)

@@ -6,7 +6,7 @@ from scene import O, fresh, moving, run
 from yade import Vector3, utils
 
 SIZE = 0.15
-STEP = 5e-5
+STEP = 1.5e-5  # s; critical_time_step() of the pile at rest is 1.54e-5
 
 
 def _rest(shape, number, height, seconds=2.5):
