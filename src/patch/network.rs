@@ -4,7 +4,7 @@ use super::curve::{Stretch, Trouble};
 use super::field::{Field, dot};
 use super::half_plane::HalfPlane;
 use super::ray::{RIM, Walker};
-use super::rim::{CurvePart, Misfit, RimPoint, unmet_plane};
+use super::rim::{CurvePart, Known, Misfit, RimPoint, unmet_plane};
 
 /// Most planes that may be loaded, vertices, and rounds in which planes are found.
 pub(super) const MOST_PLANES: usize = 128;
@@ -57,7 +57,9 @@ pub(super) struct Side {
 pub(super) struct Network {
     pub vertices: Vec<Vertex>,
     pub sides: Vec<Side>,
+    /// Planes whose curves are to be followed, each from a place on it, and directions in which others are to be met.
     queue: Vec<(u32, [f64; 3])>,
+    towards: Vec<[f64; 2]>,
     /// The planes whose curves are drawn, and those that are active at the origin, a bit each.
     walked: u128,
     at_origin: u128,
@@ -88,23 +90,15 @@ impl Network {
         self.vertices.clear();
         self.sides.clear();
         self.queue.clear();
+        self.towards.clear();
         self.curved_load = 0.0;
         (self.walked, self.at_origin) = (0, walker.field.look(&[0.0; 3]).active);
         let [e, f] = drawing.axis;
         let mut lengths = [0.0; 2];
         for (i, direction) in [[e, f], [-f, e], [-e, -f], [f, -e]].into_iter().enumerate() {
-            let [_, ray] = &mut self.stretches;
-            ray.clear();
-            walker.walk_to_rim(&HalfPlane::upright([0.0; 3], direction), None, ray)?;
-            for stretch in ray.iter() {
-                match stretch.id {
-                    RIM => {
-                        self.vertices.push(Vertex { x: stretch.end, planes: [RIM; 2], uses: 1 });
-                        lengths[i % 2] += stretch.end[0].hypot(stretch.end[1]);
-                    }
-                    id => self.queue.push((id, stretch.end)),
-                }
-            }
+            let end = self.look_out(walker, direction)?;
+            self.vertices.push(Vertex { x: end, planes: [RIM; 2], uses: 1 });
+            lengths[i % 2] += (end[0] * end[0] + end[1] * end[1]).sqrt();
         }
         // Of an ellipse with these axes and a paraboloid of s over it.
         let area = 0.25 * std::f64::consts::PI * lengths[0] * lengths[1];
@@ -119,8 +113,22 @@ impl Network {
                 let met = self.vertices.iter().all(|vertex| vertex.planes.contains(&RIM) || vertex.uses == 2);
                 return if met { Ok(()) } else { Err(Trouble::Lost) };
             }
+            while let Some([u, v]) = self.towards.pop() {
+                let length = (u * u + v * v).sqrt();
+                self.look_out(walker, [u / length, v / length])?;
+            }
         }
         Err(Trouble::Lost)
+    }
+
+    /// Walks over a ray from the origin, for the planes that it meets; its end.
+    fn look_out(&mut self, walker: &mut Walker, direction: [f64; 2]) -> Result<[f64; 3], Trouble> {
+        let [_, ray] = &mut self.stretches;
+        ray.clear();
+        walker.walk_to_rim(&HalfPlane::upright([0.0; 3], direction), None, ray)?;
+        let met = ray.iter().filter(|stretch| stretch.id != RIM);
+        self.queue.extend(met.map(|stretch| (stretch.id, stretch.end)));
+        ray.last().map(|stretch| stretch.end).ok_or(Trouble::Lost)
     }
 
     /// Adds the curve of a plane.
@@ -227,13 +235,13 @@ impl Network {
             return Err(Trouble::Far(away));
         }
         let own = ends.map(|end| self.vertices[end as usize].planes[0]);
-        if let Some((id, through)) =
-            unmet_plane(field, [from, &middle, to], own, LEFT_OUT * drawing.tolerance * drawing.depth)
-        {
+        let least = LEFT_OUT * drawing.tolerance * drawing.depth;
+        let known = Known { drawn: self.walked, at_origin: self.at_origin, least };
+        if let Some((id, [u, v, _])) = unmet_plane(field, [from, &middle, to], own, &known) {
             if self.walked >> id & 1 == 1 {
                 return Err(Trouble::Lost);
             }
-            self.queue.push((id as u32, through));
+            self.towards.push([u, v]);
             return Ok(false);
         }
         let turns = from.half_turn_to(&middle).abs().max(middle.half_turn_to(to).abs()) > HALF_TURN;

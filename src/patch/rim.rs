@@ -164,44 +164,51 @@ impl Misfit {
     }
 }
 
-/// A plane that goes on or off between two points of an arc though it is in the same state at both: its number, and a point of its curve.
+/// What is known of the planes where the rim is drawn, a bit each.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Known {
+    /// Planes whose curves are drawn.
+    pub drawn: u128,
+    /// Planes that are active at the origin.
+    pub at_origin: u128,
+    /// Change of S by a plane up to which its curve is left out.
+    pub least: f64,
+}
+
+/// A plane that on an arc is not in the state that is known: where its curve is not drawn that at the origin, else that in the middle of the
+/// arc. Its number, and a point of the arc where it is not.
 ///
-/// `known`: the planes whose own curve ends at an end of the arc. Along a parabola through the three points the excess of a plane is one.
-/// What would change S by less than `least` is left out.
+/// `own`: the planes whose curves end at the ends of the arc. Along a parabola through the three points the excess of a plane is one.
 pub(super) fn unmet_plane(
     field: &Field,
     [from, middle, to]: [&RimPoint; 3],
-    known: [u32; 2],
-    least: f64,
+    own: [u32; 2],
+    known: &Known,
 ) -> Option<(usize, [f64; 3])> {
     for (i, plane) in field.planes.iter().enumerate().filter(|(_, plane)| plane.owner != Owner::Edge) {
         let [a, m, b] = [from, middle, to].map(|point| plane.excess + dot(&plane.normal, &point.x));
-        let is_on = m > 0.0;
+        let is_drawn = known.drawn >> i & 1 == 1;
+        let is_on = if is_drawn { m > 0.0 } else { known.at_origin >> i & 1 == 1 };
         let sign = if is_on { -1.0 } else { 1.0 };
         let weight =
             if plane.owner == Owner::A { field.a.plane_weight } else { field.b.map_or(0.0, |b| b.plane_weight) };
         // a + t (4 m − 3 a − b) + t² (2 a + 2 b − 4 m).
         let (rise, bend) = (4.0 * m - 3.0 * a - b, 2.0 * (a + b) - 4.0 * m);
-        let peak = -0.5 * rise / bend;
-        let mut candidates = [(f64::NAN, f64::NEG_INFINITY); 3];
-        for (candidate, (t, own)) in candidates.iter_mut().zip([(0.0, known[0]), (1.0, known[1]), (peak, u32::MAX)]) {
-            if own != i as u32 && (0.0..=1.0).contains(&t) {
-                *candidate = (t, sign * (a + t * (rise + t * bend)));
+        let mut farthest = (f64::NAN, 0.0);
+        for (t, own) in [(0.0, own[0]), (1.0, own[1]), (0.5, u32::MAX), (-0.5 * rise / bend, u32::MAX)] {
+            let beyond = sign * (a + t * (rise + t * bend));
+            if own != i as u32 && (0.0..=1.0).contains(&t) && beyond > farthest.1 {
+                farthest = (t, beyond);
             }
         }
-        let (t, beyond) = candidates.into_iter().fold((f64::NAN, 0.0), |best, c| if c.1 > best.1 { c } else { best });
-        if !(beyond > 0.0) || weight * beyond * beyond <= least {
-            continue;
-        }
-        let on_arc = |t: f64| -> [f64; 3] {
-            std::array::from_fn(|c| {
+        let (t, beyond) = farthest;
+        if weight * beyond * beyond > known.least {
+            let on_arc = |c: usize| {
                 let (p, q, r) = (from.x[c], middle.x[c], to.x[c]);
                 p + t * (4.0 * q - 3.0 * p - r + t * (2.0 * (p + r) - 4.0 * q))
-            })
-        };
-        // Between there and the middle the excess changes its sign, linearly on the chord.
-        let (there, share) = (on_arc(t), beyond / (beyond + m.abs()));
-        return Some((i, std::array::from_fn(|c| there[c] + share * (middle.x[c] - there[c]))));
+            };
+            return Some((i, std::array::from_fn(on_arc)));
+        }
     }
     None
 }

@@ -81,7 +81,7 @@ fn cells_are_as_rays() {
     let of = |name: &str, otherwise| std::env::var(name).map_or(otherwise, |value| value.parse().expect("a number"));
     let (seed, rounds) = (of("PATCH_SEED", 21), of("PATCH_ROUNDS", 400));
     let mut chance = Chance::new(seed);
-    let (mut in_cells, mut above, mut estimated, mut compared) = (0, 0, 0, 0);
+    let (mut in_cells, mut above, mut far, mut estimated, mut compared) = (0, 0, 0, 0, 0);
     for round in 0..rounds {
         let taken = if round % 2 == 0 { pair(&mut chance) } else { on_a_plane(&mut chance) };
         let (found, exact) = (taken(1e-4), taken(1e-7));
@@ -98,13 +98,17 @@ fn cells_are_as_rays() {
         compared += 1;
         in_cells += u64::from(found.rays == 0);
         above += u64::from(off > 1e-4);
+        far += u64::from(off > 1e-3);
         estimated += u64::from(off > 2.0 * found.error.max(1e-5));
-        assert!(off < 1e-3, "seed {seed}, round {round}: force off by {off:e}, estimated {:e}", found.error);
+        assert!(off < 1e-2, "seed {seed}, round {round}: force off by {off:e}, estimated {:e}", found.error);
         assert!(area < 0.02, "seed {seed}, round {round}: area off by {area:e}, estimated {:e}", found.area_error);
     }
     println!(
-        "seed {seed}: of {compared} patches {in_cells} without rays, {above} off by more than 1e-4, {estimated} by more than twice the estimate"
+        "seed {seed}: of {compared} patches {in_cells} without rays, {above} off by more than 1e-4, {far} by more than 1e-3, {estimated} by \
+         more than twice the estimate"
     );
     assert!(compared > rounds * 9 / 10 && in_cells > compared * 8 / 10, "{in_cells} of {compared}");
+    // Zones of bodies with k = 0 miss a side in one of some 40,000.
+    assert!(far <= compared / 10_000, "{far} of {compared}");
     assert!(200 * above <= compared + 199 && 50 * estimated <= compared + 49, "{above} and {estimated} of {compared}");
 }
