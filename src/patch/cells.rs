@@ -69,8 +69,10 @@ pub(super) fn cells(
         }
         match scratch.network.draw(walker, &drawing) {
             Ok(()) => break,
-            Err(Trouble::Far(distance)) => walker.field.load(distance.max(2.0 * walker.field.loaded())),
-            Err(Trouble::Lost) => return None,
+            Err(Trouble::Far(distance)) if walker.field.loaded().is_finite() => {
+                walker.field.load(distance.max(2.0 * walker.field.loaded()));
+            }
+            Err(_) => return None,
         }
     }
     scratch.triangulate(walker)?;
@@ -144,13 +146,11 @@ impl CellScratch {
         self.nodes.clear();
         let least = OF_COARSE * tolerance * self.network.rough_load;
         for triangle in 0..self.triangles.len() {
-            let is_coarse = self.triangles[triangle].0.is_nearly_straight();
-            let mut part = None;
-            if is_coarse {
-                part = Some(self.part(triangle as u32, &WHOLE, Rule::Coarse)?).filter(|part| part.0.error[0] <= least);
-            }
-            let part = if part.is_none() { self.part(triangle as u32, &WHOLE, Rule::Fine) } else { part };
-            self.put(part?, None);
+            let with = |rule| self.part(triangle as u32, &WHOLE, rule);
+            let is_straight = self.triangles[triangle].0.is_nearly_straight();
+            let coarse = is_straight.then(|| with(Rule::Coarse)).flatten().filter(|(part, _)| part.error[0] <= least);
+            let part = coarse.or_else(|| with(Rule::Fine))?;
+            self.put(part, None);
         }
         loop {
             let mut sums = [0.0; INTEGRALS];
