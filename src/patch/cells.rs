@@ -197,9 +197,9 @@ impl CellScratch {
         let Integrals { value, off } = curved.integrate(corners, form, rule, &mut nodes)?;
         let square = |node: &Node| node.x[0] * node.x[0] + node.x[1] * node.x[1];
         let reach = nodes[..rule.count()].iter().map(square).fold(0.0, f64::max).sqrt();
-        let (size, difference) = (norm(&value[..3]), norm(&off[..3]).max(norm(&off[3..5]) / reach));
+        let (size, difference) = (norm(&value[..3]), norm(&off[..3]).max(norm(&off[3..6]) / reach));
         let of = |off: f64, size: f64| if off > 0.0 { off * (OF_DIFFERENCE * off / size).min(1.0) } else { 0.0 };
-        let error = [of(difference, size), of(off[5].abs(), value[5])];
+        let error = [of(difference, size), of(off[6].abs(), value[6])];
         Some((Part { triangle, corners: *corners, rule, value, error }, nodes))
     }
 

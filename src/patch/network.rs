@@ -21,6 +21,9 @@ const SAME: f64 = 1e-6;
 const OF_AREA: f64 = 1.0;
 const OF_LOAD: f64 = 0.02;
 
+/// What is left of the misfit in area once the middle of an arc is corrected by it, at most about.
+const CORRECTED: f64 = 0.2;
+
 /// Part of the tolerance up to which a plane may change the depth where its curve is left out.
 const LEFT_OUT: f64 = 0.1;
 
@@ -104,7 +107,7 @@ impl Network {
         let area = 0.25 * std::f64::consts::PI * lengths[0] * lengths[1];
         self.rough_load = 0.25 * drawing.depth * area;
         let [of_area, of_load] = [OF_AREA * drawing.tolerance, OF_LOAD * drawing.tolerance];
-        self.allowed = Misfit { area: of_area * area, load: of_load * self.rough_load };
+        self.allowed = Misfit { area: of_area * area, load: of_load * self.rough_load, ..Misfit::default() };
         for _ in 0..MOST_ROUNDS {
             while let Some((id, through)) = self.queue.pop() {
                 self.follow(walker, id, through)?;
@@ -201,7 +204,7 @@ impl Network {
     /// Adds the arcs of the rim; whether no plane was found on them whose curve was not known.
     fn close(&mut self, field: &Field, drawing: &Drawing) -> Result<bool, Trouble> {
         let known = (self.sides.len(), self.vertices.len());
-        self.misfit = Misfit { load: self.curved_load, area: 0.0 };
+        self.misfit = Misfit { load: self.curved_load, ..Misfit::default() };
         self.ring.clear();
         for (i, vertex) in self.vertices.iter().enumerate().filter(|(_, vertex)| vertex.planes[1] == RIM) {
             self.ring.push((around(&vertex.x), i as u32));
@@ -254,9 +257,9 @@ impl Network {
             let second = self.arc(field, drawing, ([between, ends[1]], [&middle, to]), halvings + 1)?;
             return Ok(first && second);
         }
-        self.misfit.area += misfit.area;
+        self.misfit.area += CORRECTED * misfit.area;
         self.misfit.load += misfit.load;
-        let [u, v, _] = middle.x;
+        let [u, v] = [0, 1].map(|i| middle.x[i] + misfit.correction[i]);
         // A plane whose curve does not count is everywhere as at the origin.
         let active = middle.active & self.walked | self.at_origin & !self.walked;
         self.sides.push(Side { ends, middle: [u, v], plane: RIM, active });

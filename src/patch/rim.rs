@@ -136,6 +136,8 @@ pub(super) struct Misfit {
     pub area: f64,
     /// ∫ p on it.
     pub load: f64,
+    /// By which the middle is to be moved, so that the parabola encloses the area of the arc.
+    pub correction: [f64; 2],
 }
 
 impl Misfit {
@@ -160,6 +162,9 @@ impl Misfit {
             misfit.load += 0.25 * 32.0 / 90.0 * length * steepness * distance * distance;
         }
         misfit.area = signed.abs();
+        // Outwards by d the middle takes 2/3 of d times the chord with it.
+        let by = -1.5 * signed / (length * length);
+        misfit.correction = [by * (to.x[1] - from.x[1]), -by * (to.x[0] - from.x[0])];
         Some(misfit)
     }
 }

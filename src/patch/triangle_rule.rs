@@ -103,8 +103,8 @@ impl Rule {
 /// Largest distance of the middle of a side from that of its chord, over the chord, for the coarse rule.
 const BULGE: f64 = 0.03;
 
-/// Integrals of p n, of p u and p v, and of |n|.
-pub(super) const INTEGRALS: usize = 6;
+/// Integrals of p n, of p u, p v and the torque about z, and of |n|.
+pub(super) const INTEGRALS: usize = 7;
 
 /// Integrals over a triangle by a rule, and how far those of the lower degree are off.
 #[derive(Clone, Copy, Debug, Default)]
@@ -169,7 +169,8 @@ impl CurvedTriangle {
             *node = Node { weight: weight * area, ..found };
             let Node { x: [u, v, _], pressure, normal: [n_u, n_v], .. } = found;
             let stretch = (1.0 + n_u * n_u + n_v * n_v).sqrt();
-            let values = [pressure * n_u, pressure * n_v, pressure, pressure * u, pressure * v, stretch];
+            let [p_u, p_v, twist] = [u, v, u * n_v - v * n_u].map(|c| pressure * c);
+            let values = [pressure * n_u, pressure * n_v, pressure, p_u, p_v, twist, stretch];
             for (i, value) in values.into_iter().enumerate() {
                 sums.value[i] += weight * area * value;
                 sums.off[i] += (weight - low) * area * value;
