@@ -18,7 +18,7 @@ from . import rounding
 from .arguments import positive, whole
 from .polyhedron import Polyhedron, refuse_flat
 from .shape import Fit
-from .solids import rounded_hull, sizes
+from .solids import sizes
 
 # Of the size: between them r is chosen. Below, overlaps would have to be tiny; beyond, faces are hardly flat any more.
 LEAST_R, MOST_R = 0.02, 0.3
@@ -41,8 +41,10 @@ def of_surface(points, samples, volume, r, k, R, name, planes=None, error=None):
     faces of the hull, where they are. r: a fraction of the size as in `shapes`, or None: chosen so that the volume is kept.
     """
     if planes is None and error is None:
-        fraction = _r_of_all_faces(Polyhedron.of_points(points), k, R) if r is None else r
-        return _with_fit(rounded_hull(points, fraction, k, R, name), samples, volume)
+        polyhedron = Polyhedron.of_points(points)
+        fraction = _r_of_all_faces(polyhedron, k, R) if r is None else r
+        shape = rounding.rounded(polyhedron, *sizes(polyhedron.ball_radius, fraction, k, R), name)
+        return _with_fit(shape, samples, volume)
     most = None if planes is None else whole(planes, 4, "planes")
     refuse_flat(points)
     middle = points.mean(0)

@@ -16,7 +16,7 @@ from . import shapes
 from .arguments import positive, rows, vector, whole
 from .bodies import body
 from .polyhedron import Polyhedron
-from .solids import rounded_faces
+from .rounding import rounded
 
 
 def potentialblock(material, a=[], b=[], c=[], d=[], r=0.0, R=0.0, mask=1, isBoundary=False, fixed=False, color=[-1, -1, -1]):
@@ -119,7 +119,7 @@ def _faced(faces, r, material, center, mask, isBoundary, fixed, color, name):
     faces = np.array(faces, float)
     polyhedron = Polyhedron.of_planes(faces[:, :3], faces[:, 3])
     r = positive(r or 0.5 * polyhedron.offsets.min(), "r")
-    shape = rounded_faces(faces, r / (2.0 * polyhedron.ball_radius), 0.0, None, name)
+    shape = rounded(polyhedron, r, 0.0, None, name)
     if color is None or color[0] == -1:
         color = [_random.random() for _ in range(3)]
     return body(shape, material, center, fixed=fixed, color=color, mask=mask, isBoundary=isBoundary)

@@ -2,9 +2,11 @@
 """Rocks at random: convex polyhedra about an ellipsoid."""
 import numpy as np
 
+from . import rounding
 from .arguments import positive, whole, within
+from .polyhedron import Polyhedron
 from .rounding import ROUNDING, SPHERICITY
-from .solids import rounded_faces, sizes
+from .solids import sizes
 
 
 def random_rock(seed, size=1.0, elongation=1.0, flatness=1.0, faces=24, roughness=0.15, r=ROUNDING, k=SPHERICITY, R=None,
@@ -27,7 +29,8 @@ def random_rock(seed, size=1.0, elongation=1.0, flatness=1.0, faces=24, roughnes
     feet = half * np.vstack([np.eye(3), -np.eye(3)])
     clear = sizes(half.min(), r, k, R)[0]
     offsets[6:] = np.maximum(offsets[6:], (normals[6:] @ feet.T).max(1) + clear)
-    return rounded_faces(np.column_stack([normals, offsets]), r, k, R, name or f"rock {seed}")
+    polyhedron = Polyhedron.of_planes(normals, offsets)
+    return rounding.rounded(polyhedron, *sizes(polyhedron.ball_radius, r, k, R), name or f"rock {seed}")
 
 
 def _planes(random, half, faces, roughness):

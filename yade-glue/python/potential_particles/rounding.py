@@ -9,9 +9,6 @@ so that S = 1 at the foot of the perpendicular from the centre on the face (as l
 face at this foot and lies inside the polyhedron everywhere. Away from the foot a face is deeper by at most r (1/sqrt(1-k) - 1), which is
 about r k/2; for k = 0 it is flat, d_i = h_i - r, as YADE has it. Edges and corners are rounded.
 
-The builders are the library's (solids.py). What stands here does the same with fewer digits of the mass properties, for fits of many grains,
-which take eight times as long with all of them.
-
 The shadow sphere is about the centre, which YADE wants at the centroid: with k > 0 the shape depends on it a little. It is found by
 repetition, each time with the centroid of the last shape as the centre.
 """
@@ -32,9 +29,14 @@ CENTRED, ROUGHLY = 1e-5, 1e-4
 MOST_STEPS = 50
 
 
-def rounded(polyhedron, r, k, R, name, tolerance):
+def rounded(polyhedron, r, k, R, name, tolerance=TOLERANCE):
     """The Shape of a polyhedron with rounding radius r, sphericity k and shadow radius R, lengths; R=None: to the farthest corner."""
     return _settled(lambda centre: _planes(polyhedron, r, k, R, centre), polyhedron.centroid, 2.0 * polyhedron.ball_radius, name, tolerance)
+
+
+def ball(radius, name):
+    """The Shape of a sphere: k = 1, no planes."""
+    return _settled(lambda centre: ([], 0.0, 1.0, radius), np.zeros(3), 2.0 * radius, name, TOLERANCE)
 
 
 def _planes(polyhedron, r, k, R, centre):

@@ -18,14 +18,14 @@ import math
 import numpy as np
 from scipy.spatial import ConvexHull
 
-from . import fitting
+from . import fitting, rounding
 from .arguments import positive, rows, vector, whole, within
 from .convex_parts import clump_from_mesh
 from .mesh_file import from_mesh
-from .polyhedron import refuse_flat
+from .polyhedron import Polyhedron, refuse_flat
 from .random_rock import random_rock
 from .rounding import ROUNDING, SPHERICITY
-from .solids import ball, rounded_faces, rounded_hull
+from .solids import rounded_hull, sizes
 from .shape import Fit, Shape
 from .voxels import from_voxels, voxel_image
 
@@ -42,7 +42,8 @@ def from_planes(planes, r=ROUNDING, k=SPHERICITY, R=None, name="planes"):
     given = rows(planes, 4, "planes", "the four numbers a, b, c, h")
     if len(given) == 0:
         raise ValueError("planes is empty: give at least four, or use sphere(radius)")
-    return rounded_faces(given, r, k, R, name)
+    polyhedron = Polyhedron.of_planes(given[:, :3], given[:, 3])
+    return rounding.rounded(polyhedron, *sizes(polyhedron.ball_radius, r, k, R), name)
 
 
 def from_vertices(points, r=None, k=SPHERICITY, R=None, name="vertices", planes=None, error=None):
@@ -61,7 +62,7 @@ def from_vertices(points, r=None, k=SPHERICITY, R=None, name="vertices", planes=
 
 def sphere(radius, name="sphere"):
     """A sphere about the origin: k = 1."""
-    return ball(positive(radius, "radius"), name)
+    return rounding.ball(positive(radius, "radius"), name)
 
 
 def cuboid(edges=(1.0, 1.0, 1.0), r=ROUNDING, k=SPHERICITY, R=None, name="cuboid"):
