@@ -12,7 +12,7 @@ from scipy.spatial import ConvexHull
 from yade import utils
 
 PART = 0.02  # s of the simulated time between looks whether the blocks are at rest
-GAP = 1e-7
+GAP = 1e-7  # between faces at the start, as a share of the size: no contact is then one of rounding, there in one step and gone in the next
 RISE = 0.2  # s in which weight and loads come up
 
 task = json.load(open(os.environ["TASK"]))
@@ -23,7 +23,6 @@ for block in task["blocks"]:
     if density not in materials:
         materials[density] = O.materials.append(ConicJointMat(
             density=density, normalStiffness=task["stiffness"], shearStiffness=0.5 * task["stiffness"], frictionAngle=math.atan(task["friction"]), restitution=0.3))
-    # Faces begin so far apart, as a share of the size: no contact is then one of rounding, which would be there in one step and gone in the next.
     corners = np.array(block["vertices"])
     corners = corners.mean(0) + (1.0 - GAP) * (corners - corners.mean(0))
     shape = shapes.from_vertices(corners, r=task["rounding"] / size(corners), k=0)
@@ -51,7 +50,6 @@ while O.time < task["longest"]:
     unbalanced = utils.unbalancedForce(useMaxForce=True)
     if share == 1.0 and O.time > 2.0 * RISE and unbalanced <= task["rest"]:
         break
-
 
 
 def outline_of(contact, normal):

@@ -13,8 +13,7 @@ use crate::{PairState, Particle, Pose, Settings};
 ///
 /// Body i is particles[i] at poses[i]; pair n is that of the bodies pairs[2n] (A) and pairs[2n+1] (B),
 /// counted from 0. Each pose is converted once, however many pairs its body is in. Each contact and state is,
-/// to the last
-/// bit, that of pp_contact_detect for the pair alone, whatever the number of threads.
+/// to the last bit, that of pp_contact_detect for the pair alone, whatever the number of threads.
 ///
 /// particles, poses: body_count of each; several bodies may share a particle. A particle may be NULL and
 /// a pose may be bad: that is told by the statuses of the pairs that name such a body, if any.

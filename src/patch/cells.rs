@@ -1,10 +1,11 @@
-//! The patch in cells, on each of which both potentials are quadratic forms: the meshes of the network, cut into curved triangles.
+//! The patch in cells, on each of which both potentials are quadratic forms: the faces of the network, cut into curved triangles.
 
 use super::curve::Trouble;
 use super::form::Form;
 use super::network::{Drawing, MOST_PLANES, Network};
 use super::pieces::Estimate;
 use super::ray::{Node, RIM, Walker};
+use super::rim::parabola;
 use super::smoothness::norm;
 use super::triangle_rule::{CurvedTriangle, INTEGRALS, Integrals, POINTS, Rule, WHOLE, quarters};
 
@@ -250,11 +251,7 @@ fn cut(outline: &[Corner], mut give: impl FnMut(CurvedTriangle)) -> Option<()> {
 /// A cell with two corners, in two triangles on either side of the line between the middles of its sides.
 fn lens(outline: &[Corner], mut give: impl FnMut(CurvedTriangle)) -> Option<()> {
     let [a, b] = [outline[0], outline[1]];
-    // The parabola of a side at a quarter of it.
-    let quarter = |from: &Corner, to: &Corner, t: f64| {
-        let [p, m, q] = [2.0 * (t - 0.5) * (t - 1.0), 4.0 * t * (1.0 - t), 2.0 * t * (t - 0.5)];
-        Some([0, 1].map(|c| p * from.at[c] + m * from.middle[c] + q * to.at[c]))
-    };
+    let quarter = |from: &Corner, to: &Corner, t: f64| Some(parabola([&from.at, &from.middle, &to.at], t));
     let halves = [
         CurvedTriangle::new([a.at, a.middle, b.middle], [quarter(&a, &b, 0.25), None, quarter(&b, &a, 0.75)]),
         CurvedTriangle::new([b.at, b.middle, a.middle], [quarter(&b, &a, 0.25), None, quarter(&a, &b, 0.75)]),

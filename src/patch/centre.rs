@@ -8,11 +8,7 @@ use super::ray::{Line, Walker};
 pub(super) fn flattest_axis(field: &Field) -> [f64; 2] {
     let [(_, rise), (_, fall)] = field.values(&[0.0; 3]);
     let (of_a, of_b) = if field.b.is_some() { (fall.abs(), rise.abs()) } else { (1.0, 0.0) };
-    let weight = |owner: Owner| match owner {
-        Owner::A => of_a * field.a.plane_weight,
-        Owner::B => of_b * field.b.map_or(0.0, |b| b.plane_weight),
-        Owner::Edge => 0.0,
-    };
+    let weight = |owner: Owner| field.plane_weight(owner) * if owner == Owner::A { of_a } else { of_b };
     let (mut difference, mut mixed) = (0.0, 0.0);
     for plane in field.planes.iter().filter(|plane| plane.owner != Owner::Edge && plane.excess > 0.0) {
         let [u, v, _] = plane.normal;

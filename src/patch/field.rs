@@ -67,6 +67,12 @@ pub(super) struct Look {
 }
 
 impl Look {
+    /// The slope of S along the patch, over the frame's plane: it points to the nearest part of the rim.
+    pub fn slope(&self, of_two: bool) -> [f64; 2] {
+        let ([of_a, _], (_, rises)) = (&self.gradients, self.difference(of_two));
+        [0, 1].map(|i| of_a[i] - of_a[2] * rises[i] / rises[2])
+    }
+
     /// S_A − S_B and its gradient; of a boundary the height and its.
     pub fn difference(&self, of_two: bool) -> (f64, [f64; 3]) {
         let [a, b] = &self.gradients;
@@ -176,6 +182,16 @@ impl<'a, 's> Field<'a, 's> {
         [of(&self.a, sums[0]), self.b.map_or((0.0, 0.0), |b| of(&b, sums[1]))]
     }
 
+    /// The weight of the planes of a body in its potential; 0 of edges.
+    #[inline(always)]
+    pub fn plane_weight(&self, owner: Owner) -> f64 {
+        match owner {
+            Owner::A => self.a.plane_weight,
+            Owner::B => self.b.as_ref().map_or(0.0, |b| b.plane_weight),
+            Owner::Edge => 0.0,
+        }
+    }
+
     /// S and its gradient of both bodies at a point of the frame (of a boundary the height), and the active planes, a bit each.
     pub fn look(&self, x: &[f64; 3]) -> Look {
         let mut look = Look { s: [0.0, x[2]], gradients: [[0.0; 3], [0.0, 0.0, 1.0]], active: 0 };
@@ -190,7 +206,7 @@ impl<'a, 's> Field<'a, 's> {
             if excess > 0.0 && plane.owner != Owner::Edge {
                 look.active |= 1 << bit;
                 let i = usize::from(plane.owner == Owner::B);
-                let weighted = bodies[i].map_or(0.0, |body| body.plane_weight) * excess;
+                let weighted = self.plane_weight(plane.owner) * excess;
                 look.s[i] += weighted * excess;
                 (0..3).for_each(|j| look.gradients[i][j] += 2.0 * weighted * plane.normal[j]);
             }

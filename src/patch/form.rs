@@ -48,13 +48,11 @@ impl Form {
     /// With these planes active, a bit each.
     pub fn new(field: &Field, active: u128) -> Self {
         let mut sums = [Quadratic::default(); 2];
-        let bodies = [Some(&field.a), field.b.as_ref()];
-        for (i, plane) in field.planes.iter().enumerate().filter(|(i, _)| active >> i & 1 == 1) {
-            debug_assert!(i < 128);
+        for (_, plane) in field.planes.iter().enumerate().filter(|(i, _)| active >> i & 1 == 1) {
             let body = usize::from(plane.owner == Owner::B);
-            sums[body].add_plane(bodies[body].map_or(0.0, |b| b.plane_weight), plane.excess, plane.normal);
+            sums[body].add_plane(field.plane_weight(plane.owner), plane.excess, plane.normal);
         }
-        for (sum, body) in sums.iter_mut().zip(bodies) {
+        for (sum, body) in sums.iter_mut().zip([Some(&field.a), field.b.as_ref()]) {
             body.into_iter().for_each(|body| sum.add_sphere(body));
         }
         Self { s: sums[0], d: field.b.is_some().then(|| sums[0].minus(&sums[1])) }

@@ -56,7 +56,7 @@ pub(super) struct Task<'a> {
 
 /// Computes the patch; its points are handed to `visit`.
 ///
-/// In pieces where that is possible, else by a fan of rays, as well as with the energy. No finer than the rounding of s allows, over the
+/// In zones or cells where that is possible, else by rays, as well as with the energy. No finer than the rounding of s allows, over the
 /// depth: faces that touch to rounding would be refined without end.
 pub(super) fn patch(task: &Task, scratch: &mut PatchScratch, mut visit: impl FnMut(PatchPoint)) -> Patch {
     let PatchScratch { planes, ray_planes, nodes, points, pieces, cells, rays, sectors, stack } = scratch;
@@ -75,7 +75,7 @@ pub(super) fn patch(task: &Task, scratch: &mut PatchScratch, mut visit: impl FnM
     let outcome = outcome.or_else(|| parts.around(pieces)).unwrap_or_else(|| {
         parts.field.restore(state);
         let Parts { field, planes, nodes, points, .. } = &mut parts;
-        let walker = Walker { field, planes, nodes, order: 2, with_energy: false, budget: f64::INFINITY };
+        let walker = Walker::new(field, planes, nodes, 2);
         let mut fan = Fan::new(walker, rays, sectors, stack, [0.0; 3], tolerance);
         spread(task, &mut fan, start, points)
     });
@@ -112,7 +112,7 @@ struct Outcome {
     rays: usize,
 }
 
-/// The ways to integrate a patch but for the fan of rays, which serves for all: each gives `None` where it does not.
+/// The ways to integrate a patch other than by rays from its middle, which always serve: each gives `None` where it does not serve.
 ///
 /// None of them has the energy, or the finest tolerances.
 struct Parts<'p, 'f, 'a, 's> {
@@ -149,7 +149,7 @@ impl<'a, 's> Parts<'_, '_, 'a, 's> {
         let axis = flattest_axis(self.field);
         let Self { deepest, tolerance, .. } = *self;
         let Self { field, planes, nodes, points, .. } = self;
-        let mut walker = Walker { field, planes, nodes, order: 2, with_energy: false, budget: f64::INFINITY };
+        let mut walker = Walker::new(field, planes, nodes, 2);
         let estimate = cells(&mut walker, axis, deepest, tolerance, scratch, points)?;
         Some(Outcome::of(&estimate, points))
     }
@@ -159,7 +159,7 @@ impl<'a, 's> Parts<'_, '_, 'a, 's> {
         let (level, polygon) = self.is_asked().then(|| scratch.flat()).flatten()?;
         let (order, tolerance) = (order_of(self.tolerance), self.tolerance);
         let Self { field, planes, nodes, points, .. } = self;
-        let mut walker = Walker { field, planes, nodes, order, with_energy: false, budget: f64::INFINITY };
+        let mut walker = Walker::new(field, planes, nodes, order);
         let estimate = around(&mut walker, level, polygon, tolerance, points)?;
         Some(Outcome::of(&estimate, points))
     }

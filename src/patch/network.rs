@@ -64,7 +64,7 @@ pub(super) struct Network {
     queue: Vec<(u32, [f64; 3])>,
     towards: Vec<[f64; 2]>,
     /// The planes whose curves are drawn, and those that are active at the origin, a bit each.
-    walked: u128,
+    drawn: u128,
     at_origin: u128,
     ring: Vec<(f64, u32)>,
     /// What an arc may be off, and what all are.
@@ -95,7 +95,7 @@ impl Network {
         self.queue.clear();
         self.towards.clear();
         self.curved_load = 0.0;
-        (self.walked, self.at_origin) = (0, walker.field.look(&[0.0; 3]).active);
+        (self.drawn, self.at_origin) = (0, walker.field.look(&[0.0; 3]).active);
         let [e, f] = drawing.axis;
         let mut lengths = [0.0; 2];
         for (i, direction) in [[e, f], [-f, e], [-e, -f], [f, -e]].into_iter().enumerate() {
@@ -139,10 +139,10 @@ impl Network {
         if id as usize >= MOST_PLANES || self.vertices.len() > MOST_VERTICES {
             return Err(Trouble::Lost);
         }
-        if self.walked >> id & 1 == 1 {
+        if self.drawn >> id & 1 == 1 {
             return Ok(());
         }
-        self.walked |= 1 << id;
+        self.drawn |= 1 << id;
         let [backwards, forwards] = &mut self.stretches;
         walker.curve(id as usize, through, backwards, forwards)?;
         let count = self.stretches[1].len();
@@ -156,7 +156,7 @@ impl Network {
                 self.add(walker.field, &part, [last, vertex], active, 0)?;
             }
             last = vertex;
-            if met != RIM && self.walked >> met & 1 == 0 {
+            if met != RIM && self.drawn >> met & 1 == 0 {
                 self.queue.push((met, end));
             }
         }
@@ -239,9 +239,9 @@ impl Network {
         }
         let own = ends.map(|end| self.vertices[end as usize].planes[0]);
         let least = LEFT_OUT * drawing.tolerance * drawing.depth;
-        let known = Known { drawn: self.walked, at_origin: self.at_origin, least };
+        let known = Known { drawn: self.drawn, at_origin: self.at_origin, least };
         if let Some((id, [u, v, _])) = unmet_plane(field, [from, &middle, to], own, &known) {
-            if self.walked >> id & 1 == 1 {
+            if self.drawn >> id & 1 == 1 {
                 return Err(Trouble::Lost);
             }
             self.towards.push([u, v]);
@@ -261,7 +261,7 @@ impl Network {
         self.misfit.load += misfit.load;
         let [u, v] = [0, 1].map(|i| middle.x[i] + misfit.correction[i]);
         // A plane whose curve does not count is everywhere as at the origin.
-        let active = middle.active & self.walked | self.at_origin & !self.walked;
+        let active = middle.active & self.drawn | self.at_origin & !self.drawn;
         self.sides.push(Side { ends, middle: [u, v], plane: RIM, active });
         Ok(true)
     }

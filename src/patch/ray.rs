@@ -132,7 +132,17 @@ pub(super) struct Walker<'f, 'a, 's> {
     pub budget: f64,
 }
 
-impl Walker<'_, '_, '_> {
+impl<'f, 'a, 's> Walker<'f, 'a, 's> {
+    /// With one rule for each cell, and without the energy.
+    pub fn new(
+        field: &'f mut Field<'a, 's>,
+        planes: &'f mut Vec<RayPlane>,
+        nodes: &'f mut Vec<Node>,
+        order: usize,
+    ) -> Self {
+        Self { field, planes, nodes, order, with_energy: false, budget: f64::INFINITY }
+    }
+
     /// Walks over a ray to its end.
     pub fn walk(&mut self, line: &Line) -> Ray {
         let known = self.nodes.len();

@@ -24,13 +24,12 @@ impl RimPoint {
     /// What the field has at a point of the rim; `None` where the patch is no graph.
     pub fn new(field: &Field, x: [f64; 3]) -> Option<Self> {
         let look = field.look(&x);
-        let [of_a, _] = look.gradients;
-        let (_, d) = look.difference(field.b.is_some());
-        // The slope of s over the frame's plane points outwards.
-        let slope = [0, 1].map(|i| of_a[i] - of_a[2] * d[i] / d[2]);
+        let (_, rises) = look.difference(field.b.is_some());
+        // The slope of S points outwards.
+        let slope = look.slope(field.b.is_some());
         let length = length_of(slope);
         let tangent = [-slope[1] / length, slope[0] / length];
-        (d[2] > 0.0 && tangent[0].is_finite() && tangent[1].is_finite()).then_some(Self {
+        (rises[2] > 0.0 && tangent[0].is_finite() && tangent[1].is_finite()).then_some(Self {
             x,
             tangent,
             active: look.active,
@@ -45,9 +44,7 @@ impl RimPoint {
 
     /// The point of the rim across the middle of the chord to another one.
     pub fn middle(&self, other: &Self, field: &Field) -> Option<Self> {
-        let chord = [other.x[0] - self.x[0], other.x[1] - self.x[1]];
-        let length = length_of(chord);
-        let out = [chord[1] / length, -chord[0] / length];
+        let (out, length) = across(&self.x, &other.x);
         // Of a circle: half the chord times tan ¼θ.
         let half = self.half_turn_to(other).clamp(-1.5, 1.5);
         let sagitta = 0.5 * length * half / (1.0 + (1.0 + half * half).sqrt());
@@ -97,31 +94,26 @@ pub(super) struct CurvePart {
 
 impl CurvePart {
     fn quarters(&self) -> [[f64; 3]; 2] {
-        [(&self.from, &self.to), (&self.to, &self.from)]
-            .map(|(a, b)| std::array::from_fn(|i| 0.375 * a[i] + 0.75 * self.middle[i] - 0.125 * b[i]))
+        [0.25, 0.75].map(|t| parabola([&self.from, &self.middle, &self.to], t))
     }
 
     /// Estimate of what ∫ p is off where the parabola through the three points strays from the curve: a point of quadrature in between
     /// counts the square of the plane's excess, or does not.
     pub fn straying(&self, field: &Field) -> f64 {
         let plane = &field.planes[self.id as usize];
-        let weight =
-            if plane.owner == Owner::A { field.a.plane_weight } else { field.b.map_or(0.0, |b| b.plane_weight) };
-        let square = (self.to[0] - self.from[0]).powi(2) + (self.to[1] - self.from[1]).powi(2);
+        let (_, length) = across(&self.from, &self.to);
         let excess = self.quarters().map(|mut x| {
             let (d, rises) = field.look(&x).difference(field.b.is_some());
             x[2] -= d / rises[2];
             plane.excess + dot(&plane.normal, &x)
         });
-        OF_POINT * 0.5 * weight * square * excess[0].powi(2).max(excess[1].powi(2))
+        OF_POINT * 0.5 * field.plane_weight(plane.owner) * length * length * excess[0].powi(2).max(excess[1].powi(2))
     }
 
     /// Its halves, each with its middle on the curve.
     pub fn halves(&self, field: &Field) -> Option<[Self; 2]> {
         let plane = &field.planes[self.id as usize];
-        let chord = [self.to[0] - self.from[0], self.to[1] - self.from[1]];
-        let length = length_of(chord);
-        let out = [chord[1] / length, -chord[0] / length];
+        let (out, length) = across(&self.from, &self.to);
         let excess = |_: &Look, x: &[f64; 3]| (plane.excess + dot(&plane.normal, x), plane.normal);
         let [a, b] = self.quarters().map(|x| on_line(field, x, (out, length), excess));
         let Self { id, from, middle, to } = *self;
@@ -143,17 +135,14 @@ pub(super) struct Misfit {
 impl Misfit {
     /// From the distances at a quarter and three quarters: in between the parabola meets the rim.
     pub fn new(field: &Field, [from, middle, to]: [&RimPoint; 3]) -> Option<Self> {
-        let length = length_of([to.x[0] - from.x[0], to.x[1] - from.x[1]]);
+        let (out, length) = across(&from.x, &to.x);
         let mut misfit = Self::default();
         let mut signed = 0.0;
-        for (a, b) in [(from, to), (to, from)] {
-            let x = std::array::from_fn(|i| 0.375 * a.x[i] + 0.75 * middle.x[i] - 0.125 * b.x[i]);
-            let look = field.look(&x);
+        for t in [0.25, 0.75] {
+            let look = field.look(&parabola([&from.x, &middle.x, &to.x], t));
             let (d, rises) = look.difference(field.b.is_some());
-            let [of_a, _] = look.gradients;
-            let slope = [0, 1].map(|i| of_a[i] - of_a[2] * rises[i] / rises[2]);
-            let steepness = length_of(slope);
-            let distance = (look.s[0] - 1.0 - of_a[2] * d / rises[2]) / steepness;
+            let steepness = length_of(look.slope(field.b.is_some()));
+            let distance = (look.s[0] - 1.0 - look.gradients[0][2] * d / rises[2]) / steepness;
             if !distance.is_finite() {
                 return None;
             }
@@ -163,8 +152,7 @@ impl Misfit {
         }
         misfit.area = signed.abs();
         // Outwards by d the middle takes 2/3 of d times the chord with it.
-        let by = -1.5 * signed / (length * length);
-        misfit.correction = [by * (to.x[1] - from.x[1]), -by * (to.x[0] - from.x[0])];
+        misfit.correction = out.map(|c| -1.5 * signed / length * c);
         Some(misfit)
     }
 }
@@ -195,27 +183,34 @@ pub(super) fn unmet_plane(
         let is_drawn = known.drawn >> i & 1 == 1;
         let is_on = if is_drawn { m > 0.0 } else { known.at_origin >> i & 1 == 1 };
         let sign = if is_on { -1.0 } else { 1.0 };
-        let weight =
-            if plane.owner == Owner::A { field.a.plane_weight } else { field.b.map_or(0.0, |b| b.plane_weight) };
-        // a + t (4 m − 3 a − b) + t² (2 a + 2 b − 4 m).
-        let (rise, bend) = (4.0 * m - 3.0 * a - b, 2.0 * (a + b) - 4.0 * m);
+        let extreme = (3.0 * a + b - 4.0 * m) / (4.0 * (a + b) - 8.0 * m);
         let mut farthest = (f64::NAN, 0.0);
-        for (t, own) in [(0.0, own[0]), (1.0, own[1]), (0.5, u32::MAX), (-0.5 * rise / bend, u32::MAX)] {
-            let beyond = sign * (a + t * (rise + t * bend));
+        for (t, own) in [(0.0, own[0]), (1.0, own[1]), (0.5, u32::MAX), (extreme, u32::MAX)] {
+            let [excess] = parabola([&[a], &[m], &[b]], t);
+            let beyond = sign * excess;
             if own != i as u32 && (0.0..=1.0).contains(&t) && beyond > farthest.1 {
                 farthest = (t, beyond);
             }
         }
         let (t, beyond) = farthest;
-        if weight * beyond * beyond > known.least {
-            let on_arc = |c: usize| {
-                let (p, q, r) = (from.x[c], middle.x[c], to.x[c]);
-                p + t * (4.0 * q - 3.0 * p - r + t * (2.0 * (p + r) - 4.0 * q))
-            };
-            return Some((i, std::array::from_fn(on_arc)));
+        if field.plane_weight(plane.owner) * beyond * beyond > known.least {
+            return Some((i, parabola([&from.x, &middle.x, &to.x], t)));
         }
     }
     None
+}
+
+/// The parabola through three points at t = 0, ½, 1.
+pub(super) fn parabola<const N: usize>([from, middle, to]: [&[f64; N]; 3], t: f64) -> [f64; N] {
+    let [p, q, r] = [(1.0 - t) * (1.0 - 2.0 * t), 4.0 * t * (1.0 - t), t * (2.0 * t - 1.0)];
+    std::array::from_fn(|i| p * from[i] + q * middle[i] + r * to[i])
+}
+
+/// The unit vector of the frame's plane across a chord, outwards where the rim runs counter-clockwise, and the length of the chord.
+fn across(from: &[f64; 3], to: &[f64; 3]) -> ([f64; 2], f64) {
+    let [u, v] = [to[0] - from[0], to[1] - from[1]];
+    let length = length_of([u, v]);
+    ([v / length, -u / length], length)
 }
 
 /// Of a vector of the frame's plane. A patch is as large as its bodies: squares neither overflow nor vanish.

@@ -43,8 +43,8 @@ class Finding(NamedTuple):
 def check():
     """Looks for mistakes of which YADE says nothing; prints a line for each, and returns them as a list of (what, remedy).
 
-    Shapes without a box or without a contact functor; prescribed normals (fixedNormal) beside patches; boxes without thickness; compaction by growing spheres; laws with the lever arms of
-    spheres; overlaps beyond the rounding radius; O.dt beyond critical_time_step(safety=1), or left to a stepper that knows no contact yet;
+    Shapes without a box or without a contact functor; prescribed normals (fixedNormal) beside patches; boxes without thickness;
+    compaction by growing spheres; laws with the lever arms of spheres; overlaps beyond the rounding radius; O.dt beyond critical_time_step(safety=1), or left to a stepper that knows no contact yet;
     masses that are not volume times density (1 %); clumps that are not the union of their members; weights
     that the stiffness cannot bear within r; rotation integrated as that of spheres. The list is empty where none is found, and in
     scenes without potential particles. Call it when bodies, engines and O.dt are set, and again after some steps, when there are contacts.
@@ -146,8 +146,6 @@ def _bounds(scene, dispatchers):
 def _contacts(scene, dispatchers):
     for pair, remedy in unserved.pairs(scene.bodies, dispatchers):
         yield Finding(f"bodies pass through each other because the contact loop has no functor for {pair}", remedy)
-
-
     fixed = [body for body in scene.bodies if getattr(body.shape, "fixedNormal", False) and body.shape.boundaryNormal.norm() > 0.0]
     for functor in [one.dispFunctor(fixed[0].shape, fixed[0].shape) for one in dispatchers] if fixed else ():
         if getattr(functor, "patch", False):

@@ -8,7 +8,6 @@
 #include "packing/packing.hpp"
 #include "particle/particle_store.hpp"
 #include "rock/rock.hpp"
-#include "shape/builder.hpp"
 #include "shape/plane_lists.hpp"
 #include "registration.hpp"
 #include "shape/retired.hpp"
@@ -78,8 +77,6 @@ BOOST_PYTHON_MODULE(_glue)
     py::def("joint_from_corners", &pp::jointFromCorners);
     py::def("joints_of_set", &pp::jointsOfSet);
     py::def("slice_rock", &pp::sliceRock);
-    py::def("shape_of_faces", &pp::shapeOfFaces);
-    py::def("shape_of_points", &pp::shapeOfPoints);
     py::def("window_dispatcher", &pp::windowDispatcher);
     py::scope().attr("packing_choices") = pp::packingChoices();
 }

@@ -126,8 +126,8 @@ def _give(physics, values):
 def excavate(ids, settle=0, slow=1e-3, check_every=100):
     """Takes bodies out of the scene, clumps with all their members, and runs up to `settle` steps until none is faster than `slow` (length per time).
 
-    ids: of the bodies, as ids[mass.inside(0)]; one that is gone already is passed over, one that never was is a ValueError. Returns the steps that were run. A sequence
-    is a loop over regions.
+    ids: of the bodies, as ids[mass.inside(0)]; one that is gone already is passed over, one that never was is a
+    ValueError. Returns the steps that were run. A sequence is a loop over regions.
     """
     import yade
     scene = yade.O
