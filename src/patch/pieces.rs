@@ -27,8 +27,9 @@ const SHARE: f64 = 0.9;
 /// Bodies with no more planes than this together are loaded at once.
 const FEW: usize = 48;
 
-/// Part of a cap's load by which a rule of one point is wrong at most, about.
-const SINGLE: f64 = 0.3;
+/// Part of a cap's load by which rules of one point and of two in each angle are wrong at most, about: the difference of the two may vanish by
+/// chance.
+const COARSE_CAP: [f64; 2] = [0.3, 0.1];
 
 /// Factor by which a zone reaches farther from its middle than the places of its border that are computed, at most.
 pub(super) const BETWEEN: f64 = 1.1;
@@ -173,9 +174,9 @@ impl Piece {
             }
             Kind::Cap(zone) => {
                 zone.integrate(cap, into)?;
-                if cap == 1 {
+                if let Some(part) = COARSE_CAP.get(cap - 1) {
                     let size = Vector::new(fine[0], fine[1], fine[2]).norm();
-                    return Some((SINGLE * size, SINGLE * fine[3]));
+                    return Some((part * size, part * fine[3]));
                 }
                 zone.integrate(cap - 1, only)?;
             }
@@ -186,9 +187,7 @@ impl Piece {
         }
         let off = [0, 1, 2].map(|i| fine[i] - coarse[i]);
         let (off, size) = (Vector::from(off).norm(), Vector::new(fine[0], fine[1], fine[2]).norm());
-        // Between one point and two the difference does not tell how fast it falls.
-        let is_plain = tolerance < FINE || matches!(self.kind, Kind::Cap(_)) && cap == 2;
-        let least = if is_plain { 1.0 } else { (0.02 / deepest).min(1.0) };
+        let least = if tolerance < FINE { 1.0 } else { (0.02 / deepest).min(1.0) };
         // The nearer s = √S comes to the kink at its 0, the slower the rules converge.
         let of = |off: f64, size: f64| {
             if off > 0.0 { off * (3.0 * off / (deepest * size)).clamp(least, 1.0) } else { 0.0 }
