@@ -8,6 +8,7 @@ use super::ray::{Line, Node, Ray, SUMS, Walker};
 use super::rules::order_of;
 use super::scratch::PatchScratch;
 use super::settings::{PatchError, PatchSettings};
+use super::stiffness::{stiffness, turned};
 use crate::planar::{Contact, Particle, Pose};
 use nalgebra::{Matrix3, Vector2, Vector3};
 
@@ -39,6 +40,9 @@ pub struct Patch {
     pub largest_depth: f64,
     /// Elastic energy over K, length³; NaN unless it was asked for.
     pub energy: f64,
+    /// Change of force and torque about the contact point, over K, with a shift and a turn of A, as [`crate::Patch::stiffness`]: rows and columns
+    /// x, y and angle; world frame. NaN unless it was asked for.
+    pub stiffness: Matrix3<f64>,
     /// Estimated error of the force over its size.
     pub error: f64,
     /// What else is to be known.
@@ -104,14 +108,8 @@ pub fn patch_of_contact(
     let deepest = field.values(&start)[0].0;
     let rounding = field.rounding(deepest);
     let tolerance = settings.above(rounding);
-    let mut walker = Walker {
-        field: &mut field,
-        planes: ray_planes,
-        nodes,
-        order: order_of(tolerance),
-        with_energy: settings.with_energy,
-        budget: f64::INFINITY,
-    };
+    let mut walker = Walker::new(&mut field, ray_planes, nodes, order_of(tolerance));
+    walker.with_energy = settings.with_energy;
     let mut rays = both_sides(&mut walker, start);
     // A quarter of the tolerance for each rule, now that the force is known roughly.
     walker.budget = 0.25 * tolerance * rays.iter().map(|ray| ray.sums[2]).sum::<f64>();
@@ -173,6 +171,14 @@ pub fn patch_of_contact(
         mean_depth: if whole { depth_length * load / length } else { 0.0 },
         largest_depth: depth_length * (1.0 - deepest.max(0.0).sqrt()),
         energy: if settings.with_energy { depth_length * sums[7] } else { f64::NAN },
+        stiffness: if settings.with_stiffness {
+            let of_space = turned(&stiffness(walker.field, walker.nodes), &frame);
+            // Shifts along x and y, and the turn about z.
+            let axes = [0, 1, 5];
+            Matrix3::from_fn(|i, j| depth_length * of_space[(axes[i], axes[j])])
+        } else {
+            Matrix3::repeat(f64::NAN)
+        },
         error,
         flags,
         points: walker.nodes.len(),

@@ -6,7 +6,7 @@ import yade
 from scene import O, add, block_shape, fresh, run, wall
 from yade import Quaternion
 
-NUMBER, SIZE, R = 500, 0.1, 0.005
+NUMBER, SIZE, R = 2000, 0.1, 0.005
 STIFFNESS = 5e8  # per area, N/m^3
 FALLING_STEPS, SETTLING_STEPS, REST_STEPS = 60, 1500, 100
 
@@ -78,7 +78,7 @@ def _row(joints):
 
 
 def cost_of_joints():
-    """Seconds of a step of 500 cubes, of 500 pyramids: the law of joints over YADE's at one point; at rest, and as they meet."""
+    """Seconds of a step of 2,000 cubes, of 2,000 pyramids: the law of joints over YADE's at one point; at rest, and as they meet."""
     return _row(joints=True)
 
 

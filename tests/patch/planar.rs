@@ -8,8 +8,8 @@ use potential_particles::{Kind, PatchFlags, PatchScratch, PatchSettings, Setting
 fn patch(a: &Particle, pose_a: &Pose, b: &Particle, pose_b: &Pose) -> (Patch, Vector2<f64>) {
     let contact = detect(a, pose_a, b, pose_b, &Settings::default(), None).unwrap();
     assert_eq!(contact.kind, Kind::Overlapping);
-    let (settings, scratch) =
-        (PatchSettings { tolerance: 1e-9, with_energy: true, ..PatchSettings::default() }, &mut PatchScratch::new());
+    let settings = PatchSettings { tolerance: 1e-9, with_energy: true, with_stiffness: true };
+    let scratch = &mut PatchScratch::new();
     let found = patch_of_contact(a, pose_a, b, pose_b, &contact, &settings, scratch, |_| ()).unwrap();
     (found, contact.branch_b)
 }
@@ -30,9 +30,17 @@ fn discs_press_as_parabolas() {
     assert!((found.second_moment / (2.0 * half.powi(3) / 3.0) - 1.0).abs() < 1e-5);
 }
 
+fn turned_about(pose: &Pose, point: &Vector2<f64>, turn: f64, shift: Vector2<f64>) -> Pose {
+    let away = pose.position() - point;
+    let (sin, cos) = turn.sin_cos();
+    let position = point + Vector2::new(cos * away.x - sin * away.y, sin * away.x + cos * away.y) + shift;
+    let rotation = pose.rotation();
+    Pose::new(position.into(), rotation[(1, 0)].atan2(rotation[(0, 0)]) + turn).unwrap()
+}
+
 /// Rounded squares and polygons at many angles.
 #[test]
-fn the_force_is_the_gradient_of_the_energy() {
+fn the_force_is_the_gradient_of_the_energy_and_the_stiffness_that_of_the_force() {
     let mut count = 0;
     for (r, k) in [(0.1, 0.0), (0.05, 0.02), (0.2, 0.3), (1e-3, 0.0)] {
         let a = Particle::rectangle(1.0, 1.0, r, k).unwrap();
@@ -51,11 +59,14 @@ fn the_force_is_the_gradient_of_the_energy() {
                 let found = detect(&a, &pose_a, &b, &pose_b, &Settings::default(), None).unwrap();
                 if found.kind == Kind::Overlapping && found.overlap > 0.3 * r { deep = middle } else { apart = middle }
             }
-            let (here, branch) = patch(&a, &pose_a, &b, &at(deep, Vector2::zeros(), 0.0));
+            let pose_b_now = at(deep, Vector2::zeros(), 0.0);
+            let (here, branch) = patch(&a, &pose_a, &b, &pose_b_now);
             if here.flags.contains(PatchFlags::FOLDED) {
                 continue;
             }
             let force = here.force.norm();
+            // Stiffness of the bed over its length.
+            let size = here.length;
             let along = Vector2::new(0.6, 0.8);
             let energy = |shift: Vector2<f64>, turn: f64| patch(&a, &pose_a, &b, &at(deep, shift, turn)).0.energy;
             let by_shift = -difference(|h| energy(h * along, 0.0), 1e-2 * r);
@@ -63,6 +74,25 @@ fn the_force_is_the_gradient_of_the_energy() {
             let torque = here.torque + branch.perp(&here.force);
             let errors = [(by_shift - here.force.dot(&along)).abs() / force, (by_turn - torque).abs() / force];
             assert!(errors.iter().all(|error| *error < 1e-5), "r {r}, k {k}, {i}: {errors:?}");
+            // A moves, and the torque is about the point at which both touch now.
+            let (point, arm) = (pose_b_now.position() + branch, here.length);
+            for column in 0..3 {
+                let wrench = |h: f64| {
+                    let shift = Vector2::new(f64::from(column == 0), f64::from(column == 1)) * h;
+                    let turn = if column == 2 { h } else { 0.0 };
+                    let pose_a = turned_about(&pose_a, &point, turn, shift);
+                    let (there, branch) = patch(&a, &pose_a, &b, &pose_b_now);
+                    let torque = there.torque + (pose_b_now.position() + branch - point).perp(&there.force);
+                    [there.force.x, there.force.y, torque]
+                };
+                let scale = if column == 2 { 1.0 / arm } else { 1.0 };
+                for row in 0..3 {
+                    let unit = if row == 2 { 1.0 / arm } else { 1.0 };
+                    let expected = difference(|h| wrench(h * scale)[row], 3e-3 * r) * unit;
+                    let off = (here.stiffness[(row, column)] * unit * scale - expected).abs() / size;
+                    assert!(off < 1e-5, "r {r}, k {k}, {i}: stiffness of {row}, {column} off by {off:e}");
+                }
+            }
             // The force acts along a line through the centre of pressure.
             let about = here.torque - (here.branch_b - branch).perp(&here.force);
             assert!(about.abs() < 1e-9 * force, "{about:e}");
