@@ -10,6 +10,9 @@ use nalgebra::Vector3;
 
 pub(super) type Vector = Vector3<f64>;
 
+/// A place of the patch, the vector of area for a unit of both parameters, and s.
+pub(super) type Place = (Vector, Vector, f64);
+
 /// Planes as coordinates.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Chart {
@@ -84,6 +87,19 @@ impl Chart {
     #[inline(always)]
     pub fn change(&self, a: [f64; 3]) -> f64 {
         a[0] * self.slopes[0] + a[1] * self.slopes[1] + a[2] * self.slopes[2]
+    }
+
+    /// The place for coordinates over s and an excess of the last plane over s, with their changes by two parameters.
+    #[inline(always)]
+    pub fn place(&self, a: [f64; 3], by: [[f64; 3]; 2], last: f64, last_by: [f64; 2]) -> Place {
+        let f = last - self.change(a);
+        let s = self.c / f;
+        let away = self.combine(a);
+        let [first, second] = [0, 1].map(|i| {
+            let f1 = last_by[i] - self.change(by[i]);
+            (-s * f1 / f) * away + s * self.combine(by[i])
+        });
+        (self.origin + s * away, first.cross(&second), s)
     }
 }
 

@@ -20,7 +20,11 @@
 //! | `cells` | the patch in cells |
 //! | `chart` | coordinates in which the patch is explicit |
 //! | `polygon` | its flat part |
-//! | `zone` | the parts about edges and corners |
+//! | `strip` | the part along an edge |
+//! | `cap` | the part beyond its end |
+//! | `disc` | a patch about a corner |
+//! | `piece` | one of these with its rule |
+//! | `zones` | where they lie |
 //! | `pieces` | the patch in such parts |
 //! | `border` | a flat part with rays around it |
 //! | `oval` | rays at equal steps around a smooth rim |
@@ -35,12 +39,14 @@
 //! | `planar` | the patch of two particles of the plane |
 
 mod border;
+mod cap;
 mod cell;
 mod cells;
 mod centre;
 mod chart;
 mod contact;
 mod curve;
+mod disc;
 mod energy;
 mod fan;
 mod field;
@@ -52,6 +58,7 @@ mod oval;
 #[allow(clippy::module_inception)]
 mod patch;
 mod patch_state;
+mod piece;
 mod pieces;
 pub(crate) mod planar;
 mod polygon;
@@ -62,8 +69,9 @@ mod scratch;
 mod settings;
 mod smoothness;
 mod stiffness;
+mod strip;
 mod triangle_rule;
-mod zone;
+mod zones;
 
 pub use contact::{patch_of_contact, patch_on_plane, patch_on_triangle};
 pub use patch::{Patch, PatchFlags, PatchPoint};

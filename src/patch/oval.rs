@@ -5,9 +5,10 @@
 //! sequence of cells changes.
 
 use super::field::{Owner, dot};
-use super::pieces::{BETWEEN, Estimate};
+use super::pieces::Estimate;
 use super::ray::{Line, Node, SUMS, Walker};
 use super::smoothness::norm;
+use super::zones::BETWEEN;
 use std::f64::consts::TAU;
 
 /// Fewest rays whose sum is trusted, and most.

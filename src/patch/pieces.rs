@@ -1,12 +1,12 @@
 //! The patch of bodies without a sphere in pieces that need no search: a polygon with strips and caps around it, the strips and caps of
 //! an edge, or a disc.
 
-use super::chart::{Chart, Flat, Vector, Wave, normal, radius};
+use super::chart::{Vector, normal};
 use super::field::{Field, Owner};
-use super::polygon::{Corner, Level, OPEN, cut, integrate};
-use super::ray::{Node, RIM};
-use super::rules::FINE;
-use super::zone::{Cap, Disc, End, Strip, Third};
+use super::piece::{MOST_RULES, Piece};
+use super::polygon::{Corner, Level, integrate};
+use super::ray::Node;
+use super::zones::Zones;
 
 /// Buffers.
 #[derive(Debug, Default)]
@@ -17,40 +17,11 @@ pub(super) struct PieceScratch {
     level: Option<Level>,
 }
 
-/// Points of the rules, from coarse to fine: across a strip, along it, in a cap, in a disc outwards and around.
-const RULES: [[usize; 5]; 5] =
-    [[3, 2, 1, 3, 7], [3, 2, 2, 3, 7], [4, 4, 3, 4, 10], [5, 8, 5, 6, 14], [8, 14, 8, 10, 24]];
-
 /// Part of the tolerance that the pieces may take.
 const SHARE: f64 = 0.9;
 
 /// Bodies with no more planes than this together are loaded at once.
 const FEW: usize = 48;
-
-/// Part of a cap's load by which rules of one point and of two in each angle are wrong at most, about: the difference of the two may vanish by
-/// chance.
-const COARSE_CAP: [f64; 2] = [0.3, 0.1];
-
-/// Factor by which a zone reaches farther from its middle than the places of its border that are computed, at most.
-pub(super) const BETWEEN: f64 = 1.1;
-
-/// A part of the patch.
-#[derive(Clone, Copy, Debug)]
-struct Piece {
-    kind: Kind,
-    /// The rule in use.
-    rule: usize,
-    /// What is neglected: of the force.
-    neglected: f64,
-    error: f64,
-}
-
-#[derive(Clone, Copy, Debug)]
-enum Kind {
-    Strip(Strip),
-    Cap(Cap),
-    Disc(Disc),
-}
 
 /// Estimated errors of force and area.
 #[derive(Clone, Copy, Debug, Default)]
@@ -94,15 +65,15 @@ pub(super) fn pieces(
     if count[0] == 0 || field.b.is_some() != (count[1] > 0) {
         return None;
     }
-    let mut builder = Builder { field, zones: &mut scratch.zones };
+    let mut zones = Zones { field, pieces: &mut scratch.zones };
     let active = [&active[0][..count[0]], &active[1][..count[1]]];
-    if let Some((level, sides)) = builder.face(active, &mut scratch.corners)? {
+    if let Some((level, sides)) = zones.face(active, &mut scratch.corners)? {
         scratch.level = Some(level);
         let polygon = &scratch.corners[0];
         integrate(&level, polygon, nodes)?;
-        builder.around(&level, polygon, sides)?;
+        zones.around(&level, polygon, sides)?;
     } else {
-        builder.edge_or_disc(active, &at, tolerance)?;
+        zones.edge_or_disc(active, &at, tolerance)?;
     }
     let flat = nodes.len();
     refine(&mut scratch.zones, flat, tolerance, deepest, nodes)
@@ -110,7 +81,7 @@ pub(super) fn pieces(
 
 /// Integrates over all zones, with finer rules where the error is above its share; `deepest`: the least S.
 fn refine(zones: &mut [Piece], flat: usize, tolerance: f64, deepest: f64, nodes: &mut Vec<Node>) -> Option<Estimate> {
-    for _ in 0..RULES.len() {
+    for _ in 0..MOST_RULES {
         nodes.truncate(flat);
         let mut estimate = Estimate::default();
         for piece in zones.iter_mut() {
@@ -133,7 +104,7 @@ fn refine(zones: &mut [Piece], flat: usize, tolerance: f64, deepest: f64, nodes:
         let share = 0.15 * limit / zones.len() as f64;
         for piece in zones.iter_mut().filter(|piece| piece.error > share) {
             piece.rule += 1;
-            if piece.rule == RULES.len() {
+            if piece.rule == MOST_RULES {
                 return None;
             }
         }
@@ -145,349 +116,5 @@ impl PieceScratch {
     /// The flat part of the last patch and its polygon.
     pub fn flat(&self) -> Option<(&Level, &[Corner])> {
         self.level.as_ref().map(|level| (level, &self.corners[0][..]))
-    }
-}
-
-impl Piece {
-    /// Appends its points; the estimated errors of force and area from a coarser rule.
-    fn integrate(&self, tolerance: f64, deepest: f64, nodes: &mut Vec<Node>) -> Option<(f64, f64)> {
-        let [across, along, cap, outwards, around] = RULES[self.rule];
-        let mut fine = [0.0; 4];
-        let mut coarse = [0.0; 4];
-        let add = |sums: &mut [f64; 4], node: &Node| {
-            let load = node.weight * node.pressure;
-            let [u, v] = node.normal;
-            sums[0] += load * u;
-            sums[1] += load * v;
-            sums[2] += load;
-            sums[3] += node.weight * (1.0 + u * u + v * v).sqrt();
-        };
-        let into = |node: Node| {
-            add(&mut fine, &node);
-            nodes.push(node);
-        };
-        let only = |node: Node| add(&mut coarse, &node);
-        match &self.kind {
-            Kind::Strip(strip) => {
-                strip.integrate(across, along, into)?;
-                strip.integrate(across - 1, along - 1, only)?;
-            }
-            Kind::Cap(zone) => {
-                zone.integrate(cap, into)?;
-                if let Some(part) = COARSE_CAP.get(cap - 1) {
-                    let size = Vector::new(fine[0], fine[1], fine[2]).norm();
-                    return Some((part * size, part * fine[3]));
-                }
-                zone.integrate(cap - 1, only)?;
-            }
-            Kind::Disc(disc) => {
-                disc.integrate(outwards, around, into)?;
-                disc.integrate(outwards - 1, around - 2, only)?;
-            }
-        }
-        let off = [0, 1, 2].map(|i| fine[i] - coarse[i]);
-        let (off, size) = (Vector::from(off).norm(), Vector::new(fine[0], fine[1], fine[2]).norm());
-        let least = if tolerance < FINE { 1.0 } else { (0.02 / deepest).min(1.0) };
-        // The nearer s = √S comes to the kink at its 0, the slower the rules converge.
-        let of = |off: f64, size: f64| {
-            if off > 0.0 { off * (3.0 * off / (deepest * size)).clamp(least, 1.0) } else { 0.0 }
-        };
-        Some((of(off, size), of((fine[3] - coarse[3]).abs(), fine[3])))
-    }
-}
-
-/// The plane of A and that of B whose faces meet.
-type Faces = (usize, Option<usize>);
-
-/// The parts of a patch in the making.
-struct Builder<'b, 'f, 's> {
-    field: &'b mut Field<'f, 's>,
-    zones: &'b mut Vec<Piece>,
-}
-
-impl Builder<'_, '_, '_> {
-    fn flat(&self, plane: Option<usize>) -> Flat {
-        plane.map_or(Flat::BOUNDARY, |k| {
-            let plane = &self.field.planes[k];
-            Flat { normal: normal(plane), excess: plane.excess, radius: radius(self.field, plane.owner) }
-        })
-    }
-
-    /// The polygon of the two planes that face each other most, with strips and caps around it; within, `None` where it is empty.
-    fn face(&mut self, active: [&[usize]; 2], corners: &mut [Vec<Corner>; 2]) -> Option<Option<(Level, Faces)>> {
-        let unit = |k: usize| normal(&self.field.planes[k]).normalize();
-        let others: &[usize] = if active[1].is_empty() { &[usize::MAX] } else { active[1] };
-        let (mut best, mut pair) = (f64::INFINITY, (0, 0));
-        for &i in active[0] {
-            for &j in others {
-                let facing = unit(i).dot(&if j == usize::MAX { -Vector::z() } else { unit(j) });
-                if facing < best {
-                    (best, pair) = (facing, (i, j));
-                }
-            }
-        }
-        let (i, j) = (pair.0, Some(pair.1).filter(|j| *j != usize::MAX));
-        let other = self.flat(j);
-        let Some(level) = Level::new(self.field, i, &other) else { return Some(None) };
-        // Planes are loaded as far as the polygon goes.
-        for _ in 0..8 {
-            let reach = self.field.loaded().min(self.field.radius());
-            if !cut(self.field, &level, [i, pair.1], reach, corners) {
-                return Some(None);
-            }
-            let is_open = corners[0].iter().any(|corner| corner.side == OPEN);
-            let farthest = corners[0].iter().map(|c| level.point(&c.at).norm()).fold(0.0, f64::max);
-            let rim = 2.0 * (radius(self.field, Owner::A) + other.radius);
-            let needed = if is_open { 16.0 * reach } else { farthest + rim.min(farthest) };
-            if needed <= self.field.loaded() {
-                return (!is_open).then_some(Some((level, (i, j))));
-            }
-            self.field.load(needed);
-        }
-        None
-    }
-
-    /// Strips along the sides of a polygon that are planes, and caps at their ends.
-    fn around(&mut self, level: &Level, polygon: &[Corner], (i, j): Faces) -> Option<()> {
-        let other = &self.flat(j);
-        let a = self.flat(Some(i));
-        let count = polygon.len();
-        for k in 0..count {
-            let side = polygon[k].side;
-            let Some(of) = self.owner(side) else { continue };
-            // The body with two planes, and the flat one.
-            let (two, one, flat) = if of == Owner::A { (i, &a, other) } else { (j?, other, &a) };
-            let planes = &self.field.planes;
-            let edge = [&planes[two], &planes[side as usize]];
-            let chart = Chart::edge(edge, flat)?;
-            let neighbours = [polygon[(k + count - 1) % count].side, polygon[(k + 1) % count].side];
-            let at = [polygon[k].at, polygon[(k + 1) % count].at].map(|at| level.point(&at));
-            let mut ends = [0, 1].map(|e| {
-                let along = chart.arms[2].dot(&(at[e] - chart.origin));
-                (self.end(&chart, neighbours[e], along), neighbours[e], along)
-            });
-            if ends[0].2 > ends[1].2 {
-                ends.swap(0, 1);
-            }
-            let radii = [one.radius, flat.radius];
-            let strip = Strip::new(chart, radii, Some(0.0), 1.0, [ends[0].0, ends[1].0])?;
-            let active = [i as u32, j.map_or(RIM, |j| j as u32), side, RIM];
-            self.strip(strip, &active, neighbours);
-            // A cap belongs to the strip before it.
-            let next = neighbours[1];
-            if let Some(of_next) = self.owner(next) {
-                let planes = &self.field.planes;
-                let chart = Chart::corner([&planes[two], &planes[side as usize], &planes[next as usize]], flat);
-                let third = if of_next == of { Third::Same } else { Third::Other };
-                match chart.and_then(|chart| Cap::new(chart, &strip, third)) {
-                    Some(cap) => self.cap(cap, &[active[0], active[1], side, next]),
-                    None => return None,
-                }
-            }
-        }
-        Some(())
-    }
-
-    /// The body that a side of the polygon belongs to.
-    fn owner(&self, side: u32) -> Option<Owner> {
-        self.field.planes.get(side as usize).map(|plane| plane.owner).filter(|owner| *owner != Owner::Edge)
-    }
-
-    /// The end of a strip at a plane, the edge of a triangle or, at a place, where s = 1.
-    fn end(&self, chart: &Chart, side: u32, along: f64) -> End {
-        self.field.planes.get(side as usize).map_or(End::At(along), |plane| {
-            let n = normal(plane);
-            End::Line { value: plane.excess + n.dot(&chart.origin), slopes: chart.arms.map(|arm| n.dot(&arm)) }
-        })
-    }
-
-    /// `ends`: the planes or edges of a triangle at which it ends.
-    fn strip(&mut self, strip: Strip, active: &[u32], ends: [u32; 2]) {
-        let [first, last] = strip.lengths();
-        let outline = strip.outline().map(|at| strip.place(at));
-        let width = (outline[4] - 0.5 * (outline[0] + outline[1])).norm();
-        let mut neglected = self.neglected(&outline[2..], width * first.max(last).max(0.0), active);
-        let sides = [(outline[2] - outline[0]).norm(), (outline[3] - outline[1]).norm()];
-        neglected += sides[0].max(sides[1]) * strip.overhang();
-        if first < 0.0 || last < 0.0 {
-            // The ends cross before the rim.
-            neglected += width * (first.abs() + last.abs()) * strip.depth().max(0.0);
-        }
-        self.push(Kind::Strip(strip), 1, &outline, &ends, neglected);
-    }
-
-    fn cap(&mut self, cap: Cap, active: &[u32]) {
-        let outline = cap.outline();
-        let corner = cap.corner();
-        let size = (outline[0] - corner).norm() * (outline[1] - corner).norm();
-        let neglected = self.neglected(&outline, size, active) + size * cap.rise();
-        self.push(Kind::Cap(cap), 0, &[outline[0], outline[1], outline[2], corner], &[], neglected);
-    }
-
-    /// What planes may change, over an area, that are on at one of these places though they do not count as active, or the reverse.
-    fn neglected(&self, places: &[Vector], area: f64, active: &[u32]) -> f64 {
-        let mut most = 0.0_f64;
-        let weight = [0.5 * self.field.a.plane_weight, 0.5 * self.field.b.map_or(0.0, |b| b.plane_weight)];
-        for (k, plane) in self.field.planes.iter().enumerate().filter(|(_, plane)| plane.owner != Owner::Edge) {
-            let n = normal(plane);
-            let sign = if active.contains(&(k as u32)) { -1.0 } else { 1.0 };
-            let excess = places.iter().map(|x| sign * (plane.excess + n.dot(x))).fold(0.0, f64::max);
-            most = most.max(weight[usize::from(plane.owner == Owner::B)] * excess * excess);
-        }
-        let farthest = places.iter().map(|x| x.norm()).fold(0.0, f64::max);
-        if farthest > self.field.loaded() { f64::INFINITY } else { area * most }
-    }
-
-    /// Adds a zone with these places on its border, which ends at `ends`; what else of it lies outside a triangle is neglected, too.
-    fn push(&mut self, kind: Kind, rule: usize, border: &[Vector], ends: &[u32], neglected: f64) {
-        let neglected = neglected + self.beyond_edges(border, ends);
-        self.zones.push(Piece { kind, rule, neglected, error: 0.0 });
-    }
-
-    /// Bound on ∫ p over the part of a zone that lies outside the triangle, since p ≤ 1; the edges in `ends` cut nothing off.
-    fn beyond_edges(&self, border: &[Vector], ends: &[u32]) -> f64 {
-        let middle = border.iter().sum::<Vector>() / border.len() as f64;
-        let reach = border.iter().map(|x| (x - middle).norm()).fold(0.0, f64::max) * BETWEEN;
-        let edges = self.field.planes.iter().enumerate().filter(|(_, plane)| plane.owner == Owner::Edge);
-        let others = edges.filter(|(k, _)| !ends.contains(&(*k as u32)));
-        others
-            .map(|(_, edge)| {
-                let n = normal(edge);
-                let outwards = border.iter().map(|x| n.dot(&(x - middle))).fold(0.0, f64::max);
-                let beyond = edge.excess + n.dot(&middle) + BETWEEN * outwards;
-                2.0 * reach * beyond.clamp(0.0, 2.0 * reach)
-            })
-            .sum()
-    }
-
-    /// The patch about an edge, or one zone.
-    fn edge_or_disc(&mut self, active: [&[usize]; 2], start: &Vector, tolerance: f64) -> Option<()> {
-        for body in 0..2 {
-            let (of, others) = (active[body], active[1 - body]);
-            for (p, &i) in of.iter().enumerate() {
-                for &a in &of[p + 1..] {
-                    let flats: &[usize] = if others.is_empty() { &[usize::MAX] } else { others };
-                    for &j in flats {
-                        if self.edge(i, a, Some(j).filter(|j| *j != usize::MAX), start)? {
-                            return (tolerance >= FINE).then_some(());
-                        }
-                    }
-                }
-            }
-        }
-        self.disc(active)
-    }
-
-    fn disc(&mut self, active: [&[usize]; 2]) -> Option<()> {
-        let planes = &self.field.planes;
-        let (three, last, third) = match active {
-            [&[i, a, b], rest] if rest.len() <= 1 => ([i, a, b], rest.first().copied(), Third::Same),
-            [rest, &[i, a, b]] if rest.len() == 1 => ([i, a, b], Some(rest[0]), Third::Same),
-            [&[i, a], &[j, b]] => ([i, a, b], Some(j), Third::Other),
-            _ => return None,
-        };
-        let last_flat = self.flat(last);
-        let chart = Chart::corner(three.map(|k| &planes[k]), &last_flat)?;
-        let disc = Disc { chart, radii: [radius(self.field, planes[three[0]].owner), last_flat.radius], third };
-        // Between places on the rim it reaches out a little farther.
-        let outline = disc.outline()?;
-        let middle = outline.iter().sum::<Vector>() / outline.len() as f64;
-        let wider = outline.map(|x| middle + 1.035 * (x - middle));
-        let across = (wider[0] - wider[6]).norm() * (wider[3] - wider[9]).norm();
-        let farthest = wider.iter().map(|x| x.norm()).fold(0.0, f64::max);
-        if farthest > self.field.loaded() {
-            self.field.load(farthest);
-        }
-        let active = [three[0], three[1], three[2], last.unwrap_or(usize::MAX)].map(|k| k as u32);
-        let neglected = self.neglected(&wider, across, &active);
-        self.push(Kind::Disc(disc), 1, &outline, &[], neglected);
-        Some(())
-    }
-
-    /// The edge of planes `i` and `a` against a flat body: whether there is such a part of the patch.
-    fn edge(&mut self, i: usize, a: usize, j: Option<usize>, start: &Vector) -> Option<bool> {
-        let flat = self.flat(j);
-        let radii = [radius(self.field, self.field.planes[i].owner), flat.radius];
-        let Some(chart) = Chart::edge([&self.field.planes[i], &self.field.planes[a]], &flat) else {
-            return Some(false);
-        };
-        let wave = Wave::new(-chart.slopes[0] * radii[0], -chart.slopes[1] * radii[0]);
-        let [cos, sin] = [wave.a / wave.size, wave.b / wave.size];
-        if !(cos > 0.0 && sin > 0.0) {
-            return Some(false);
-        }
-        let known = [i as u32, a as u32, j.map_or(RIM, |j| j as u32)];
-        for _ in 0..8 {
-            // Along the ridge, where s is least at each place along the edge: up to where s = 1 or a plane comes on.
-            let slope = chart.slopes[2];
-            let f = wave.size + flat.radius;
-            let top = (f - chart.c) / slope;
-            let mut ends = [(f64::NEG_INFINITY, RIM), (f64::INFINITY, RIM)];
-            ends[usize::from(slope > 0.0)].0 = top;
-            if slope == 0.0 {
-                ends = [(f64::NEG_INFINITY, RIM), (f64::INFINITY, RIM)];
-                if chart.c > f {
-                    return Some(false);
-                }
-            }
-            let k = radii[0] / f;
-            for (number, plane) in self.field.planes.iter().enumerate().filter(|(k, _)| !known.contains(&(*k as u32))) {
-                let n = normal(plane);
-                let [h1, h2, h3] = chart.arms.map(|arm| n.dot(&arm));
-                let ridge = k * (cos * h1 + sin * h2);
-                let (value, rate) = (plane.excess + n.dot(&chart.origin) + chart.c * ridge, h3 + slope * ridge);
-                let at = -value / rate;
-                if rate > 0.0 && at < ends[1].0 {
-                    ends[1] = (at, number as u32);
-                } else if rate < 0.0 && at > ends[0].0 {
-                    ends[0] = (at, number as u32);
-                } else if rate == 0.0 && value > 0.0 {
-                    return Some(false);
-                }
-            }
-            if !(ends[1].0 > ends[0].0) {
-                return Some(false);
-            }
-            let places = ends.map(|(t, _)| chart.origin + t * chart.arms[2]);
-            let farthest = places.iter().map(|x| x.norm()).fold(start.norm(), f64::max);
-            let needed = 1.2 * farthest + 2.0 * (radii[0] + radii[1]).min(farthest);
-            if needed > self.field.loaded() {
-                let loaded = self.field.loaded();
-                self.field.load(needed.min(8.0 * loaded).max(2.0 * loaded));
-                continue;
-            }
-            return self.ridge(&chart, radii, [i, a], j, ends);
-        }
-        None
-    }
-
-    /// Two strips from the ridge to both sides, and caps at their ends.
-    fn ridge(
-        &mut self,
-        chart: &Chart,
-        radii: [f64; 2],
-        [i, a]: [usize; 2],
-        j: Option<usize>,
-        ends: [(f64, u32); 2],
-    ) -> Option<bool> {
-        let flat = self.flat(j);
-        let active = [i as u32, a as u32, j.map_or(RIM, |j| j as u32), RIM];
-        for sign in [1.0, -1.0] {
-            let limits = ends.map(|(along, side)| self.end(chart, side, along));
-            let strip = Strip::new(*chart, radii, None, sign, limits)?;
-            self.strip(strip, &active, ends.map(|(_, side)| side));
-            for (_, side) in ends {
-                let Some(plane) = self.field.planes.get(side as usize).filter(|plane| plane.owner != Owner::Edge)
-                else {
-                    continue;
-                };
-                let planes = &self.field.planes;
-                let third = if plane.owner == planes[i].owner { Third::Same } else { Third::Other };
-                let chart = Chart::corner([&planes[i], &planes[a], plane], &flat)?;
-                let cap = Cap::new(chart, &strip, third)?;
-                self.cap(cap, &[active[0], active[1], active[2], side]);
-            }
-        }
-        Some(true)
     }
 }

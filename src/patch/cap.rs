@@ -1,0 +1,117 @@
+//! The part of a patch beyond the end of a strip, where a third plane is active.
+
+use super::chart::{Chart, Place, Vector, Wave, node, turn};
+use super::ray::Node;
+use super::rules::gauss;
+use super::strip::Strip;
+
+/// Where a single point gives the load of a quarter of a paraboloid.
+const SINGLE: f64 = 0.407;
+
+/// Which body the third plane of a cap belongs to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Third {
+    /// That of the first two: three planes against one.
+    Same,
+    /// The other: two against two.
+    Other,
+}
+
+/// The excesses of a corner's planes over s as functions of two angles, and the relation that gives s.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Cap {
+    pub chart: Chart,
+    /// Excess over s: of the first two planes, and of the last.
+    pub radii: [f64; 2],
+    pub third: Third,
+    pub start: f64,
+    width: f64,
+}
+
+impl Cap {
+    /// Beyond the end of a strip.
+    pub fn new(chart: Chart, strip: &Strip, third: Third) -> Option<Self> {
+        let mut cap = Self { chart, radii: strip.radii, third, start: strip.start, width: 0.0 };
+        let wave = Wave::new(-chart.slopes[0] * cap.radii[0], -chart.slopes[1] * cap.radii[0]);
+        cap.width = wave.fallen_to(chart.c - cap.radii[1], strip.sign).0 - cap.start;
+        cap.width.is_finite().then_some(cap)
+    }
+
+    /// F as a constant and a wave in the second angle.
+    #[inline(always)]
+    fn across(&self, theta: f64) -> (f64, Wave) {
+        let [r, other] = self.radii;
+        let (sin, cos, _) = turn(theta);
+        let first = -(self.chart.slopes[0] * cos + self.chart.slopes[1] * sin) * r;
+        match self.third {
+            Third::Same => (other, Wave::new(first, -self.chart.slopes[2] * r)),
+            Third::Other => (first, Wave::new(other, -self.chart.slopes[2] * other)),
+        }
+    }
+
+    /// By how much F rises beyond the border with the strip, over its value there: a part of the patch is then missing.
+    pub fn rise(&self) -> f64 {
+        let Wave { a, b, size } = self.across(self.start).1;
+        if b > 0.0 { (size - a) / self.chart.c.abs() } else { 0.0 }
+    }
+
+    fn height(&self, theta: f64) -> f64 {
+        let (constant, wave) = self.across(theta);
+        wave.fallen_to(self.chart.c - constant, 1.0).0.max(0.0)
+    }
+
+    /// Where it begins.
+    pub fn corner(&self) -> Vector {
+        self.at(self.start, 0.0).0
+    }
+
+    /// Places on its rim, from that at the start on.
+    pub fn outline(&self) -> [Vector; 3] {
+        [0.0, 0.5, 0.8].map(|part| {
+            let theta = self.start + part * self.width;
+            self.at(theta, self.height(theta)).0
+        })
+    }
+
+    #[inline(always)]
+    fn at(&self, theta: f64, psi: f64) -> Place {
+        let ((sin, cos, rate), (sin2, cos2, rate2)) = (turn(theta), turn(psi));
+        let [r, other] = self.radii;
+        // The coordinates over s and their changes, and the same of the last plane.
+        let (a, by_theta, by_psi, last, last_by_psi) = match self.third {
+            Third::Same => (
+                [r * cos2 * cos, r * cos2 * sin, r * sin2],
+                [-r * cos2 * sin, r * cos2 * cos, 0.0],
+                [-r * sin2 * cos, -r * sin2 * sin, r * cos2],
+                other,
+                0.0,
+            ),
+            Third::Other => (
+                [r * cos, r * sin, other * sin2],
+                [-r * sin, r * cos, 0.0],
+                [0.0, 0.0, other * cos2],
+                other * cos2,
+                -other * sin2,
+            ),
+        };
+        let (x, area, s) = self.chart.place(a, [by_theta, by_psi], last, [0.0, last_by_psi]);
+        (x, rate * rate2 * area, s)
+    }
+
+    /// Gauss' rule of so many points in both angles.
+    pub fn integrate(&self, points: usize, mut visit: impl FnMut(Node)) -> Option<()> {
+        let rule = &gauss(points).nodes[..points];
+        for (xi, weight) in rule {
+            // The height ends as a root does: the square of the rest makes it smooth.
+            let rest = 1.0 - if points == 1 { SINGLE } else { *xi };
+            let theta = self.start + self.width * (1.0 - rest * rest);
+            let height = self.height(theta);
+            let share = weight * (2.0 * rest * self.width).abs() * height;
+            for (nu, weight) in rule {
+                let (x, area, s) = self.at(theta, nu * height);
+                visit(node(x, area, s, share * weight)?);
+            }
+        }
+        Some(())
+    }
+}
