@@ -18,6 +18,8 @@ pub(super) struct CellScratch {
     outline: Vec<Corner>,
     triangles: Vec<(CurvedTriangle, Form)>,
     parts: Vec<Part>,
+    /// The least S.
+    deepest: f64,
     /// [`POINTS`] for each part, of which it may use less.
     nodes: Vec<Node>,
 }
@@ -39,7 +41,8 @@ struct Part {
     error: [f64; 2],
 }
 
-/// Error of the rule over the load and the square of the relative difference to that of degree 4.
+/// Error of the rule over the load and the square of the relative difference to that of lower degree, times the least S: the nearer s = √S
+/// comes to the kink at its 0, the slower the rules converge.
 const OF_DIFFERENCE: f64 = 10.0;
 
 /// Error of the load by the sides over its estimate, at most about.
@@ -77,11 +80,12 @@ pub(super) fn cells(
         }
     }
     scratch.triangulate(walker)?;
+    scratch.deepest = deepest;
     scratch.integrate(tolerance, points)
 }
 
 impl CellScratch {
-    /// Cuts all cells into triangles; `None` where the sides of one make no outline.
+    /// Cuts all cells within the edges into triangles; `None` where the sides of one make no outline.
     fn triangulate(&mut self, walker: &Walker) -> Option<()> {
         self.sides.clear();
         self.triangles.clear();
@@ -96,6 +100,10 @@ impl CellScratch {
         while from < self.sides.len() {
             let active = self.sides[from].0;
             let count = self.sides[from..].iter().take_while(|(other, _)| *other == active).count();
+            if active & self.network.edges != 0 {
+                from += count;
+                continue;
+            }
             self.trace(from, from + count)?;
             let form = Form::new(walker.field, active);
             let triangles = &mut self.triangles;
@@ -199,7 +207,9 @@ impl CellScratch {
         let square = |node: &Node| node.x[0] * node.x[0] + node.x[1] * node.x[1];
         let reach = nodes[..rule.count()].iter().map(square).fold(0.0, f64::max).sqrt();
         let (size, difference) = (norm(&value[..3]), norm(&off[..3]).max(norm(&off[3..6]) / reach));
-        let of = |off: f64, size: f64| if off > 0.0 { off * (OF_DIFFERENCE * off / size).min(1.0) } else { 0.0 };
+        let of = |off: f64, size: f64| {
+            if off > 0.0 { off * (OF_DIFFERENCE * off / (self.deepest * size)).min(1.0) } else { 0.0 }
+        };
         let error = [of(difference, size), of(off[6].abs(), value[6])];
         Some((Part { triangle, corners: *corners, rule, value, error }, nodes))
     }

@@ -1,6 +1,7 @@
 //! The curve on the patch where a plane goes on, walked over in the plane itself from rim to rim.
 
 use super::cell::Cell;
+use super::field::Owner;
 use super::half_plane::HalfPlane;
 use super::ray::{CellEnd, RIM, Walker};
 
@@ -36,6 +37,9 @@ impl Walker<'_, '_, '_> {
         stretches: &mut Vec<Stretch>,
     ) -> Result<(Cell, f64), Trouble> {
         self.set_out(half_plane);
+        // Edges are planes without weight here.
+        let edges = self.planes.iter_mut().filter(|plane| plane.owner == Owner::Edge);
+        edges.for_each(|edge| edge.active = edge.at_origin > 0.0);
         if let Some(plane) = own.map(|place| &mut self.planes[place]) {
             // On its own curve a plane adds nothing, and is not met.
             (plane.at_origin, plane.along, plane.up, plane.active) = (0.0, 0.0, 0.0, false);

@@ -127,6 +127,12 @@ impl<'a, 's> Field<'a, 's> {
         ROUNDING * (1.0 + self.b.iter().map(of).fold(of(&self.a), f64::max)) / (1.0 - deepest.max(0.0).sqrt())
     }
 
+    /// The edges of the triangle, a bit each.
+    pub fn edges(&self) -> u128 {
+        let edges = self.planes.iter().enumerate().filter(|(_, plane)| plane.owner == Owner::Edge);
+        edges.fold(0, |bits, (bit, _)| bits | 1 << bit)
+    }
+
     /// Number of planes of both bodies.
     pub fn plane_count(&self) -> usize {
         self.a.particle.plane_count() + self.b.map_or(0, |b| b.particle.plane_count())
@@ -192,7 +198,8 @@ impl<'a, 's> Field<'a, 's> {
         }
     }
 
-    /// S and its gradient of both bodies at a point of the frame (of a boundary the height), and the active planes, a bit each.
+    /// S and its gradient of both bodies at a point of the frame (of a boundary the height), and the active planes and the edges beyond which
+    /// it lies, a bit each.
     pub fn look(&self, x: &[f64; 3]) -> Look {
         let mut look = Look { s: [0.0, x[2]], gradients: [[0.0; 3], [0.0, 0.0, 1.0]], active: 0 };
         let bodies = [Some(&self.a), self.b.as_ref()];
@@ -203,8 +210,10 @@ impl<'a, 's> Field<'a, 's> {
         }
         for (bit, plane) in self.planes.iter().enumerate() {
             let excess = plane.excess + dot(&plane.normal, x);
-            if excess > 0.0 && plane.owner != Owner::Edge {
+            if excess > 0.0 {
                 look.active |= 1 << bit;
+            }
+            if excess > 0.0 && plane.owner != Owner::Edge {
                 let i = usize::from(plane.owner == Owner::B);
                 let weighted = self.plane_weight(plane.owner) * excess;
                 look.s[i] += weighted * excess;

@@ -143,7 +143,7 @@ impl<'a, 's> Parts<'_, '_, 'a, 's> {
 
     /// In the cells of the network.
     fn cells(&mut self, scratch: &mut CellScratch) -> Option<Outcome> {
-        if !self.is_asked() || self.task.settings.tolerance < FINEST_OF_CELLS || !self.task.edges.is_empty() {
+        if !self.is_asked() || self.task.settings.tolerance < FINEST_OF_CELLS {
             return None;
         }
         let axis = flattest_axis(self.field);

@@ -66,6 +66,8 @@ pub(super) struct Network {
     /// The planes whose curves are drawn, and those that are active at the origin, a bit each.
     drawn: u128,
     at_origin: u128,
+    /// The edges of the triangle, beyond which nothing counts.
+    pub edges: u128,
     ring: Vec<(f64, u32)>,
     /// What an arc may be off, and what all are.
     allowed: Misfit,
@@ -96,6 +98,7 @@ impl Network {
         self.towards.clear();
         self.curved_load = 0.0;
         (self.drawn, self.at_origin) = (0, walker.field.look(&[0.0; 3]).active);
+        self.edges = walker.field.edges();
         let [e, f] = drawing.axis;
         let mut lengths = [0.0; 2];
         for (i, direction) in [[e, f], [-f, e], [-e, -f], [f, -e]].into_iter().enumerate() {
@@ -172,7 +175,7 @@ impl Network {
         active: u128,
         halvings: usize,
     ) -> Result<(), Trouble> {
-        let straying = part.straying(field);
+        let straying = if active & self.edges == 0 { part.straying(field) } else { 0.0 };
         if straying > self.allowed.load && halvings < MOST_HALVINGS {
             let [first, second] = part.halves(field).ok_or(Trouble::Lost)?;
             self.vertices.push(Vertex { x: part.middle, planes: [part.id; 2], uses: 2 });
@@ -238,8 +241,9 @@ impl Network {
             return Err(Trouble::Far(away));
         }
         let own = ends.map(|end| self.vertices[end as usize].planes[0]);
-        let least = LEFT_OUT * drawing.tolerance * drawing.depth;
-        let known = Known { drawn: self.drawn, at_origin: self.at_origin, least };
+        let least_beyond = LEFT_OUT * drawing.tolerance;
+        let least = least_beyond * drawing.depth;
+        let known = Known { drawn: self.drawn, at_origin: self.at_origin, least, least_beyond };
         if let Some((id, [u, v, _])) = unmet_plane(field, [from, &middle, to], own, &known) {
             if self.drawn >> id & 1 == 1 {
                 return Err(Trouble::Lost);
@@ -248,7 +252,13 @@ impl Network {
             return Ok(false);
         }
         let turns = from.half_turn_to(&middle).abs().max(middle.half_turn_to(to).abs()) > HALF_TURN;
-        let misfit = Misfit::new(field, [from, &middle, to]).ok_or(Trouble::Lost)?;
+        // A plane whose curve does not count is everywhere as at the origin.
+        let active = middle.active & self.drawn | self.at_origin & !self.drawn;
+        let misfit = if active & self.edges == 0 {
+            Misfit::new(field, [from, &middle, to]).ok_or(Trouble::Lost)?
+        } else {
+            Misfit::default()
+        };
         let is_off = turns || misfit.area > self.allowed.area || misfit.load > self.allowed.load;
         if is_off && halvings < MOST_HALVINGS {
             self.vertices.push(Vertex { x: middle.x, planes: [RIM; 2], uses: 1 });
@@ -260,8 +270,6 @@ impl Network {
         self.misfit.area += CORRECTED * misfit.area;
         self.misfit.load += misfit.load;
         let [u, v] = [0, 1].map(|i| middle.x[i] + misfit.correction[i]);
-        // A plane whose curve does not count is everywhere as at the origin.
-        let active = middle.active & self.drawn | self.at_origin & !self.drawn;
         self.sides.push(Side { ends, middle: [u, v], plane: RIM, active });
         Ok(true)
     }

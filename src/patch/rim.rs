@@ -166,6 +166,8 @@ pub(super) struct Known {
     pub at_origin: u128,
     /// Change of S by a plane up to which its curve is left out.
     pub least: f64,
+    /// The same of how far the edge of a triangle is crossed, over the distance from the origin.
+    pub least_beyond: f64,
 }
 
 /// A plane that on an arc is not in the state that is known: where its curve is not drawn that at the origin, else that in the middle of the
@@ -178,7 +180,7 @@ pub(super) fn unmet_plane(
     own: [u32; 2],
     known: &Known,
 ) -> Option<(usize, [f64; 3])> {
-    for (i, plane) in field.planes.iter().enumerate().filter(|(_, plane)| plane.owner != Owner::Edge) {
+    for (i, plane) in field.planes.iter().enumerate() {
         let [a, m, b] = [from, middle, to].map(|point| plane.excess + dot(&plane.normal, &point.x));
         let is_drawn = known.drawn >> i & 1 == 1;
         let is_on = if is_drawn { m > 0.0 } else { known.at_origin >> i & 1 == 1 };
@@ -193,7 +195,11 @@ pub(super) fn unmet_plane(
             }
         }
         let (t, beyond) = farthest;
-        if field.plane_weight(plane.owner) * beyond * beyond > known.least {
+        let counts = match plane.owner {
+            Owner::Edge => beyond * beyond > known.least_beyond * known.least_beyond * dot(&middle.x, &middle.x),
+            owner => field.plane_weight(owner) * beyond * beyond > known.least,
+        };
+        if counts {
             return Some((i, parabola([&from.x, &middle.x, &to.x], t)));
         }
     }

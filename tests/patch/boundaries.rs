@@ -1,10 +1,12 @@
 //! A plane or a triangle, and particles that rest on it.
 
+use crate::bodies::Chance;
 use nalgebra::Matrix3;
 use potential_particles::{
     FlatContact, Kind, Particle, Patch, PatchScratch, PatchSettings, PatchState, Pose, Settings, Triangle, Wall,
     contact_with_plane, contact_with_triangle, patch_on_plane, patch_on_triangle,
 };
+use std::f64::consts::TAU;
 
 #[derive(Clone, Copy, Debug)]
 pub enum Boundary {
@@ -60,4 +62,18 @@ pub fn resting(a: &Particle, turn: &Matrix3<f64>, overlap: f64) -> Pose {
         if floor.contact(a, &at(middle)).is_some() { deep = middle } else { apart = middle }
     }
     at(deep - overlap)
+}
+
+/// A triangle of the plane z = 0, of 0.3 to 100 times the patch of a particle there, whose border mostly crosses it.
+pub fn triangle_over(a: &Particle, pose: &Pose, chance: &mut Chance) -> Option<[[f64; 3]; 3]> {
+    let floor = Boundary::Plane(Wall::new([0.0; 3], [0.0, 0.0, 1.0]).unwrap());
+    let whole = floor.patch(a, pose, &PatchSettings::default())?;
+    let (at, size) = (whole.pressure_centre, whole.area.sqrt());
+    let scale = size * chance.pick(&[0.3, 1.0, 3.0, 100.0]);
+    let (angle, shift) = (TAU * chance.uniform(), [0; 2].map(|_| size * (chance.uniform() - 0.5)));
+    let corners = [(0.0_f64, 1.0), (2.0, 3.0), (4.3, 3.0)].map(|(turn, way)| {
+        let (sin, cos) = (angle + turn).sin_cos();
+        [at.x + shift[0] + scale * way * cos, at.y + shift[1] + scale * way * sin, 0.0]
+    });
+    (size > 0.0).then_some(corners)
 }

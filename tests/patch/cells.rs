@@ -1,11 +1,10 @@
 //! Patches in cells against the same by rays, which share nothing with them but the walk through a cell.
 
 use crate::bodies::{Chance, FAMILIES, Pair, body};
-use crate::boundaries::resting;
+use crate::boundaries::{Boundary, resting, triangle_over};
 use nalgebra::{Matrix3, Rotation3, Vector3};
 use potential_particles::{
-    Particle, Patch, PatchFlags, PatchScratch, PatchSettings, Plane, Pose, Settings, Wall, contact_with_plane,
-    patch_of_contact, patch_on_plane,
+    Particle, Patch, PatchFlags, PatchScratch, PatchSettings, Plane, Pose, Triangle, Wall, patch_of_contact,
 };
 
 /// A rock of many faces, as in a pile: 24 planes about a ball.
@@ -33,7 +32,7 @@ fn facing(from: &Vector3<f64>, to: &Vector3<f64>, chance: &mut Chance) -> Matrix
 /// The patch at a tolerance.
 type Taken = Box<dyn Fn(f64) -> Patch>;
 
-fn pair(chance: &mut Chance) -> Taken {
+fn pair(chance: &mut Chance) -> Option<Taken> {
     let (k, depth) = ([0; 2].map(|_| chance.pick(&[0.0, 1e-6, 0.02, 0.3])), 10f64.powf(-3.0 * chance.uniform()));
     let pair = if chance.uniform() < 0.5 {
         let families = [0; 2].map(|_| chance.pick(&FAMILIES));
@@ -47,14 +46,15 @@ fn pair(chance: &mut Chance) -> Taken {
         let aside = (way + 0.2 * chance.direction()).normalize();
         Pair::at_overlap(a, &Matrix3::identity(), b, &turn, &aside, 0.8 * depth * r)
     };
-    Box::new(move |tolerance| {
+    Some(Box::new(move |tolerance| {
         let Pair { a, pose_a, b, pose_b, contact } = &pair;
         let settings = PatchSettings { tolerance, ..PatchSettings::default() };
         patch_of_contact(a, pose_a, b, pose_b, contact, &settings, &mut PatchScratch::new(), |_| ()).unwrap()
-    })
+    }))
 }
 
-fn on_a_plane(chance: &mut Chance) -> Taken {
+/// A body or a grain at rest on the plane z = 0, and that overlap.
+fn at_rest(chance: &mut Chance) -> (Particle, Pose) {
     let (k, depth) = (chance.pick(&[0.0, 1e-6, 0.02, 0.3]), 10f64.powf(-3.0 * chance.uniform()));
     let (a, turn, overlap) = if chance.uniform() < 0.5 {
         let a = body(chance.pick(&FAMILIES[..5]), chance.pick(&[1e-4, 1e-2, 0.1, 0.5]), k, chance);
@@ -66,13 +66,28 @@ fn on_a_plane(chance: &mut Chance) -> Taken {
         let turn = facing(&chance.pick(&normals), &-Vector3::z(), chance);
         (a, turn, 0.8 * depth * r)
     };
-    let pose: Pose = resting(&a, &turn, overlap);
+    let pose = resting(&a, &turn, overlap);
+    (a, pose)
+}
+
+fn on_a_plane(chance: &mut Chance) -> Option<Taken> {
+    let (a, pose) = at_rest(chance);
+    let floor = Boundary::Plane(Wall::new([0.0; 3], [0.0, 0.0, 1.0]).unwrap());
+    Some(taken_on(floor, a, pose))
+}
+
+fn taken_on(boundary: Boundary, a: Particle, pose: Pose) -> Taken {
     Box::new(move |tolerance| {
-        let wall = Wall::new([0.0; 3], [0.0, 0.0, 1.0]).unwrap();
-        let contact = contact_with_plane(&a, &pose, &wall, &Settings::default(), None).unwrap();
-        let settings = PatchSettings { tolerance, ..PatchSettings::default() };
-        patch_on_plane(&a, &pose, &contact, &settings, &mut PatchScratch::new(), |_| ()).unwrap()
+        boundary.patch(&a, &pose, &PatchSettings { tolerance, ..PatchSettings::default() }).unwrap()
     })
+}
+
+/// A triangle of the floor, of 0.3 to 100 times the patch, whose border mostly crosses it.
+fn on_a_triangle(chance: &mut Chance) -> Option<Taken> {
+    let (a, pose) = at_rest(chance);
+    let triangle = Boundary::Triangle(Triangle::new(triangle_over(&a, &pose, chance)?).unwrap());
+    triangle.contact(&a, &pose)?;
+    Some(taken_on(triangle, a, pose))
 }
 
 /// PATCH_SEED and PATCH_ROUNDS in the environment choose other ones.
@@ -83,7 +98,12 @@ fn cells_are_as_rays() {
     let mut chance = Chance::new(seed);
     let (mut in_cells, mut above, mut far, mut estimated, mut compared) = (0, 0, 0, 0, 0);
     for round in 0..rounds {
-        let taken = if round % 2 == 0 { pair(&mut chance) } else { on_a_plane(&mut chance) };
+        let taken = match round % 3 {
+            0 => pair(&mut chance),
+            1 => on_a_plane(&mut chance),
+            _ => on_a_triangle(&mut chance),
+        };
+        let Some(taken) = taken else { continue };
         let (found, exact) = (taken(1e-4), taken(1e-7));
         if [found, exact]
             .iter()

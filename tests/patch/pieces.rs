@@ -1,14 +1,13 @@
 //! Patches in pieces against the fan of rays, which computes them when the energy is asked for.
 
 use crate::bodies::{Chance, FAMILIES, Pair, body, cuboid};
-use crate::boundaries::{Boundary, resting};
+use crate::boundaries::{Boundary, resting, triangle_over};
 use crate::patch;
 use nalgebra::{Matrix3, Rotation3, Vector3};
 use potential_particles::{
     Particle, Patch, PatchFlags, PatchScratch, PatchSettings, Pose, Settings, Triangle, Wall, contact_with_plane,
     contact_with_triangle, patch_on_plane, patch_on_triangle,
 };
-use std::f64::consts::TAU;
 
 /// Errors of force, torque, area and second moments, relative to the patch.
 fn errors(found: &Patch, exact: &Patch) -> [f64; 4] {
@@ -128,16 +127,8 @@ fn over_a_triangle(chance: &mut Chance) -> Option<(Particle, Pose, [[f64; 3]; 3]
     let a = body(family, r, k, chance);
     let overlap = depth * if family == "ball" { 0.1 } else { a.rounding_radius() };
     let pose = resting(&a, &chance.rotation(), overlap);
-    let floor = Boundary::Plane(Wall::new([0.0; 3], [0.0, 0.0, 1.0]).unwrap());
-    let whole = floor.patch(&a, &pose, &PatchSettings::default())?;
-    let (at, size) = (whole.pressure_centre, whole.area.sqrt());
-    let scale = size * chance.pick(&[0.3, 1.0, 3.0, 100.0]);
-    let (angle, shift) = (TAU * chance.uniform(), [0; 2].map(|_| size * (chance.uniform() - 0.5)));
-    let corners = [(0.0_f64, 1.0), (2.0, 3.0), (4.3, 3.0)].map(|(turn, way)| {
-        let (sin, cos) = (angle + turn).sin_cos();
-        [at.x + shift[0] + scale * way * cos, at.y + shift[1] + scale * way * sin, 0.0]
-    });
-    (size > 0.0).then_some((a, pose, corners))
+    let corners = triangle_over(&a, &pose, chance)?;
+    Some((a, pose, corners))
 }
 
 /// ∫ (1 − s) over a triangle at z = 0, times ℓ, by the midpoints of a grid over a square about a point.
