@@ -5,6 +5,9 @@ use nalgebra::Vector3;
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
+/// A side this short over the size of its polygon has no direction.
+pub(super) const SHORT: f64 = 1e-10;
+
 /// How far corners of an outline may lie off their plane, over its size.
 const FLAT: f64 = 1e-6;
 
@@ -100,10 +103,10 @@ impl Joint {
 
     /// Whether a line along a side of `first` has both polygons on its two sides: of two convex polygons that are apart, some side of one does.
     fn is_parted(&self, first: &[Vector3<f64>], other: &[Vector3<f64>]) -> bool {
-        (0..first.len()).any(|i| {
-            let across = (first[(i + 1) % first.len()] - first[i]).cross(&self.normal);
+        sides(first).any(|(from, side)| {
+            let across = side.cross(&self.normal);
             let reach = |polygon: &[Vector3<f64>]| {
-                let heights = polygon.iter().map(|at| across.dot(&(at - first[i])));
+                let heights = polygon.iter().map(|at| across.dot(&(at - from)));
                 heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), h| (low.min(h), high.max(h)))
             };
             let (own, its) = (reach(first), reach(other));
@@ -113,16 +116,22 @@ impl Joint {
 
     fn disc_meets(&self, polygon: &[Vector3<f64>]) -> bool {
         let (mut signs, mut nearest) = ([false; 2], f64::INFINITY);
-        for (i, from) in polygon.iter().enumerate() {
-            let (side, away) = (polygon[(i + 1) % polygon.len()] - from, self.point - from);
+        for (from, side) in sides(polygon) {
+            let away = self.point - from;
             signs[usize::from(side.cross(&away).dot(&self.normal) > 0.0)] = true;
             let share = (away.dot(&side) / side.norm_squared()).clamp(0.0, 1.0);
-            // A side of no length is its corner.
-            let share = if share.is_finite() { share } else { 0.0 };
             nearest = nearest.min((away - share * side).norm());
         }
         nearest <= self.radius || !(signs[0] && signs[1])
     }
+}
+
+/// The sides of a polygon with the corners at which they begin, but for those so short that their direction is rounding: where more than three planes meet
+/// in a point, faces have such sides.
+fn sides(polygon: &[Vector3<f64>]) -> impl Iterator<Item = (Vector3<f64>, Vector3<f64>)> {
+    let size = polygon.iter().map(|at| (at - polygon[0]).norm()).fold(0.0, f64::max);
+    let all = polygon.iter().zip(polygon.iter().cycle().skip(1)).map(|(from, to)| (*from, to - from));
+    all.filter(move |(_, side)| side.norm() > SHORT * size)
 }
 
 #[cfg(test)]

@@ -71,11 +71,10 @@ impl JointSet {
     }
 
     /// A line across discs of one orientation, ν in a unit of volume, meets ν π R² of them in a unit of length; where they scatter, that
-    /// times the mean of |cos θ|, for which its value for cos θ without the sign, coth κ − 1/κ, stands in.
+    /// times the mean of |cos θ|, (κ − 1 + 2 q − (κ + 1) q²) / (κ (1 − q²)) with q = e^(−κ).
     fn discs(&self, mean: &Joint, radius: f64, random: &mut Random) -> Result<Vec<Joint>, RockError> {
         let ball = 4.0 / 3.0 * PI * radius.powi(3);
-        let slant = if self.fisher < f64::INFINITY { 1.0 / self.fisher.tanh() - 1.0 / self.fisher } else { 1.0 };
-        let met = ball / (self.spacing * PI * self.radius.powi(2) * slant);
+        let met = ball / (self.spacing * PI * self.radius.powi(2) * mean_cosine(self.fisher));
         within(self.spacing, met <= MOST_JOINTS, "spacing", "wide enough for at most 10 million joints")?;
         let (mut joints, mut crossed) = (Vec::new(), 0.0);
         // A Poisson process: the gaps between the numbers of discs are exponential.
@@ -106,6 +105,19 @@ impl JointSet {
         let u = mean.cross(&Vector3::ith(mean.iamin(), 1.0)).normalize();
         (cos * mean + sin * (along * u + across * mean.cross(&u))).normalize()
     }
+}
+
+/// Mean of |cos θ| of Fisher's distribution.
+fn mean_cosine(fisher: f64) -> f64 {
+    // Below, the terms cancel, and 1/2 is right to the square of it; without scatter there is nothing to average.
+    if fisher < 1e-3 {
+        return 0.5;
+    }
+    if fisher == f64::INFINITY {
+        return 1.0;
+    }
+    let q = (-fisher).exp();
+    (fisher - 1.0 + 2.0 * q - (fisher + 1.0) * q * q) / (fisher * (1.0 - q * q))
 }
 
 #[cfg(test)]
@@ -161,5 +173,19 @@ mod tests {
         assert!(JointSet { spacing: 1e-9, ..set }.joints([0.0; 3], 10.0).is_err());
         let text = JointSet { dip: 95.0, ..set }.joints([0.0; 3], 1.0).unwrap_err().to_string();
         assert_eq!(text, "dip = 95 must be an angle from 0 to 90 degrees");
+    }
+
+    /// By the mean over the distribution, whose density of cos θ goes with e^(κ cos θ).
+    #[test]
+    fn mean_cosines_are_those_of_the_density() {
+        for fisher in [1e-4, 1e-3, 0.5, 2.0, 20.0, 200.0] {
+            let (mut sum, mut all) = (0.0, 0.0);
+            for i in 0..200_000 {
+                let cosine = (f64::from(i) + 0.5) / 1e5 - 1.0;
+                let density = (fisher * (cosine - 1.0)).exp();
+                (sum, all) = (sum + density * cosine.abs(), all + density);
+            }
+            assert!((mean_cosine(fisher) / (sum / all) - 1.0).abs() < 1e-6, "{fisher}");
+        }
     }
 }

@@ -2,6 +2,7 @@
 """What patches cost: seconds of a step with them over one with points, of the same scene."""
 import math
 
+import potential_particles
 import yade
 from scene import O, add, block_shape, fresh, run, wall
 from yade import Quaternion
@@ -55,7 +56,7 @@ def _seconds(make, patch, joints):
         _law(patch, joints)
         wall((0, 0, 0), 2, 1)
         make(falling)
-        O.dt = 1e-4
+        O.dt = potential_particles.critical_time_step()
         run((10 if falling else SETTLING_STEPS) * O.dt)
         functors = O.engines[3].geomDispatcher.functors
         for functor in functors:

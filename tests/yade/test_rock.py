@@ -113,7 +113,13 @@ for text, action in (
         ("joints[0] holds float", lambda: rock.slice(cube, [[1.5]])), ("least_volume=-1", lambda: rock.slice(cube, [], least_volume=-1)),
         ("must lie below", lambda: Domain.box((0, 0, 0), (1, 0, 1))), ("a region is list", lambda: rock.slice(cube, [], regions=[[1]])),
         ("at most 10 million joints", lambda: rock.slice(cube, [rock.JointSet(5, 0, 1e-8)])), ("r=0.7", lambda: rock.bodies(mass, r=0.7)),
-        ("numbers of blocks", lambda: rock.bodies(mass, fixed=[99999])), ("friction has no key None", lambda: rock.key_blocks(mass, (), friction={0: 3}))):
+        ("fixed must be numbers from 0", lambda: rock.bodies(mass, fixed=[99999])),
+        ("friction has no key None", lambda: rock.key_blocks(mass, (), friction={0: 3})), ("friction='bedding'", lambda: rock.key_blocks(mass, (), friction={"bedding": 3, None: 3})),
+        ("free must be numbers of planes", lambda: rock.key_blocks(mass, [True, False])), ("free holds 77", lambda: rock.key_blocks(mass, [77])),
+        ("loads must be", lambda: rock.key_blocks(mass, (), loads=np.full((len(mass), 6), math.nan))), ("removed must be numbers", lambda: rock.key_blocks(mass, (), removed=[-1])),
+        ("removed must be numbers", lambda: rock.key_blocks(mass, (), removed=[1.7])), ("loads must be (2, 6)", lambda: rock.apply_loads([0, 1], [[0] * 6])),
+        ("array of bool", lambda: rock.excavate(mass.inside(0))), ("slow=-1", lambda: rock.excavate([], slow=-1)), ("joints is NoneType", lambda: rock.slice(cube, None)),
+        ("joints[0] is int", lambda: rock.slice(cube, [3])), ("the domain has the planes 0 to", lambda: mass.on_domain(99)), ("the domain is empty", lambda: rock.slice(cube, [], regions=Domain([(0, 0, 1, 0), (0, 0, -1, -1)])))):
     check.raises(ValueError, action, text, text)
 
 # Files.
@@ -126,6 +132,12 @@ Path("bad.csv").write_text("0,0,0,30,90,1\n0,0,0,30,90\n")
 check.raises(ValueError, lambda: rock.read_dfn("bad.csv"), "a short line", "bad.csv, line 2: 5 numbers, and 6")
 Path("bad.csv").write_text("0,0,0,95,90,1\n")
 check.raises(ValueError, lambda: rock.read_dfn("bad.csv"), "a dip", "bad.csv, line 1: dip=95")
+Path("bad.csv").write_text("1,2,3,3O,90,5\n1,2,3,30,90,5\n")
+check.raises(ValueError, lambda: rock.read_dfn("bad.csv"), "a first row with a word in it is no header", "bad.csv, line 1, column 4: '3O'")
+Path("bad.csv").write_text("1,inf,3,30,90,5\n")
+check.raises(ValueError, lambda: rock.read_dfn("bad.csv"), "an infinite place", "bad.csv, line 1, column 2: 'inf' is no finite")
+Path("bad.csv").write_bytes("1,2,3,30,90,5 # Kluft\xfc\n".encode("latin-1", "replace"))
+check.raises(ValueError, lambda: rock.read_dfn("bad.csv"), "no UTF-8", "bad.csv is no text in UTF-8")
 Path("empty.csv").write_text("x,y\n")
 check.raises(ValueError, lambda: rock.read_dfn("empty.csv"), "no rows", "no row of numbers")
 # BlockGen's: x north, y east, z downwards; a plane that dips to the east descends, with z downwards, along y.
@@ -141,6 +153,13 @@ Path("planes.csv").write_text("dip;dipdir;spacing;phi\n0;0;0.5;30;\n")
 check.equal([round(one.point[2], 12) for one in rock.read_blockgen("planes.csv", "persistent", size=2)], [-1, -0.5, 0, 0.5, 1], "planes of a spacing")
 check.raises(ValueError, lambda: rock.read_blockgen("planes.csv", "persistent"), "no size", "size is missing")
 check.equal(len(rock.slice(cube, rock.read_blockgen("planes.csv", "persistent", size=2), progress=False)), 4, "which cut")
+
+# Where four sets meet in the middle of the domain faces have sides of no length: nothing lies open inside all the same.
+for seed in range(6):
+    random = np.random.default_rng(seed)
+    many = [rock.JointSet(random.uniform(0, 90), random.uniform(0, 360), 0.9) for _ in range(4)]
+    modes = {one.mode for one in rock.key_blocks(rock.slice(Domain.box((0, 0, 0), (2, 2, 2)), many, progress=False), [])}
+    check.equal(modes, {"inner"}, f"sets through a point, seed {seed}")
 
 # Bodies: where the blocks are, with their mass, and the inertia that the library finds for the shape by itself.
 start()

@@ -17,12 +17,15 @@ import math
 
 import numpy as np
 
-from ..arguments import positive, vector, within
-from .mass import LEAST_SHARE, OF_DOMAIN
-from .scene import _marked
+from ..arguments import positive, vector, whole, within
+from .mass import LEAST_SHARE, OF_DOMAIN, planes_of
+from .scene import _marked, loads_of
 
 # Of unit vectors: a direction that leaves a plane by less lies in it.
 TOLERANCE = 1e-9
+
+# Of the two thirds power of the volume of a block: a face of a smaller area, as where many planes meet in a point, opens and holds nothing.
+LEAST_AREA = 1e-9
 
 MODES = ("falling", "sliding", "wedge", "resting", "locked", "inner")
 #: By mode, and beyond what friction holds.
@@ -71,12 +74,12 @@ def key_blocks(mass, free, friction=30.0, cohesion=0.0, density=2600.0, gravity=
     area): a number, or a dict by entries of the `joints` of slice(), whose key None is for all others. density, gravity: of the weight.
     loads: (blocks, 6), forces (and torques, which do not count) beside it, as of water_pressure.
     """
-    free = np.atleast_1d(np.asarray(free, int)) if np.size(free) else np.zeros(0, int)
+    free = planes_of(mass, free, "free")
     friction = _by_set(friction, "friction", lambda value, name: within(value, 0.0, 89.9, name))
     cohesion = _by_set(cohesion, "cohesion", lambda value, name: within(value, 0.0, math.inf, name))
     weight = positive(density, "density") * vector(gravity, "gravity")
     gone = _marked(removed, len(mass), "removed")
-    pushed = np.zeros((len(mass), 3)) if loads is None else np.asarray(loads, float)[:, :3]
+    pushed = np.zeros((len(mass), 3)) if loads is None else loads_of(loads, len(mass))[:, :3]
     pressed, touching = _areas(mass, gone)
     outer = (mass.faces["of"] == OF_DOMAIN) & ~np.isin(mass.faces["index"].astype(int), free)
     found = []
@@ -86,8 +89,9 @@ def key_blocks(mass, free, friction=30.0, cohesion=0.0, density=2600.0, gravity=
             continue
         faces = np.concatenate([mass.blocks["first_face"][one].astype(int) + np.arange(int(mass.blocks["face_count"][one])) for one in blocks])
         area = mass.faces["area"][faces]
-        holding = faces[(pressed[faces] > LEAST_SHARE * area) | outer[faces]]
-        is_open = bool(np.any(~outer[faces] & (touching[faces] < (1.0 - LEAST_SHARE) * area)))
+        counts = area > LEAST_AREA * np.cbrt(mass.blocks["volume"][mass.faces["block"][faces].astype(int)]) ** 2
+        holding = faces[counts & ((pressed[faces] > LEAST_SHARE * area) | outer[faces])]
+        is_open = bool(np.any(counts & ~outer[faces] & (touching[faces] < (1.0 - LEAST_SHARE) * area)))
         force = weight * mass.blocks["volume"][blocks].sum() + pushed[blocks].sum(0)
         strength = [(math.tan(math.radians(friction(one))), cohesion(one)) for one in mass.set_of_face[holding]]
         mode, direction, on, factor = _motion(-mass.faces["plane"][holding, :3], pressed[holding], strength, force) if is_open else ("inner", None, (), math.inf)
@@ -188,7 +192,7 @@ def _by_set(given, name, checked):
     if not isinstance(given, dict):
         value = checked(given, name)
         return lambda entry: value
-    values = {entry: checked(value, f"{name}[{entry!r}]") for entry, value in given.items()}
+    values = {entry if entry is None else whole(entry, 0, f"an entry of {name}"): checked(value, f"{name}[{entry!r}]") for entry, value in given.items()}
     if None not in values:
         raise ValueError(f"{name} has no key None, for joints of other entries and for planes that are no joints")
     return lambda entry: values.get(int(entry), values[None])

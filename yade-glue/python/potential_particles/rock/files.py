@@ -5,13 +5,14 @@ import math
 
 import numpy as np
 
+from ..arguments import positive
 from .joints import Joint, JointSet, joint, polygon
 
 
 def read_dfn(file):
     """Joints as discs from a table of the columns x, y, z of the centre, dip, dip direction and radius; a list of Joint.
 
-    Separated by commas or semicolons, in degrees and the script's unit; a first line that holds names is passed over, and so are empty lines and those that begin with #. A
+    Separated by commas or semicolons, in degrees and the script's unit; a first line without any number is passed over as names, and so are empty lines and those that begin with #. A
     radius of inf is a joint without end. ValueError with file, line and value for what is no such table.
     """
     found = []
@@ -25,7 +26,7 @@ def read_blockgen(file, kind, size=None):
 
     kind: "probabilistic" (filenameProbabilistic) has dip; dip direction; x; y; z; half lengths along strike and dip in each row; "persistent"
     (filenamePersistentPlanes) dip; dip direction; spacing, and joints through the origin and on both sides of it as far as `size`/2, the boundarySize of
-    BlockGen; "boundary" (filenameBoundaries) dip; dip direction; x; y; z. Further columns are passed over. In BlockGen's axes the normal of a plane is (-sin d cos a, -sin d sin a, cos d), d the dip and a the dip direction: x is north and y east
+    BlockGen; YADE takes the difference of its two extents there, so that a symmetric domain gets one plane of each row. "boundary" (filenameBoundaries) dip; dip direction; x; y; z. Further columns are passed over. In BlockGen's axes the normal of a plane is (-sin d cos a, -sin d sin a, cos d), d the dip and a the dip direction: x is north and y east
     where z points downwards. A joint that ends is a rectangle.
     """
     return [one for one, _ in rows_of_blockgen(file, kind, size)]
@@ -36,8 +37,10 @@ def rows_of_blockgen(file, kind, size=None):
     kinds = {"probabilistic": 7, "persistent": 3, "boundary": 5}
     if kind not in kinds:
         raise ValueError(f"kind={kind!r} must be one of {', '.join(kinds)}")
-    if kind == "persistent" and size is None:
-        raise ValueError("size is missing: planes of a spacing are laid over a domain of that size (boundarySize)")
+    if kind == "persistent":
+        if size is None:
+            raise ValueError("size is missing: planes of a spacing are laid over a domain of that size (boundarySize)")
+        size = positive(size, "size")
     found = []
     for number, values in _rows(file, kinds[kind], "the columns of BlockGen", exactly=False):
         dip, direction = values[:2]
@@ -80,9 +83,9 @@ def _blockgen_normal(dip, direction):
 
 def _rows(file, width, meaning, exactly=True):
     """(line, numbers) of each row."""
-    found = []
+    found, names = [], False
     with open(file, encoding="utf-8-sig") as lines:
-        for number, line in enumerate(lines, 1):
+        for number, line in enumerate(_decoded(lines, file), 1):
             line = line.split("#")[0].strip()
             if not line:
                 continue
@@ -90,18 +93,29 @@ def _rows(file, width, meaning, exactly=True):
             # BlockGen's lines end with a separator.
             while words and not words[-1]:
                 words.pop()
-            if not found and number == 1 and not all(map(_is_number, words)):
+            if not found and not names and not any(map(_is_number, words)):
+                names = True
                 continue
             for column, word in enumerate(words[:width], 1):
-                if not _is_number(word) or math.isnan(float(word)):
-                    raise ValueError(f"{file}, line {number}, column {column}: {word!r} is no number")
+                # A disc without end has a radius of inf, and nothing else is infinite.
+                if not _is_number(word) or not math.isfinite(float(word)) and not (exactly and column == width and float(word) == math.inf):
+                    raise ValueError(f"{file}, line {number}, column {column}: {word!r} is no finite number")
             if len(words) < width or exactly and len(words) != width:
                 raise ValueError(f"{file}, line {number}: {len(words)} numbers, and {width} are needed: {meaning}")
             further = [] if exactly else list(itertools.takewhile(_is_number, words[width:]))
+            if not all(math.isfinite(float(word)) for word in further):
+                raise ValueError(f"{file}, line {number}: {', '.join(further)}: each must be finite")
             found.append((number, [float(word) for word in words[:width] + further]))
     if not found:
         raise ValueError(f"{file}: there is no row of numbers: {meaning}")
     return found
+
+
+def _decoded(lines, file):
+    try:
+        yield from lines
+    except UnicodeDecodeError as error:
+        raise ValueError(f"{file} is no text in UTF-8: {error}") from None
 
 
 def _is_number(word):

@@ -8,7 +8,7 @@ Over a triangle of area A a pressure that is p_i at its corners x_i, and linear 
 import numpy as np
 
 from ..arguments import number, positive
-from .scene import _marked
+from .scene import _marked, loads_of
 
 
 def face_pressure(mass, faces, pressure):
@@ -43,10 +43,15 @@ def water_pressure(mass, faces, level, unit_weight=9810.0):
 
 
 def apply_loads(ids, loads):
-    """Gives bodies lasting forces and torques, in the place of those that they have: ids (blocks,) of bodies(), loads (blocks, 6). On a clump, those of its members."""
+    """Gives bodies lasting forces and torques, in the place of those that they have: ids (blocks,) of bodies(), loads (blocks, 6). On a clump, those of its members.
+
+    YADE does not save lasting forces: call it again after O.load(), and O.forces.reset(resetAll=True) where other bodies take the ids.
+    """
     import yade
-    forces = {}
-    for one, load in zip(ids, np.asarray(loads, float)):
+    forces, loads = {}, loads_of(loads, len(ids))
+    if len(ids) and loads.shape[1] == 3:
+        loads = np.column_stack([loads, np.zeros_like(loads)])
+    for one, load in zip(ids, loads):
         body = yade.O.bodies[int(one)]
         if body is None:
             continue

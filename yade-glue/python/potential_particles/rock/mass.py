@@ -44,11 +44,12 @@ class RockMass:
     """Blocks and their faces as numpy arrays, one row each; mass[i] is a Block, len(mass) their number.
 
     blocks: volume, centroid, inertia (xx, yy, zz, xy, xz, yz for density 1), parent, region (-1: none) ...
-    faces: block, area, plane (unit outward normal, offset), `of` (0: a plane of the domain, 1: a joint, 2: a plane of a region), index (of that plane or joint) ...
+    faces: block, area, plane (unit outward normal, offset), `of` (0: a plane of the domain, 1: a joint, 2: a plane of a region), index (of that plane or joint), region (of slice(); 2**32 - 1
+    for what the domain leaves out) ...
     partners: pairs of faces that lie on each other, with the area that they share.
     joints: the Joints that have cut; set_of_joint: for each, the number of its entry in the `joints` of slice().
     missing: numbers of joints that met no block. too_small, unclosed: cuts that were left out because of the limits, or of rounding.
-    complete: False if Ctrl-C ended the cuts before the last joint.
+    complete: False if Ctrl-C ended the cuts before the last joint. planes: number of planes of the domain.
     """
 
     blocks: np.ndarray
@@ -61,6 +62,7 @@ class RockMass:
     too_small: int
     unclosed: int
     complete: bool
+    planes: int
 
     def __len__(self):
         return len(self.blocks)
@@ -98,7 +100,7 @@ class RockMass:
 
     def faces_on(self, planes):
         """Which faces lie on one of these planes of the domain, (faces,) of bool."""
-        return (self.faces["of"] == OF_DOMAIN) & np.isin(self.faces["index"].astype(int), np.atleast_1d(planes))
+        return (self.faces["of"] == OF_DOMAIN) & np.isin(self.faces["index"].astype(int), planes_of(self, planes, "planes"))
 
     def faces_of(self, sets):
         """Which faces are on joints of these entries of the `joints` of slice(), (faces,) of bool."""
@@ -157,16 +159,18 @@ def slice(domain, joints, regions=(), least_volume=0.0, least_thickness=0.0, lea
     from .. import _glue
     if not isinstance(domain, Domain):
         raise ValueError(f"domain is {type(domain).__name__}, not a rock.Domain: Domain.box(lower, upper) makes one")
+    regions = [regions] if isinstance(regions, Domain) else list(regions)
     for region in regions:
         if not isinstance(region, Domain) or region.left_out:
             raise ValueError(f"a region is {type(region).__name__}: give convex Domains that leave nothing out themselves")
+        region.ball()
     limits = {"least_volume": _not_negative(least_volume, "least_volume"), "least_thickness": _not_negative(least_thickness, "least_thickness"),
               "least_width": _not_negative(least_width, "least_width"), "largest_aspect": 0.0 if largest_aspect == math.inf else within(largest_aspect, 1.0, math.inf, "largest_aspect"),
               "threads": len(os.sched_getaffinity(0)) if threads is None else whole(threads, 1, "threads"),
               "most_blocks": whole(most_blocks, 1, "most_blocks")}
     centre, reach = domain.ball()
     cutting, numbers = [], []
-    for entry, given in enumerate([joints] if isinstance(joints, (JointSet, Joint)) else joints):
+    for entry, given in enumerate([joints] if isinstance(joints, (JointSet, Joint)) else _listed(joints, "joints")):
         made = _joints_of(given, entry, centre, reach)
         cutting += made
         numbers += [entry] * len(made)
@@ -179,9 +183,11 @@ def slice(domain, joints, regions=(), least_volume=0.0, least_thickness=0.0, lea
                                 [len(one.planes) for one in cut_out], limits, report.told)
     done = int(read["joints"])
     mass = RockMass(blocks=np.frombuffer(read["blocks"], BLOCK), faces=np.frombuffer(read["faces"], FACE), corners=np.frombuffer(read["corners"]).reshape(-1, 3),
-                    partners=np.frombuffer(read["partners"], PARTNERS), joints=cutting, set_of_joint=np.array(numbers, int),
+                    partners=np.frombuffer(read["partners"], PARTNERS), joints=cutting[:done], set_of_joint=np.array(numbers[:done], int),
                     missing=np.frombuffer(read["missing"], "u8").astype(int), too_small=int(read["too_small"]), unclosed=int(read["unclosed"]),
-                    complete=done == len(cutting))
+                    complete=done == len(cutting), planes=len(domain.planes))
+    if report.noted and mass.complete:
+        print("Ctrl-C came in the last round of cuts, which went on to its end: the blocks are complete", file=sys.stderr)
     if not mass.complete:
         print(f"slicing was stopped by Ctrl-C after {done:,} of {len(cutting):,} joints: {len(mass):,} blocks", file=sys.stderr)
     count = len(domain.left_out)
@@ -191,7 +197,7 @@ def slice(domain, joints, regions=(), least_volume=0.0, least_thickness=0.0, lea
         blocks["region"] = np.where(blocks["region"] < 0, -1, blocks["region"] - count)
         faces = mass.faces.copy()
         # What was left out comes before the regions of slice().
-        faces["region"] = np.where(faces["region"] >= count, faces["region"] - count, 0)
+        faces["region"] = np.where(faces["region"] >= count, faces["region"] - count, np.iinfo("u4").max)
         mass = dataclasses.replace(mass, blocks=blocks, faces=faces)._with(kept)
     return mass
 
@@ -199,11 +205,29 @@ def slice(domain, joints, regions=(), least_volume=0.0, least_thickness=0.0, lea
 def _joints_of(given, entry, centre, reach) -> typing.List[Joint]:
     if isinstance(given, JointSet):
         return given.joints(centre, reach)
-    made = [given] if isinstance(given, Joint) else list(given)
+    made = [given] if isinstance(given, Joint) else _listed(given, f"joints[{entry}]")
     for one in made:
         if not isinstance(one, Joint):
             raise ValueError(f"joints[{entry}] holds {type(one).__name__}: give a JointSet, a Joint or a list of Joints")
     return made
+
+
+def _listed(given, name):
+    try:
+        return list(given)
+    except TypeError:
+        raise ValueError(f"{name} is {type(given).__name__}: give a JointSet, a Joint or a list of them") from None
+
+
+def planes_of(mass, planes, name):
+    """Numbers of planes of the domain as an array; ValueError for what is no such number."""
+    planes = np.atleast_1d(planes)
+    if planes.dtype == bool or planes.size and not np.array_equal(planes, np.floor(planes)):
+        raise ValueError(f"{name} must be numbers of planes of the domain, such as rock.Domain.TOP")
+    strange = planes[(planes < 0) | (planes >= mass.planes)]
+    if strange.size:
+        raise ValueError(f"{name} holds {strange[0]}: the domain has the planes 0 to {mass.planes - 1}")
+    return planes.astype(int)
 
 
 def _not_negative(value, name):

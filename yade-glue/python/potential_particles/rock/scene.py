@@ -59,7 +59,7 @@ def joint_engine(mass, ids, materials, period=1):
     mass, ids: as of bodies(). materials: for entries of the `joints` of slice() a Material: of a ConicJointMat friction angles, cohesion, tensile
     strength, softening and, where they are above 0, both stiffnesses count, but with KnKsPhys neither softening nor stiffnesses; of another FrictMat the friction angle. Contacts between blocks that were
     neighbours on a joint of these sets take them in the first step after they are made, looked for every `period` steps; all others keep what their bodies give them.
-    Saved with the scene, in O.tags; a script that loads it imports potential_particles.
+    Saved with the scene, in O.tags; a script that loads it imports potential_particles. Each rock mass has an engine of its own.
     """
     import yade
     period = whole(period, 1, "period")
@@ -74,11 +74,14 @@ def joint_engine(mass, ids, materials, period=1):
             raise ValueError(f"materials[{entry!r}] is {type(material).__name__}: give a ConicJointMat or another FrictMat")
     table = {"pairs": [[*pair, entry] for pair, (_, entry) in largest.items()],
              "values": {str(int(entry)): _values(material) for entry, material in materials.items()}}
-    yade.O.tags[TAG] = json.dumps(table)
-    return yade.PyRunner(command="import potential_particles.rock.scene; potential_particles.rock.scene.follow()", iterPeriod=period, initRun=True)
+    # Ids tell masses apart; blocks that take the ids of others take their place here, too.
+    tag = f"{TAG}.{int(min(ids, default=0))}"
+    yade.O.tags[tag] = json.dumps(table)
+    return yade.PyRunner(command=f"import potential_particles.rock.scene; potential_particles.rock.scene.follow({tag!r})", iterPeriod=period, initRun=True)
 
 
 _VALUES = ("frictionAngle", "residualFrictionAngle", "cohesion", "residualCohesion", "tensileStrength", "softening", "normalStiffness", "shearStiffness")
+# By tag.
 _known = {}
 
 
@@ -89,22 +92,23 @@ def _values(material):
     return found
 
 
-def follow():
-    """What joint_engine() does when it runs."""
+def follow(tag=TAG):
+    """What joint_engine() does when it runs; without a tag, in scenes of earlier versions."""
     import yade
-    text = yade.O.tags[TAG]
-    if _known.get("text") != text:
+    text = yade.O.tags[tag]
+    known = _known.setdefault(tag, {})
+    if known.get("text") != text:
         table = json.loads(text)
-        _known.update(text=text, since=-1, pairs={(a, b): table["values"][str(entry)] for a, b, entry in table["pairs"]})
-    if _known["since"] > yade.O.iter:
-        _known["since"] = -1
-    since, pairs = _known["since"], _known["pairs"]
+        known.update(text=text, since=-1, pairs={(a, b): table["values"][str(entry)] for a, b, entry in table["pairs"]})
+    if known["since"] > yade.O.iter:
+        known["since"] = -1
+    since, pairs = known["since"], known["pairs"]
     for contact in yade.O.interactions:
         if contact.isReal and contact.iterMadeReal >= since:
             values = pairs.get((min(contact.id1, contact.id2), max(contact.id1, contact.id2)))
             if values is not None:
                 _give(contact.phys, values)
-    _known["since"] = yade.O.iter
+    known["since"] = yade.O.iter
 
 
 def _give(physics, values):
@@ -130,7 +134,9 @@ def excavate(ids, settle=0, slow=1e-3, check_every=100):
     ValueError. Returns the steps that were run. A sequence is a loop over regions.
     """
     import yade
-    scene = yade.O
+    scene, settle, slow = yade.O, whole(settle, 0, "settle"), positive(slow, "slow")
+    if np.asarray(ids).dtype == bool:
+        raise ValueError("ids is an array of bool: give ids of bodies, as in excavate(ids[mass.inside(0)])")
     wanted = sorted({_id(one) for one in np.atleast_1d(ids)})
     unknown = [one for one in wanted if not 0 <= one < len(scene.bodies)]
     if unknown:
@@ -144,8 +150,8 @@ def excavate(ids, settle=0, slow=1e-3, check_every=100):
         scene.interactions.erase(*pair)
     for one in carriers:
         scene.bodies.erase(one, True)
-    slow, done = positive(slow, "slow"), 0
-    while done < whole(settle, 0, "settle"):
+    done = 0
+    while done < settle:
         scene.run(min(check_every, settle - done), True)
         done += min(check_every, settle - done)
         if max((body.state.vel.norm() for body in scene.bodies if body.state.mass > 0.0), default=0.0) < slow:
@@ -154,9 +160,12 @@ def excavate(ids, settle=0, slow=1e-3, check_every=100):
 
 
 def _id(given):
-    if given != int(given):
-        raise ValueError(f"ids holds {given}: an id is a whole number")
-    return int(given)
+    try:
+        if given == int(given):
+            return int(given)
+    except (TypeError, ValueError):
+        pass
+    raise ValueError(f"ids holds {given!r}: an id is a whole number")
 
 
 def _shape(block, r, overlap):
@@ -179,10 +188,24 @@ def _marked(chosen, count, name):
         return given
     marked = np.zeros(count, bool)
     try:
-        marked[given.astype(int)] = True
+        numbers = given.astype(int)
+        if given.dtype == bool or given.size and (numbers.min() < 0 or not np.array_equal(numbers, given)):
+            raise ValueError
+        marked[numbers] = True
     except (IndexError, ValueError, TypeError):
-        raise ValueError(f"{name} must be numbers of blocks below {count}, or {count} of bool") from None
+        raise ValueError(f"{name} must be numbers from 0 to {count - 1}, or {count} of bool") from None
     return marked
+
+
+def loads_of(loads, count):
+    """Forces, and torques if there are any, as an array (count, 3 or more); ValueError for others."""
+    try:
+        found = np.asarray(loads, float)
+    except (TypeError, ValueError):
+        found = np.zeros(0)
+    if found.ndim != 2 or found.shape[0] != count or found.shape[1] not in (3, 6) or not np.isfinite(found).all():
+        raise ValueError(f"loads must be ({count}, 6) finite numbers, force and torque of each block, as of water_pressure()")
+    return found
 
 
 def _shade(number):
