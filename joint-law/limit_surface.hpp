@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT OR Apache-2.0
 //
 // Slip and twist together: the ellipse (F/F_max)^2 + (M/M_max)^2 <= 1, which encloses the limit surface of an even pressure.
 #pragma once
