@@ -135,6 +135,8 @@ void JointLaw::bond(const ContactPatch& patch, const JointMotion& motion, const 
     for (const Eigen::Vector2d& corner : rimOf(patch, frame, shape1, shape2))
         memory.bondRim.insert(memory.bondRim.end(), { corner.x(), corner.y() });
 
+    // About the middle of the bond, as of the steps that follow.
+    all.damping.moment += (motion.point - frame.centroid).cross(all.damping.force);
     memory.shearDisplacement = Vector3d::Zero();
     memory.twist = memory.energyAlong = 0;
     const double energy = BondStrain(memory, { one.centre, one.turn }, { other.centre, other.turn }).energy({ kn, ks }, 0);
@@ -163,7 +165,7 @@ void JointLaw::holdAsPatch(const ContactPatch& patch, const JointMotion& motion)
     if (bondEnded)
         all.energies.breaking -= elasticPressure;
     takeStiffness(patch);
-    Springs springs = springsAlong(patch, motion);
+    Springs springs = springsAlong(motion);
     const FrictionForce limit = slip(patch, pressing, springs);
     memory.shearDisplacement = springs.shear;
     memory.twist = springs.twist;
@@ -233,7 +235,7 @@ Wrench JointLaw::dashpotAcross(const ContactPatch& patch, const JointMotion& mot
 
 // The springs of the joint take along what they hold, and are drawn by the motion of this step; where the patch grows or shrinks, springs
 // join and leave.
-JointLaw::Springs JointLaw::springsAlong(const ContactPatch& patch, const JointMotion& motion)
+JointLaw::Springs JointLaw::springsAlong(const JointMotion& motion)
 {
     const Vector3d& n = motion.normal;
     Springs springs { memory.shearDisplacement, memory.twist };

@@ -49,7 +49,7 @@ private:
     };
 
     Wrench dashpotAcross(const ContactPatch& patch, const JointMotion& motion) const;
-    Springs springsAlong(const ContactPatch& patch, const JointMotion& motion);
+    Springs springsAlong(const JointMotion& motion);
     FrictionForce slip(const ContactPatch& patch, double pressing, Springs& springs);
     void dampAlong(const ContactPatch& patch, const JointMotion& motion, double limit);
     Wrench dashpotOfBond(const BondStrain& strain) const;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "fix_wall.hpp"
 #include "fix_shapes.hpp"
+#include "joint_words.hpp"
 #include "motion.hpp"
 #include "text_file.hpp"
 
@@ -25,7 +26,9 @@ namespace {
 
 constexpr const char* style = "fix wall/potential/particle";
 constexpr const char* expected
-    = "expected KN KS FRICTION RESTITUTION, then plane X Y Z NX NY NZ, stl FILE, scale S, flat EPS, linear VX VY VZ, or rotate X Y Z AX AY AZ PERIOD";
+    = "expected KN KS FRICTION RESTITUTION, then plane X Y Z NX NY NZ, stl FILE, scale S, flat EPS, linear VX VY VZ, rotate X Y Z AX AY AZ PERIOD, or "
+      "patch TOL and with it cohesion C, residual FRICTION COHESION, whole STEP";
+constexpr double areaTolerance = 1e-6; // of a disc in the place of a patch
 
 } // namespace
 
@@ -39,13 +42,9 @@ FixWall::FixWall(LAMMPS* lmp, int count, char** arguments)
     if (count < 7)
         error->all(FLERR, "{}: {}", style, expected);
     pp_settings_default(&how);
-    const double restitution = numberAt(arguments, 6, "restitution");
-    law = { numberAt(arguments, 3, "normal stiffness"), numberAt(arguments, 4, "shear stiffness"), numberAt(arguments, 5, "friction"),
-        dampingRatioOf(restitution) };
-    if (!(law.normalStiffness > 0 && law.shearStiffness >= 0 && law.friction >= 0 && restitution >= 0.01 && restitution <= 1)
-        || (law.shearStiffness == 0 && law.friction > 0))
-        error->all(FLERR, "{}: KN KS FRICTION RESTITUTION = {} {} {} {}: KN must be above 0, KS too if there is friction, FRICTION not below 0, and "
-            "RESTITUTION in [0.01, 1]", style, arguments[3], arguments[4], arguments[5], arguments[6]);
+    law = readLaw(lmp, style, arguments, 3);
+    joint = jointOf(law);
+    bool hasStrength = false;
     double scale = 1;
     for (int i = 7; i < count;) {
         const auto threeAt = [&](int at, const char* what) {
@@ -83,9 +82,26 @@ FixWall::FixWall(LAMMPS* lmp, int count, char** arguments)
             axis.normalize();
             rate = 2 * M_PI / period;
             i += 8;
+        } else if (is("patch", 1)) {
+            patchTolerance = numberAt(arguments, i + 1, "patch");
+            if (!(patchTolerance >= 1e-12 && patchTolerance <= 0.1))
+                error->all(FLERR, "{}: patch = {}: the relative error of a patch must lie in [1e-12, 0.1]; 1e-4 is a good choice", style, arguments[i + 1]);
+            byPatch = true;
+            i += 2;
+        } else if (is("whole", 1)) {
+            wholeBefore = utils::bnumeric(FLERR, arguments[i + 1], false, lmp);
+            hasStrength = true;
+            i += 2;
+        } else if (!strcmp(arguments[i], "tension") || !strcmp(arguments[i], "softening"))
+            error->all(FLERR, "{}: '{}': walls make no bonds; give cohesion alone, or make the wall of bodies that do not move", style, arguments[i]);
+        else if (const int taken = readStrength(lmp, style, arguments, i, count, joint)) {
+            hasStrength = true;
+            i += taken;
         } else
             error->all(FLERR, "{}: '{}': {}", style, arguments[i], expected);
     }
+    if (hasStrength && !byPatch)
+        error->all(FLERR, "{}: strength is for contacts by patch: add 'patch 1e-4'", style);
     if (!file.empty()) {
         try {
             mesh = std::make_unique<Mesh>(fileForAll(lmp, file), file, scale);
@@ -146,7 +162,7 @@ void FixWall::post_force(int)
             meet(i, frame, advance);
             most = std::max(most, around[i].known.size());
         }
-    maxexchange = 1 + static_cast<int>(most) * savedSize;
+    maxexchange = 2 + static_cast<int>(most) * savedSize();
 }
 
 double FixWall::ballDistance(int element, const Vector3d& position, double radius) const
@@ -202,13 +218,21 @@ void FixWall::meet(int i, const Frame& frame, bool advance)
     }
     solve(i, shape, here);
     for (size_t n = 0; n < touched.size(); ++n)
-        now[slotOf[n]].touches = !yields(touched[n]);
+        now[slotOf[n]].touches = byPatch || !yields(touched[n]);
     for (size_t n = 0; n < touched.size(); ++n)
-        if (now[slotOf[n]].touches)
+        if (byPatch)
+            applyPatchLaw(i, shape, frame, advance, touched[n], now[slotOf[n]], here.last);
+        else if (now[slotOf[n]].touches)
             applyLaw(i, frame, advance, touched[n].found, now[slotOf[n]], here);
+    // Where the body has left the wall, springs along it go with what they hold.
+    for (const Known& old : here.known)
+        if (old.joint.touching && std::none_of(now.begin(), now.end(), [&](const Known& k) { return k.touches && k.element == old.element; }))
+            own[changed] += old.joint.memory.energyAlong;
     for (Known& one : now)
-        if (!one.touches)
+        if (!one.touches) {
             one.history.touching = false;
+            one.joint = {};
+        }
     here.known.swap(now);
 }
 
@@ -224,8 +248,10 @@ void FixWall::solve(int i, const Shape& shape, Surroundings& here)
             continue;
         const int element = one.element;
         const auto old = std::find_if(here.known.begin(), here.known.end(), [&](const Known& k) { return k.element == element; });
-        Known next = old != here.known.end() ? *old : Known { element, false, {}, {} };
+        Known next = old != here.known.end() ? *old : Known { element };
         next.touches = false;
+        if (neighbor->ago == 0)
+            next.patch.reset();
         pp_flat_contact found;
         const pp_status status = element < firstTriangle
             ? pp_contact_plane(shape.particle.get(), &here.last, planes[element].point.data(), planes[element].normal.data(), &how, &next.state, &found)
@@ -275,14 +301,73 @@ void FixWall::applyLaw(int i, const Frame& frame, bool advance, const pp_flat_co
     motion.spin = 0.5 * motion.normal.dot(turn + frame.angularVelocity);
     motion.mass = atom->rmass[i];
     const ContactForce force = contactForce(law, motion, update->dt, advance, contact.history);
-    Map<Vector3d>(atom->f[i]) -= force.onB;
-    Map<Vector3d>(atom->torque[i]) -= arm.cross(force.onB);
+    push(i, force.onB, -arm.cross(force.onB), { force.elastic, force.slid, force.damped, 0, 0 });
+}
+
+void FixWall::push(int i, const Vector3d& onWall, const Vector3d& torque, const JointEnergies& energies)
+{
+    Map<Vector3d>(atom->f[i]) -= onWall;
+    Map<Vector3d>(atom->torque[i]) += torque;
     own[contacts] += 1;
-    own[elastic] += force.elastic;
-    own[slid] += force.slid;
-    own[damped] += force.damped;
+    own[elastic] += energies.elastic;
+    own[slid] += energies.friction;
+    own[damped] += energies.viscous;
+    own[changed] += energies.area;
+    own[broke] += energies.breaking;
     for (int d = 0; d < 3; ++d)
-        own[forceX + d] += force.onB[d];
+        own[forceX + d] += onWall[d];
+}
+
+// In world axes.
+std::optional<PatchInStep> FixWall::patchOn(int i, const Shape& shape, const Frame& frame, const TriangleContact& touch, Known& contact, const pp_pose& pose) const
+{
+    const pp_flat_contact& found = touch.found;
+    const pp_particle* particle = shape.particle.get();
+    if (!contact.patch)
+        contact.patch = std::make_shared<pp_patch_state>();
+    pp_patch patch;
+    pp_status status;
+    if (touch.triangle < 0)
+        status = pp_patch_on_plane(particle, &pose, &found, patchTolerance, 1, contact.patch.get(), &patch, nullptr, 0, nullptr);
+    else {
+        // The body stays on the side on which the contact began.
+        const std::array<double, 9> points = mesh->points(touch.triangle);
+        const Vector3d a(&points[0]), front = (Vector3d(&points[3]) - a).cross(Vector3d(&points[6]) - a);
+        const Vector3d towardsWall = contact.joint.touching ? frame.turn.conjugate() * contact.joint.normal : Vector3d(found.normal);
+        status = pp_patch_on_triangle(particle, &pose, points.data(), towardsWall.dot(front) < 0, &found, patchTolerance, 1, contact.patch.get(), &patch, nullptr,
+            0, nullptr);
+    }
+    const Vector3d x(atom->x[i]);
+    const Eigen::Matrix3d turn = frame.turn.toRotationMatrix();
+    if (auto here = patchInStep(status, patch)) {
+        here->point = x + turn * Vector3d(patch.branch_a);
+        here->normal = turn * here->normal;
+        here->patch.centroid = turn * here->patch.centroid;
+        here->patch.secondMoment = turn * here->patch.secondMoment * turn.transpose();
+        return here;
+    }
+    double area = 0; // stays 0 where they overlap by nothing but rounding
+    pp_flat_contact_area(particle, &pose, &found, areaTolerance, &area);
+    const Vector3d normal = turn * Vector3d(found.normal);
+    return PatchInStep { ContactPatch::disc(area, found.overlap, normal), x + turn * Vector3d(found.branch), normal };
+}
+
+void FixWall::applyPatchLaw(int i, const Shape& shape, const Frame& frame, bool advance, const TriangleContact& touch, Known& contact, const pp_pose& pose)
+{
+    const double mass = atom->rmass[i];
+    const double* q = shapes->orientations()[i];
+    JointBody body { Vector3d(atom->x[i]), Quaterniond(q[0], q[1], q[2], q[3]), Vector3d(atom->v[i]), Vector3d(atom->omega[i]), {} };
+    body.mass = { Vector3d::Constant(mass), mass / shape.volume * shape.moments, body.centre, body.turn };
+    const JointBody wall { frame.origin, frame.turn, frame.velocity, frame.angularVelocity, {} };
+    const std::optional<PatchInStep> here = patchOn(i, shape, frame, touch, contact, pose);
+    if (!contact.joint.touching)
+        contact.joint.memory.broken = update->ntimestep >= wholeBefore;
+    const JointForces forces = jointForces(joint, contact.joint, body, wall, here, update->dt, advance, [](int) { return PosedShape {}; });
+    const double square = 4 * mass / forces.normalStiffness;
+    if (update->dt * update->dt > square)
+        error->one(FLERR, "{}: timestep = {}: the joint of atom {} with the wall, of stiffness {}, is unstable above {}, and with levers well below: take {} or less",
+            style, update->dt, atom->tag[i], forces.normalStiffness, std::sqrt(square), 0.1 * std::sqrt(square));
+    push(i, forces.onOther.force, forces.onOne.torque, forces.energies);
 }
 
 int FixWall::touching(int i) const
@@ -299,36 +384,48 @@ double FixWall::compute_vector(int n)
 
 int FixWall::pack(int i, double* buffer) const
 {
-    int m = 0;
-    buffer[m++] = touching(i);
+    double* to = buffer;
+    *to++ = touching(i);
+    *to++ = savedSize();
     for (const Known& one : around[i].known) {
         if (!one.touches)
             continue;
-        buffer[m++] = one.element;
-        for (const Vector3d* part : { &one.history.shear, &one.history.normal, &one.history.damping })
-            for (int d = 0; d < 3; ++d)
-                buffer[m++] = (*part)[d];
-        for (double x : one.state.solution)
-            buffer[m++] = x;
+        *to++ = one.element;
+        to = std::copy(std::begin(one.state.solution), std::end(one.state.solution), to);
+        if (byPatch)
+            to = writeNumbers(one.joint, to);
+        else
+            for (const Vector3d* part : { &one.history.shear, &one.history.normal, &one.history.damping })
+                to = std::copy(part->data(), part->data() + 3, to);
     }
-    return m;
+    return static_cast<int>(to - buffer);
 }
 
 int FixWall::unpack(int i, const double* buffer)
 {
-    int m = 0;
+    const double* from = buffer;
     around[i] = {};
-    around[i].known.resize(static_cast<size_t>(buffer[m++]));
+    around[i].known.resize(static_cast<size_t>(*from++));
+    if (const int size = static_cast<int>(*from++); size != savedSize() && !around[i].known.empty())
+        error->one(FLERR, "{}: the contacts of the restart file act {}: give the fix {} 'patch TOL' as when it was written", style,
+            byPatch ? "in a point" : "on patches", byPatch ? "without" : "with");
     for (Known& one : around[i].known) {
-        one.element = static_cast<int>(buffer[m++]);
-        one.touches = one.history.touching = true;
-        for (Vector3d* part : { &one.history.shear, &one.history.normal, &one.history.damping })
-            for (int d = 0; d < 3; ++d)
-                (*part)[d] = buffer[m++];
-        for (double& x : one.state.solution)
-            x = buffer[m++];
+        one.element = static_cast<int>(*from++);
+        std::copy_n(from, 8, one.state.solution);
+        from += 8;
+        one.touches = true;
+        if (byPatch) {
+            one.joint = readNumbers(from);
+            from += countOfNumbers(one.joint);
+            continue;
+        }
+        one.history.touching = true;
+        for (Vector3d* part : { &one.history.shear, &one.history.normal, &one.history.damping }) {
+            *part = Vector3d(from);
+            from += 3;
+        }
     }
-    return m;
+    return static_cast<int>(from - buffer);
 }
 
 int FixWall::pack_exchange(int i, double* buffer) { return pack(i, buffer); }
@@ -352,7 +449,7 @@ void FixWall::unpack_restart(int i, int nth)
 
 int FixWall::maxsize_restart()
 {
-    int most = 2;
+    int most = 3;
     for (int i = 0; i < atom->nlocal; ++i)
         most = std::max(most, size_restart(i));
     return most;
@@ -360,19 +457,24 @@ int FixWall::maxsize_restart()
 
 void FixWall::write_restart(FILE* out)
 {
-    double all[2] = {};
-    MPI_Reduce(&own[slid], all, 2, MPI_DOUBLE, MPI_SUM, 0, world);
+    std::array<double, std::size(ofRun)> mine, all;
+    std::transform(std::begin(ofRun), std::end(ofRun), mine.begin(), [this](Sum sum) { return own[sum]; });
+    MPI_Reduce(mine.data(), all.data(), static_cast<int>(mine.size()), MPI_DOUBLE, MPI_SUM, 0, world);
     if (comm->me == 0) {
         const int size = sizeof all;
         fwrite(&size, sizeof size, 1, out);
-        fwrite(all, sizeof all, 1, out);
+        fwrite(all.data(), sizeof all, 1, out);
     }
 }
 
 void FixWall::restart(char* saved)
 {
-    if (comm->me == 0)
-        std::memcpy(&own[slid], saved, 2 * sizeof(double));
+    if (comm->me != 0)
+        return;
+    std::array<double, std::size(ofRun)> all;
+    std::memcpy(all.data(), saved, sizeof all);
+    for (size_t n = 0; n < all.size(); ++n)
+        own[ofRun[n]] = all[n];
 }
 
 double FixWall::memory_usage()

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "pair_potential_particle.hpp"
 #include "fix_shapes.hpp"
+#include "joint_words.hpp"
 #include "motion.hpp"
 
 #include "atom.h"
@@ -17,6 +18,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <iterator>
 
 using namespace LAMMPS_NS;
 using Eigen::Vector3d;
@@ -26,7 +28,11 @@ namespace {
 
 constexpr const char* style = "pair_style potential/particle";
 constexpr const char* memoryId = "POTENTIAL_PARTICLE_MEMORY";
-constexpr double lowestRestitution = 0.01;
+constexpr const char* coefficients = "pair_coeff of potential/particle";
+constexpr const char* options
+    = "expected carry TOL, flat EPS, closest, threads N, failures stop or count, patch TOL, whole STEP, bonds yes or no";
+constexpr int solutionSize = std::size(decltype(pp_pair_state::solution) {}), pointValues = 9 + solutionSize;
+constexpr double areaTolerance = 1e-6; // of a disc in the place of a patch
 
 std::string described(const pp_pose& pose)
 {
@@ -87,6 +93,7 @@ void PairPotentialParticle::allocate()
         for (int j = 0; j < n; ++j)
             setflag[i][j] = 0;
     laws.assign(static_cast<size_t>(n) * n, {});
+    jointLaws.assign(static_cast<size_t>(n) * n, {});
 }
 
 void PairPotentialParticle::settings(int count, char** arguments)
@@ -95,6 +102,11 @@ void PairPotentialParticle::settings(int count, char** arguments)
     how.carry_tolerance = 1e-9;
     threads = 1;
     stopAtFailure = true;
+    const bool known = byPatch, first = bodies.empty();
+    byPatch = makesBonds = false;
+    patchTolerance = 1e-4;
+    wholeBefore = 1;
+    bool hasStrengthWords = false;
     for (int i = 0; i < count; ++i) {
         const std::string word = arguments[i];
         if (word == "closest") {
@@ -102,8 +114,7 @@ void PairPotentialParticle::settings(int count, char** arguments)
             continue;
         }
         if (++i == count)
-            error->all(FLERR, "{}: '{}' is no option, or its value is missing: expected carry TOL, flat EPS, closest, threads N, failures stop or count",
-                style, word);
+            error->all(FLERR, "{}: '{}' is no option, or its value is missing: {}", style, word, options);
         const auto tolerance = [&] {
             const double value = utils::numeric(FLERR, arguments[i], false, lmp);
             if (!(value >= 0 && value <= 0.1))
@@ -121,34 +132,48 @@ void PairPotentialParticle::settings(int count, char** arguments)
             threads = static_cast<uint32_t>(value);
         } else if (word == "failures" && (!strcmp(arguments[i], "stop") || !strcmp(arguments[i], "count")))
             stopAtFailure = !strcmp(arguments[i], "stop");
-        else
-            error->all(FLERR, "{}: '{} {}': expected carry TOL, flat EPS, closest, threads N, failures stop or count", style, word, arguments[i]);
+        else if (word == "patch") {
+            patchTolerance = utils::numeric(FLERR, arguments[i], false, lmp);
+            if (!(patchTolerance >= 1e-12 && patchTolerance <= 0.1))
+                error->all(FLERR, "{}: patch = {}: the relative error of a patch must lie in [1e-12, 0.1]; 1e-4 is a good choice", style, arguments[i]);
+            byPatch = true;
+        } else if (word == "whole") {
+            wholeBefore = utils::bnumeric(FLERR, arguments[i], false, lmp);
+            hasStrengthWords = true;
+        } else if (word == "bonds" && (!strcmp(arguments[i], "yes") || !strcmp(arguments[i], "no"))) {
+            makesBonds = !strcmp(arguments[i], "yes");
+            hasStrengthWords = true;
+        } else
+            error->all(FLERR, "{}: '{} {}': {}", style, word, arguments[i], options);
     }
+    if (hasStrengthWords && !byPatch)
+        error->all(FLERR, "{}: whole and bonds are for contacts by patch: add 'patch 1e-4', or leave them out", style);
+    if (known != byPatch && !first)
+        error->all(FLERR, "{}: contacts that there are cannot change between point and patch: give pair_style before the first run", style);
 }
 
 void PairPotentialParticle::coeff(int count, char** arguments)
 {
-    if (count != 6)
-        error->all(FLERR, "pair_coeff of potential/particle: expected I J KN KS FRICTION RESTITUTION, {} values were given", count);
+    if (count < 6)
+        error->all(FLERR, "{}: expected I J KN KS FRICTION RESTITUTION, {} values were given", coefficients, count);
     if (!allocated)
         allocate();
     int lowI, highI, lowJ, highJ;
     utils::bounds(FLERR, arguments[0], 1, atom->ntypes, lowI, highI, error);
     utils::bounds(FLERR, arguments[1], 1, atom->ntypes, lowJ, highJ, error);
-    double value[4];
-    const char* names[] = { "normal stiffness", "shear stiffness", "friction", "restitution" };
-    for (int n = 0; n < 4; ++n) {
-        value[n] = utils::numeric(FLERR, arguments[n + 2], false, lmp);
-        const bool good = n == 0 ? value[n] > 0 : n == 3 ? value[n] >= lowestRestitution && value[n] <= 1 : value[n] >= 0;
-        if (!good || !std::isfinite(value[n]))
-            error->all(FLERR, "pair_coeff of potential/particle: {} = {}: it must {}", names[n], arguments[n + 2],
-                n == 0 ? "be above 0" : n == 3 ? "lie in [0.01, 1]" : "not be below 0");
+    const LawParameters law = readLaw(lmp, coefficients, arguments, 2);
+    JointParameters joint = jointOf(law);
+    for (int i = 6; i < count;) {
+        const int taken = byPatch ? readStrength(lmp, coefficients, arguments, i, count, joint) : 0;
+        if (!taken)
+            error->all(FLERR, "{}: '{}': {}", coefficients, arguments[i],
+                byPatch ? std::string("expected ") + strengthWords : "strength is for contacts by patch: pair_style potential/particle patch 1e-4");
+        i += taken;
     }
-    if (value[1] == 0 && value[2] > 0)
-        error->all(FLERR, "pair_coeff of potential/particle: shear stiffness = 0 with friction = {}: give friction 0 for frictionless contacts", value[2]);
     for (int i = lowI; i <= highI; ++i)
         for (int j = std::max(lowJ, i); j <= highJ; ++j) {
-            laws[i * (atom->ntypes + 1) + j] = laws[j * (atom->ntypes + 1) + i] = { value[0], value[1], value[2], dampingRatioOf(value[3]) };
+            laws[i * (atom->ntypes + 1) + j] = laws[j * (atom->ntypes + 1) + i] = law;
+            jointLaws[i * (atom->ntypes + 1) + j] = jointLaws[j * (atom->ntypes + 1) + i] = joint;
             setflag[i][j] = 1;
         }
 }
@@ -166,6 +191,9 @@ void PairPotentialParticle::init_style()
     memory_ = static_cast<ContactMemory*>(
         memories.empty() ? modify->add_fix(fmt::format("{} all potential/particle/memory", memoryId)) : memories.front());
     memory_->attach(this);
+    moving = 0;
+    for (const Fix* fix : modify->get_fix_by_style("^nve/potential/particle$"))
+        moving |= fix->groupbit;
     neighbor->add_request(this);
 }
 
@@ -174,7 +202,9 @@ double PairPotentialParticle::init_one(int i, int j)
     if (!setflag[i][j])
         error->all(FLERR, "{}: types {} and {} have no coefficients: give 'pair_coeff {} {} KN KS FRICTION RESTITUTION'", style, i, j, i, j);
     const Shape &a = shapes->shape(i), &b = shapes->shape(j);
-    // Two bodies on one spring are no slower than this, whatever the levers.
+    // Two bodies on one spring are no slower than this, whatever the levers. Of a patch the area is not known before there is one.
+    if (byPatch)
+        return a.radius + b.radius;
     const double massA = shapes->density(i) * a.volume, massB = shapes->density(j) * b.volume;
     const double most = 2 * std::sqrt(massA * massB / (massA + massB) / laws[i * (atom->ntypes + 1) + j].normalStiffness);
     if (update->dt > most)
@@ -183,15 +213,38 @@ double PairPotentialParticle::init_one(int i, int j)
     return a.radius + b.radius;
 }
 
-ContactMemory::Values PairPotentialParticle::valuesOf(int slot) const
+int PairPotentialParticle::valueCount(int slot) const { return byPatch ? solutionSize + countOfNumbers(joints[slot]) : pointValues; }
+
+void PairPotentialParticle::writeValues(int slot, double* to) const
 {
-    ContactMemory::Values values;
+    to = std::copy(std::begin(states[slot].solution), std::end(states[slot].solution), to);
+    if (byPatch) {
+        writeNumbers(joints[slot], to);
+        return;
+    }
     const ContactHistory& history = histories[slot];
-    auto to = values.begin();
     for (const Vector3d* part : { &history.shear, &history.normal, &history.damping })
         to = std::copy(part->data(), part->data() + 3, to);
-    std::copy(std::begin(states[slot].solution), std::end(states[slot].solution), to);
-    return values;
+}
+
+bool PairPotentialParticle::isBond(const double* values, int count) const
+{
+    return byPatch && count > pointValues && readNumbers(values + solutionSize).isBond();
+}
+
+// What another rank or a file has of a contact, into the last slot.
+void PairPotentialParticle::takeArrived(int where, int slot)
+{
+    const auto [values, count] = memory_->arrived(where);
+    std::copy_n(values, solutionSize, states[slot].solution);
+    const double* rest = values + solutionSize;
+    if (byPatch == (count == pointValues))
+        error->one(FLERR, "{}: the contacts of the restart file act {}: give the pair_style {} 'patch TOL' as when it was written", style,
+            byPatch ? "in a point" : "on patches", byPatch ? "without" : "with");
+    if (byPatch)
+        joints[slot] = readNumbers(rest);
+    else
+        histories[slot] = { vector(rest), vector(rest + 3), vector(rest + 6), true };
 }
 
 double PairPotentialParticle::apart(int a, int b) const
@@ -237,26 +290,40 @@ void PairPotentialParticle::rebuild()
             }
         }
     }
-    std::vector<pp_pair_state> newStates(from.size());
-    std::vector<ContactHistory> newHistories(from.size());
-    std::vector<pp_contact> newAnswers(from.size());
-    for (size_t n = 0; n < from.size(); ++n) {
-        if (from[n] >= 0) {
-            newStates[n] = states[from[n]];
-            newHistories[n] = histories[from[n]];
-            newAnswers[n] = answers[from[n]];
-            continue;
-        }
-        const ContactMemory::Values& values = memory_->arrived(from[n]);
-        newHistories[n] = { vector(&values[0]), vector(&values[3]), vector(&values[6]), true };
-        newStates[n] = {};
-        std::copy_n(&values[9], ContactMemory::solutionSize, newStates[n].solution);
-        newAnswers[n] = {};
-    }
+    const int bondsBefore = byPatch ? memory_->bonds() : 0;
+    const auto inNewOrder = [&](auto& of, auto&& none) {
+        std::decay_t<decltype(of)> ordered(from.size());
+        for (size_t n = 0; n < from.size(); ++n)
+            ordered[n] = from[n] >= 0 ? std::move(of[from[n]]) : none();
+        of.swap(ordered);
+    };
     bodies.swap(newBodies);
-    states.swap(newStates);
-    histories.swap(newHistories);
-    answers.swap(newAnswers);
+    inNewOrder(states, [] { return pp_pair_state {}; });
+    inNewOrder(answers, [] { return pp_contact {}; });
+    if (byPatch) {
+        inNewOrder(joints, [] { return JointHistory {}; });
+        patches.clear();
+        patches.resize(from.size());
+    } else
+        inNewOrder(histories, [] { return ContactHistory {}; });
+    for (size_t n = 0; n < from.size(); ++n)
+        if (from[n] < 0)
+            takeArrived(from[n], static_cast<int>(n));
+    if (byPatch)
+        checkBonds(bondsBefore);
+}
+
+// A bond is in the list of neighbours, unless one of its atoms is gone.
+void PairPotentialParticle::checkBonds(int before)
+{
+    int now = 0;
+    for (int slot = 0; slot < slotCount(); ++slot)
+        if (isBond(slot))
+            now += (static_cast<int>(bodies[slot].a) < local) + (static_cast<int>(bodies[slot].b) < local);
+    if (now < before && atom->natoms == atomsAtBuild)
+        error->one(FLERR, "{}: {} bonded atoms have lost their partner: bonds are stretched beyond the reach of the list of neighbours, or special_bonds "
+            "or neigh_modify exclude leaves pairs out; give a skin of more than {}, or a larger stiffness", style, before - now, neighbor->skin);
+    atomsAtBuild = atom->natoms;
 }
 
 int PairPotentialParticle::pack_forward_comm(int count, int* atoms, double* buffer, int, int*)
@@ -311,25 +378,33 @@ bool PairPotentialParticle::sleeps(const pp_contact& found, int a, int b) const
     return found.kind == PP_SEPARATED && found.distance > farShare * (radii[a] + radii[b]);
 }
 
-void PairPotentialParticle::addSlot(Bodies pair, const pp_pair_state& state, const pp_contact& found, const ContactHistory& history)
+void PairPotentialParticle::addSlot(Bodies pair, const pp_pair_state& state, const pp_contact& found)
 {
     bodies.push_back(pair);
     states.push_back(state);
     answers.push_back(found);
-    histories.push_back(history);
+    if (byPatch) {
+        joints.emplace_back();
+        patches.emplace_back();
+    } else
+        histories.emplace_back();
 }
 
 void PairPotentialParticle::removeSlot(int slot)
 {
     const auto remove = [slot](auto& of) {
-        of[slot] = of.back();
+        of[slot] = std::move(of.back());
         of.pop_back();
     };
     remove(bodies);
     remove(states);
     remove(answers);
-    remove(histories);
     remove(statuses);
+    if (byPatch) {
+        remove(joints);
+        remove(patches);
+    } else
+        remove(histories);
 }
 
 // A contact that failed keeps the geometry of the last step, if it has one.
@@ -357,7 +432,7 @@ void PairPotentialParticle::solveNear()
         const int a = static_cast<int>(bodies[slot].a), b = static_cast<int>(bodies[slot].b);
         if (statuses[slot] != PP_OK)
             fail(a, b, statuses[slot]);
-        else if (sleeps(answers[slot], a, b)) {
+        else if (sleeps(answers[slot], a, b) && !isBond(slot)) {
             far.push_back({ a, b, ways[a] + ways[b] + answers[slot].distance });
             removeSlot(slot);
             continue;
@@ -391,7 +466,7 @@ void PairPotentialParticle::lookAtFar()
             ++n;
             continue;
         }
-        addSlot({ static_cast<uint32_t>(pair.a), static_cast<uint32_t>(pair.b) }, state, found, {});
+        addSlot({ static_cast<uint32_t>(pair.a), static_cast<uint32_t>(pair.b) }, state, found);
         applyLaw(slotCount() - 1);
         pair = far.back();
         far.pop_back();
@@ -400,11 +475,40 @@ void PairPotentialParticle::lookAtFar()
 
 void PairPotentialParticle::applyLaw(int slot)
 {
-    const pp_contact& found = answers[slot];
-    if (found.kind != PP_OVERLAPPING) {
+    if (byPatch)
+        actOnPatch(slot);
+    else if (answers[slot].kind == PP_OVERLAPPING)
+        actInPoint(slot);
+    else
         histories[slot].touching = false;
+}
+
+void PairPotentialParticle::push(int i, const Vector3d& force, const Vector3d& torque)
+{
+    if (i >= local)
         return;
+    add(atom->f[i], force);
+    add(atom->torque[i], torque);
+}
+
+// Of one contact; where another rank has one of the bodies, it adds its half.
+void PairPotentialParticle::count(int a, int b, const Vector3d& onB, const JointEnergies& energies)
+{
+    const double share = a < local && b < local ? 1.0 : 0.5;
+    pvector[elastic] += share * energies.elastic;
+    pvector[slid] += share * energies.friction;
+    pvector[damped] += share * energies.viscous;
+    pvector[changed] += share * energies.area;
+    pvector[broke] += share * energies.breaking;
+    if (evflag) {
+        const Vector3d between = vector(poses[a].position) - vector(poses[b].position);
+        ev_tally_xyz(a, b, local, 0, energies.elastic, 0.0, -onB[0], -onB[1], -onB[2], between[0], between[1], between[2]);
     }
+}
+
+void PairPotentialParticle::actInPoint(int slot)
+{
+    const pp_contact& found = answers[slot];
     const int a = static_cast<int>(bodies[slot].a), b = static_cast<int>(bodies[slot].b);
     const Vector3d armA = vector(found.branch_a), armB = vector(found.branch_b), turnA = vector(atom->omega[a]), turnB = vector(atom->omega[b]);
     ContactMotion motion;
@@ -415,30 +519,103 @@ void PairPotentialParticle::applyLaw(int slot)
     motion.mass = atom->rmass[a] * atom->rmass[b] / (atom->rmass[a] + atom->rmass[b]);
     const LawParameters& law = laws[atom->type[a] * (atom->ntypes + 1) + atom->type[b]];
     const ContactForce force = contactForce(law, motion, update->dt, advance, histories[slot]);
-    if (a < local) {
-        add(atom->f[a], -force.onB);
-        add(atom->torque[a], -armA.cross(force.onB));
+    push(a, -force.onB, -armA.cross(force.onB));
+    push(b, force.onB, armB.cross(force.onB));
+    pvector[contacts] += a < local && b < local ? 1.0 : 0.5;
+    count(a, b, force.onB, { force.elastic, force.slid, force.damped, 0, 0 });
+}
+
+JointBody PairPotentialParticle::bodyOf(int i) const
+{
+    const double* q = poses[i].orientation;
+    const Shape& shape = shapes->shape(atom->type[i]);
+    JointBody body { vector(poses[i].position), Eigen::Quaterniond(q[0], q[1], q[2], q[3]), vector(atom->v[i]), vector(atom->omega[i]), {} };
+    if (!moving || (atom->mask[i] & moving)) {
+        body.mass = { Vector3d::Constant(atom->rmass[i]), atom->rmass[i] / shape.volume * shape.moments, body.centre, body.turn };
     }
-    if (b < local) {
-        add(atom->f[b], force.onB);
-        add(atom->torque[b], armB.cross(force.onB));
+    return body;
+}
+
+PosedShape PairPotentialParticle::posedShape(int i) const
+{
+    PosedShape posed;
+    posed.particle = particles[i];
+    posed.pose = poses[i];
+    posed.boundingRadius = radii[i];
+    pp_particle_depth_length(posed.particle, &posed.depthLength);
+    return posed;
+}
+
+// A contact that is new.
+JointHistory PairPotentialParticle::newJoint(const JointParameters& joint) const
+{
+    JointHistory history;
+    history.memory.broken = update->ntimestep >= wholeBefore;
+    history.memory.bonded = makesBonds && !history.memory.broken && (joint.cohesion > 0 || joint.tensileStrength > 0);
+    return history;
+}
+
+std::optional<PatchInStep> PairPotentialParticle::patchOf(int slot)
+{
+    const pp_contact& found = answers[slot];
+    if (found.kind != PP_OVERLAPPING)
+        return {};
+    const auto [a, b] = bodies[slot];
+    auto& state = patches[slot];
+    if (!state)
+        state = std::make_unique<pp_patch_state>();
+    pp_patch patch;
+    const pp_status status = pp_patch_of_contact(particles[a], &poses[a], particles[b], &poses[b], &found, patchTolerance, 1, state.get(), &patch, nullptr, 0, nullptr);
+    if (auto here = patchInStep(status, patch))
+        return here;
+    pvector[fallbacks] += static_cast<int>(a) < local && static_cast<int>(b) < local ? 1.0 : 0.5;
+    double area = 0; // stays 0 for bodies that overlap by nothing but rounding: no point lies in both
+    pp_contact_area(particles[a], &poses[a], particles[b], &poses[b], &found, areaTolerance, &area);
+    const Vector3d normal = vector(found.normal);
+    return PatchInStep { ContactPatch::disc(area, found.overlap, normal), vector(found.point), normal };
+}
+
+void PairPotentialParticle::actOnPatch(int slot)
+{
+    JointHistory& history = joints[slot];
+    // While a bond holds, it alone carries the pair.
+    const std::optional<PatchInStep> here = history.isBond() && history.memory.bonded ? std::nullopt : patchOf(slot);
+    if (!here && !history.lasts())
+        return;
+    const int a = static_cast<int>(bodies[slot].a), b = static_cast<int>(bodies[slot].b);
+    const JointParameters& joint = jointLaws[atom->type[a] * (atom->ntypes + 1) + atom->type[b]];
+    if (!history.lasts())
+        history = newJoint(joint);
+    JointForces forces;
+    try {
+        forces = jointForces(joint, history, bodyOf(a), bodyOf(b), here, update->dt, advance, [&](int body) { return posedShape(body == 1 ? a : b); });
+    } catch (const std::exception& refused) {
+        error->one(FLERR, "{}: the patch of atoms {} and {} cannot become a bond: {}", style, atom->tag[a], atom->tag[b], refused.what());
     }
-    const double share = a < local && b < local ? 1.0 : 0.5; // the other rank adds its half
-    pvector[contacts] += share;
-    pvector[elastic] += share * force.elastic;
-    pvector[slid] += share * force.slid;
-    pvector[damped] += share * force.damped;
-    if (evflag) {
-        const Vector3d between = vector(poses[a].position) - vector(poses[b].position);
-        ev_tally_xyz(a, b, local, 0, force.elastic, 0.0, -force.onB[0], -force.onB[1], -force.onB[2], between[0], between[1], between[2]);
-    }
+    checkTimeStep(a, b, forces);
+    push(a, forces.onOne.force, forces.onOne.torque);
+    push(b, forces.onOther.force, forces.onOther.torque);
+    const double share = a < local && b < local ? 1.0 : 0.5;
+    pvector[contacts] += history.lasts() ? share : 0.0;
+    pvector[bonds] += history.isBond() ? share : 0.0;
+    count(a, b, forces.onOther.force, forces.energies);
+    if (!history.lasts())
+        history = {};
+}
+
+void PairPotentialParticle::checkTimeStep(int a, int b, const JointForces& forces) const
+{
+    const double square = 4 / (forces.normalStiffness * (1 / atom->rmass[a] + 1 / atom->rmass[b]));
+    if (update->dt * update->dt > square)
+        error->one(FLERR, "{}: timestep = {}: the joint of atoms {} and {}, of stiffness {}, is unstable above {}, and with levers well below: take {} or less",
+            style, update->dt, atom->tag[a], atom->tag[b], forces.normalStiffness, std::sqrt(square), 0.1 * std::sqrt(square));
 }
 
 void PairPotentialParticle::compute(int eflag, int vflag)
 {
     ev_init(eflag, vflag);
     advance = !update->setupflag;
-    pvector[contacts] = pvector[elastic] = 0;
+    pvector[contacts] = pvector[elastic] = pvector[bonds] = pvector[fallbacks] = 0;
     checkSkin();
     gatherPoses();
     solveNear();
@@ -451,7 +628,8 @@ double PairPotentialParticle::memory_usage()
 {
     const auto bytes = [](const auto& of) { return static_cast<double>(of.capacity() * sizeof(of[0])); };
     return Pair::memory_usage() + bytes(tags) + bytes(particles) + bytes(radii) + bytes(ways) + bytes(poses) + bytes(last) + bytes(held) + bytes(far) + bytes(bodies) + bytes(states)
-        + bytes(answers) + bytes(histories) + bytes(statuses);
+        + bytes(answers) + bytes(histories) + bytes(statuses) + bytes(joints)
+        + bytes(patches) + static_cast<double>(std::count_if(patches.begin(), patches.end(), [](const auto& one) { return !!one; }) * sizeof(pp_patch_state));
 }
 
 } // namespace potential_particles
