@@ -180,7 +180,7 @@ void JointLaw::holdAsPatch(const ContactPatch& patch, const JointMotion& motion)
         all.energies.viscous = -dt * (all.damping.force.dot(other.velocityAt(motion.point) - one.velocityAt(motion.point))
                                       + all.damping.moment.dot(other.spin - one.spin));
         if (!all.slides)
-            dampAlong(patch, motion, limit.shear);
+            dampAlong(patch, motion, limit);
     }
     push();
 }
@@ -286,7 +286,7 @@ FrictionForce JointLaw::slip(const ContactPatch& patch, double pressing, Springs
 }
 
 // While it sticks, the joint is damped along its plane as it is across it; spring and dashpot together hold no more than the limit.
-void JointLaw::dampAlong(const ContactPatch& patch, const JointMotion& motion, double limit)
+void JointLaw::dampAlong(const ContactPatch& patch, const JointMotion& motion, const FrictionForce& limit)
 {
     const Vector3d& increment = motion.shearIncrement;
     const double spin = turning(motion.normal);
@@ -294,13 +294,15 @@ void JointLaw::dampAlong(const ContactPatch& patch, const JointMotion& motion, d
     const double mobility = one.mobility(motion.point, direction) + other.mobility(motion.point, direction);
     const double perArea = dashpotPerArea(joint.shearStiffness, mobility, patch.area);
     Vector3d total = all.shearForce - perArea * patch.area / dt * increment;
-    if (total.norm() > limit)
-        total *= limit / total.norm();
+    double totalTwist = all.twistMoment - perArea * patch.polarMoment * spin;
+    const double share = allowedShare({ total.norm(), std::abs(totalTwist) }, limit);
+    total *= share;
+    totalTwist *= share;
     const Vector3d force = total - all.shearForce;
-    const double moment = -perArea * patch.polarMoment * spin;
+    const double moment = totalTwist - all.twistMoment;
     all.energies.viscous -= force.dot(increment) + moment * spin * dt;
     all.shearForce = total;
-    all.twistMoment += moment;
+    all.twistMoment = totalTwist;
     all.damping.force += force;
     all.damping.moment += moment * motion.normal;
 }

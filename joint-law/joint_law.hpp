@@ -51,7 +51,7 @@ private:
     Wrench dashpotAcross(const ContactPatch& patch, const JointMotion& motion) const;
     Springs springsAlong(const JointMotion& motion);
     FrictionForce slip(const ContactPatch& patch, double pressing, Springs& springs);
-    void dampAlong(const ContactPatch& patch, const JointMotion& motion, double limit);
+    void dampAlong(const ContactPatch& patch, const JointMotion& motion, const FrictionForce& limit);
     Wrench dashpotOfBond(const BondStrain& strain) const;
     void takeStiffness(const ContactPatch& patch);
     void pushAsBond(const BondStrain& strain, const Wrench& damping);

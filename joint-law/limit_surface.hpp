@@ -12,6 +12,14 @@ struct FrictionForce {
     double shear, twist; // sizes of the tangential force and of the moment about the normal
 };
 
+// By how much a force must be scaled to be within the ellipse; 1 for one that is.
+inline double allowedShare(const FrictionForce& force, const FrictionForce& limit)
+{
+    const auto over = [](double part, double whole) { return part > 0 ? part / whole : 0; };
+    const double size = std::hypot(over(force.shear, limit.shear), over(force.twist, limit.twist));
+    return size > 1 ? 1 / size : 1;
+}
+
 // The admissible force nearest to the trial in the energy of the springs, F^2/shearStiffness + M^2/twistStiffness: slip is then
 // normal to the ellipse, and its work is never negative. A trial within the ellipse is returned as it is.
 inline FrictionForce returned(const FrictionForce& trial, const FrictionForce& limit, double shearStiffness, double twistStiffness)

@@ -249,13 +249,24 @@ void FixWall::solve(int i, const Shape& shape, Surroundings& here)
         const int element = one.element;
         const auto old = std::find_if(here.known.begin(), here.known.end(), [&](const Known& k) { return k.element == element; });
         Known next = old != here.known.end() ? *old : Known { element };
+        const bool touchedBefore = next.touches;
         next.touches = false;
-        if (neighbor->ago == 0)
+        if (neighbor->ago == 0) { // what ranks and files do not get is dropped for all
             next.patch.reset();
+            std::fill(std::begin(next.state.last_contact), std::end(next.state.last_contact), 0.0);
+        }
         pp_flat_contact found;
-        const pp_status status = element < firstTriangle
-            ? pp_contact_plane(shape.particle.get(), &here.last, planes[element].point.data(), planes[element].normal.data(), &how, &next.state, &found)
-            : pp_contact_triangle(shape.particle.get(), &here.last, mesh->points(element - firstTriangle).data(), &how, &next.state, &found);
+        const auto detect = [&] {
+            return element < firstTriangle
+                ? pp_contact_plane(shape.particle.get(), &here.last, planes[element].point.data(), planes[element].normal.data(), &how, &next.state, &found)
+                : pp_contact_triangle(shape.particle.get(), &here.last, mesh->points(element - firstTriangle).data(), &how, &next.state, &found);
+        };
+        pp_status status = detect();
+        // A new contact is solved from nothing: what an element that is not touched remembers does not migrate, nor is it in files.
+        if (status == PP_OK && found.kind == PP_OVERLAPPING && !touchedBefore) {
+            next.state = {};
+            status = detect();
+        }
         if (status != PP_OK) {
             const double *x = here.last.position, *q = here.last.orientation;
             error->one(FLERR, "{}: the contact of atom {} with {} {} failed: {}. Shape {}; pose in the wall's frame {:.17g} {:.17g} {:.17g}, {:.17g} {:.17g} {:.17g} {:.17g}",

@@ -299,6 +299,9 @@ void PairPotentialParticle::rebuild()
     };
     bodies.swap(newBodies);
     inNewOrder(states, [] { return pp_pair_state {}; });
+    // Contacts that are carried on differ by the tolerance: what ranks and files do not get is dropped for all.
+    for (pp_pair_state& state : states)
+        std::fill(std::begin(state.last_contact), std::end(state.last_contact), 0.0);
     inNewOrder(answers, [] { return pp_contact {}; });
     if (byPatch) {
         inNewOrder(joints, [] { return JointHistory {}; });
@@ -430,6 +433,11 @@ void PairPotentialParticle::solveNear()
         error->one(FLERR, "{}: {}", style, pp_status_message(status));
     for (int slot = 0; slot < slotCount();) {
         const int a = static_cast<int>(bodies[slot].a), b = static_cast<int>(bodies[slot].b);
+        // A new contact is solved from nothing: what a pair that does not touch remembers does not migrate, nor is it in files.
+        if (statuses[slot] == PP_OK && answers[slot].kind == PP_OVERLAPPING && !lasts(slot)) {
+            states[slot] = {};
+            statuses[slot] = pp_contact_detect(particles[a], &poses[a], particles[b], &poses[b], &how, &states[slot], &answers[slot]);
+        }
         if (statuses[slot] != PP_OK)
             fail(a, b, statuses[slot]);
         else if (sleeps(answers[slot], a, b) && !isBond(slot)) {
