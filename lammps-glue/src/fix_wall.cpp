@@ -251,9 +251,9 @@ void FixWall::solve(int i, const Shape& shape, Surroundings& here)
         Known next = old != here.known.end() ? *old : Known { element };
         const bool touchedBefore = next.touches;
         next.touches = false;
-        if (neighbor->ago == 0) { // what ranks and files do not get is dropped for all
+        if (neighbor->ago == 0) { // what the library remembers neither migrates nor is in files: it is dropped for all
             next.patch.reset();
-            std::fill(std::begin(next.state.last_contact), std::end(next.state.last_contact), 0.0);
+            next.state = {};
         }
         pp_flat_contact found;
         const auto detect = [&] {
@@ -262,7 +262,7 @@ void FixWall::solve(int i, const Shape& shape, Surroundings& here)
                 : pp_contact_triangle(shape.particle.get(), &here.last, mesh->points(element - firstTriangle).data(), &how, &next.state, &found);
         };
         pp_status status = detect();
-        // A new contact is solved from nothing: what an element that is not touched remembers does not migrate, nor is it in files.
+        // A new contact is solved from nothing: an element that is not touched is no part of what migrates or is in files.
         if (status == PP_OK && found.kind == PP_OVERLAPPING && !touchedBefore) {
             next.state = {};
             status = detect();
@@ -402,7 +402,6 @@ int FixWall::pack(int i, double* buffer) const
         if (!one.touches)
             continue;
         *to++ = one.element;
-        to = std::copy(std::begin(one.state.solution), std::end(one.state.solution), to);
         if (byPatch)
             to = writeNumbers(one.joint, to);
         else
@@ -422,8 +421,6 @@ int FixWall::unpack(int i, const double* buffer)
             byPatch ? "in a point" : "on patches", byPatch ? "without" : "with");
     for (Known& one : around[i].known) {
         one.element = static_cast<int>(*from++);
-        std::copy_n(from, 8, one.state.solution);
-        from += 8;
         one.touches = true;
         if (byPatch) {
             one.joint = readNumbers(from);

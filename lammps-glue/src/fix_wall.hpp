@@ -55,10 +55,10 @@ private:
         int element = 0;
         bool touches = false; // has the contact here, and does not yield at a seam
         ContactHistory history = {};
-        pp_pair_state state = {};
+        pp_pair_state state = {}; // since the last list of neighbours, so that all ranks and restarts have the same
         // Of contacts by patch.
         JointHistory joint = {};
-        std::shared_ptr<pp_patch_state> patch = {}; // since the last list of neighbours, so that all ranks and restarts have the same
+        std::shared_ptr<pp_patch_state> patch = {}; // as `state`
     };
     struct Asleep {
         int element;
@@ -81,7 +81,7 @@ private:
     enum Sum { contacts, elastic, slid, damped, forceX, forceY, forceZ, changed, broke, sums };
     static constexpr Sum ofRun[] = { slid, damped, changed, broke }; // since the first step
 
-    int savedSize() const { return 1 + 8 + (byPatch ? countOfNumbers(JointHistory {}) : 9); } // of a contact
+    int savedSize() const { return 1 + (byPatch ? countOfNumbers(JointHistory {}) : 9); } // of a contact
 
     double numberAt(char** arguments, int i, const char* what) const;
     Frame frameNow() const;

@@ -18,7 +18,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <iterator>
 
 using namespace LAMMPS_NS;
 using Eigen::Vector3d;
@@ -31,7 +30,7 @@ constexpr const char* memoryId = "POTENTIAL_PARTICLE_MEMORY";
 constexpr const char* coefficients = "pair_coeff of potential/particle";
 constexpr const char* options
     = "expected carry TOL, flat EPS, closest, threads N, failures stop or count, patch TOL, whole STEP, bonds yes or no";
-constexpr int solutionSize = std::size(decltype(pp_pair_state::solution) {}), pointValues = 9 + solutionSize;
+constexpr int pointValues = 9;
 constexpr double areaTolerance = 1e-6; // of a disc in the place of a patch
 
 std::string described(const pp_pose& pose)
@@ -213,11 +212,10 @@ double PairPotentialParticle::init_one(int i, int j)
     return a.radius + b.radius;
 }
 
-int PairPotentialParticle::valueCount(int slot) const { return byPatch ? solutionSize + countOfNumbers(joints[slot]) : pointValues; }
+int PairPotentialParticle::valueCount(int slot) const { return byPatch ? countOfNumbers(joints[slot]) : pointValues; }
 
 void PairPotentialParticle::writeValues(int slot, double* to) const
 {
-    to = std::copy(std::begin(states[slot].solution), std::end(states[slot].solution), to);
     if (byPatch) {
         writeNumbers(joints[slot], to);
         return;
@@ -229,22 +227,20 @@ void PairPotentialParticle::writeValues(int slot, double* to) const
 
 bool PairPotentialParticle::isBond(const double* values, int count) const
 {
-    return byPatch && count > pointValues && readNumbers(values + solutionSize).isBond();
+    return byPatch && count > pointValues && readNumbers(values).isBond();
 }
 
 // What another rank or a file has of a contact, into the last slot.
 void PairPotentialParticle::takeArrived(int where, int slot)
 {
     const auto [values, count] = memory_->arrived(where);
-    std::copy_n(values, solutionSize, states[slot].solution);
-    const double* rest = values + solutionSize;
     if (byPatch == (count == pointValues))
         error->one(FLERR, "{}: the contacts of the restart file act {}: give the pair_style {} 'patch TOL' as when it was written", style,
             byPatch ? "in a point" : "on patches", byPatch ? "without" : "with");
     if (byPatch)
-        joints[slot] = readNumbers(rest);
+        joints[slot] = readNumbers(values);
     else
-        histories[slot] = { vector(rest), vector(rest + 3), vector(rest + 6), true };
+        histories[slot] = { vector(values), vector(values + 3), vector(values + 6), true };
 }
 
 double PairPotentialParticle::apart(int a, int b) const
@@ -298,10 +294,8 @@ void PairPotentialParticle::rebuild()
         of.swap(ordered);
     };
     bodies.swap(newBodies);
-    inNewOrder(states, [] { return pp_pair_state {}; });
-    // Contacts that are carried on differ by the tolerance: what ranks and files do not get is dropped for all.
-    for (pp_pair_state& state : states)
-        std::fill(std::begin(state.last_contact), std::end(state.last_contact), 0.0);
+    // What the library remembers makes answers differ by their tolerance. It does not migrate, nor is it in files: it is dropped for all.
+    states.assign(from.size(), pp_pair_state {});
     inNewOrder(answers, [] { return pp_contact {}; });
     if (byPatch) {
         inNewOrder(joints, [] { return JointHistory {}; });
@@ -433,7 +427,7 @@ void PairPotentialParticle::solveNear()
         error->one(FLERR, "{}: {}", style, pp_status_message(status));
     for (int slot = 0; slot < slotCount();) {
         const int a = static_cast<int>(bodies[slot].a), b = static_cast<int>(bodies[slot].b);
-        // A new contact is solved from nothing: what a pair that does not touch remembers does not migrate, nor is it in files.
+        // A new contact is solved from nothing: a pair that does not touch is no part of what migrates or is in files.
         if (statuses[slot] == PP_OK && answers[slot].kind == PP_OVERLAPPING && !lasts(slot)) {
             states[slot] = {};
             statuses[slot] = pp_contact_detect(particles[a], &poses[a], particles[b], &poses[b], &how, &states[slot], &answers[slot]);
