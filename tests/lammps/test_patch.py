@@ -6,6 +6,7 @@ import numpy as np
 from potential_particles_lammps import polyhedron, write_shapes
 from potential_particles_lammps.pictures import frames
 from scene import DEFAULTS, SCRIPT, TOP, lammps, random_bodies, refused, run, shapes, state, thermo
+from test_motion import YADE
 from test_ranks import AGAIN
 
 KN, KS, STIFF, MU, G, DENSITY = 1e9, 5e8, 1e10, 0.4, 9.81, 2600.0
@@ -203,3 +204,31 @@ def test_restart_of_patches(folder):
         changed["coefficients"] = "pair_coeff * * 1e8 5e7 0.4 0.5" if part == "style" else changed["coefficients"]
         status, said = lammps(folder, "newton off\n" + again.replace(" c_pp[6] c_pp[7] c_pp[8]", "").format(**changed))
         assert status and wanted in " ".join(said.split()), said[-2000:]
+
+
+def test_same_blocks_in_yade(folder):
+    """Bonded blocks that slide, one that slides on them, and one that hits them: a scene of YADE with the law of joints, carried over by to_lammps, moves as
+    in YADE, to the order of the time step, and its bonds end in the same step."""
+    if not YADE.exists():
+        print("not tried: the YADE plugin is not built (make build)")
+        return
+    errors = []
+    for halvings in range(2):
+        done = subprocess.run([TOP / "scripts" / "yade.sh", "-j1", TOP / "tests" / "lammps" / "yade_patch_scene.py", folder, str(halvings)], stdin=subprocess.DEVNULL,
+                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=120)
+        assert (folder / "yade.npz").exists(), done.stdout[-2000:]
+        yade = np.load(folder / "yade.npz")
+        wanted, every = yade["rows"], 2**halvings
+        status, said = lammps(folder, "include scene.lmp\ncompute pp all pair potential/particle\nthermo_style custom step c_pp[8] c_pp[9]\nthermo 1\n"
+                              f"dump 1 all custom {every} all.dump id type x y z d2_orientation[1] d2_orientation[2] d2_orientation[3] d2_orientation[4]\n"
+                              f"dump_modify 1 sort id format float %.17g\nrun {len(wanted) - 1}")
+        assert status == 0, said[-2000:]
+        mine = np.array([np.column_stack([columns[c] for c in "xyz"]) for _, columns in frames(folder / "all.dump")])
+        errors.append(np.abs(mine - wanted[::every, :, :3]).max())
+        moved = np.abs(wanted[-1] - wanted[0]).max(axis=0)
+        bonds = thermo(said)["c_pp[8]"]
+        (folder / "yade.npz").unlink()
+        # YADE counts joints that shall be bonded, LAMMPS those that hold: in the step in which it breaks a bond holds still.
+        assert bonds[0] == 1 and list(np.nonzero(np.diff(bonds))[0]) == [n + 1 for n in np.nonzero(np.diff(yade["bonds"]))[0]], (bonds, yade["bonds"])
+    assert bonds[-1] == 0 and moved[:3].min() > 5e-4 and moved[3:].max() > 5e-4, moved
+    assert errors[0] < 1e-7 and errors[1] < 0.6 * errors[0], errors

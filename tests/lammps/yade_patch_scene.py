@@ -28,7 +28,7 @@ O.engines = [
     yade.NewtonIntegrator(damping=0, gravity=(0, 0, -9.81), exactAsphericalRot=True),
 ]
 O.dt = DT
-potential_particles.to_lammps(folder + "/scene", patch=1e-7, bonds=True)
+potential_particles.to_lammps(folder + "/scene")
 for body in O.bodies:
     if body.id:  # a leap-frog begins half a step earlier
         body.state.vel += yade.Vector3(0, 0, 9.81 * DT / 2)
