@@ -232,3 +232,37 @@ def test_same_blocks_in_yade(folder):
         assert bonds[0] == 1 and list(np.nonzero(np.diff(bonds))[0]) == [n + 1 for n in np.nonzero(np.diff(yade["bonds"]))[0]], (bonds, yade["bonds"])
     assert bonds[-1] == 0 and moved[:3].min() > 5e-4 and moved[3:].max() > 5e-4, moved
     assert errors[0] < 1e-7 and errors[1] < 0.6 * errors[0], errors
+
+
+def test_bad_input(folder):
+    """What is refused of patches, with value and remedy."""
+    bodies = [still((0, 0, 0)), still((0, 0, 2 * HALF[2] - 1e-6))]
+
+    def says(*wanted, **parts):
+        said = refused(folder, bodies, **{"shapes": block(folder), "style": PATCH, "coefficients": f"pair_coeff * * {KN} {KS} {MU} 1", "timestep": "timestep 1e-5", **parts})
+        for text in wanted:
+            assert text in said, f"'{text}' is not in: {said[-1500:]}"
+
+    strength = f"pair_coeff * * {KN} {KS} {MU} 1 "
+    says("patch = 0.5", "[1e-12, 0.1]", style="pair_style potential/particle patch 0.5")
+    says("'bonds maybe'", "bonds yes or no", style=PATCH + " bonds maybe")
+    says("whole and bonds are for contacts by patch", style="pair_style potential/particle bonds yes")
+    says("'tension'", "pair_style potential/particle patch 1e-4", style="pair_style potential/particle", coefficients=strength + "tension 1e5")
+    says("cohesion = -1", "must not be below 0", coefficients=strength + "cohesion -1")
+    says("residual:", "are expected after it", coefficients=strength + "residual 0.3")
+    says("'glue'", "cohesion C, tension T, residual FRICTION COHESION, softening W", coefficients=strength + "glue 1")
+    says("cohesion = 5", "give a shear stiffness", coefficients=f"pair_coeff * * {KN} 0 0 1 cohesion 5")
+    says("timestep = 0.01", "the joint of atoms 1 and 2", "unstable above", timestep="timestep 0.01")
+    says("timestep = 0.01", "the joint of atom 1 with the wall", timestep="timestep 0.01", walls=f"fix floor all wall/potential/particle {KN} {KS} {MU} 1 plane 0 0 "
+         f"{-HALF[2] + 1e-6} 0 0 1 patch 1e-4", coefficients="pair_coeff * * 1 1 0.5 1")
+    says("walls make no bonds", walls=floor("tension 1e5"))
+    says("strength is for contacts by patch", walls=floor("cohesion 1e5").replace("patch 1e-6", ""))
+    says("cannot change between point and patch", run="run 1\npair_style potential/particle\nrun 1")
+
+
+def test_bonds_that_are_stretched_out_of_reach(folder):
+    """A bond whose bodies leave each other's list of neighbours is an error, and not a bond that is lost."""
+    bodies = [still((0, 0, 0)), still((2 * HALF[0] - 1e-9, 0, 0), v=(2, 0, 0))]
+    said = refused(folder, bodies, shapes=block(folder), style=PATCH + " bonds yes", coefficients="pair_coeff * * 1e3 1e3 0.4 1 cohesion 1e9 tension 1e9", gravity="",
+                   timestep="timestep 1e-4", neighbor="neighbor 0.01 bin", run="run 2000")
+    assert "2 bonded atoms have lost their partner" in said and "larger stiffness" in said, said[-1500:]
