@@ -1,20 +1,16 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "fix_wall.hpp"
 #include "fix_shapes.hpp"
-#include "joint_words.hpp"
 #include "motion.hpp"
-#include "text_file.hpp"
 
 #include "atom.h"
 #include "comm.h"
 #include "error.h"
 #include "neighbor.h"
 #include "update.h"
-#include "utils.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 using namespace LAMMPS_NS;
 using Eigen::Map;
@@ -24,97 +20,9 @@ using Eigen::Vector3d;
 namespace potential_particles {
 namespace {
 
-constexpr const char* style = "fix wall/potential/particle";
-constexpr const char* expected
-    = "expected KN KS FRICTION RESTITUTION, then plane X Y Z NX NY NZ, stl FILE, scale S, flat EPS, linear VX VY VZ, rotate X Y Z AX AY AZ PERIOD, or "
-      "patch TOL and with it cohesion C, residual FRICTION COHESION, whole STEP";
 constexpr double areaTolerance = 1e-6; // of a disc in the place of a patch
 
 } // namespace
-
-FixWall::FixWall(LAMMPS* lmp, int count, char** arguments)
-    : Fix(lmp, count, arguments)
-{
-    restart_peratom = restart_global = create_attribute = 1;
-    maxexchange_dynamic = 1;
-    vector_flag = extvector = global_freq = 1;
-    size_vector = sums;
-    if (count < 7)
-        error->all(FLERR, "{}: {}", style, expected);
-    pp_settings_default(&how);
-    law = readLaw(lmp, style, arguments, 3);
-    joint = jointOf(law);
-    bool hasStrength = false;
-    double scale = 1;
-    for (int i = 7; i < count;) {
-        const auto threeAt = [&](int at, const char* what) {
-            return Vector3d(numberAt(arguments, at, what), numberAt(arguments, at + 1, what), numberAt(arguments, at + 2, what));
-        };
-        const auto is = [&](const char* word, int values) { return !strcmp(arguments[i], word) && i + values < count; };
-        if (is("plane", 6)) {
-            planes.push_back({ threeAt(i + 1, "plane"), threeAt(i + 4, "plane") });
-            if (!(planes.back().normal.norm() > 0))
-                error->all(FLERR, "{}: plane {} has a normal of length 0", style, planes.size());
-            planes.back().normal.normalize();
-            i += 7;
-        } else if (is("stl", 1)) {
-            file = arguments[i + 1];
-            i += 2;
-        } else if (is("scale", 1)) {
-            scale = numberAt(arguments, i + 1, "scale");
-            if (!(scale > 0))
-                error->all(FLERR, "{}: scale = {}: it must be above 0", style, scale);
-            i += 2;
-        } else if (is("flat", 1)) {
-            how.flat_regularisation = numberAt(arguments, i + 1, "flat");
-            if (!(how.flat_regularisation >= 0 && how.flat_regularisation <= 0.1))
-                error->all(FLERR, "{}: flat = {}: it must lie in [0, 0.1]", style, arguments[i + 1]);
-            i += 2;
-        } else if (is("linear", 3)) {
-            linear = threeAt(i + 1, "linear");
-            i += 4;
-        } else if (is("rotate", 7)) {
-            centre = threeAt(i + 1, "rotate");
-            axis = threeAt(i + 4, "rotate");
-            const double period = numberAt(arguments, i + 7, "period");
-            if (!(axis.norm() > 0) || period == 0)
-                error->all(FLERR, "{}: rotate needs an axis of some length and a period other than 0", style);
-            axis.normalize();
-            rate = 2 * M_PI / period;
-            i += 8;
-        } else if (is("patch", 1)) {
-            patchTolerance = numberAt(arguments, i + 1, "patch");
-            if (!(patchTolerance >= 1e-12 && patchTolerance <= 0.1))
-                error->all(FLERR, "{}: patch = {}: the relative error of a patch must lie in [1e-12, 0.1]; 1e-4 is a good choice", style, arguments[i + 1]);
-            byPatch = true;
-            i += 2;
-        } else if (is("whole", 1)) {
-            wholeBefore = utils::bnumeric(FLERR, arguments[i + 1], false, lmp);
-            hasStrength = true;
-            i += 2;
-        } else if (!strcmp(arguments[i], "tension") || !strcmp(arguments[i], "softening"))
-            error->all(FLERR, "{}: '{}': walls make no bonds; give cohesion alone, or make the wall of bodies that do not move", style, arguments[i]);
-        else if (const int taken = readStrength(lmp, style, arguments, i, count, joint)) {
-            hasStrength = true;
-            i += taken;
-        } else
-            error->all(FLERR, "{}: '{}': {}", style, arguments[i], expected);
-    }
-    if (hasStrength && !byPatch)
-        error->all(FLERR, "{}: strength is for contacts by patch: add 'patch 1e-4'", style);
-    if (!file.empty()) {
-        try {
-            mesh = std::make_unique<Mesh>(fileForAll(lmp, file), file, scale);
-        } catch (const std::runtime_error& refused) {
-            error->all(FLERR, std::string(refused.what()));
-        }
-    }
-    if (planes.empty() && !mesh)
-        error->all(FLERR, "{}: there is no wall: give plane or stl", style);
-    grow_arrays(atom->nmax);
-    atom->add_callback(Atom::GROW);
-    atom->add_callback(Atom::RESTART);
-}
 
 FixWall::~FixWall()
 {
@@ -122,17 +30,9 @@ FixWall::~FixWall()
     atom->delete_callback(id, Atom::RESTART);
 }
 
-double FixWall::numberAt(char** arguments, int i, const char* what) const
-{
-    const double value = utils::numeric(FLERR, arguments[i], false, lmp);
-    if (!std::isfinite(value))
-        error->all(FLERR, "{}: {} = {}: it must be finite", style, what, arguments[i]);
-    return value;
-}
-
 int FixWall::setmask() { return FixConst::POST_FORCE; }
 
-void FixWall::init() { shapes = FixShapes::of(lmp, style); }
+void FixWall::init() { shapes = FixShapes::of(lmp, std::string("fix ") + style); }
 
 FixWall::Frame FixWall::frameNow() const
 {
@@ -379,110 +279,6 @@ void FixWall::applyPatchLaw(int i, const Shape& shape, const Frame& frame, bool 
         error->one(FLERR, "{}: timestep = {}: the joint of atom {} with the wall, of stiffness {}, is unstable above {}, and with levers well below: take {} or less",
             style, update->dt, atom->tag[i], forces.normalStiffness, std::sqrt(square), 0.1 * std::sqrt(square));
     push(i, forces.onOther.force, forces.onOne.torque, forces.energies);
-}
-
-int FixWall::touching(int i) const
-{
-    return static_cast<int>(std::count_if(around[i].known.begin(), around[i].known.end(), [](const Known& one) { return one.touches; }));
-}
-
-double FixWall::compute_vector(int n)
-{
-    double all = 0;
-    MPI_Allreduce(&own[n], &all, 1, MPI_DOUBLE, MPI_SUM, world);
-    return all;
-}
-
-int FixWall::pack(int i, double* buffer) const
-{
-    double* to = buffer;
-    *to++ = touching(i);
-    *to++ = savedSize();
-    for (const Known& one : around[i].known) {
-        if (!one.touches)
-            continue;
-        *to++ = one.element;
-        if (byPatch)
-            to = writeNumbers(one.joint, to);
-        else
-            for (const Vector3d* part : { &one.history.shear, &one.history.normal, &one.history.damping })
-                to = std::copy(part->data(), part->data() + 3, to);
-    }
-    return static_cast<int>(to - buffer);
-}
-
-int FixWall::unpack(int i, const double* buffer)
-{
-    const double* from = buffer;
-    around[i] = {};
-    around[i].known.resize(static_cast<size_t>(*from++));
-    if (const int size = static_cast<int>(*from++); size != savedSize() && !around[i].known.empty())
-        error->one(FLERR, "{}: the contacts of the restart file act {}: give the fix {} 'patch TOL' as when it was written", style,
-            byPatch ? "in a point" : "on patches", byPatch ? "without" : "with");
-    for (Known& one : around[i].known) {
-        one.element = static_cast<int>(*from++);
-        one.touches = true;
-        if (byPatch) {
-            one.joint = readNumbers(from);
-            from += countOfNumbers(one.joint);
-            continue;
-        }
-        one.history.touching = true;
-        for (Vector3d* part : { &one.history.shear, &one.history.normal, &one.history.damping }) {
-            *part = Vector3d(from);
-            from += 3;
-        }
-    }
-    return static_cast<int>(from - buffer);
-}
-
-int FixWall::pack_exchange(int i, double* buffer) { return pack(i, buffer); }
-
-int FixWall::unpack_exchange(int i, double* buffer) { return unpack(i, buffer); }
-
-int FixWall::pack_restart(int i, double* buffer)
-{
-    const int size = 1 + pack(i, buffer + 1);
-    buffer[0] = size;
-    return size;
-}
-
-void FixWall::unpack_restart(int i, int nth)
-{
-    const double* extra = atom->extra[i];
-    for (int n = 0; n < nth; ++n)
-        extra += static_cast<int>(extra[0]);
-    unpack(i, extra + 1);
-}
-
-int FixWall::maxsize_restart()
-{
-    int most = 3;
-    for (int i = 0; i < atom->nlocal; ++i)
-        most = std::max(most, size_restart(i));
-    return most;
-}
-
-void FixWall::write_restart(FILE* out)
-{
-    std::array<double, std::size(ofRun)> mine, all;
-    std::transform(std::begin(ofRun), std::end(ofRun), mine.begin(), [this](Sum sum) { return own[sum]; });
-    MPI_Reduce(mine.data(), all.data(), static_cast<int>(mine.size()), MPI_DOUBLE, MPI_SUM, 0, world);
-    if (comm->me == 0) {
-        const int size = sizeof all;
-        fwrite(&size, sizeof size, 1, out);
-        fwrite(all.data(), sizeof all, 1, out);
-    }
-}
-
-void FixWall::restart(char* saved)
-{
-    if (comm->me != 0)
-        return;
-    std::array<double, std::size(ofRun)> all;
-    std::memcpy(all.data(), saved, sizeof all);
-    for (size_t n = 0; n < all.size(); ++n)
-        own[ofRun[n]] = all[n];
 }
 
 double FixWall::memory_usage()

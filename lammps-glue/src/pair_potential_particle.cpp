@@ -1,23 +1,20 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "pair_potential_particle.hpp"
+#include "arrays.hpp"
 #include "fix_shapes.hpp"
-#include "joint_words.hpp"
 #include "motion.hpp"
 
 #include "atom.h"
 #include "comm.h"
 #include "error.h"
-#include "force.h"
 #include "memory.h"
 #include "modify.h"
 #include "neigh_list.h"
 #include "neighbor.h"
 #include "update.h"
-#include "utils.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 using namespace LAMMPS_NS;
 using Eigen::Vector3d;
@@ -25,13 +22,7 @@ using Eigen::Vector3d;
 namespace potential_particles {
 namespace {
 
-constexpr const char* style = "pair_style potential/particle";
-constexpr const char* memoryId = "POTENTIAL_PARTICLE_MEMORY";
-constexpr const char* coefficients = "pair_coeff of potential/particle";
-constexpr const char* options
-    = "expected carry TOL, flat EPS, closest, threads N, failures stop or count, patch TOL, whole STEP, bonds yes or no";
 constexpr int pointValues = 9;
-constexpr double areaTolerance = 1e-6; // of a disc in the place of a patch
 
 std::string described(const pp_pose& pose)
 {
@@ -42,14 +33,6 @@ std::string described(const pp_pose& pose)
     for (double q : pose.orientation)
         text += fmt::format(" {:.17g}", q);
     return text;
-}
-
-Vector3d vector(const double* x) { return Vector3d(x); }
-
-void add(double* to, const Vector3d& what)
-{
-    for (int d = 0; d < 3; ++d)
-        to[d] += what[d];
 }
 
 } // namespace
@@ -93,123 +76,6 @@ void PairPotentialParticle::allocate()
             setflag[i][j] = 0;
     laws.assign(static_cast<size_t>(n) * n, {});
     jointLaws.assign(static_cast<size_t>(n) * n, {});
-}
-
-void PairPotentialParticle::settings(int count, char** arguments)
-{
-    pp_settings_default(&how);
-    how.carry_tolerance = 1e-9;
-    threads = 1;
-    stopAtFailure = true;
-    const bool known = byPatch, first = bodies.empty();
-    byPatch = makesBonds = false;
-    patchTolerance = 1e-4;
-    wholeBefore = 1;
-    bool hasStrengthWords = false;
-    for (int i = 0; i < count; ++i) {
-        const std::string word = arguments[i];
-        if (word == "closest") {
-            how.formulation = PP_CLOSEST;
-            continue;
-        }
-        if (++i == count)
-            error->all(FLERR, "{}: '{}' is no option, or its value is missing: {}", style, word, options);
-        const auto tolerance = [&] {
-            const double value = utils::numeric(FLERR, arguments[i], false, lmp);
-            if (!(value >= 0 && value <= 0.1))
-                error->all(FLERR, "{}: {} = {}: it must lie in [0, 0.1]", style, word, arguments[i]);
-            return value;
-        };
-        if (word == "carry")
-            how.carry_tolerance = tolerance();
-        else if (word == "flat")
-            how.flat_regularisation = tolerance();
-        else if (word == "threads") {
-            const int value = utils::inumeric(FLERR, arguments[i], false, lmp);
-            if (value < 1 || value > 256)
-                error->all(FLERR, "{}: threads = {}: it must lie in [1, 256]", style, value);
-            threads = static_cast<uint32_t>(value);
-        } else if (word == "failures" && (!strcmp(arguments[i], "stop") || !strcmp(arguments[i], "count")))
-            stopAtFailure = !strcmp(arguments[i], "stop");
-        else if (word == "patch") {
-            patchTolerance = utils::numeric(FLERR, arguments[i], false, lmp);
-            if (!(patchTolerance >= 1e-12 && patchTolerance <= 0.1))
-                error->all(FLERR, "{}: patch = {}: the relative error of a patch must lie in [1e-12, 0.1]; 1e-4 is a good choice", style, arguments[i]);
-            byPatch = true;
-        } else if (word == "whole") {
-            wholeBefore = utils::bnumeric(FLERR, arguments[i], false, lmp);
-            hasStrengthWords = true;
-        } else if (word == "bonds" && (!strcmp(arguments[i], "yes") || !strcmp(arguments[i], "no"))) {
-            makesBonds = !strcmp(arguments[i], "yes");
-            hasStrengthWords = true;
-        } else
-            error->all(FLERR, "{}: '{} {}': {}", style, word, arguments[i], options);
-    }
-    if (hasStrengthWords && !byPatch)
-        error->all(FLERR, "{}: whole and bonds are for contacts by patch: add 'patch 1e-4', or leave them out", style);
-    if (known != byPatch && !first)
-        error->all(FLERR, "{}: contacts that there are cannot change between point and patch: give pair_style before the first run", style);
-}
-
-void PairPotentialParticle::coeff(int count, char** arguments)
-{
-    if (count < 6)
-        error->all(FLERR, "{}: expected I J KN KS FRICTION RESTITUTION, {} values were given", coefficients, count);
-    if (!allocated)
-        allocate();
-    int lowI, highI, lowJ, highJ;
-    utils::bounds(FLERR, arguments[0], 1, atom->ntypes, lowI, highI, error);
-    utils::bounds(FLERR, arguments[1], 1, atom->ntypes, lowJ, highJ, error);
-    const LawParameters law = readLaw(lmp, coefficients, arguments, 2);
-    JointParameters joint = jointOf(law);
-    for (int i = 6; i < count;) {
-        const int taken = byPatch ? readStrength(lmp, coefficients, arguments, i, count, joint) : 0;
-        if (!taken)
-            error->all(FLERR, "{}: '{}': {}", coefficients, arguments[i],
-                byPatch ? std::string("expected ") + strengthWords : "strength is for contacts by patch: pair_style potential/particle patch 1e-4");
-        i += taken;
-    }
-    for (int i = lowI; i <= highI; ++i)
-        for (int j = std::max(lowJ, i); j <= highJ; ++j) {
-            laws[i * (atom->ntypes + 1) + j] = laws[j * (atom->ntypes + 1) + i] = law;
-            jointLaws[i * (atom->ntypes + 1) + j] = jointLaws[j * (atom->ntypes + 1) + i] = joint;
-            setflag[i][j] = 1;
-        }
-}
-
-void PairPotentialParticle::init_style()
-{
-    if (force->newton_pair)
-        error->all(FLERR, "{}: it needs 'newton off' (or 'newton off on'), before the box is made: each rank that has a body of a pair keeps its history", style);
-    if (!comm->ghost_velocity)
-        error->all(FLERR, "{}: it needs velocities of ghosts: give 'comm_modify vel yes'", style);
-    if (!atom->tag_enable)
-        error->all(FLERR, "{}: it needs atom IDs: leave out 'atom_modify id no'", style);
-    shapes = FixShapes::of(lmp, style);
-    const auto memories = modify->get_fix_by_style("^potential/particle/memory$");
-    memory_ = static_cast<ContactMemory*>(
-        memories.empty() ? modify->add_fix(fmt::format("{} all potential/particle/memory", memoryId)) : memories.front());
-    memory_->attach(this);
-    moving = 0;
-    for (const Fix* fix : modify->get_fix_by_style("^nve/potential/particle$"))
-        moving |= fix->groupbit;
-    neighbor->add_request(this);
-}
-
-double PairPotentialParticle::init_one(int i, int j)
-{
-    if (!setflag[i][j])
-        error->all(FLERR, "{}: types {} and {} have no coefficients: give 'pair_coeff {} {} KN KS FRICTION RESTITUTION'", style, i, j, i, j);
-    const Shape &a = shapes->shape(i), &b = shapes->shape(j);
-    // Two bodies on one spring are no slower than this, whatever the levers. Of a patch the area is not known before there is one.
-    if (byPatch)
-        return a.radius + b.radius;
-    const double massA = shapes->density(i) * a.volume, massB = shapes->density(j) * b.volume;
-    const double most = 2 * std::sqrt(massA * massB / (massA + massB) / laws[i * (atom->ntypes + 1) + j].normalStiffness);
-    if (update->dt > most)
-        error->all(FLERR, "{}: timestep = {}: a contact of types {} and {} is unstable above {}, and with levers well below: take {} or less", style,
-            update->dt, i, j, most, 0.1 * most);
-    return a.radius + b.radius;
 }
 
 int PairPotentialParticle::valueCount(int slot) const { return byPatch ? countOfNumbers(joints[slot]) : pointValues; }
@@ -473,144 +339,6 @@ void PairPotentialParticle::lookAtFar()
         pair = far.back();
         far.pop_back();
     }
-}
-
-void PairPotentialParticle::applyLaw(int slot)
-{
-    if (byPatch)
-        actOnPatch(slot);
-    else if (answers[slot].kind == PP_OVERLAPPING)
-        actInPoint(slot);
-    else
-        histories[slot].touching = false;
-}
-
-void PairPotentialParticle::push(int i, const Vector3d& force, const Vector3d& torque)
-{
-    if (i >= local)
-        return;
-    add(atom->f[i], force);
-    add(atom->torque[i], torque);
-}
-
-// Of one contact; where another rank has one of the bodies, it adds its half.
-void PairPotentialParticle::count(int a, int b, const Vector3d& onB, const JointEnergies& energies)
-{
-    const double share = a < local && b < local ? 1.0 : 0.5;
-    pvector[elastic] += share * energies.elastic;
-    pvector[slid] += share * energies.friction;
-    pvector[damped] += share * energies.viscous;
-    pvector[changed] += share * energies.area;
-    pvector[broke] += share * energies.breaking;
-    if (evflag) {
-        const Vector3d between = vector(poses[a].position) - vector(poses[b].position);
-        ev_tally_xyz(a, b, local, 0, energies.elastic, 0.0, -onB[0], -onB[1], -onB[2], between[0], between[1], between[2]);
-    }
-}
-
-void PairPotentialParticle::actInPoint(int slot)
-{
-    const pp_contact& found = answers[slot];
-    const int a = static_cast<int>(bodies[slot].a), b = static_cast<int>(bodies[slot].b);
-    const Vector3d armA = vector(found.branch_a), armB = vector(found.branch_b), turnA = vector(atom->omega[a]), turnB = vector(atom->omega[b]);
-    ContactMotion motion;
-    motion.overlap = found.overlap;
-    motion.normal = vector(found.normal);
-    motion.velocity = vector(atom->v[b]) + turnB.cross(armB) - vector(atom->v[a]) - turnA.cross(armA);
-    motion.spin = 0.5 * motion.normal.dot(turnA + turnB);
-    motion.mass = atom->rmass[a] * atom->rmass[b] / (atom->rmass[a] + atom->rmass[b]);
-    const LawParameters& law = laws[atom->type[a] * (atom->ntypes + 1) + atom->type[b]];
-    const ContactForce force = contactForce(law, motion, update->dt, advance, histories[slot]);
-    push(a, -force.onB, -armA.cross(force.onB));
-    push(b, force.onB, armB.cross(force.onB));
-    pvector[contacts] += a < local && b < local ? 1.0 : 0.5;
-    count(a, b, force.onB, { force.elastic, force.slid, force.damped, 0, 0 });
-}
-
-JointBody PairPotentialParticle::bodyOf(int i) const
-{
-    const double* q = poses[i].orientation;
-    const Shape& shape = shapes->shape(atom->type[i]);
-    JointBody body { vector(poses[i].position), Eigen::Quaterniond(q[0], q[1], q[2], q[3]), vector(atom->v[i]), vector(atom->omega[i]), {} };
-    if (!moving || (atom->mask[i] & moving)) {
-        body.mass = { Vector3d::Constant(atom->rmass[i]), atom->rmass[i] / shape.volume * shape.moments, body.centre, body.turn };
-    }
-    return body;
-}
-
-PosedShape PairPotentialParticle::posedShape(int i) const
-{
-    PosedShape posed;
-    posed.particle = particles[i];
-    posed.pose = poses[i];
-    posed.boundingRadius = radii[i];
-    pp_particle_depth_length(posed.particle, &posed.depthLength);
-    return posed;
-}
-
-// A contact that is new.
-JointHistory PairPotentialParticle::newJoint(const JointParameters& joint) const
-{
-    JointHistory history;
-    history.memory.broken = update->ntimestep >= wholeBefore;
-    history.memory.bonded = makesBonds && !history.memory.broken && (joint.cohesion > 0 || joint.tensileStrength > 0);
-    return history;
-}
-
-std::optional<PatchInStep> PairPotentialParticle::patchOf(int slot)
-{
-    const pp_contact& found = answers[slot];
-    if (found.kind != PP_OVERLAPPING)
-        return {};
-    const auto [a, b] = bodies[slot];
-    auto& state = patches[slot];
-    if (!state)
-        state = std::make_unique<pp_patch_state>();
-    pp_patch patch;
-    const pp_status status = pp_patch_of_contact(particles[a], &poses[a], particles[b], &poses[b], &found, patchTolerance, 1, state.get(), &patch, nullptr, 0, nullptr);
-    if (auto here = patchInStep(status, patch))
-        return here;
-    pvector[fallbacks] += static_cast<int>(a) < local && static_cast<int>(b) < local ? 1.0 : 0.5;
-    double area = 0; // stays 0 for bodies that overlap by nothing but rounding: no point lies in both
-    pp_contact_area(particles[a], &poses[a], particles[b], &poses[b], &found, areaTolerance, &area);
-    const Vector3d normal = vector(found.normal);
-    return PatchInStep { ContactPatch::disc(area, found.overlap, normal), vector(found.point), normal };
-}
-
-void PairPotentialParticle::actOnPatch(int slot)
-{
-    JointHistory& history = joints[slot];
-    // While a bond holds, it alone carries the pair.
-    const std::optional<PatchInStep> here = history.isBond() && history.memory.bonded ? std::nullopt : patchOf(slot);
-    if (!here && !history.lasts())
-        return;
-    const int a = static_cast<int>(bodies[slot].a), b = static_cast<int>(bodies[slot].b);
-    const JointParameters& joint = jointLaws[atom->type[a] * (atom->ntypes + 1) + atom->type[b]];
-    if (!history.lasts())
-        history = newJoint(joint);
-    JointForces forces;
-    try {
-        forces = jointForces(joint, history, bodyOf(a), bodyOf(b), here, update->dt, advance, [&](int body) { return posedShape(body == 1 ? a : b); });
-    } catch (const std::exception& refused) {
-        error->one(FLERR, "{}: the patch of atoms {} and {} cannot become a bond: {}", style, atom->tag[a], atom->tag[b], refused.what());
-    }
-    checkTimeStep(a, b, forces);
-    push(a, forces.onOne.force, forces.onOne.torque);
-    push(b, forces.onOther.force, forces.onOther.torque);
-    const double share = a < local && b < local ? 1.0 : 0.5;
-    pvector[contacts] += history.lasts() ? share : 0.0;
-    pvector[bonds] += history.isBond() ? share : 0.0;
-    count(a, b, forces.onOther.force, forces.energies);
-    if (!history.lasts())
-        history = {};
-}
-
-void PairPotentialParticle::checkTimeStep(int a, int b, const JointForces& forces) const
-{
-    const double square = 4 / (forces.normalStiffness * (1 / atom->rmass[a] + 1 / atom->rmass[b]));
-    if (update->dt * update->dt > square)
-        error->one(FLERR, "{}: timestep = {}: the joint of atoms {} and {}, of stiffness {}, is unstable above {}, and with levers well below: take {} or less",
-            style, update->dt, atom->tag[a], atom->tag[b], forces.normalStiffness, std::sqrt(square), 0.1 * std::sqrt(square));
 }
 
 void PairPotentialParticle::compute(int eflag, int vflag)

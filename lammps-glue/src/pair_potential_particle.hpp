@@ -56,6 +56,9 @@ public:
     std::array<double*, 5> sumsOfRun() { return { &failures, &pvector[slid], &pvector[damped], &pvector[changed], &pvector[broke] }; }
 
 private:
+    static constexpr const char* style = "pair_style potential/particle"; // in messages
+    static constexpr const char* memoryId = "POTENTIAL_PARTICLE_MEMORY";
+
     // The body of the lower ID is A, so that both ranks that compute a pair ask the same question.
     struct Bodies {
         uint32_t a, b;
