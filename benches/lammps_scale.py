@@ -177,7 +177,7 @@ AGAIN = """newton off
 comm_modify vel yes
 read_restart {out}/long.restart
 """
-GOES_ON = "dump end all custom 2 {dump} id x y z vx vy vz\ndump_modify end sort id first no format float %.17g\nrun 2 post no\n"
+GOES_ON = "dump end all custom 2 {dump} id x y z vx vy vz\ndump_modify end sort id first yes format float %.17g\nrun 2 post no\n"
 
 
 def long_run(name):
@@ -192,7 +192,7 @@ def long_run(name):
     log = (OUT / f"{name}.log").read_text()
     loop = re.search(r"Loop time of (\S+) on \d+ procs for (\d+) steps", log)
     share = float(re.search(r"(\S+)% CPU use", log[loop.end():])[1]) / 100
-    ends = [np.loadtxt(OUT / dump, skiprows=9) for dump in ("long.dump", "again.dump")]
+    ends = [np.loadtxt(OUT / dump, skiprows=2 * 9 + bodies) for dump in ("long.dump", "again.dump")]  # the second frame
     done, seconds = int(loop[2]), float(loop[1])
     return {"bodies": bodies, "ranks": ranks, "steps": done, "clock_ms": 1e3 * seconds / done, "processor_ms": 1e3 * seconds * share / done,
             "peak_bytes_a_body": max(first, second) / bodies, "restart_bytes_a_body": (OUT / "long.restart").stat().st_size / bodies,
