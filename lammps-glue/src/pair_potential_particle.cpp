@@ -1,22 +1,20 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "pair_potential_particle.hpp"
+#include "arrays.hpp"
 #include "fix_shapes.hpp"
 #include "motion.hpp"
 
 #include "atom.h"
 #include "comm.h"
 #include "error.h"
-#include "force.h"
 #include "memory.h"
 #include "modify.h"
 #include "neigh_list.h"
 #include "neighbor.h"
 #include "update.h"
-#include "utils.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 using namespace LAMMPS_NS;
 using Eigen::Vector3d;
@@ -24,9 +22,7 @@ using Eigen::Vector3d;
 namespace potential_particles {
 namespace {
 
-constexpr const char* style = "pair_style potential/particle";
-constexpr const char* memoryId = "POTENTIAL_PARTICLE_MEMORY";
-constexpr double lowestRestitution = 0.01;
+constexpr int pointValues = 9;
 
 std::string described(const pp_pose& pose)
 {
@@ -37,14 +33,6 @@ std::string described(const pp_pose& pose)
     for (double q : pose.orientation)
         text += fmt::format(" {:.17g}", q);
     return text;
-}
-
-Vector3d vector(const double* x) { return Vector3d(x); }
-
-void add(double* to, const Vector3d& what)
-{
-    for (int d = 0; d < 3; ++d)
-        to[d] += what[d];
 }
 
 } // namespace
@@ -87,111 +75,38 @@ void PairPotentialParticle::allocate()
         for (int j = 0; j < n; ++j)
             setflag[i][j] = 0;
     laws.assign(static_cast<size_t>(n) * n, {});
+    jointLaws.assign(static_cast<size_t>(n) * n, {});
 }
 
-void PairPotentialParticle::settings(int count, char** arguments)
+int PairPotentialParticle::valueCount(int slot) const { return byPatch ? countOfNumbers(joints[slot]) : pointValues; }
+
+void PairPotentialParticle::writeValues(int slot, double* to) const
 {
-    pp_settings_default(&how);
-    how.carry_tolerance = 1e-9;
-    threads = 1;
-    stopAtFailure = true;
-    for (int i = 0; i < count; ++i) {
-        const std::string word = arguments[i];
-        if (word == "closest") {
-            how.formulation = PP_CLOSEST;
-            continue;
-        }
-        if (++i == count)
-            error->all(FLERR, "{}: '{}' is no option, or its value is missing: expected carry TOL, flat EPS, closest, threads N, failures stop or count",
-                style, word);
-        const auto tolerance = [&] {
-            const double value = utils::numeric(FLERR, arguments[i], false, lmp);
-            if (!(value >= 0 && value <= 0.1))
-                error->all(FLERR, "{}: {} = {}: it must lie in [0, 0.1]", style, word, arguments[i]);
-            return value;
-        };
-        if (word == "carry")
-            how.carry_tolerance = tolerance();
-        else if (word == "flat")
-            how.flat_regularisation = tolerance();
-        else if (word == "threads") {
-            const int value = utils::inumeric(FLERR, arguments[i], false, lmp);
-            if (value < 1 || value > 256)
-                error->all(FLERR, "{}: threads = {}: it must lie in [1, 256]", style, value);
-            threads = static_cast<uint32_t>(value);
-        } else if (word == "failures" && (!strcmp(arguments[i], "stop") || !strcmp(arguments[i], "count")))
-            stopAtFailure = !strcmp(arguments[i], "stop");
-        else
-            error->all(FLERR, "{}: '{} {}': expected carry TOL, flat EPS, closest, threads N, failures stop or count", style, word, arguments[i]);
+    if (byPatch) {
+        writeNumbers(joints[slot], to);
+        return;
     }
-}
-
-void PairPotentialParticle::coeff(int count, char** arguments)
-{
-    if (count != 6)
-        error->all(FLERR, "pair_coeff of potential/particle: expected I J KN KS FRICTION RESTITUTION, {} values were given", count);
-    if (!allocated)
-        allocate();
-    int lowI, highI, lowJ, highJ;
-    utils::bounds(FLERR, arguments[0], 1, atom->ntypes, lowI, highI, error);
-    utils::bounds(FLERR, arguments[1], 1, atom->ntypes, lowJ, highJ, error);
-    double value[4];
-    const char* names[] = { "normal stiffness", "shear stiffness", "friction", "restitution" };
-    for (int n = 0; n < 4; ++n) {
-        value[n] = utils::numeric(FLERR, arguments[n + 2], false, lmp);
-        const bool good = n == 0 ? value[n] > 0 : n == 3 ? value[n] >= lowestRestitution && value[n] <= 1 : value[n] >= 0;
-        if (!good || !std::isfinite(value[n]))
-            error->all(FLERR, "pair_coeff of potential/particle: {} = {}: it must {}", names[n], arguments[n + 2],
-                n == 0 ? "be above 0" : n == 3 ? "lie in [0.01, 1]" : "not be below 0");
-    }
-    if (value[1] == 0 && value[2] > 0)
-        error->all(FLERR, "pair_coeff of potential/particle: shear stiffness = 0 with friction = {}: give friction 0 for frictionless contacts", value[2]);
-    for (int i = lowI; i <= highI; ++i)
-        for (int j = std::max(lowJ, i); j <= highJ; ++j) {
-            laws[i * (atom->ntypes + 1) + j] = laws[j * (atom->ntypes + 1) + i] = { value[0], value[1], value[2], dampingRatioOf(value[3]) };
-            setflag[i][j] = 1;
-        }
-}
-
-void PairPotentialParticle::init_style()
-{
-    if (force->newton_pair)
-        error->all(FLERR, "{}: it needs 'newton off' (or 'newton off on'), before the box is made: each rank that has a body of a pair keeps its history", style);
-    if (!comm->ghost_velocity)
-        error->all(FLERR, "{}: it needs velocities of ghosts: give 'comm_modify vel yes'", style);
-    if (!atom->tag_enable)
-        error->all(FLERR, "{}: it needs atom IDs: leave out 'atom_modify id no'", style);
-    shapes = FixShapes::of(lmp, style);
-    const auto memories = modify->get_fix_by_style("^potential/particle/memory$");
-    memory_ = static_cast<ContactMemory*>(
-        memories.empty() ? modify->add_fix(fmt::format("{} all potential/particle/memory", memoryId)) : memories.front());
-    memory_->attach(this);
-    neighbor->add_request(this);
-}
-
-double PairPotentialParticle::init_one(int i, int j)
-{
-    if (!setflag[i][j])
-        error->all(FLERR, "{}: types {} and {} have no coefficients: give 'pair_coeff {} {} KN KS FRICTION RESTITUTION'", style, i, j, i, j);
-    const Shape &a = shapes->shape(i), &b = shapes->shape(j);
-    // Two bodies on one spring are no slower than this, whatever the levers.
-    const double massA = shapes->density(i) * a.volume, massB = shapes->density(j) * b.volume;
-    const double most = 2 * std::sqrt(massA * massB / (massA + massB) / laws[i * (atom->ntypes + 1) + j].normalStiffness);
-    if (update->dt > most)
-        error->all(FLERR, "{}: timestep = {}: a contact of types {} and {} is unstable above {}, and with levers well below: take {} or less", style,
-            update->dt, i, j, most, 0.1 * most);
-    return a.radius + b.radius;
-}
-
-ContactMemory::Values PairPotentialParticle::valuesOf(int slot) const
-{
-    ContactMemory::Values values;
     const ContactHistory& history = histories[slot];
-    auto to = values.begin();
     for (const Vector3d* part : { &history.shear, &history.normal, &history.damping })
         to = std::copy(part->data(), part->data() + 3, to);
-    std::copy(std::begin(states[slot].solution), std::end(states[slot].solution), to);
-    return values;
+}
+
+bool PairPotentialParticle::isBond(const double* values, int count) const
+{
+    return byPatch && count > pointValues && readNumbers(values).isBond();
+}
+
+// What another rank or a file has of a contact, into the last slot.
+void PairPotentialParticle::takeArrived(int where, int slot)
+{
+    const auto [values, count] = memory_->arrived(where);
+    if (byPatch == (count == pointValues))
+        error->one(FLERR, "{}: the contacts of the restart file act {}: give the pair_style {} 'patch TOL' as when it was written", style,
+            byPatch ? "in a point" : "on patches", byPatch ? "without" : "with");
+    if (byPatch)
+        joints[slot] = readNumbers(values);
+    else
+        histories[slot] = { vector(values), vector(values + 3), vector(values + 6), true };
 }
 
 double PairPotentialParticle::apart(int a, int b) const
@@ -237,26 +152,41 @@ void PairPotentialParticle::rebuild()
             }
         }
     }
-    std::vector<pp_pair_state> newStates(from.size());
-    std::vector<ContactHistory> newHistories(from.size());
-    std::vector<pp_contact> newAnswers(from.size());
-    for (size_t n = 0; n < from.size(); ++n) {
-        if (from[n] >= 0) {
-            newStates[n] = states[from[n]];
-            newHistories[n] = histories[from[n]];
-            newAnswers[n] = answers[from[n]];
-            continue;
-        }
-        const ContactMemory::Values& values = memory_->arrived(from[n]);
-        newHistories[n] = { vector(&values[0]), vector(&values[3]), vector(&values[6]), true };
-        newStates[n] = {};
-        std::copy_n(&values[9], ContactMemory::solutionSize, newStates[n].solution);
-        newAnswers[n] = {};
-    }
+    const int bondsBefore = byPatch ? memory_->bonds() : 0;
+    const auto inNewOrder = [&](auto& of, auto&& none) {
+        std::decay_t<decltype(of)> ordered(from.size());
+        for (size_t n = 0; n < from.size(); ++n)
+            ordered[n] = from[n] >= 0 ? std::move(of[from[n]]) : none();
+        of.swap(ordered);
+    };
     bodies.swap(newBodies);
-    states.swap(newStates);
-    histories.swap(newHistories);
-    answers.swap(newAnswers);
+    // What the library remembers makes answers differ by their tolerance. It does not migrate, nor is it in files: it is dropped for all.
+    states.assign(from.size(), pp_pair_state {});
+    inNewOrder(answers, [] { return pp_contact {}; });
+    if (byPatch) {
+        inNewOrder(joints, [] { return JointHistory {}; });
+        patches.clear();
+        patches.resize(from.size());
+    } else
+        inNewOrder(histories, [] { return ContactHistory {}; });
+    for (size_t n = 0; n < from.size(); ++n)
+        if (from[n] < 0)
+            takeArrived(from[n], static_cast<int>(n));
+    if (byPatch)
+        checkBonds(bondsBefore);
+}
+
+// A bond is in the list of neighbours, unless one of its atoms is gone.
+void PairPotentialParticle::checkBonds(int before)
+{
+    int now = 0;
+    for (int slot = 0; slot < slotCount(); ++slot)
+        if (isBond(slot))
+            now += (static_cast<int>(bodies[slot].a) < local) + (static_cast<int>(bodies[slot].b) < local);
+    if (now < before && atom->natoms == atomsAtBuild)
+        error->one(FLERR, "{}: {} bonded atoms have lost their partner: bonds are stretched beyond the reach of the list of neighbours, or special_bonds "
+            "or neigh_modify exclude leaves pairs out; give a skin of more than {}, or a larger stiffness", style, before - now, neighbor->skin);
+    atomsAtBuild = atom->natoms;
 }
 
 int PairPotentialParticle::pack_forward_comm(int count, int* atoms, double* buffer, int, int*)
@@ -311,25 +241,33 @@ bool PairPotentialParticle::sleeps(const pp_contact& found, int a, int b) const
     return found.kind == PP_SEPARATED && found.distance > farShare * (radii[a] + radii[b]);
 }
 
-void PairPotentialParticle::addSlot(Bodies pair, const pp_pair_state& state, const pp_contact& found, const ContactHistory& history)
+void PairPotentialParticle::addSlot(Bodies pair, const pp_pair_state& state, const pp_contact& found)
 {
     bodies.push_back(pair);
     states.push_back(state);
     answers.push_back(found);
-    histories.push_back(history);
+    if (byPatch) {
+        joints.emplace_back();
+        patches.emplace_back();
+    } else
+        histories.emplace_back();
 }
 
 void PairPotentialParticle::removeSlot(int slot)
 {
     const auto remove = [slot](auto& of) {
-        of[slot] = of.back();
+        of[slot] = std::move(of.back());
         of.pop_back();
     };
     remove(bodies);
     remove(states);
     remove(answers);
-    remove(histories);
     remove(statuses);
+    if (byPatch) {
+        remove(joints);
+        remove(patches);
+    } else
+        remove(histories);
 }
 
 // A contact that failed keeps the geometry of the last step, if it has one.
@@ -355,9 +293,14 @@ void PairPotentialParticle::solveNear()
         error->one(FLERR, "{}: {}", style, pp_status_message(status));
     for (int slot = 0; slot < slotCount();) {
         const int a = static_cast<int>(bodies[slot].a), b = static_cast<int>(bodies[slot].b);
+        // A new contact is solved from nothing: a pair that does not touch is no part of what migrates or is in files.
+        if (statuses[slot] == PP_OK && answers[slot].kind == PP_OVERLAPPING && !lasts(slot)) {
+            states[slot] = {};
+            statuses[slot] = pp_contact_detect(particles[a], &poses[a], particles[b], &poses[b], &how, &states[slot], &answers[slot]);
+        }
         if (statuses[slot] != PP_OK)
             fail(a, b, statuses[slot]);
-        else if (sleeps(answers[slot], a, b)) {
+        else if (sleeps(answers[slot], a, b) && !isBond(slot)) {
             far.push_back({ a, b, ways[a] + ways[b] + answers[slot].distance });
             removeSlot(slot);
             continue;
@@ -391,46 +334,10 @@ void PairPotentialParticle::lookAtFar()
             ++n;
             continue;
         }
-        addSlot({ static_cast<uint32_t>(pair.a), static_cast<uint32_t>(pair.b) }, state, found, {});
+        addSlot({ static_cast<uint32_t>(pair.a), static_cast<uint32_t>(pair.b) }, state, found);
         applyLaw(slotCount() - 1);
         pair = far.back();
         far.pop_back();
-    }
-}
-
-void PairPotentialParticle::applyLaw(int slot)
-{
-    const pp_contact& found = answers[slot];
-    if (found.kind != PP_OVERLAPPING) {
-        histories[slot].touching = false;
-        return;
-    }
-    const int a = static_cast<int>(bodies[slot].a), b = static_cast<int>(bodies[slot].b);
-    const Vector3d armA = vector(found.branch_a), armB = vector(found.branch_b), turnA = vector(atom->omega[a]), turnB = vector(atom->omega[b]);
-    ContactMotion motion;
-    motion.overlap = found.overlap;
-    motion.normal = vector(found.normal);
-    motion.velocity = vector(atom->v[b]) + turnB.cross(armB) - vector(atom->v[a]) - turnA.cross(armA);
-    motion.spin = 0.5 * motion.normal.dot(turnA + turnB);
-    motion.mass = atom->rmass[a] * atom->rmass[b] / (atom->rmass[a] + atom->rmass[b]);
-    const LawParameters& law = laws[atom->type[a] * (atom->ntypes + 1) + atom->type[b]];
-    const ContactForce force = contactForce(law, motion, update->dt, advance, histories[slot]);
-    if (a < local) {
-        add(atom->f[a], -force.onB);
-        add(atom->torque[a], -armA.cross(force.onB));
-    }
-    if (b < local) {
-        add(atom->f[b], force.onB);
-        add(atom->torque[b], armB.cross(force.onB));
-    }
-    const double share = a < local && b < local ? 1.0 : 0.5; // the other rank adds its half
-    pvector[contacts] += share;
-    pvector[elastic] += share * force.elastic;
-    pvector[slid] += share * force.slid;
-    pvector[damped] += share * force.damped;
-    if (evflag) {
-        const Vector3d between = vector(poses[a].position) - vector(poses[b].position);
-        ev_tally_xyz(a, b, local, 0, force.elastic, 0.0, -force.onB[0], -force.onB[1], -force.onB[2], between[0], between[1], between[2]);
     }
 }
 
@@ -438,7 +345,7 @@ void PairPotentialParticle::compute(int eflag, int vflag)
 {
     ev_init(eflag, vflag);
     advance = !update->setupflag;
-    pvector[contacts] = pvector[elastic] = 0;
+    pvector[contacts] = pvector[elastic] = pvector[bonds] = pvector[fallbacks] = 0;
     checkSkin();
     gatherPoses();
     solveNear();
@@ -451,7 +358,8 @@ double PairPotentialParticle::memory_usage()
 {
     const auto bytes = [](const auto& of) { return static_cast<double>(of.capacity() * sizeof(of[0])); };
     return Pair::memory_usage() + bytes(tags) + bytes(particles) + bytes(radii) + bytes(ways) + bytes(poses) + bytes(last) + bytes(held) + bytes(far) + bytes(bodies) + bytes(states)
-        + bytes(answers) + bytes(histories) + bytes(statuses);
+        + bytes(answers) + bytes(histories) + bytes(statuses) + bytes(joints)
+        + bytes(patches) + static_cast<double>(std::count_if(patches.begin(), patches.end(), [](const auto& one) { return !!one; }) * sizeof(pp_patch_state));
 }
 
 } // namespace potential_particles

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 //
-// pair_style potential/particle [carry TOL] [flat EPS] [closest] [threads N] [failures stop|count]
-// pair_coeff I J KN KS FRICTION RESTITUTION
+// pair_style potential/particle [carry TOL] [flat EPS] [closest] [threads N] [failures stop|count] [patch TOL] [whole STEP] [bonds yes|no]
+// pair_coeff I J KN KS FRICTION RESTITUTION [cohesion C] [tension T] [residual FRICTION COHESION] [softening W]
 //
+// Contacts act in a point (contact_law), or, with `patch`, on the patch by the law of joints (joint-law), stiffnesses being per area.
 // A step: poses of all atoms are gathered. Pairs of the list of neighbours are *far* or *near*. A far pair sleeps until both bodies together have
 // come as far as they were apart when they were last looked at; it has no memory. Near pairs have a slot each, with the library's state
 // and the history of the contact, and are solved in one call of the library.
@@ -10,6 +11,7 @@
 
 #include "contact_law.hpp"
 #include "contact_memory.hpp"
+#include "joint_step.hpp"
 
 #include "pair.h"
 
@@ -17,6 +19,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -40,16 +43,22 @@ public:
 
     // For the fix that carries memories (ContactMemory).
     void rebuild(); // from the new list of neighbours
-    int slotCount() const { return static_cast<int>(histories.size()); }
+    int slotCount() const { return static_cast<int>(bodies.size()); }
     int localAtBuild() const { return local; }
     LAMMPS_NS::tagint tagAtBuild(int atom) const { return tags[atom]; } // a fix may have put new atoms in the place of ghosts since
     std::pair<int, int> bodiesOf(int slot) const { return { bodies[slot].a, bodies[slot].b }; }
-    bool touches(int slot) const { return histories[slot].touching; }
-    ContactMemory::Values valuesOf(int slot) const;
-    // Sums since the first step, of this rank: failures, energy that friction and dashpots took.
-    std::array<double*, 3> sumsOfRun() { return { &failures, &pvector[slid], &pvector[damped] }; }
+    bool lasts(int slot) const { return byPatch ? joints[slot].lasts() : histories[slot].touching; }
+    bool isBond(int slot) const { return byPatch && joints[slot].isBond(); }
+    bool isBond(const double* values, int count) const;
+    int valueCount(int slot) const;
+    void writeValues(int slot, double* to) const;
+    // Sums since the first step, of this rank: failures, energy that friction and dashpots took, that patches and bonds did.
+    std::array<double*, 5> sumsOfRun() { return { &failures, &pvector[slid], &pvector[damped], &pvector[changed], &pvector[broke] }; }
 
 private:
+    static constexpr const char* style = "pair_style potential/particle"; // in messages
+    static constexpr const char* memoryId = "POTENTIAL_PARTICLE_MEMORY";
+
     // The body of the lower ID is A, so that both ranks that compute a pair ask the same question.
     struct Bodies {
         uint32_t a, b;
@@ -58,19 +67,30 @@ private:
         int a, b;
         double wake; // sum of both ways from which on the pair is looked at again
     };
-    enum Sum { contacts, failed, elastic, slid, damped, sums };
+    enum Sum { contacts, failed, elastic, slid, damped, changed, broke, bonds, fallbacks, sums };
 
     void allocate();
     void gatherPoses();
+    void checkBonds(int before);
     void checkSkin();
     double apart(int a, int b) const; // distance of their balls
     void solveNear();
     void lookAtFar();
     bool sleeps(const pp_contact& found, int a, int b) const;
-    void addSlot(Bodies pair, const pp_pair_state& state, const pp_contact& found, const ContactHistory& history);
+    void addSlot(Bodies pair, const pp_pair_state& state, const pp_contact& found);
+    void takeArrived(int where, int slot);
     void removeSlot(int slot);
     void fail(int a, int b, pp_status status);
     void applyLaw(int slot);
+    void actInPoint(int slot);
+    void actOnPatch(int slot);
+    std::optional<PatchInStep> patchOf(int slot);
+    JointHistory newJoint(const JointParameters& joint) const;
+    JointBody bodyOf(int i) const;
+    PosedShape posedShape(int i) const;
+    void checkTimeStep(int a, int b, const JointForces& forces) const;
+    void push(int i, const Eigen::Vector3d& force, const Eigen::Vector3d& torque);
+    void count(int a, int b, const Eigen::Vector3d& onB, const JointEnergies& energies);
 
     FixShapes* shapes = nullptr;
     ContactMemory* memory_ = nullptr;
@@ -78,6 +98,12 @@ private:
     uint32_t threads = 1;
     bool stopAtFailure = true;
     std::vector<LawParameters> laws; // by types, (ntypes + 1)^2
+    bool byPatch = false;
+    double patchTolerance = 1e-4;
+    LAMMPS_NS::bigint wholeBefore = 1; // contacts made before that step are whole
+    bool makesBonds = false; // of those
+    std::vector<JointParameters> jointLaws; // as `laws`
+    int moving = 0; // bits of the groups that fix nve/potential/particle moves; 0: there is none
     bool advance = true; // this step goes on, and does not repeat the last one
 
     int local = 0; // atoms, when the list of neighbours was built
@@ -91,7 +117,10 @@ private:
     std::vector<Bodies> bodies;
     std::vector<pp_pair_state> states;
     std::vector<pp_contact> answers;
-    std::vector<ContactHistory> histories;
+    std::vector<ContactHistory> histories; // empty, if contacts act on patches
+    std::vector<JointHistory> joints; // empty, if they do not
+    std::vector<std::unique_ptr<pp_patch_state>> patches; // the same; since the last list of neighbours, so that all ranks and restarts have the same
+    LAMMPS_NS::bigint atomsAtBuild = 0;
     std::vector<pp_status> statuses;
     double failures = 0;
 };

@@ -18,11 +18,12 @@ sys.path[:0] = [str(HERE), str(HERE.parents[1] / "lammps-glue" / "python")]
 import test_examples
 import test_input
 import test_motion
+import test_patch
 import test_ranks
 import test_walls
 
 passed = failed = 0
-for module in (test_motion, test_walls, test_ranks, test_input, test_examples):
+for module in (test_motion, test_walls, test_patch, test_ranks, test_input, test_examples):
     for name, test in inspect.getmembers(module, inspect.isfunction):
         if not name.startswith("test_") or test.__module__ != module.__name__ or (sys.argv[1:] and not any(part in name for part in sys.argv[1:])):
             continue

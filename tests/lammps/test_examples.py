@@ -39,3 +39,11 @@ def test_hopper(folder):
 def test_drum(folder):
     dumped = example("drum", folder, "-var", "steps", "2000")
     assert (np.hypot(dumped[-1][1]["x"], dumped[-1][1]["z"]) < 0.5).all() and np.abs(dumped[-1][1]["y"]).max() < 0.4
+
+
+def test_wall(folder):
+    """The ball breaks bonds of the wall that were all whole, and the wall stays."""
+    out = folder / "wall.log"
+    dumped = example("wall", folder, "-var", "steps", "120", "-log", str(out))
+    table = [line.split() for line in out.read_text().splitlines() if line.split()[:1] in (["0"], ["120"])]
+    assert len(dumped) == 1 and table[0][4] == "117" and int(table[1][4]) < 117 and float(table[1][8]) > 0, table

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # to_lammps: what the files hold, and what is refused. That LAMMPS goes on from them as YADE does is in tests/lammps.
+import math
 import tempfile
 from pathlib import Path
 
@@ -41,6 +42,21 @@ for text in ("plane 0.0 0.0 -0.5 0 0 1", "stl scene.stl", "group free type 1 2\n
 check.raises(ValueError, lambda: potential_particles.to_lammps(folder / "x", 1e5, 1e5, -1), "friction", "friction=-1")
 check.raises(ValueError, lambda: potential_particles.to_lammps(folder / "x", 0, 1e5, 1), "stiffness", "normal_stiffness")
 check.raises(ValueError, lambda: potential_particles.to_lammps(folder / "x", 1e5, 1e5, 1, restitution=2), "restitution", "restitution=2")
+check.raises(ValueError, lambda: potential_particles.to_lammps(folder / "x"), "no law", "normal_stiffness, shear_stiffness and friction are needed")
+
+# The law of joints comes from the materials: harmonic means, smaller values, no bonds of walls.
+stone = O.materials[O.materials.append(yade.ConicJointMat(normalStiffness=1e9, shearStiffness=4e8, frictionAngle=0.5, restitution=0.5, cohesion=2e4, tensileStrength=1e4, softening=1e-5, density=2600))]
+other = O.materials[O.materials.append(yade.ConicJointMat(normalStiffness=3e9, shearStiffness=4e8, frictionAngle=0.4, restitution=0.7, cohesion=1e4, residualCohesion=5, density=2600))]
+for body in O.bodies:
+    body.mat = other if body.id == 1 else stone
+O.engines = [yade.InteractionLoop([yade.Ig2_ConicPP_ConicPP_ScGeom(patch=True, patchTolerance=1e-5)], [yade.Ip2_ConicJointMat_ConicJointMat_ConicJointPhys(bonds=True)],
+                                  [yade.Law2_ScGeomConicPP_ConicJointPhys()])]
+commands = potential_particles.to_lammps(folder / "joints")[2].read_text()
+for text in ("pair_style potential/particle patch 1e-05 whole 1 bonds yes", f"pair_coeff 1 2 1500000000.0 400000000.0 {math.tan(0.4)!r} 0.5 cohesion 10000.0\n",
+             f"pair_coeff 1 1 1000000000.0 400000000.0 {math.tan(0.5)!r} 0.5 cohesion 20000.0 tension 10000.0 softening 1e-05\n",
+             "group at_walls1 type 1 3\n", "group at_walls2 type 2\n", f"{math.tan(0.4)!r} 0.5 cohesion 10000.0 plane 0.0 0.0 -0.5 0 0 1 patch 1e-05 whole 1"):
+    check.true(text in commands, f"{text!r} in {commands}")
+check.raises(ValueError, lambda: potential_particles.to_lammps(folder / "x", **law), "stiffness of joints", "leave normal_stiffness")
 O.bodies.append(yade.utils.sphere((3, 0, 0), 0.1))
-check.raises(ValueError, lambda: potential_particles.to_lammps(folder / "x", **law), "a sphere", "body 6 is a Sphere")
+check.raises(ValueError, lambda: potential_particles.to_lammps(folder / "x"), "a sphere", "body 6 is a Sphere")
 check.finish()

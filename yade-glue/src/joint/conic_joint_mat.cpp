@@ -2,7 +2,8 @@
 #include "registration/attributes.hpp"
 
 #include "conic_joint_mat.hpp"
-#include "restitution.hpp"
+
+#include "joint-law/restitution.hpp"
 
 #include <cmath>
 #include <sstream>

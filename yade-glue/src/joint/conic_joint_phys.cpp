@@ -13,6 +13,19 @@ PP_INDEX_DEFINITIONS(ConicJointPhys, yade::FrictPhys)
 PP_ATTRIBUTE_DEFINITIONS(ConicJointPhys, FrictPhys)
 void ConicJointPhys::callPostLoad() { yade::FrictPhys::callPostLoad(); }
 
+void ConicJointPhys::take(const JointForces& forces)
+{
+    kn = forces.normalStiffness;
+    ks = forces.shearStiffness;
+    twistStiffness = forces.twistStiffness;
+    normalForce = forces.normalForce;
+    shearForce = forces.shearForce;
+    twistMoment = forces.twistMoment;
+    couple = forces.couple;
+    isSliding = forces.slides;
+    bendingMoment = bondArea > 0 ? forces.bendingMoment : yade::Vector3r(yade::Vector3r::Zero());
+}
+
 } // namespace potential_particles
 
 BOOST_CLASS_EXPORT_IMPLEMENT(potential_particles::ConicJointPhys)

@@ -5,14 +5,15 @@
 
 #include "abi/archive.hpp"
 #include "abi/knksphys.hpp"
-#include "bond.hpp"
+
+#include "joint-law/joint.hpp"
 
 #include <boost/serialization/access.hpp>
 
 namespace potential_particles {
 
 // kn and ks of its bases are those of the whole patch, N/m; normalForce and shearForce act on body 2.
-class ConicJointPhys final : public yade::FrictPhys, public Bond {
+class ConicJointPhys final : public yade::FrictPhys, public JointMemory {
 public:
     ConicJointPhys();
     ~ConicJointPhys() override;
@@ -22,8 +23,6 @@ public:
     double normalStiffness = 0;
     double shearStiffness = 0;
     double dampingRatio = 0;
-    yade::Vector3r shearDisplacement = yade::Vector3r::Zero();
-    double twist = 0;
     double twistStiffness = 0;
     double twistMoment = 0;
     double couple = 0;
@@ -33,13 +32,16 @@ public:
     double tangensOfResidualFrictionAngle = 0;
     double tensileStrength = 0;
     double softening = 0;
-    bool broken = false;
+    yade::Vector3r bendingMoment = yade::Vector3r::Zero();
 
-    // Of the springs along the joint, with this displacement and turn.
-    double springEnergy(const yade::Vector3r& displacement, double turn) const
+    JointParameters parameters() const
     {
-        return 0.5 * (ks * displacement.squaredNorm() + twistStiffness * turn * turn);
+        return { normalStiffness, shearStiffness, tangensOfFrictionAngle, dampingRatio, cohesion, tensileStrength, tangensOfResidualFrictionAngle,
+                 residualCohesion, softening };
     }
+    // What the springs along the joint hold, as scripts and files have it.
+    void rememberEnergyAlong() { energyAlong = 0.5 * (ks * shearDisplacement.squaredNorm() + twistStiffness * twist * twist); }
+    void take(const JointForces& forces);
 
     template <class Visit> static void eachAttribute(Visit&& visit)
     {
@@ -60,7 +62,21 @@ public:
         visit("tensileStrength", &P::tensileStrength, "Tensile strength of the bond, Pa.", 1);
         visit("softening", &P::softening, "Opening or slip over which the stress in the bond falls to 0, m; 0: brittle.", 1);
         visit("broken", &P::broken, "Whether the joint has the residual values: it has slipped, opened, or was made later.", 1);
-        Bond::eachAttribute(visit);
+        visit("bonded", &P::bonded,
+              "Whether the bodies are bonded. Set to True, the patch of the next step becomes a bond; set to False, the bond ends.", 1);
+        visit("damage", &P::damage, "Share of the stiffness that softening has taken from the bond, 0 to 1.", 1);
+        visit("bondArea", &P::bondArea, "Area of the bond, m^2; 0 without one.", 1);
+        visit("bondMoments", &P::bondMoments,
+              "Polar moment of the bonded area about its centroid, and its second moments against bending about y and z of the "
+              "bond, m^4.", 1);
+        visit("bondPoint1", &P::bondPoint1, "Centroid of the bonded area, axes of body 1, from its centre, m.", 1);
+        visit("bondPoint2", &P::bondPoint2, "The same of body 2.", 1);
+        visit("bondTurn1", &P::bondTurn1, "Axes of the bond in those of body 1: x is the normal, y and z principal axes of the area.", 1);
+        visit("bondTurn2", &P::bondTurn2, "The same in those of body 2.", 1);
+        visit("bondDisplacement", &P::bondDisplacement, "Displacement of its springs when it was made, axes of the bond, m.", 1);
+        visit("bondRotation", &P::bondRotation, "Rotation of its springs when it was made, axes of the bond, radians.", 1);
+        visit("bondRim", &P::bondRim, "Corners of the bonded area: y and z in turn, axes of the bond, m.", 1);
+        visit("bendingMoment", &P::bendingMoment, "Moment of the bond on body 2 across the normal, about the centroid, N m.", 1);
     }
 
 private:

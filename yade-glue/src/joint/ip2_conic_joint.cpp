@@ -6,7 +6,8 @@
 #include "conic_joint_mat.hpp"
 #include "conic_joint_phys.hpp"
 #include "ip2_conic_joint.hpp"
-#include "restitution.hpp"
+
+#include "joint-law/restitution.hpp"
 
 #include <boost/make_shared.hpp>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The law of joints: forces and moments of a contact patch.
+// The law of joints in YADE: forces and moments of a contact patch, as joint-law has them.
 #pragma once
 
 #include "abi/archive.hpp"
@@ -12,8 +12,7 @@
 namespace potential_particles {
 
 struct BodyPush;
-struct ContactPatch;
-struct FrictionForce;
+struct JointEnergies;
 
 // go() runs in many threads at once.
 class Law2_ScGeomConicPP_ConicJointPhys final : public yade::LawFunctor {
@@ -41,16 +40,7 @@ private:
     friend class boost::serialization::access;
     template <class Archive> void serialize(Archive& archive, unsigned);
 
-    struct Energies;
-    struct Joint;
-    struct Springs;
-    void open(const Joint& joint, bool broken, Energies& energies) const;
-    bool holdsAsBond(const Joint& joint, Energies& energies) const;
-    void holdAsPatch(const Joint& joint, const ContactPatch& patch, bool broken, Energies& energies) const;
-    Springs springsAlong(const Joint& joint, const ContactPatch& patch, bool broken, Energies& energies) const;
-    static FrictionForce slip(ConicJointPhys& phys, const ContactPatch& patch, double pressing, Springs& springs, Energies& energies);
-    void dampAlong(const Joint& joint, const ContactPatch& patch, double limit, Energies& energies) const;
-    void track(const Energies& energies);
+    void track(const JointEnergies& energies);
 
     // Where the scene's tracker keeps them; each thread finds the same.
     int elasticNumber = -1, frictionNumber = -1, viscousNumber = -1, areaNumber = -1, breakingNumber = -1;

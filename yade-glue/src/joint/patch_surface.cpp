@@ -2,7 +2,7 @@
 #include "patch_surface.hpp"
 
 #include "pair/sc_geom_conic_pp.hpp"
-#include "patch_rim.hpp"
+#include "posed_body.hpp"
 #include "registration/python_bytes.hpp"
 
 #include <algorithm>
@@ -52,7 +52,7 @@ py::tuple patchSurface(const yade::ScGeom& geometry, const boost::shared_ptr<yad
     std::vector<double> corners, depths;
     const auto* const own = dynamic_cast<const ScGeomConicPP*>(&geometry);
     if (own && own->patch.area > 0 && !(geometry.penetrationDepth < 0)) {
-        const PosedShape one(shape1, state1, Vector3r::Zero()), other(shape2, state2, shift2);
+        const PosedBody one(shape1, state1, Vector3r::Zero()), other(shape2, state2, shift2);
         const PatchFrame frame(own->patch, { geometry.contactPoint, geometry.normal });
         const std::vector<Eigen::Vector2d> rim = divided(rimOf(own->patch, frame, one, other));
         const auto node = [&](double part, std::size_t i) {

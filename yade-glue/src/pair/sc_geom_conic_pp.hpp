@@ -5,8 +5,9 @@
 
 #include "abi/archive.hpp"
 #include "abi/scgeom.hpp"
-#include "contact_patch.hpp"
 #include "kept_apart.hpp"
+
+#include "joint-law/contact_patch.hpp"
 
 #include <boost/serialization/access.hpp>
 

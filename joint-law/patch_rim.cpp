@@ -1,45 +1,27 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT OR Apache-2.0
 #include "patch_rim.hpp"
-
-#include "abi/primitives.hpp"
-#include "contact/facet_mesh.hpp"
-#include "particle/pose.hpp"
-#include "shape/particle_of.hpp"
 
 #include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 
 namespace potential_particles {
 
-using yade::Vector3r;
+using Eigen::Vector3d;
 using Plane = Eigen::Vector2d; // y and z of the frame
 
-PosedShape::PosedShape(const boost::shared_ptr<yade::Shape>& shape, const yade::State& state, const Vector3r& shift)
-    : isFacet(dynamic_cast<const yade::Facet*>(shape.get()))
-    , pose(poseOf(state, shift))
-{
-    if (isFacet) {
-        vertices = verticesOf(*shape, state, -shift);
-    } else if (!dynamic_cast<const yade::Wall*>(shape.get())) {
-        particle = particleOf(shape, keeper);
-        if (!particle->handle())
-            particle = nullptr;
-        else
-            requireOk(pp_particle_depth_length(particle->handle(), &depthLength));
-    }
-}
-
-PosedShape::Exit PosedShape::exitOfFacet(const Vector3r& point, const Vector3r& direction) const
+PosedShape::Exit PosedShape::exitOfTriangle(const Vector3d& point, const Vector3d& direction) const
 {
     Exit first { std::numeric_limits<double>::infinity(), direction };
-    if (!isFacet)
+    if (!triangle)
         return first;
-    const Vector3r up = (vertices[1] - vertices[0]).cross(vertices[2] - vertices[0]);
+    const auto& vertices = *triangle;
+    const Vector3d up = (vertices[1] - vertices[0]).cross(vertices[2] - vertices[0]);
     for (std::size_t i = 0; i < 3; ++i) {
-        const Vector3r outward = (vertices[(i + 1) % 3] - vertices[i]).cross(up);
+        const Vector3d outward = (vertices[(i + 1) % 3] - vertices[i]).cross(up);
         const double length = std::max(0.0, outward.dot(vertices[i] - point)) / outward.dot(direction);
         if (outward.dot(direction) > 0 && length < first.length)
             first = { length, outward };
@@ -47,34 +29,35 @@ PosedShape::Exit PosedShape::exitOfFacet(const Vector3r& point, const Vector3r& 
     return first;
 }
 
-double PosedShape::depth(const Vector3r& point, Vector3r* gradient) const
+double PosedShape::depth(const Vector3d& point, Vector3d* gradient) const
 {
     double potential = 0;
-    Vector3r slope = Vector3r::Zero();
+    Vector3d slope = Vector3d::Zero();
     if (particle)
-        requireOk(pp_particle_potential(particle->handle(), &pose, point.data(), &potential, slope.data()));
+        if (const pp_status status = pp_particle_potential(particle, &pose, point.data(), &potential, slope.data()); status != PP_OK)
+            throw std::runtime_error(pp_status_message(status));
     const double s = std::sqrt(potential + 1);
     if (gradient)
-        *gradient = s > 0 ? Vector3r(-depthLength / (2 * s) * slope) : Vector3r(Vector3r::Zero());
+        *gradient = s > 0 ? Vector3d(-depthLength / (2 * s) * slope) : Vector3d(Vector3d::Zero());
     return depthLength * (1 - s);
 }
 
-double PosedShape::reach(const Vector3r& point) const
+double PosedShape::reach(const Vector3d& point) const
 {
-    return particle ? (point - Vector3r(pose.position)).norm() + particle->boundingRadius() : 0;
+    return particle ? (point - Vector3d(pose.position)).norm() + boundingRadius : 0;
 }
 
 namespace {
 
     // The depth is concave along a ray and begins above 0: Newton's method from outside comes down to its end without crossing it, as that
-    // for a single body (particle/ray.cpp).
-    PosedShape::Exit exitOf(const PosedShape& one, const PosedShape& other, const Vector3r& point, const Vector3r& direction)
+    // for a single body.
+    PosedShape::Exit exitOf(const PosedShape& one, const PosedShape& other, const Vector3d& point, const Vector3d& direction)
     {
         const double outside = std::max(one.reach(point), other.reach(point));
         PosedShape::Exit exit { outside, direction };
         for (int step = 0; step < 100; ++step) {
-            const Vector3r at = point + exit.length * direction;
-            Vector3r gradient, ofOther;
+            const Vector3d at = point + exit.length * direction;
+            Vector3d gradient, ofOther;
             const double depth = one.depth(at, &gradient) + other.depth(at, &ofOther);
             gradient += ofOther;
             const double slope = gradient.dot(direction), next = exit.length - depth / slope;
@@ -86,7 +69,7 @@ namespace {
                 break;
         }
         for (const PosedShape* body : { &one, &other })
-            if (const PosedShape::Exit edge = body->exitOfFacet(point, direction); edge.length < exit.length)
+            if (const PosedShape::Exit edge = body->exitOfTriangle(point, direction); edge.length < exit.length)
                 exit = edge;
         return exit;
     }
@@ -171,7 +154,7 @@ namespace {
 PatchFrame::PatchFrame(const ContactPatch& patch, const PatchPlace& place)
     : centroid(place.point + patch.centroid - patch.centroid.dot(place.normal) * place.normal)
 {
-    const Vector3r& n = place.normal;
+    const Vector3d& n = place.normal;
     Eigen::Matrix<double, 3, 2> basis;
     basis.col(0) = n.unitOrthogonal();
     basis.col(1) = n.cross(basis.col(0));
@@ -191,7 +174,7 @@ std::vector<Plane> rimOf(const ContactPatch& patch, const PatchFrame& frame, con
     std::vector<Plane> corners;
     if (!patch.ofPoint && radii.minCoeff() > 0) {
         const auto rimAlong = [&](const Plane& direction) {
-            const Vector3r way = frame.at(direction) - frame.centroid;
+            const Vector3d way = frame.at(direction) - frame.centroid;
             const PosedShape::Exit exit = exitOf(one, other, frame.centroid, way);
             return RimPoint { exit.length * direction, Plane(frame.axes.col(1).dot(exit.outward), frame.axes.col(2).dot(exit.outward)).normalized() };
         };

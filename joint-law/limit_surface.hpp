@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT OR Apache-2.0
 //
 // Slip and twist together: the ellipse (F/F_max)^2 + (M/M_max)^2 <= 1, which encloses the limit surface of an even pressure.
 #pragma once
@@ -11,6 +11,14 @@ namespace potential_particles {
 struct FrictionForce {
     double shear, twist; // sizes of the tangential force and of the moment about the normal
 };
+
+// By how much a force must be scaled to be within the ellipse; 1 for one that is.
+inline double allowedShare(const FrictionForce& force, const FrictionForce& limit)
+{
+    const auto over = [](double part, double whole) { return part > 0 ? part / whole : 0; };
+    const double size = std::hypot(over(force.shear, limit.shear), over(force.twist, limit.twist));
+    return size > 1 ? 1 / size : 1;
+}
 
 // The admissible force nearest to the trial in the energy of the springs, F^2/shearStiffness + M^2/twistStiffness: slip is then
 // normal to the ellipse, and its work is never negative. A trial within the ellipse is returned as it is.

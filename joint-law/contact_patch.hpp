@@ -1,48 +1,55 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT OR Apache-2.0
 //
 // The contact patch of a pair, for laws that know it.
 #pragma once
 
-#include "abi/base.hpp"
-
 #include <potential_particles.h>
+
+#include <Eigen/Core>
 
 #include <cmath>
 
 namespace potential_particles {
 
-// World axes. What is proportional to the stiffness per area is given over it. The direction of the force is ScGeom::normal, the
-// point on its axis ScGeom::contactPoint.
+// World axes. What is proportional to the stiffness per area is given over it. Direction and place of the force, the
+// centre of pressure, are said with it.
 struct ContactPatch {
     double area = 0; // 0: there is none
     double force = 0; // length^3
-    double couple = 0; // on body 2 about the normal through contactPoint, length^4
+    double couple = 0; // on body 2 about the normal through the centre of pressure, length^4
     double twistLever = 0; // of friction against twist, length
-    double polarMoment = 0; // about the normal through contactPoint, length^4
+    double polarMoment = 0; // about the normal through the centre of pressure, length^4
     double largestDepth = 0; // length
-    double energy = 0; // length^4; of scenes that track energy
-    yade::Vector3r centroid = yade::Vector3r::Zero(); // from contactPoint
+    double energy = 0; // length^4, if it was asked for
+    Eigen::Vector3d centroid = Eigen::Vector3d::Zero(); // from the centre of pressure
     Eigen::Matrix3d secondMoment = Eigen::Matrix3d::Zero(); // about the centroid, length^4
     bool ofPoint = false; // a disc in the place of a patch that was not found
+
+    // Whether the library has found one. Nowhere does the pressure exceed that of the largest depth: a force beyond is no answer.
+    static bool isIn(pp_status status, const pp_patch& found)
+    {
+        const double size = Eigen::Vector3d(found.force).norm();
+        return status == PP_OK && !(found.flags & PP_PATCH_EMPTY) && found.area > 0 && size > 0 && !(size > 1.1 * found.area * found.largest_depth);
+    }
 
     static ContactPatch of(const pp_patch& found)
     {
         ContactPatch patch;
         patch.area = found.area;
-        patch.force = yade::Vector3r(found.force).norm();
+        patch.force = Eigen::Vector3d(found.force).norm();
         patch.couple = found.couple;
         patch.twistLever = found.twist_lever;
         patch.polarMoment = found.polar_moment;
         patch.largestDepth = found.largest_depth;
         patch.energy = std::isnan(found.energy) ? 0.0 : found.energy;
-        patch.centroid = yade::Vector3r(found.centroid);
+        patch.centroid = Eigen::Vector3d(found.centroid);
         const auto& [xx, yy, zz, xy, yz, zx] = found.second_moment;
         patch.secondMoment << xx, xy, zx, xy, yy, yz, zx, yz, zz;
         return patch;
     }
 
     // An even pressure on a disc of that area.
-    static ContactPatch disc(double area, double depth, const yade::Vector3r& normal)
+    static ContactPatch disc(double area, double depth, const Eigen::Vector3d& normal)
     {
         ContactPatch patch;
         patch.area = area;

@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MIT OR Apache-2.0
 //
 // From a coefficient of restitution to the damping ratio of a dashpot beside a linear spring.
 #pragma once

@@ -1,0 +1,310 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+#include "joint_law.hpp"
+
+#include "strength.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace potential_particles {
+
+using Eigen::Vector3d;
+
+// Of dashpots beside springs of this stiffness, per area: 2 z sqrt(m K/A), m = 1/mobility the mass that the centre of pressure
+// moves; 0 where it moves none.
+double JointLaw::dashpotPerArea(double stiffness, double mobility, double area) const
+{
+    return mobility > 0 ? 2 * joint.dampingRatio * std::sqrt(stiffness / (mobility * area)) : 0;
+}
+
+double JointLaw::energyAlong(const Springs& springs) const
+{
+    return 0.5 * (all.shearStiffness * springs.shear.squaredNorm() + all.twistStiffness * springs.twist * springs.twist);
+}
+
+void JointLaw::takeStiffness(const ContactPatch& patch)
+{
+    all.normalStiffness = joint.normalStiffness * patch.area;
+    all.shearStiffness = joint.shearStiffness * patch.area;
+    all.twistStiffness = joint.shearStiffness * patch.polarMoment;
+}
+
+// The springs along the patch go with it.
+void JointLaw::open()
+{
+    if (!bondEnded) // else its energy is counted
+        all.energies.area = memory.energyAlong;
+    memory.shearDisplacement = Vector3d::Zero();
+    memory.twist = memory.energyAlong = 0;
+    memory.broken = true;
+}
+
+bool JointLaw::holdAsBond(bool mayEnd)
+{
+    const BondStrain strain(memory, { one.centre, one.turn }, { other.centre, other.turn });
+    const BondStiffness stiffness { joint.normalStiffness, joint.shearStiffness };
+    const double before = strain.energy(stiffness, memory.damage), left = 1 - memory.damage;
+    if (!memory.bonded && mayEnd) {
+        memory.shearDisplacement = left * strain.slip();
+        memory.twist = left * strain.twist();
+        memory.endBond();
+        memory.broken = true;
+        all.energies.breaking = before;
+        bondEnded = true;
+        return false;
+    }
+    const double damage = memory.bonded ? damageOf(joint, memory, strain) : 0;
+    if (damage >= 1)
+        memory.bonded = false;
+    else
+        memory.damage = std::max(memory.damage, damage);
+    all.energies.elastic = strain.energy(stiffness, memory.damage);
+    all.energies.breaking = before - all.energies.elastic;
+    Wrench damping;
+    if (joint.dampingRatio > 0) {
+        damping = dashpotOfBond(strain);
+        const Vector3d velocity = other.velocityAt(strain.middle()) - one.velocityAt(strain.middle());
+        all.energies.viscous = -dt * (damping.force.dot(velocity) + damping.moment.dot(other.spin - one.spin));
+    }
+    pushAsBond(strain, damping);
+    return true;
+}
+
+Wrench JointLaw::dashpotOfBond(const BondStrain& strain) const
+{
+    const Vector3d n = strain.normal(), middle = strain.middle();
+    const auto perArea = [&](const Vector3d& direction, double springs) {
+        return dashpotPerArea(springs, one.mobility(middle, direction) + other.mobility(middle, direction), memory.bondArea);
+    };
+    return strain.dashpot({ perArea(n, joint.normalStiffness), perArea(n.unitOrthogonal(), joint.shearStiffness) },
+                          other.velocityAt(middle) - one.velocityAt(middle), other.spin - one.spin);
+}
+
+void JointLaw::pushAsBond(const BondStrain& strain, const Wrench& damping)
+{
+    const Vector3d n = strain.normal(), middle = strain.middle();
+    const BondStrain::Reaction reaction = strain.reaction({ joint.normalStiffness, joint.shearStiffness });
+    const Vector3d force = reaction.force + damping.force, moment = reaction.torque2 + damping.moment;
+    all.point = middle;
+    all.normal = n;
+    all.damping = damping;
+    all.normalStiffness = joint.normalStiffness * memory.bondArea;
+    all.shearStiffness = joint.shearStiffness * memory.bondArea;
+    all.twistStiffness = joint.shearStiffness * memory.bondMoments.x();
+    all.normalForce = force.dot(n) * n;
+    all.shearForce = force - all.normalForce;
+    all.twistMoment = moment.dot(n);
+    all.bendingMoment = moment - all.twistMoment * n;
+    const Vector3d arm1 = strain.point1() - one.centre, arm2 = strain.point2() - other.centre;
+    all.onOne = { -force, reaction.torque1 - damping.moment - (middle - strain.point1()).cross(damping.force) - arm1.cross(force) };
+    all.onOther = { force, reaction.torque2 + damping.moment + (middle - strain.point2()).cross(damping.force) + arm2.cross(force) };
+}
+
+void JointLaw::repeatAsBond(const Wrench& damping)
+{
+    const BondStrain strain(memory, { one.centre, one.turn }, { other.centre, other.turn });
+    all.energies.elastic = strain.energy({ joint.normalStiffness, joint.shearStiffness }, memory.damage);
+    pushAsBond(strain, damping);
+}
+
+// The patch as it is; the springs of the bond begin with what those of the joint hold.
+void JointLaw::bond(const ContactPatch& patch, const JointMotion& motion, const PosedShape& shape1, const PosedShape& shape2)
+{
+    const Vector3d& n = motion.normal;
+    const PatchFrame frame(patch, { motion.point, n });
+    memory.broken = false;
+    memory.damage = 0;
+    memory.bondArea = patch.area;
+    memory.bondMoments = Vector3d(frame.alongY + frame.alongZ, frame.alongZ, frame.alongY);
+    const Eigen::Quaterniond turn(frame.axes);
+    memory.bondTurn1 = one.turn.conjugate() * turn;
+    memory.bondTurn2 = other.turn.conjugate() * turn;
+    memory.bondPoint1 = one.turn.conjugate() * (frame.centroid - one.centre);
+    memory.bondPoint2 = other.turn.conjugate() * (frame.centroid - other.centre);
+
+    const double kn = joint.normalStiffness, ks = joint.shearStiffness;
+    const Vector3d held = kn * patch.force * n - all.shearStiffness * memory.shearDisplacement;
+    const Vector3d force = frame.axes.transpose() * held;
+    const Vector3d moment = frame.axes.transpose()
+        * ((kn * patch.couple - all.twistStiffness * memory.twist) * n + (motion.point - frame.centroid).cross(held));
+    const auto over = [](double load, double stiffness) { return stiffness > 0 ? -load / stiffness : 0; };
+    memory.bondDisplacement = Vector3d(over(force.x(), kn * patch.area), over(force.y(), ks * patch.area), over(force.z(), ks * patch.area));
+    memory.bondRotation = Vector3d(over(moment.x(), ks * memory.bondMoments.x()), over(moment.y(), kn * memory.bondMoments.y()),
+                                   over(moment.z(), kn * memory.bondMoments.z()));
+    memory.bondRim.clear();
+    for (const Eigen::Vector2d& corner : rimOf(patch, frame, shape1, shape2))
+        memory.bondRim.insert(memory.bondRim.end(), { corner.x(), corner.y() });
+
+    // About the middle of the bond, as of the steps that follow.
+    all.damping.moment += (motion.point - frame.centroid).cross(all.damping.force);
+    memory.shearDisplacement = Vector3d::Zero();
+    memory.twist = memory.energyAlong = 0;
+    const double energy = BondStrain(memory, { one.centre, one.turn }, { other.centre, other.turn }).energy({ kn, ks }, 0);
+    all.energies.area += all.energies.elastic - energy;
+    all.energies.elastic = energy;
+}
+
+// What pressure, springs and dashpots do, which are in `all`.
+void JointLaw::push()
+{
+    const Vector3d force = all.normalForce + all.shearForce;
+    const Vector3d moment = (all.couple + all.twistMoment) * all.normal + all.bendingMoment;
+    all.onOne = { -force, -((all.point - one.centre).cross(force) + moment) };
+    all.onOther = { force, (all.point - other.centre).cross(force) + moment };
+}
+
+void JointLaw::holdAsPatch(const ContactPatch& patch, const JointMotion& motion)
+{
+    const Vector3d& n = motion.normal;
+    all.point = motion.point;
+    all.normal = n;
+    if (joint.dampingRatio > 0)
+        all.damping = dashpotAcross(patch, motion);
+    const double pressing = joint.normalStiffness * patch.force + all.damping.force.dot(n);
+    const double elasticPressure = joint.normalStiffness * patch.energy;
+    if (bondEnded)
+        all.energies.breaking -= elasticPressure;
+    takeStiffness(patch);
+    Springs springs = springsAlong(motion);
+    const FrictionForce limit = slip(patch, pressing, springs);
+    memory.shearDisplacement = springs.shear;
+    memory.twist = springs.twist;
+    memory.energyAlong = energyAlong(springs);
+    all.normalForce = pressing * n;
+    all.shearForce = -all.shearStiffness * springs.shear;
+    all.twistMoment = -all.twistStiffness * springs.twist;
+    all.couple = joint.normalStiffness * patch.couple;
+    all.bendingMoment = all.damping.moment;
+    all.energies.elastic = elasticPressure + memory.energyAlong;
+    if (joint.dampingRatio > 0) {
+        all.energies.viscous = -dt * (all.damping.force.dot(other.velocityAt(motion.point) - one.velocityAt(motion.point))
+                                      + all.damping.moment.dot(other.spin - one.spin));
+        if (!all.slides)
+            dampAlong(patch, motion, limit);
+    }
+    push();
+}
+
+void JointLaw::repeatAsPatch(const ContactPatch& patch, const JointMotion& motion, const Wrench& damping)
+{
+    const Vector3d& n = motion.normal;
+    all.point = motion.point;
+    all.normal = n;
+    all.damping = damping;
+    takeStiffness(patch);
+    const Vector3d shear = memory.shearDisplacement - memory.shearDisplacement.dot(n) * n;
+    const Vector3d along = damping.force - damping.force.dot(n) * n;
+    const double twisting = damping.moment.dot(n);
+    all.normalForce = (joint.normalStiffness * patch.force + damping.force.dot(n)) * n;
+    all.shearForce = along - all.shearStiffness * shear;
+    all.twistMoment = twisting - all.twistStiffness * memory.twist;
+    all.couple = joint.normalStiffness * patch.couple;
+    all.bendingMoment = damping.moment - twisting * n;
+    all.energies.elastic = joint.normalStiffness * patch.energy + memory.energyAlong;
+    push();
+}
+
+// The resistance of dashpots to the approach of the bodies, at the centre of pressure. Half of them stand at either edge of the
+// patch, not spread over it, so that what lands on a face is pushed at the edge that comes down, as Housner has it. The edges: of the
+// direction g in which the approach changes, sqrt(3) times the radius of gyration from the centroid, those of a rectangle along a side of it,
+//
+//     y = -+ sqrt(3) I g / sqrt(A g.I g),
+//
+// with I the second moments of the area A. Neither edge is pulled more than the springs push there: what springs and dashpots do
+// together lies within the patch.
+Wrench JointLaw::dashpotAcross(const ContactPatch& patch, const JointMotion& motion) const
+{
+    const Vector3d& n = motion.normal;
+    const double mobility = one.mobility(motion.point, n) + other.mobility(motion.point, n);
+    if (!(mobility > 0))
+        return {};
+    const double half = 0.5 * dashpotPerArea(joint.normalStiffness, mobility, patch.area) * patch.area;
+    const Vector3d centre = motion.point + patch.centroid;
+    const double opening = (other.velocityAt(centre) - one.velocityAt(centre)).dot(n);
+    const Vector3d gradient = n.cross(other.spin - one.spin), moved = patch.secondMoment * gradient;
+    const double spread = patch.area * gradient.dot(moved);
+    const Vector3d edge = spread > 0 ? Vector3d(std::sqrt(3 / spread) * moved) : Vector3d::Zero();
+    const double reach = edge.squaredNorm();
+    const double off = reach > 0 ? std::clamp(-patch.centroid.dot(edge) / reach, -1.0, 1.0) : 0;
+    const double spring = 0.5 * joint.normalStiffness * patch.force, tilting = gradient.dot(edge);
+    const double above = std::max(-half * (opening + tilting), -spring * (1 + off));
+    const double below = std::max(-half * (opening - tilting), -spring * (1 - off));
+    const Vector3d force = (above + below) * n;
+    return { force, (above - below) * edge.cross(n) + patch.centroid.cross(force) };
+}
+
+// The springs of the joint take along what they hold, and are drawn by the motion of this step; where the patch grows or shrinks, springs
+// join and leave.
+JointLaw::Springs JointLaw::springsAlong(const JointMotion& motion)
+{
+    const Vector3d& n = motion.normal;
+    Springs springs { memory.shearDisplacement, memory.twist };
+    if (const double length = springs.shear.norm(); length > 0) {
+        if (!bondEnded)
+            motion.carry(springs.shear);
+        springs.shear -= springs.shear.dot(n) * n;
+        if (const double left = springs.shear.norm(); left > 0)
+            springs.shear *= length / left;
+    }
+    const double energyWithArea = energyAlong(springs);
+    if (bondEnded) {
+        all.energies.breaking -= energyWithArea;
+    } else {
+        all.energies.area = memory.energyAlong - energyWithArea;
+        springs.shear += motion.shearIncrement;
+        springs.twist += turning(n) * dt;
+    }
+    return springs;
+}
+
+// Lets the springs slip where they hold more than friction and cohesion can; a joint that slips for the first time breaks. Returns what
+// these can hold after that.
+FrictionForce JointLaw::slip(const ContactPatch& patch, double pressing, Springs& springs)
+{
+    auto& [shear, twist] = springs;
+    const FrictionForce trial { all.shearStiffness * shear.norm(), all.twistStiffness * std::abs(twist) };
+    const double trialEnergy = energyAlong(springs);
+    const auto held = [&](const FrictionForce& limit) { return returned(trial, limit, all.shearStiffness, all.twistStiffness); };
+    FrictionForce limit = limitOf(joint, memory.broken, patch, pressing), left = held(limit);
+    all.slides = left.shear < trial.shear || left.twist < trial.twist;
+    if (!all.slides)
+        return limit;
+    const bool breaks = !memory.broken;
+    if (breaks) {
+        memory.broken = true;
+        limit = limitOf(joint, true, patch, pressing);
+        left = held(limit);
+    }
+    const double shearLeft = trial.shear > 0 ? left.shear / trial.shear : 0, twistLeft = trial.twist > 0 ? left.twist / trial.twist : 0;
+    all.energies.friction = left.shear * (1 - shearLeft) * shear.norm() + left.twist * (1 - twistLeft) * std::abs(twist);
+    shear *= shearLeft;
+    twist *= twistLeft;
+    // What the strength was above the residual one is lost at once; friction does work over the slip.
+    if (breaks)
+        all.energies.breaking += trialEnergy - energyAlong(springs) - all.energies.friction;
+    return limit;
+}
+
+// While it sticks, the joint is damped along its plane as it is across it; spring and dashpot together hold no more than the limit.
+void JointLaw::dampAlong(const ContactPatch& patch, const JointMotion& motion, const FrictionForce& limit)
+{
+    const Vector3d& increment = motion.shearIncrement;
+    const double spin = turning(motion.normal);
+    const Vector3d direction = increment.norm() > 0 ? Vector3d(increment.normalized()) : motion.normal.unitOrthogonal();
+    const double mobility = one.mobility(motion.point, direction) + other.mobility(motion.point, direction);
+    const double perArea = dashpotPerArea(joint.shearStiffness, mobility, patch.area);
+    Vector3d total = all.shearForce - perArea * patch.area / dt * increment;
+    double totalTwist = all.twistMoment - perArea * patch.polarMoment * spin;
+    const double share = allowedShare({ total.norm(), std::abs(totalTwist) }, limit);
+    total *= share;
+    totalTwist *= share;
+    const Vector3d force = total - all.shearForce;
+    const double moment = totalTwist - all.twistMoment;
+    all.energies.viscous -= force.dot(increment) + moment * spin * dt;
+    all.shearForce = total;
+    all.twistMoment = totalTwist;
+    all.damping.force += force;
+    all.damping.moment += moment * motion.normal;
+}
+
+} // namespace potential_particles

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+//
+// One step of a contact by its patch, of two bodies or of a body and a wall.
+#pragma once
+
+#include "joint_history.hpp"
+#include "joint-law/joint_law.hpp"
+
+#include <optional>
+
+namespace potential_particles {
+
+// Where two bodies overlap.
+struct PatchInStep {
+    ContactPatch patch; // area 0: an overlap of nothing but rounding
+    Eigen::Vector3d point, normal;
+};
+
+// What the library answers: of body 2 on body 1, if `reversed`.
+inline std::optional<PatchInStep> patchInStep(pp_status status, const pp_patch& found)
+{
+    if (!ContactPatch::isIn(status, found))
+        return {};
+    const Eigen::Vector3d force(found.force);
+    return PatchInStep { ContactPatch::of(found), Eigen::Vector3d(found.pressure_centre), force / force.norm() };
+}
+
+// here: none, where the bodies are apart. Where the step only repeats the last one (`advance` false, at the start of a run), the history
+// stays as it is. posed(1), posed(2): the shapes, for a patch that becomes a bond.
+template <class Posed>
+JointForces jointForces(const JointParameters& joint, JointHistory& history, const JointBody& one, const JointBody& other,
+                        const std::optional<PatchInStep>& here, double dt, bool advance, Posed&& posed)
+{
+    JointLaw law(joint, history.memory, one, other, dt);
+    const auto motionAt = [&](const PatchInStep& patch) { return JointMotion::of(one, other, patch.point, patch.normal, history.normal, dt); };
+    if (!advance && history.lasts()) {
+        if (history.isBond())
+            law.repeatAsBond(history.damping);
+        else if (here && here->patch.area > 0)
+            law.repeatAsPatch(here->patch, motionAt(*here), history.damping);
+        return law.forces();
+    }
+    const bool holds = history.isBond() && law.holdAsBond(true);
+    if (!holds && here && here->patch.area > 0) {
+        const JointMotion motion = motionAt(*here);
+        law.holdAsPatch(here->patch, motion);
+        if (law.shallBond())
+            law.bond(here->patch, motion, posed(1), posed(2));
+    } else if (!holds)
+        law.open();
+    history.touching = here.has_value();
+    if (here)
+        history.normal = here->normal;
+    history.damping = law.forces().damping;
+    return law.forces();
+}
+
+} // namespace potential_particles
