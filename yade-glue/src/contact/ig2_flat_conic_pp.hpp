@@ -18,6 +18,9 @@ public:
     bool go(const boost::shared_ptr<yade::Shape>& shape1, const boost::shared_ptr<yade::Shape>& shape2,
             const yade::State& state1, const yade::State& state2, const yade::Vector3r& shift2, const bool& force,
             const boost::shared_ptr<yade::Interaction>& interaction) noexcept override;
+    // In the place of that of the base, which is not virtual: the tables of functors are compared with YADE's.
+    bool goInLoop(Step& step, Counters::Row& counts, BodyInStep& body1, BodyInStep& body2, PairInStep& pairInStep,
+                  const boost::shared_ptr<yade::Interaction>& interaction) noexcept;
 
 protected:
     // The points of the boundary for KeptApart.
@@ -29,6 +32,7 @@ protected:
     virtual pp_status findPatch(const FlatPair& pair, const BoundaryPoints& points, const pp_flat_contact& found, pp_patch& patch) const = 0;
 
 private:
+    bool answer(FlatPair& pair, const boost::shared_ptr<yade::Shape>& shape2);
     bool contact(FlatPair& pair);
     void fill(FlatPair& pair, const BoundaryPoints& points, const pp_flat_contact& found);
 };

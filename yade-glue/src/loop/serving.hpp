@@ -16,6 +16,7 @@
 
 namespace potential_particles {
 
+class Ig2_Flat_ConicPP;
 class Law2_ScGeomConicPP_ConicJointPhys;
 
 class Serving {
@@ -48,6 +49,7 @@ private:
     struct Functor {
         const yade::IGeomFunctor* functor;
         Ig2_ConicPP_ConicPP_ScGeom* ours; // null: go() is called
+        Ig2_Flat_ConicPP* flat; // the same, if it is one
     };
     struct Law {
         const yade::LawFunctor* functor;

@@ -2,13 +2,16 @@
 #include "step.hpp"
 
 #include "abi/bound.hpp"
+#include "abi/primitives.hpp"
 #include "abi/shape.hpp"
 #include "shape/particle_of.hpp"
 #include "particle/pose.hpp"
 #include "pair/turn_bound.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <typeinfo>
 
 namespace potential_particles {
 
@@ -20,6 +23,35 @@ namespace {
     {
         static std::atomic<std::uint64_t> last { 0 };
         return ++last;
+    }
+
+    Flat::Kind kindOf(const yade::Shape& shape)
+    {
+        return typeid(shape) == typeid(yade::Facet) ? Flat::Kind::facet
+            : typeid(shape) == typeid(yade::Wall)   ? Flat::Kind::wall
+                                                    : Flat::Kind::none;
+    }
+
+    // Whether it is the same boundary in its own axes; if not, what it is from now on.
+    bool isStill(Flat& flat, const yade::Shape& shape)
+    {
+        if (flat.kind == Flat::Kind::wall) {
+            const auto& wall = static_cast<const yade::Wall&>(shape);
+            const bool same = wall.axis == flat.axis && wall.sense == flat.sense;
+            flat.axis = wall.axis;
+            flat.sense = wall.sense;
+            return same;
+        }
+        const auto& vertices = static_cast<const yade::Facet&>(shape).vertices;
+        if (vertices.size() != 3) {
+            flat.radius = std::numeric_limits<double>::quiet_NaN();
+            return false;
+        }
+        if (std::equal(vertices.begin(), vertices.end(), flat.vertices.begin()) && std::isfinite(flat.radius))
+            return true;
+        std::copy(vertices.begin(), vertices.end(), flat.vertices.begin());
+        flat.radius = std::max({ vertices[0].norm(), vertices[1].norm(), vertices[2].norm() }) * (1 + 1e-12);
+        return false;
     }
 
 } // namespace
@@ -67,6 +99,24 @@ void Step::lookAnew(BodyInStep& body, const boost::shared_ptr<yade::Shape>& shap
     body.step.store(count, std::memory_order_release);
 }
 
+// Of a wall its orientation does not count. What moves by no bound, such as what is not a number, begins anew in each step.
+void Step::lookAtFlat(BodyInStep& body, const yade::Shape& shape)
+{
+    const bool same = isStill(body.flat, shape);
+    const bool turns = body.flat.kind == Flat::Kind::facet;
+    const double turn = turns ? body.flat.radius * wayOfTurn(body.formerOrientation, body.orientation) : 0;
+    const double way = (body.position - body.formerPosition).norm() + turn;
+    const double sum = body.way.travelled + way * (1 + 1e-12);
+    if (!same || !std::isfinite(sum) || (turns && !isUnit(body.formerOrientation))) {
+        body.way.generation = nextGeneration();
+        body.way.travelled = 0;
+    } else if (way > 0) {
+        body.way.travelled = std::nextafter(sum, std::numeric_limits<double>::infinity());
+    }
+    body.formerPosition = body.position;
+    body.formerOrientation = body.orientation;
+}
+
 bool Step::gather(std::size_t id, yade::Body* given)
 {
     BodyInStep* const found = bodies.at(id);
@@ -104,6 +154,9 @@ bool Step::gather(std::size_t id, yade::Body* given)
     if (itsClass != body.classOfShape) {
         body.classOfShape = itsClass;
         body.isPotential = potentialParticle(shape);
+        body.flat = Flat();
+        body.flat.kind = kindOf(shape);
+        body.way.generation = nextGeneration();
     }
     body.isBoundary = body.fixesNormal = false;
     if (body.isPotential) {
@@ -111,6 +164,9 @@ bool Step::gather(std::size_t id, yade::Body* given)
         body.isBoundary = potential.isBoundary;
         body.fixesNormal = potential.fixedNormal;
         look(body, given->shape, state);
+        ways[id] = body.way;
+    } else if (body.flat.kind != Flat::Kind::none) {
+        lookAtFlat(body, shape);
         ways[id] = body.way;
     }
     return true;

@@ -119,6 +119,7 @@ private:
             asm volatile("prefetcht0 (%0)" : : "r"(static_cast<const char*>(place) + i));
     }
 
+    static void lookAtFlat(BodyInStep& body, const yade::Shape& shape);
     void lookAnew(BodyInStep& body, const boost::shared_ptr<yade::Shape>& shape, const yade::State& state);
 
     static std::atomic<Step*> running;
