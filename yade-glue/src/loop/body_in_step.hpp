@@ -69,6 +69,7 @@ public:
 private:
     friend class Step;
     std::atomic<std::uint64_t> step { 0 }; // the one in which it was looked at last
+    std::atomic<std::uint64_t> gatheredIn { 0 }; // the same for all above
     std::uint64_t serial = 0; // of the particle; its address may be used again
     const void* classOfShape = nullptr; // its virtual table
     // Where and how it was at the last look.

@@ -70,7 +70,6 @@ Serving::Serving(yade::Scene& scene, Step& step, const yade::InteractionLoop& lo
     , physics(*loop.physDispatcher)
     , laws(*loop.lawDispatcher)
     , pairs(scene.interactions->linIntrs)
-    , ways(step.waysOfBodies())
     , listed(listed)
 {
     for (const auto& functor : geoms.functors) {
@@ -109,7 +108,7 @@ void Serving::serve(std::size_t place, Thread& thread)
         known.become(pair);
         if (ContactInStep* const contact = step.knownContactAt(place))
             contact->listedIn = 0;
-    } else if (known.wakes > 0 && known.sleeps(ways[static_cast<std::size_t>(known.id1)], ways[static_cast<std::size_t>(known.id2)])) {
+    } else if (known.wakes > 0 && step.sleeps(known)) {
         ++thread.sleeping[known.functor];
         return;
     }
@@ -147,7 +146,7 @@ void Serving::leave(std::size_t place)
 
 yade::Body* Serving::bodyOf(int id) const
 {
-    return id >= 0 && static_cast<std::size_t>(id) < ways.size() ? step.gathered(id).body : nullptr;
+    return id >= 0 && static_cast<std::size_t>(id) < step.bodyCount() ? step.gathered(id).body : nullptr;
 }
 
 void Serving::serveAwake(std::size_t place, PairInStep& known, Thread& thread)

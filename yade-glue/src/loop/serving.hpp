@@ -73,7 +73,6 @@ private:
     const yade::IPhysDispatcher& physics;
     const yade::LawDispatcher& laws;
     const std::vector<boost::shared_ptr<yade::Interaction>>& pairs;
-    const std::vector<Way>& ways; // of the bodies
     const std::uint64_t listed;
     std::vector<Functor> functors; // numbered from 1 in PairInStep
     std::vector<Law> knownLaws;

@@ -56,19 +56,42 @@ namespace {
 
 } // namespace
 
-void Step::lookAnew(BodyInStep& body, const boost::shared_ptr<yade::Shape>& shape, const yade::State& state)
+// True for one thread in a step, which then looks at the body; the others wait for it: it takes a few tens of nanoseconds.
+bool Step::mayLook(std::atomic<std::uint64_t>& step) const
 {
-    std::uint64_t seen = body.step.load(std::memory_order_acquire);
-    // One thread looks, the others wait for it: it takes a few tens of nanoseconds.
+    std::uint64_t seen = step.load(std::memory_order_acquire);
     while (seen != count) {
         if (seen == busy) {
-            seen = body.step.load(std::memory_order_acquire);
-        } else if (body.step.compare_exchange_weak(seen, busy, std::memory_order_acquire)) {
-            break;
+            seen = step.load(std::memory_order_acquire);
+        } else if (step.compare_exchange_weak(seen, busy, std::memory_order_acquire)) {
+            return true;
         }
     }
-    if (seen == count)
+    return false;
+}
+
+void Step::lookAnew(BodyInStep& body, const boost::shared_ptr<yade::Shape>& shape, const yade::State& state)
+{
+    if (!mayLook(body.step))
         return;
+    lookAtParticle(body, shape, state);
+    body.step.store(count, std::memory_order_release);
+}
+
+void Step::fillLate(BodyInStep& body, FlatBody& flat)
+{
+    if (!mayLook(body.gatheredIn))
+        return;
+    fill(body, flat.body);
+    flat.waits = count + remembered;
+    // It has been given another shape: nothing is known of its way.
+    if (body.flat.kind == Flat::Kind::none)
+        body.way.generation = nextGeneration();
+    body.gatheredIn.store(count, std::memory_order_release);
+}
+
+void Step::lookAtParticle(BodyInStep& body, const boost::shared_ptr<yade::Shape>& shape, const yade::State& state)
+{
     try {
         const Particle* particle = particleOf(shape, body.keeper);
         const yade::Vector3r& position = state.se3.position;
@@ -96,7 +119,6 @@ void Step::lookAnew(BodyInStep& body, const boost::shared_ptr<yade::Shape>& shap
         body.serial = 0;
         body.way.generation = nextGeneration();
     }
-    body.step.store(count, std::memory_order_release);
 }
 
 // Of a wall its orientation does not count. What moves by no bound, such as what is not a number, begins anew in each step.
@@ -117,13 +139,8 @@ void Step::lookAtFlat(BodyInStep& body, const yade::Shape& shape)
     body.formerOrientation = body.orientation;
 }
 
-bool Step::gather(std::size_t id, yade::Body* given)
+void Step::fill(BodyInStep& body, yade::Body* given)
 {
-    BodyInStep* const found = bodies.at(id);
-    if (!found)
-        return false;
-    BodyInStep& body = *found;
-    ways[id] = Way();
     body.body = given;
     body.hasShape = given && given->shape && given->state;
     if (!body.hasShape) {
@@ -131,7 +148,9 @@ bool Step::gather(std::size_t id, yade::Body* given)
         body.way.generation = nextGeneration();
         body.particle = nullptr;
         body.serial = 0;
-        return true;
+        body.flat.kind = Flat::Kind::none;
+        body.classOfShape = nullptr;
+        return;
     }
     const yade::State& state = *given->state;
     body.position = state.se3.position;
@@ -164,12 +183,9 @@ bool Step::gather(std::size_t id, yade::Body* given)
         body.isBoundary = potential.isBoundary;
         body.fixesNormal = potential.fixedNormal;
         look(body, given->shape, state);
-        ways[id] = body.way;
     } else if (body.flat.kind != Flat::Kind::none) {
         lookAtFlat(body, shape);
-        ways[id] = body.way;
     }
-    return true;
 }
 
 } // namespace potential_particles
