@@ -22,6 +22,8 @@ namespace {
     {
         if (found.flags & PP_FLAG_BY_SPHERES)
             return Count::spheres;
+        if (found.flags & PP_FLAG_BY_MEMORY)
+            return Count::memory;
         return found.flags & PP_FLAG_BY_FACE ? Count::face : Count::cold;
     }
 

@@ -26,7 +26,7 @@ protected:
     // The points of the boundary for KeptApart.
     virtual BoundaryPoints pointsOf(const FlatPair& pair) const = 0;
     // The contact; positions from the particle's centre, world axes. A boundary that leaves its contact to another
-    // answers separated by the distance 0.
+    // answers separated by the distance 0; with PP_FLAG_BY_MEMORY if it is known from the step before that it does.
     virtual pp_status detect(FlatPair& pair, const BoundaryPoints& points, pp_flat_contact& found) = 0;
     // The patch of that contact, from the particle's centre.
     virtual pp_status findPatch(const FlatPair& pair, const BoundaryPoints& points, const pp_flat_contact& found, pp_patch& patch) const = 0;

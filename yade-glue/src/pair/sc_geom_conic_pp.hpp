@@ -32,6 +32,12 @@ public:
     pp_pair_state state {};
     // Not saved: made again by the first look after loading, and after saving.
     KeptApart apart;
+    // Of a facet that left its contact to another one at the last look: which, and where on the seam; not saved.
+    struct Left {
+        int to = -1; // -1: it did not
+        unsigned feature = 0; // of the facet
+        double share = 0; // on an edge, from its first vertex
+    } left;
     // Of the last look, if the functor is told to find it; not saved.
     ContactPatch patch;
 
@@ -72,6 +78,7 @@ private:
     {
         std::fill(std::begin(state.last_contact), std::end(state.last_contact), 0.0);
         apart.forget();
+        left = {};
         keptPatch.reset();
     }
 
