@@ -17,9 +17,9 @@ from pathlib import Path
 TOP = Path(__file__).resolve().parents[1]
 OUT = TOP / "out" / "facets"
 COUNT, DIAMETER, CELL, WAVE = 256, 0.045, 0.02, 0.004  # rocks; intermediate extent of a rock, legs of a facet, height of the floor's waves, m
-WINDOWS, STEPS, SETTLING = 12, 100, 6000
-# Cells along a side of the floor that the rocks lie on, and triangles elsewhere, of a floor that nobody touches.
-SCENES = {"5,000 facets": (50, 0), "5,000 facets and 45,000 far off": (50, 45_000), "32 facets": (4, 0)}
+WINDOWS, STEPS, SETTLING = 8, 100, 3000
+# Cells along a side of the floor that the rocks lie on, and triangles of a floor elsewhere, which nobody touches.
+SCENES = {"5,000 facets": (50, 0), "5,000 facets and 45,000 far off": (50, 45_000)}
 
 
 def main():
@@ -38,14 +38,17 @@ def main():
     for turn in range(1 if options.quick else options.rounds):
         for scene in SCENES:
             for name, package in packages.items():
+                if "far off" in scene and name != "here":
+                    continue
                 found = run(scene, package, options.quick)
                 kept = best.setdefault(f"{scene}, {name}", found)
                 kept["fastest"] = {part: min(value, found["fastest"][part]) for part, value in kept["fastest"].items()}
     for name, row in best.items():
         print(f"{name:<42} " + "  ".join(f"{part} {value:.3f}" for part, value in row["fastest"].items()) + f" ms; {row['counts']}")
-    step = lambda name: best[name]["fastest"]["step"]
-    rows = [("step with 45,000 facets far off / without, over 2,000 facets' share", step("5,000 facets and 45,000 far off, here") / step("5,000 facets, here"), "<=", 1.1)]
-    rows += [(f"step on 5,000 facets, {name} / here", step(f"5,000 facets, {name}") / step("5,000 facets, here"), ">=", 2.0) for name in packages if name != "here"]
+    ratio = lambda part, one, other: best[one]["fastest"][part] / best[other]["fastest"][part]
+    rows = [("contact loop with 45,000 facets far off / without", ratio("contacts", "5,000 facets and 45,000 far off, here", "5,000 facets, here"), "<=", 1.2)]
+    rows += [(f"{part} on 5,000 facets, {name} / here", ratio(key, f"5,000 facets, {name}", "5,000 facets, here"), ">=", 2.0)
+             for name in packages if name != "here" for part, key in (("contact loop", "contacts"), ("step", "step"))]
     targets = [{"name": name, "sense": sense, "target": target, "measured": found, "met": bool(found <= target if sense == "<=" else found >= target)}
                for name, found, sense, target in rows]
     for row in targets:
@@ -94,10 +97,10 @@ def inside_yade():
     O.materials.append(FrictMat(young=2e7, poisson=0.3, frictionAngle=np.radians(30), density=2650))
     side = 50 * CELL
     leg = side / cells
-    height = (lambda x, y: WAVE * np.sin(40 * x) * np.cos(35 * y)) if cells > 10 else (lambda x, y: 0.0)
+    height = lambda x, y: WAVE * np.sin(40 * x) * np.cos(35 * y)
 
-    def floor(cells, lift=0.0, shift=0.0):
-        at = lambda i, j: (shift + i * leg, j * leg, height(i * leg, j * leg) + lift)
+    def floor(cells, shift=0.0):
+        at = lambda i, j: (shift + i * leg, j * leg, height(i * leg, j * leg))
         for i in range(cells):
             for j in range(cells):
                 for three in ((at(i, j), at(i + 1, j), at(i + 1, j + 1)), (at(i, j), at(i + 1, j + 1), at(i, j + 1))):
@@ -121,21 +124,22 @@ def inside_yade():
                  ConicInteractionLoop(functors, [Ip2_FrictMat_FrictMat_FrictPhys()], [Law2_ScGeom_FrictPhys_CundallStrack(sphericalBodies=False)], label="contacts"),
                  NewtonIntegrator(damping=0.3, gravity=(0, 0, -9.81), exactAsphericalRot=True, label="motion")]
     O.dt = potential_particles.critical_time_step()
-    print(O.dt)
     O.timingEnabled = True
-    O.run(SETTLING // (20 if os.environ["QUICK"] else 1), True)
+    shorter = 10 if os.environ["QUICK"] else 1
+    steps = STEPS // shorter
+    O.run(SETTLING // shorter, True)
     for functor in functors:
         functor.resetCounters()
     rows = []
     for _ in range(WINDOWS):
         before = [engine.execTime for engine in O.engines]
-        O.run(STEPS // (10 if os.environ["QUICK"] else 1), True)
-        row = {engine.label: (engine.execTime - earlier) / (STEPS // (10 if os.environ["QUICK"] else 1)) * 1e-6 for engine, earlier in zip(O.engines, before)}
+        O.run(steps, True)
+        row = {engine.label: (engine.execTime - earlier) / steps * 1e-6 for engine, earlier in zip(O.engines, before)}
         rows.append(row | {"step": sum(row.values())})
     real = [pair for pair in O.interactions if pair.isReal]
-    facets = len(O.bodies) - COUNT
+    facets = len(O.bodies) - COUNT  # they come first
     counts = {"contacts": len(real), "with facets": sum(min(pair.id1, pair.id2) < facets for pair in real), "pairs": sum(1 for _ in O.interactions.all()),
-              "failures": sum(functor.failures for functor in functors), "facet answers": functors[1].answers, "speed": float(np.mean([np.linalg.norm(tuple(O.bodies[i].state.vel)) for i in range(facets, len(O.bodies))]))}
+              "failures": sum(functor.failures for functor in functors), "facet answers": functors[1].answers}
     Path(os.environ["RESULT"]).write_text(json.dumps({"fastest": {name: min(row[name] for row in rows) for name in rows[0]}, "counts": counts}))
 
 

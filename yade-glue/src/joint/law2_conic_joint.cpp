@@ -90,11 +90,11 @@ bool Law::act(yade::IGeom& geometry, yade::IPhys& physics, const yade::Interacti
     if (!wasBonded || !holdsAsBond(joint, energies)) {
         const auto* const own = dynamic_cast<const ScGeomConicPP*>(&joint.geom);
         const bool apart = joint.geom.penetrationDepth < 0;
-        if (apart || !own || !(own->patch.area > 0)) {
+        if (apart || !own || !(own->patch().area > 0)) {
             open(joint, wasBonded, energies);
             lasts = neverErase || !apart;
         } else {
-            holdAsPatch(joint, own->patch, wasBonded, energies);
+            holdAsPatch(joint, own->patch(), wasBonded, energies);
         }
     }
     if (scene->trackEnergy)

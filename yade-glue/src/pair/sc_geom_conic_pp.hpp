@@ -38,10 +38,21 @@ public:
         unsigned feature = 0; // of the facet
         double share = 0; // on an edge, from its first vertex
     } left;
-    // Of the last look, if the functor is told to find it; not saved.
-    ContactPatch patch;
+    // Of the last look, if the functor is told to find it; not saved. Only pairs that have one take the room for it.
+    const ContactPatch& patch() const
+    {
+        static const ContactPatch none;
+        return foundPatch ? *foundPatch : none;
+    }
+    void setPatch(const ContactPatch& found)
+    {
+        if (foundPatch)
+            *foundPatch = found;
+        else
+            foundPatch = std::make_unique<ContactPatch>(found);
+    }
 
-    // What the library keeps of the patch; not saved. Only pairs that have one take the room for it.
+    // What the library keeps of the patch; not saved.
     pp_patch_state* lastPatch()
     {
         if (!keptPatch)
@@ -82,6 +93,7 @@ private:
         keptPatch.reset();
     }
 
+    std::unique_ptr<ContactPatch> foundPatch;
     std::unique_ptr<pp_patch_state> keptPatch;
     std::atomic<bool> saved { false };
 
