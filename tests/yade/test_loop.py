@@ -276,7 +276,7 @@ for flat, functor_ in (lambda: utils.facet(corners, fixed=True), yade.Ig2_Facet_
         boundary.state.pos = start + Vector3(0, 0, height)
         loop()
         depth = [i.geom.penetrationDepth for i in O.interactions if i.isReal]
-        wrong += (bool(depth) and depth[0] > 0) != (height > 0.2)
+        wrong += abs(height - 0.2) > 0.01 and (bool(depth) and depth[0] > 0) != (height > 0.2)  # its face bulges a little
     check.equal(wrong, 0, f"{kind}: is seen when it moves")
 
 loop = above_flat(utils.facet(corners, fixed=True), yade.Ig2_Facet_ConicPP_ScGeom())
