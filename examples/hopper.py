@@ -47,7 +47,7 @@ O.engines = [
     BoundWatch(),  # sees bodies that turn out of their boxes, so that the collider may rest
     InsertionSortCollider([Bo1_ConicPP_Aabb(), Bo1_Facet_Aabb()], verletDist=0.05 * DIAMETER,
                           avoidSelfInteractionMask=2),
-    InteractionLoop(contacts, [Ip2_FrictMat_FrictMat_FrictPhys()], [Law2_ScGeom_FrictPhys_CundallStrack(sphericalBodies=False)]),
+    ConicInteractionLoop(contacts, [Ip2_FrictMat_FrictMat_FrictPhys()], [Law2_ScGeom_FrictPhys_CundallStrack(sphericalBodies=False)]),
     NewtonIntegrator(damping=0.1, gravity=(0, 0, -9.81), exactAsphericalRot=True),
 ]
 mass = O.bodies[next(iter(ids))].state.mass

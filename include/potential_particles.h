@@ -1304,6 +1304,28 @@ pp_status pp_contact_triangle(const struct pp_particle *a,
                               struct pp_pair_state *state,
                               struct pp_flat_contact *out);
 
+// How the scale of A goes on from where it is least on a triangle of a mesh, an edge or a vertex, into a
+// neighbour that shares it, without solving the triangle. Where it falls, a contact there is the
+// neighbour's; where it rises, both have the same.
+//
+// vertices, neighbour: three points each, world frame, as for pp_contact_triangle. feature: PP_ON_EDGE + i
+// or PP_ON_VERTEX + i of the triangle, as pp_contact_triangle has found it before. settings: as for
+// pp_contact_triangle.
+// share: in and out; on an edge the place of the least scale, from the edge's first vertex to the next
+// one, 0 to 1: a guess, and what was found. For a vertex it is left alone.
+// sense: receives -1 where it falls, 1 where it rises, 0 where the triangle's least scale is not there for
+// sure, or is no less than 1, or only a solution can tell: ask pp_contact_triangle.
+// Errors: those of pp_contact_triangle without PP_SOLVER_FAILED; PP_BAD_POINT also for another feature or
+// a share outside of 0 to 1.
+pp_status pp_seam_slope(const struct pp_particle *a,
+                        const struct pp_pose *pose_a,
+                        const double *vertices,
+                        uint32_t feature,
+                        const double *neighbour,
+                        const struct pp_settings *settings,
+                        double *share,
+                        int32_t *sense);
+
 // Contact area with a flat boundary: the area of the cut that the plane through the contact point, normal to
 // the contact normal, makes through the particle. (It is not cut off at the edges of a triangle.)
 //

@@ -90,7 +90,10 @@ pub mod shapes;
 mod solver;
 mod surface;
 
-pub use boundary::{BoundaryError, Feature, FlatContact, Triangle, Wall, contact_with_plane, contact_with_triangle};
+pub use boundary::{
+    BoundaryError, Feature, FlatContact, Onwards, Triangle, Wall, contact_with_plane, contact_with_triangle,
+    onwards_from_seam,
+};
 /// Its vectors and matrices are those of this interface: of this version, whatever others a program has.
 pub use nalgebra;
 

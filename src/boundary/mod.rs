@@ -18,12 +18,15 @@
 //! | `separation` | separation tests |
 //! | `closest` | the least S on a whole boundary: on its plane, an edge or a corner |
 //! | `contact` | point, normal and overlap; [`contact_with_plane`], [`contact_with_triangle`] |
+//! | `seam` | how S goes on from a triangle into its neighbour: [`onwards_from_seam`] |
 
 mod boundary;
 mod closest;
 mod contact;
+mod seam;
 mod separation;
 mod triangle;
 
 pub use boundary::{BoundaryError, Feature, Triangle, Wall};
 pub use contact::{FlatContact, contact_with_plane, contact_with_triangle};
+pub use seam::{Onwards, onwards_from_seam};

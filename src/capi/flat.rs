@@ -6,7 +6,7 @@ use super::particle::pp_particle;
 use super::status::*;
 use super::types::*;
 use crate::{BoundaryError, DetectError, Feature, FlatContact, Section, Triangle, Wall};
-use crate::{contact_with_plane, contact_with_triangle};
+use crate::{Onwards, contact_with_plane, contact_with_triangle, onwards_from_seam};
 
 /// The point on the boundary lies on the plane, or inside the triangle.
 pub const PP_ON_INTERIOR: u32 = 0;
@@ -115,13 +115,64 @@ pub unsafe extern "C" fn pp_contact_triangle(
 ) -> pp_status {
     fenced(|| {
         let (a, pose) = unsafe { (&borrow(a)?.0, pose_from(borrow(pose_a)?)?) };
-        let [x0, y0, z0, x1, y1, z1, x2, y2, z2] = *unsafe { borrow(vertices.cast::<[f64; 9]>()) }?;
+        let vertices = unsafe { borrow(vertices.cast::<[f64; 9]>()) }?;
         let out = unsafe { output(out) }?;
         let settings = settings_from(unsafe { settings.as_ref() })?;
-        let triangle = Triangle::new([[x0, y0, z0], [x1, y1, z1], [x2, y2, z2]]).map_err(boundary_status)?;
+        let triangle = triangle_of(vertices)?;
         // SAFETY: NULL or exclusively ours for the call.
         let state = unsafe { state.as_mut() }.map(state_of);
         write(contact_with_triangle(a, &pose, &triangle, &settings, state), &out)
+    })
+}
+
+/// How the scale of A goes on from where it is least on a triangle of a mesh, an edge or a vertex, into a
+/// neighbour that shares it, without solving the triangle. Where it falls, a contact there is the
+/// neighbour's; where it rises, both have the same.
+///
+/// vertices, neighbour: three points each, world frame, as for pp_contact_triangle. feature: PP_ON_EDGE + i
+/// or PP_ON_VERTEX + i of the triangle, as pp_contact_triangle has found it before. settings: as for
+/// pp_contact_triangle.
+/// share: in and out; on an edge the place of the least scale, from the edge's first vertex to the next
+/// one, 0 to 1: a guess, and what was found. For a vertex it is left alone.
+/// sense: receives -1 where it falls, 1 where it rises, 0 where the triangle's least scale is not there for
+/// sure, or is no less than 1, or only a solution can tell: ask pp_contact_triangle.
+/// Errors: those of pp_contact_triangle without PP_SOLVER_FAILED; PP_BAD_POINT also for another feature or
+/// a share outside of 0 to 1.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn pp_seam_slope(
+    a: *const pp_particle,
+    pose_a: *const pp_pose,
+    vertices: *const f64,
+    feature: u32,
+    neighbour: *const f64,
+    settings: *const pp_settings,
+    share: *mut f64,
+    sense: *mut i32,
+) -> pp_status {
+    fenced(|| {
+        let (a, pose) = unsafe { (&borrow(a)?.0, pose_from(borrow(pose_a)?)?) };
+        let (own, other) = unsafe { (borrow(vertices.cast::<[f64; 9]>())?, borrow(neighbour.cast::<[f64; 9]>())?) };
+        let (found, out) = unsafe { (output(share)?, output(sense)?) };
+        let mut place = *unsafe { borrow(share) }?;
+        let settings = settings_from(unsafe { settings.as_ref() })?;
+        settings.validate().map_err(|_| PP_BAD_SETTING)?;
+        let feature = match feature {
+            PP_ON_EDGE..=3 => Feature::Edge((feature - PP_ON_EDGE) as u8),
+            PP_ON_VERTEX..=6 => Feature::Vertex((feature - PP_ON_VERTEX) as u8),
+            _ => return Err(PP_BAD_POINT),
+        };
+        if !(0.0..=1.0).contains(&place) {
+            return Err(PP_BAD_POINT);
+        }
+        let (own, other) = (triangle_of(own)?, triangle_of(other)?);
+        let onwards = onwards_from_seam(a, &pose, &own, feature, &other, &settings, &mut place);
+        found.write(place);
+        out.write(match onwards {
+            Onwards::Falls => -1,
+            Onwards::Rises => 1,
+            Onwards::Unknown => 0,
+        });
+        Ok(())
     })
 }
 
@@ -163,6 +214,11 @@ pub(super) fn boundary_status(error: BoundaryError) -> pp_status {
         BoundaryError::Point(..) | BoundaryError::Normal(..) => PP_BAD_POINT,
         BoundaryError::Area(_) => PP_DEGENERATE_TRIANGLE,
     }
+}
+
+fn triangle_of(vertices: &[f64; 9]) -> Result<Triangle, pp_status> {
+    let [x0, y0, z0, x1, y1, z1, x2, y2, z2] = *vertices;
+    Triangle::new([[x0, y0, z0], [x1, y1, z1], [x2, y2, z2]]).map_err(boundary_status)
 }
 
 fn write(found: Result<FlatContact, DetectError>, out: &Output<pp_flat_contact>) -> Result<(), pp_status> {

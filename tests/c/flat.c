@@ -106,6 +106,31 @@ static void a_state_is_where_a_search_begins(void) {
     pp_particle_free(ball);
 }
 
+/* Of a ball beside an edge: least on the edge, from where it falls into the triangle below the centre. */
+static void a_seam_falls_towards_the_centre(void) {
+    const double across[9] = {1, 0, 0, 0, 0, 0, 0, -1, 0};
+    pp_particle *ball = new_sphere(1.0);
+    pp_pose pose = pose_at(0.25, -0.25, 0.75);
+    double share = 0.9;
+    int32_t sense = 7;
+    CHECK_STATUS(pp_seam_slope(ball, &pose, vertices, PP_ON_EDGE, across, NULL, &share, &sense), PP_OK);
+    CHECK(sense == -1);
+    CHECK_NEAR(share, 0.25, 1e-12);
+    pose = pose_at(0.25, 0.25, 0.75);
+    CHECK_STATUS(pp_seam_slope(ball, &pose, vertices, PP_ON_EDGE, across, NULL, &share, &sense), PP_OK);
+    CHECK(sense == 0);
+    sense = 7;
+    CHECK_STATUS(pp_seam_slope(ball, &pose, vertices, PP_ON_INTERIOR, across, NULL, &share, &sense), PP_BAD_POINT);
+    CHECK_STATUS(pp_seam_slope(ball, &pose, vertices, PP_ON_VERTEX + 3, across, NULL, &share, &sense), PP_BAD_POINT);
+    CHECK_STATUS(pp_seam_slope(NULL, &pose, vertices, PP_ON_EDGE, across, NULL, &share, &sense), PP_NULL_POINTER);
+    CHECK_STATUS(pp_seam_slope(ball, &pose, vertices, PP_ON_EDGE, NULL, NULL, &share, &sense), PP_NULL_POINTER);
+    CHECK_STATUS(pp_seam_slope(ball, &pose, vertices, PP_ON_EDGE, across, NULL, NULL, &sense), PP_NULL_POINTER);
+    share = NAN;
+    CHECK_STATUS(pp_seam_slope(ball, &pose, vertices, PP_ON_EDGE, across, NULL, &share, &sense), PP_BAD_POINT);
+    CHECK(sense == 7);
+    pp_particle_free(ball);
+}
+
 static void a_centre_on_the_plane_is_flagged(void) {
     pp_particle *ball = new_sphere(1.0);
     pp_pose pose = pose_at(2, 3, 0);
@@ -164,6 +189,7 @@ void test_flat(void) {
     a_sphere_on_a_plane();
     a_sphere_at_each_part_of_a_triangle();
     a_state_is_where_a_search_begins();
+    a_seam_falls_towards_the_centre();
     a_centre_on_the_plane_is_flagged();
     bad_input_is_refused_and_nothing_written();
 }

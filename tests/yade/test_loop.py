@@ -250,6 +250,54 @@ O.bodies[1].shape = plain(cube_planes(0.8), r=0.05, k=0.05, R=1.4)
 run(1)
 check.equal((touching(), functor().failures), ({(0, 1)}, 2), "and a valid one in its place is seen")
 
+# --- walls and facets -----------------------------------------------------------------------------
+def above_flat(flat, functor_):
+    """A fixed cube 0.2 above a boundary that is body 0; the loop, after three steps."""
+    fresh_scene(functor_, dt=1e-9)
+    O.bodies.append(flat)
+    add(cube(), Vector3(0, 0, 0.7), fixed=True)
+    engines = O.engines
+    engines[1] = yade.InsertionSortCollider([yade.PotentialParticle2AABB(), yade.Bo1_Wall_Aabb(), yade.Bo1_Facet_Aabb()], verletDist=3.0)
+    O.engines = engines
+    loop = conic_loop()
+    run(3)
+    return loop
+
+
+corners = ((-1, -1, 0), (2, -1, 0), (-1, 2, 0))
+for flat, functor_ in (lambda: utils.facet(corners, fixed=True), yade.Ig2_Facet_ConicPP_ScGeom), (lambda: utils.wall(0, axis=2), yade.Ig2_Wall_ConicPP_ScGeom):
+    kind = functor_.__name__
+    loop = above_flat(flat(), functor_())
+    check.equal((touching(), functor().answers["motion"]), (set(), 2), f"{kind}: asleep")
+    boundary, start = O.bodies[0], O.bodies[0].state.pos
+    wrong = 0
+    for number in range(120):
+        height = 0.0021 * number if number % 40 else 0.3
+        boundary.state.pos = start + Vector3(0, 0, height)
+        loop()
+        depth = [i.geom.penetrationDepth for i in O.interactions if i.isReal]
+        wrong += abs(height - 0.2) > 0.01 and (bool(depth) and depth[0] > 0) != (height > 0.2)  # its face bulges a little
+    check.equal(wrong, 0, f"{kind}: is seen when it moves")
+
+loop = above_flat(utils.facet(corners, fixed=True), yade.Ig2_Facet_ConicPP_ScGeom())
+O.bodies[0].shape.vertices = [vertex + Vector3(0, 0, 0.25) for vertex in O.bodies[0].shape.vertices]
+run(1)
+check.equal(touching(), {(0, 1)}, "vertices that were changed are seen in the next step")
+loop = above_flat(utils.facet(corners, fixed=True), yade.Ig2_Facet_ConicPP_ScGeom())
+O.bodies[0].state.ori = turned((1, 0, 0), 0.6)
+run(1)
+check.equal(touching(), {(0, 1)}, "and a facet that has turned")
+loop = above_flat(utils.facet(corners, fixed=True), yade.Ig2_Facet_ConicPP_ScGeom())
+run(100)
+O.bodies[0].shape = utils.facet([(x, y, 0.6) for x, y, _ in corners]).shape
+O.bodies[0].state.pos = Vector3(0, 0, 0.3)
+run(1)
+check.equal(touching(), {(0, 1)}, "and one with another shape")
+loop = above_flat(utils.wall(0, axis=2), yade.Ig2_Wall_ConicPP_ScGeom())
+O.bodies[0].shape.axis = 0
+run(1)
+check.equal(touching(), {(0, 1)}, "and a wall with another axis")
+
 # --- bodies that are moved between calls --------------------------------------------------------
 loop = pair(0.5)
 run(2)

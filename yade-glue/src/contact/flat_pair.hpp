@@ -3,6 +3,10 @@
 // One call of a functor for a flat boundary and a particle.
 #pragma once
 
+#include "abi/scene.hpp"
+#include "loop/body_in_step.hpp"
+#include "loop/pair_in_step.hpp"
+#include "loop/relative_motion.hpp"
 #include "pair_in_scene.hpp"
 #include "particle/particle.hpp"
 
@@ -10,6 +14,11 @@ namespace potential_particles {
 
 struct FlatPair : PairInScene {
     const yade::Shape& boundary;
+
+    // In a loop of our own: the bodies as it has gathered them, and what it knows of the pair, if it may let it sleep.
+    const BodyInStep* const body1 = nullptr;
+    const BodyInStep* const body2 = nullptr;
+    PairInStep* const known = nullptr;
 
     const Particle* particle = nullptr;
     std::shared_ptr<const Particle> keeper = nullptr;
@@ -25,21 +34,41 @@ struct FlatPair : PairInScene {
         return { { 0, 0, 0 }, { q.w(), q.x(), q.y(), q.z() } };
     }
 
-    bool isKeptApart(const BoundaryPoints& points) const
+    void precompute(const yade::Vector3r& normal, const yade::Scene* scene)
     {
-        return own && own->apart.left(points, turned()) > 0;
+        if (body1 && own)
+            turnFrame(*geom, *body1, *body2, scene->dt, normal, !real);
+        else
+            PairInScene::precompute(normal, scene);
+    }
+
+    bool isKeptApart(const BoundaryPoints& points)
+    {
+        const double left = own ? own->apart.left(points, turned()) : 0;
+        if (left > 0)
+            noteRoom(left);
+        return left > 0;
     }
 
     void noteDistance(const BoundaryPoints& points, double distance)
     {
         if (own)
-            own->apart.note(points, turned(), distance);
+            noteRoom(own->apart.note(points, turned(), distance));
     }
 
     void noteTouching()
     {
         if (own)
             own->apart.forget();
+        if (known)
+            known->wakes = 0;
+    }
+
+    // What has physics does not sleep: its law is called in each step.
+    void noteRoom(double room)
+    {
+        if (known)
+            known->note(interaction, *body1, *body2, real ? 0 : room);
     }
 };
 

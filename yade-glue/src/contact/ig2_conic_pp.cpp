@@ -416,7 +416,7 @@ bool Ig2_ConicPP_ConicPP_ScGeom::fillPatch(PairInScene& pair, pp_status status, 
     geom.penetrationDepth = size / patch.area;
     pair.precompute(sense / size * force, scene);
     if (pair.own)
-        pair.own->patch = ContactPatch::of(patch);
+        pair.own->setPatch(ContactPatch::of(patch));
     return true;
 }
 
@@ -440,7 +440,7 @@ void Ig2_ConicPP_ConicPP_ScGeom::fillPhysics(PairInScene& pair, const Posed& bod
     const ContactSettings& settings = pair.settings.given;
     if (settings.patch && patchArea == 0 && pair.own) {
         patchArea = areaAtPoint(pair, body1, body2, found);
-        pair.own->patch = ContactPatch::disc(patchArea, found.overlap, Vector3r(found.normal));
+        pair.own->setPatch(ContactPatch::disc(patchArea, found.overlap, Vector3r(found.normal)));
     }
     // In the first step of a contact YADE calls this functor before the one that makes the physics:
     // the area of that step stays 0, as with YADE's own functor. Physics of another kind have no

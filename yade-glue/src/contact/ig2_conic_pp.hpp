@@ -46,8 +46,7 @@ public:
                    const yade::State& state1, const yade::State& state2, const yade::Vector3r& shift2,
                    const bool& force, const boost::shared_ptr<yade::Interaction>& interaction) noexcept override;
 
-    // The same in a loop of our own outside of periodic cells, which has gathered the bodies; not for the classes that answer by
-    // another go().
+    // The same in a loop of our own outside of periodic cells, which has gathered the bodies; with flat boundaries theirs.
     bool goInLoop(Step& step, Counters::Row& counts, BodyInStep& body1, BodyInStep& body2, PairInStep& pairInStep,
                   const boost::shared_ptr<yade::Interaction>& interaction) noexcept;
     // Where this thread counts.

@@ -61,6 +61,14 @@ BoundaryPoints Ig2_Facet_ConicPP_ScGeom::pointsOf(const FlatPair& pair) const
 
 pp_status Ig2_Facet_ConicPP_ScGeom::detect(FlatPair& pair, const BoundaryPoints& points, pp_flat_contact& found)
 {
+    if (stillLeaves(pair, points)) {
+        found = {};
+        found.kind = PP_SEPARATED;
+        found.flags = PP_FLAG_BY_MEMORY;
+        return PP_OK;
+    }
+    if (pair.own)
+        pair.own->left = {};
     const pp_status status = contactWith(pair, points, pair.state(), found);
     // Patches on triangles that share an edge add up: each has what lies on it.
     if (status != PP_OK || found.kind != PP_OVERLAPPING || pair.settings.given.patch)
@@ -88,6 +96,28 @@ pp_status Ig2_Facet_ConicPP_ScGeom::findPatch(const FlatPair& pair, const Bounda
     const pp_pose turn = pair.turn();
     return pp_patch_on_triangle(pair.particle->handle(), &turn, rowsOf(points).data(), towardsParticle.dot(front) > 0, &found,
                                 pair.settings.given.patchTolerance, tracksEnergy(), pair.lastPatch(), &patch, nullptr, 0, nullptr);
+}
+
+bool Ig2_Facet_ConicPP_ScGeom::stillLeaves(const FlatPair& pair, const BoundaryPoints& points) const
+{
+    if (!pair.own || pair.own->left.to < 0 || pair.real || pair.settings.given.patch)
+        return false;
+    auto& left = pair.own->left;
+    const auto& bodies = scene->bodies->body;
+    const auto number = [](int id) { return static_cast<std::size_t>(id); };
+    const Body* const facet = bodies[number(pair.interaction->id1)].get();
+    const Body* const particle = bodies[number(pair.interaction->id2)].get();
+    const Body* const neighbour = facet && particle && number(left.to) < bodies.size() ? facetLike(*facet, left.to, *scene) : nullptr;
+    if (!neighbour || !interactionOf(*particle, *neighbour))
+        return false;
+    const BoundaryPoints others = verticesOf(*neighbour->shape, *neighbour->state, pair.centre());
+    if (!hasFeature(sharedParts(points, others, weldOf(points)), left.feature))
+        return false;
+    int sense = 0;
+    const pp_pose turn = pair.turn();
+    const pp_status status = pp_seam_slope(pair.particle->handle(), &turn, rowsOf(points).data(), left.feature, rowsOf(others).data(),
+                                           &pair.settings.library, &left.share, &sense);
+    return status == PP_OK && (sense < 0 || (sense > 0 && left.to < pair.interaction->id1));
 }
 
 // A contact that appears has no force in its first step with KnKsPhys, whose area is not known before the step after (see
@@ -169,6 +199,8 @@ const yade::Interaction* Ig2_Facet_ConicPP_ScGeom::ownerOf(const FlatPair& pair,
         const auto isBest = [&] {
             return isLower(facetContact(neighbour.vertices, other, neighbour.id, radius), facetContact(vertices, ofOwner, id, radius));
         };
+        if (!holds && pair.own && isOn(own, neighbour.common))
+            pair.own->left = { neighbour.id, own.found.feature, shareOnEdge(own) };
         if (!owner || (holds && isBest())) {
             owner = neighbour.theirs;
             id = neighbour.id;

@@ -29,6 +29,8 @@ private:
     // the facet itself has it.
     const yade::Interaction* ownerOf(const FlatPair& pair, const BoundaryPoints& points, const pp_flat_contact& found,
                                      pp_flat_contact& ofOwner);
+    // Whether the facet left its contact to a neighbour in the step before, and does so still.
+    bool stillLeaves(const FlatPair& pair, const BoundaryPoints& points) const;
     struct Neighbour {
         const yade::Interaction* theirs; // with the particle
         int id;

@@ -3,6 +3,7 @@
 // What go() does for a flat boundary.
 #include "flat_pair.hpp"
 #include "ig2_flat_conic_pp.hpp"
+#include "loop/step.hpp"
 #include "shape/particle_of.hpp"
 #include "particle/ray.hpp"
 
@@ -21,6 +22,8 @@ namespace {
     {
         if (found.flags & PP_FLAG_BY_SPHERES)
             return Count::spheres;
+        if (found.flags & PP_FLAG_BY_MEMORY)
+            return Count::memory;
         return found.flags & PP_FLAG_BY_FACE ? Count::face : Count::cold;
     }
 
@@ -35,21 +38,49 @@ bool Ig2_Flat_ConicPP::go(const boost::shared_ptr<Shape>& cm1, const boost::shar
         const AcceptedSettings& settings = *accepted.get();
         Counters::Row& counts = counters.ofThisThread();
         const Stopwatch stopwatch(counts, settings.given.measureTime);
-        // A wall is a boundary, and two boundaries never touch.
-        if (const auto* shape = potentialParticle(*cm2); shape && shape->isBoundary)
-            return false;
         FlatPair pair { { state1, state2, shift2, force, interaction, counts, settings, real }, *cm1 };
-        if (pair.isHeldByBond())
-            return leaveApart(pair);
-        counts.add(Count::calls);
-        pair.particle = particleOf(cm2, pair.keeper);
-        return contact(pair);
+        return answer(pair, cm2);
     } catch (const std::exception& error) {
         fail(*interaction, state1, state2, shift2, error.what());
     } catch (...) {
         fail(*interaction, state1, state2, shift2, "unknown error");
     }
     return real || (force && interaction->geom);
+}
+
+bool Ig2_Flat_ConicPP::goInLoop(Step& step, Counters::Row& counts, BodyInStep& body1, BodyInStep& body2, PairInStep& pairInStep,
+                                const boost::shared_ptr<Interaction>& interaction) noexcept
+{
+    const bool real = interaction->hasGeomAndPhys();
+    const boost::shared_ptr<Shape> &cm1 = body1.body->shape, &cm2 = body2.body->shape;
+    const State &state1 = *body1.body->state, &state2 = *body2.body->state;
+    const Vector3r shift2 = Vector3r::Zero();
+    try {
+        const AcceptedSettings& settings = *accepted.get();
+        const Stopwatch stopwatch(counts, settings.given.measureTime);
+        step.look(body2, cm2, state2);
+        const bool waysAreKnown = body1.flat.kind != Flat::Kind::none && body2.particle;
+        FlatPair pair { { state1, state2, shift2, false, interaction, counts, settings, real }, *cm1, &body1, &body2,
+                        waysAreKnown ? &pairInStep : nullptr };
+        return answer(pair, cm2);
+    } catch (const std::exception& error) {
+        fail(*interaction, state1, state2, shift2, error.what());
+    } catch (...) {
+        fail(*interaction, state1, state2, shift2, "unknown error");
+    }
+    return real;
+}
+
+bool Ig2_Flat_ConicPP::answer(FlatPair& pair, const boost::shared_ptr<Shape>& shape2)
+{
+    // A wall is a boundary, and two boundaries never touch.
+    if (const auto* shape = potentialParticle(*shape2); shape && shape->isBoundary)
+        return false;
+    if (pair.isHeldByBond())
+        return leaveApart(pair);
+    pair.counts.add(Count::calls);
+    pair.particle = pair.known ? pair.body2->particle : particleOf(shape2, pair.keeper);
+    return contact(pair);
 }
 
 bool Ig2_Flat_ConicPP::contact(FlatPair& pair)

@@ -83,6 +83,23 @@ inline Parts sharedParts(const BoundaryPoints& vertices, const BoundaryPoints& o
     return parts;
 }
 
+inline bool hasFeature(const Parts& parts, unsigned feature)
+{
+    return feature >= PP_ON_VERTEX ? parts.vertices >> (feature - PP_ON_VERTEX) & 1
+        : feature >= PP_ON_EDGE    ? parts.edges >> (feature - PP_ON_EDGE) & 1
+                                   : false;
+}
+
+// Of a point on an edge: where, from the edge's first vertex to the next one, 0 to 1.
+inline double shareOnEdge(const FacetContact& facet)
+{
+    if (facet.found.feature < PP_ON_EDGE || facet.found.feature >= PP_ON_VERTEX)
+        return 0;
+    const std::size_t i = facet.found.feature - PP_ON_EDGE;
+    const yade::Vector3r along = facet.vertices[(i + 1) % 3] - facet.vertices[i];
+    return std::clamp((facet.point() - facet.vertices[i]).dot(along) / along.squaredNorm(), 0.0, 1.0);
+}
+
 // Whether S falls from the least point of a facet, on a seam, into the neighbour that has that point as well. By convexity it
 // does if it falls towards a vertex, and if it falls the neighbour has a lower one; if it rises towards all, that point is
 // the neighbour's least too.

@@ -38,7 +38,7 @@ bool Law::act(yade::IGeom& geometry, yade::IPhys& physics, const yade::Interacti
     JointLaw law(parameters, phys, one, other, scene->dt);
 
     const bool wasBonded = phys.bondArea > 0, holds = wasBonded && law.holdAsBond(!(own && own->isHeldByBond()));
-    const bool apart = geom.penetrationDepth < 0, touches = !apart && own && own->patch.area > 0;
+    const bool apart = geom.penetrationDepth < 0, touches = !apart && own && own->patch().area > 0;
     if (holds) {
         if (own)
             own->setHeldByBond(phys.bonded);
@@ -49,11 +49,11 @@ bool Law::act(yade::IGeom& geometry, yade::IPhys& physics, const yade::Interacti
         }
     } else if (touches) {
         const JointMotion motion { geom.contactPoint, geom.normal, geom.shearInc, geom.orthonormal_axis, geom.twist_axis };
-        law.holdAsPatch(own->patch, motion);
+        law.holdAsPatch(own->patch(), motion);
         if (law.shallBond()) {
             const auto& bodies = scene->bodies->body;
             const yade::Body &body1 = *bodies[static_cast<std::size_t>(interaction.id1)], &body2 = *bodies[static_cast<std::size_t>(interaction.id2)];
-            law.bond(own->patch, motion, PosedBody(body1.shape, *body1.state, Vector3r::Zero()), PosedBody(body2.shape, *body2.state, shift));
+            law.bond(own->patch(), motion, PosedBody(body1.shape, *body1.state, Vector3r::Zero()), PosedBody(body2.shape, *body2.state, shift));
         }
     } else {
         law.open();

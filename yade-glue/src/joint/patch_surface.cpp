@@ -51,10 +51,10 @@ py::tuple patchSurface(const yade::ScGeom& geometry, const boost::shared_ptr<yad
 {
     std::vector<double> corners, depths;
     const auto* const own = dynamic_cast<const ScGeomConicPP*>(&geometry);
-    if (own && own->patch.area > 0 && !(geometry.penetrationDepth < 0)) {
+    if (own && own->patch().area > 0 && !(geometry.penetrationDepth < 0)) {
         const PosedBody one(shape1, state1, Vector3r::Zero()), other(shape2, state2, shift2);
-        const PatchFrame frame(own->patch, { geometry.contactPoint, geometry.normal });
-        const std::vector<Eigen::Vector2d> rim = divided(rimOf(own->patch, frame, one, other));
+        const PatchFrame frame(own->patch(), { geometry.contactPoint, geometry.normal });
+        const std::vector<Eigen::Vector2d> rim = divided(rimOf(own->patch(), frame, one, other));
         const auto node = [&](double part, std::size_t i) {
             const Vector3r at = frame.at(part * rim[i % rim.size()]);
             return Node { at, std::max(0.0, one.depth(at) + other.depth(at)) };

@@ -7,6 +7,7 @@
 #include "abi/state.hpp"
 #include "particle/particle.hpp"
 
+#include <array>
 #include <atomic>
 #include <cstdint>
 #include <memory>
@@ -34,6 +35,14 @@ struct Way {
     std::uint64_t generation = 0;
 };
 
+// A wall or a facet as it was at the last look: where no point of it moves by more than the body does.
+struct Flat {
+    enum class Kind : unsigned char { none, wall, facet } kind = Kind::none;
+    int axis = 0, sense = 0; // of a wall
+    std::array<yade::Vector3r, 3> vertices; // of a facet, local axes
+    double radius = 0; // of the ball about its position in which they lie
+};
+
 // Its particle and its way are looked at once a step, by the thread that meets it first; the rest is there in a loop of our own.
 class alignas(64) BodyInStep {
 public:
@@ -54,9 +63,13 @@ public:
 
     static constexpr std::size_t hotSize = 256; // all above
 
+    // In a loop of our own. Of a wall or a facet the way is known as of a particle.
+    Flat flat;
+
 private:
     friend class Step;
     std::atomic<std::uint64_t> step { 0 }; // the one in which it was looked at last
+    std::atomic<std::uint64_t> gatheredIn { 0 }; // the same for all above
     std::uint64_t serial = 0; // of the particle; its address may be used again
     const void* classOfShape = nullptr; // its virtual table
     // Where and how it was at the last look.

@@ -70,12 +70,11 @@ Serving::Serving(yade::Scene& scene, Step& step, const yade::InteractionLoop& lo
     , physics(*loop.physDispatcher)
     , laws(*loop.lawDispatcher)
     , pairs(scene.interactions->linIntrs)
-    , ways(step.waysOfBodies())
     , listed(listed)
 {
     for (const auto& functor : geoms.functors) {
         auto* const ours = dynamic_cast<Ig2_ConicPP_ConicPP_ScGeom*>(functor.get());
-        functors.push_back({ functor.get(), dynamic_cast<Ig2_Flat_ConicPP*>(ours) ? nullptr : ours });
+        functors.push_back({ functor.get(), ours, dynamic_cast<Ig2_Flat_ConicPP*>(ours) });
     }
     for (const auto& law : laws.functors) {
         Law known { law.get(), nullptr, nullptr, exactly<Law2_ScGeomConicPP_ConicJointPhys>(law.get()) };
@@ -109,7 +108,7 @@ void Serving::serve(std::size_t place, Thread& thread)
         known.become(pair);
         if (ContactInStep* const contact = step.knownContactAt(place))
             contact->listedIn = 0;
-    } else if (known.wakes > 0 && known.sleeps(ways[static_cast<std::size_t>(known.id1)], ways[static_cast<std::size_t>(known.id2)])) {
+    } else if (known.wakes > 0 && step.sleeps(known)) {
         ++thread.sleeping[known.functor];
         return;
     }
@@ -147,7 +146,7 @@ void Serving::leave(std::size_t place)
 
 yade::Body* Serving::bodyOf(int id) const
 {
-    return id >= 0 && static_cast<std::size_t>(id) < ways.size() ? step.gathered(id).body : nullptr;
+    return id >= 0 && static_cast<std::size_t>(id) < step.bodyCount() ? step.gathered(id).body : nullptr;
 }
 
 void Serving::serveAwake(std::size_t place, PairInStep& known, Thread& thread)
@@ -183,18 +182,19 @@ void Serving::serveAwake(std::size_t place, PairInStep& known, Thread& thread)
     }
 
     const yade::IGeomFunctor* const functor = pair.functorCache.geom.get();
-    Ig2_ConicPP_ConicPP_ScGeom* ours = nullptr;
+    const Functor* finder = nullptr;
     Counters::Row* counts = nullptr;
     for (std::size_t i = 0; i < functors.size() && i < thread.sleeping.size() - 1; ++i) {
-        if (functors[i].functor == functor) {
-            ours = functors[i].ours;
+        if (functors[i].functor == functor && functors[i].ours) {
+            finder = &functors[i];
             counts = thread.counts[i];
             known.functor = static_cast<unsigned char>(i + 1);
         }
     }
-    const bool touches = ours ? ours->goInLoop(step, *counts, one, other, known, held)
-                              : pair.functorCache.geom->go(one.body->shape, other.body->shape, *one.body->state, *other.body->state,
-                                                           Vector3r::Zero(), false, held);
+    const bool touches = !finder ? pair.functorCache.geom->go(one.body->shape, other.body->shape, *one.body->state, *other.body->state,
+                                                              Vector3r::Zero(), false, held)
+        : finder->flat           ? finder->flat->goInLoop(step, *counts, one, other, known, held)
+                                 : finder->ours->goInLoop(step, *counts, one, other, known, held);
     if (!touches) {
         if (wasReal)
             pair.reset();

@@ -16,6 +16,7 @@
 
 namespace potential_particles {
 
+class Ig2_Flat_ConicPP;
 class Law2_ScGeomConicPP_ConicJointPhys;
 
 class Serving {
@@ -48,6 +49,7 @@ private:
     struct Functor {
         const yade::IGeomFunctor* functor;
         Ig2_ConicPP_ConicPP_ScGeom* ours; // null: go() is called
+        Ig2_Flat_ConicPP* flat; // the same, if it is one
     };
     struct Law {
         const yade::LawFunctor* functor;
@@ -71,7 +73,6 @@ private:
     const yade::IPhysDispatcher& physics;
     const yade::LawDispatcher& laws;
     const std::vector<boost::shared_ptr<yade::Interaction>>& pairs;
-    const std::vector<Way>& ways; // of the bodies
     const std::uint64_t listed;
     std::vector<Functor> functors; // numbered from 1 in PairInStep
     std::vector<Law> knownLaws;

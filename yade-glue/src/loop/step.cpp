@@ -2,13 +2,16 @@
 #include "step.hpp"
 
 #include "abi/bound.hpp"
+#include "abi/primitives.hpp"
 #include "abi/shape.hpp"
 #include "shape/particle_of.hpp"
 #include "particle/pose.hpp"
 #include "pair/turn_bound.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <typeinfo>
 
 namespace potential_particles {
 
@@ -22,21 +25,73 @@ namespace {
         return ++last;
     }
 
+    Flat::Kind kindOf(const yade::Shape& shape)
+    {
+        return typeid(shape) == typeid(yade::Facet) ? Flat::Kind::facet
+            : typeid(shape) == typeid(yade::Wall)   ? Flat::Kind::wall
+                                                    : Flat::Kind::none;
+    }
+
+    // Whether it is the same boundary in its own axes; if not, what it is from now on.
+    bool isStill(Flat& flat, const yade::Shape& shape)
+    {
+        if (flat.kind == Flat::Kind::wall) {
+            const auto& wall = static_cast<const yade::Wall&>(shape);
+            const bool same = wall.axis == flat.axis && wall.sense == flat.sense;
+            flat.axis = wall.axis;
+            flat.sense = wall.sense;
+            return same;
+        }
+        const auto& vertices = static_cast<const yade::Facet&>(shape).vertices;
+        if (vertices.size() != 3) {
+            flat.radius = std::numeric_limits<double>::quiet_NaN();
+            return false;
+        }
+        if (std::equal(vertices.begin(), vertices.end(), flat.vertices.begin()) && std::isfinite(flat.radius))
+            return true;
+        std::copy(vertices.begin(), vertices.end(), flat.vertices.begin());
+        flat.radius = std::max({ vertices[0].norm(), vertices[1].norm(), vertices[2].norm() }) * (1 + 1e-12);
+        return false;
+    }
+
 } // namespace
+
+// True for one thread in a step, which then looks at the body; the others wait for it: it takes a few tens of nanoseconds.
+bool Step::mayLook(std::atomic<std::uint64_t>& step) const
+{
+    std::uint64_t seen = step.load(std::memory_order_acquire);
+    while (seen != count) {
+        if (seen == busy) {
+            seen = step.load(std::memory_order_acquire);
+        } else if (step.compare_exchange_weak(seen, busy, std::memory_order_acquire)) {
+            return true;
+        }
+    }
+    return false;
+}
 
 void Step::lookAnew(BodyInStep& body, const boost::shared_ptr<yade::Shape>& shape, const yade::State& state)
 {
-    std::uint64_t seen = body.step.load(std::memory_order_acquire);
-    // One thread looks, the others wait for it: it takes a few tens of nanoseconds.
-    while (seen != count) {
-        if (seen == busy) {
-            seen = body.step.load(std::memory_order_acquire);
-        } else if (body.step.compare_exchange_weak(seen, busy, std::memory_order_acquire)) {
-            break;
-        }
-    }
-    if (seen == count)
+    if (!mayLook(body.step))
         return;
+    lookAtParticle(body, shape, state);
+    body.step.store(count, std::memory_order_release);
+}
+
+void Step::fillLate(BodyInStep& body, FlatBody& flat)
+{
+    if (!mayLook(body.gatheredIn))
+        return;
+    fill(body, flat.body);
+    flat.waits = count + remembered;
+    // It has been given another shape: nothing is known of its way.
+    if (body.flat.kind == Flat::Kind::none)
+        body.way.generation = nextGeneration();
+    body.gatheredIn.store(count, std::memory_order_release);
+}
+
+void Step::lookAtParticle(BodyInStep& body, const boost::shared_ptr<yade::Shape>& shape, const yade::State& state)
+{
     try {
         const Particle* particle = particleOf(shape, body.keeper);
         const yade::Vector3r& position = state.se3.position;
@@ -64,16 +119,28 @@ void Step::lookAnew(BodyInStep& body, const boost::shared_ptr<yade::Shape>& shap
         body.serial = 0;
         body.way.generation = nextGeneration();
     }
-    body.step.store(count, std::memory_order_release);
 }
 
-bool Step::gather(std::size_t id, yade::Body* given)
+// Of a wall its orientation does not count. What moves by no bound, such as what is not a number, begins anew in each step.
+void Step::lookAtFlat(BodyInStep& body, const yade::Shape& shape)
 {
-    BodyInStep* const found = bodies.at(id);
-    if (!found)
-        return false;
-    BodyInStep& body = *found;
-    ways[id] = Way();
+    const bool same = isStill(body.flat, shape);
+    const bool turns = body.flat.kind == Flat::Kind::facet;
+    const double turn = turns ? body.flat.radius * wayOfTurn(body.formerOrientation, body.orientation) : 0;
+    const double way = (body.position - body.formerPosition).norm() + turn;
+    const double sum = body.way.travelled + way * (1 + 1e-12);
+    if (!same || !std::isfinite(sum) || (turns && !isUnit(body.formerOrientation))) {
+        body.way.generation = nextGeneration();
+        body.way.travelled = 0;
+    } else if (way > 0) {
+        body.way.travelled = std::nextafter(sum, std::numeric_limits<double>::infinity());
+    }
+    body.formerPosition = body.position;
+    body.formerOrientation = body.orientation;
+}
+
+void Step::fill(BodyInStep& body, yade::Body* given)
+{
     body.body = given;
     body.hasShape = given && given->shape && given->state;
     if (!body.hasShape) {
@@ -81,7 +148,9 @@ bool Step::gather(std::size_t id, yade::Body* given)
         body.way.generation = nextGeneration();
         body.particle = nullptr;
         body.serial = 0;
-        return true;
+        body.flat.kind = Flat::Kind::none;
+        body.classOfShape = nullptr;
+        return;
     }
     const yade::State& state = *given->state;
     body.position = state.se3.position;
@@ -104,6 +173,9 @@ bool Step::gather(std::size_t id, yade::Body* given)
     if (itsClass != body.classOfShape) {
         body.classOfShape = itsClass;
         body.isPotential = potentialParticle(shape);
+        body.flat = Flat();
+        body.flat.kind = kindOf(shape);
+        body.way.generation = nextGeneration();
     }
     body.isBoundary = body.fixesNormal = false;
     if (body.isPotential) {
@@ -111,9 +183,9 @@ bool Step::gather(std::size_t id, yade::Body* given)
         body.isBoundary = potential.isBoundary;
         body.fixesNormal = potential.fixedNormal;
         look(body, given->shape, state);
-        ways[id] = body.way;
+    } else if (body.flat.kind != Flat::Kind::none) {
+        lookAtFlat(body, shape);
     }
-    return true;
 }
 
 } // namespace potential_particles

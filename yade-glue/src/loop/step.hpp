@@ -54,20 +54,47 @@ public:
     }
 
     // For a loop of our own: so many bodies there are.
-    void begin(std::size_t bodies) { ways.resize(bodies); }
-    // Then, by any thread, looks at one of them, which may be null. False when memory runs out.
-    bool gather(std::size_t id, yade::Body* body);
+    void begin(std::size_t bodies)
+    {
+        ways.resize(bodies);
+        flats.resize(bodies);
+    }
+    // Then, by any thread, looks at one of them, which may be null. False when memory runs out. Walls and facets are many and mostly near
+    // to nothing: one that is known as such, and of which no pair has asked for some steps, waits until one does.
+    bool gather(std::size_t id, yade::Body* body)
+    {
+        if (body && flats[id].body == body && flats[id].waits < count)
+            return true;
+        BodyInStep* const found = bodies.at(id);
+        if (found) {
+            fill(*found, body);
+            ways[id] = found->isPotential && found->hasShape ? found->way : Way();
+            flats[id].body = found->flat.kind == Flat::Kind::none ? nullptr : body;
+            found->gatheredIn.store(count, std::memory_order_release);
+        }
+        return found;
+    }
 
-    // A body that was gathered.
-    BodyInStep& gathered(int id) const { return *bodies.find(static_cast<std::size_t>(id)); }
+    // A body of those that were gathered or wait.
+    BodyInStep& gathered(int id)
+    {
+        BodyInStep& body = *bodies.find(static_cast<std::size_t>(id));
+        if (body.gatheredIn.load(std::memory_order_acquire) != count)
+            fillLate(body, flats[static_cast<std::size_t>(id)]);
+        return body;
+    }
 
     PairInStep* pair(const yade::Interaction& pair)
     {
         return pair.linIx >= 0 ? pairs.at(static_cast<std::size_t>(pair.linIx)) : nullptr;
     }
     PairInStep* pairAt(std::size_t place) { return pairs.at(place); }
-    // How far the gathered bodies have come, by id.
-    const std::vector<Way>& waysOfBodies() const { return ways; }
+    std::size_t bodyCount() const { return ways.size(); }
+    // Of two gathered bodies: whether the pair sleeps.
+    bool sleeps(const PairInStep& pair)
+    {
+        return pair.sleeps(wayOf(pair.id1), wayOf(pair.id2));
+    }
     const PairInStep* knownPairAt(std::size_t place) const { return pairs.find(place); }
 
     ContactInStep* contactAt(std::size_t place) { return contacts.at(place); }
@@ -119,12 +146,31 @@ private:
             asm volatile("prefetcht0 (%0)" : : "r"(static_cast<const char*>(place) + i));
     }
 
+    struct FlatBody {
+        yade::Body* body = nullptr; // null: it is no wall or facet
+        std::uint64_t waits = 0; // from the step after this one on, until a pair asks for it
+    };
+    // In the order of ids their data is met as it lies in memory.
+    static constexpr std::uint64_t remembered = 50;
+
+    const Way& wayOf(int id)
+    {
+        const auto at = static_cast<std::size_t>(id);
+        return flats[at].body ? gathered(id).way : ways[at];
+    }
+
+    void fill(BodyInStep& body, yade::Body* given);
+    void fillLate(BodyInStep& body, FlatBody& flat);
+    bool mayLook(std::atomic<std::uint64_t>& step) const;
+    static void lookAtParticle(BodyInStep& body, const boost::shared_ptr<yade::Shape>& shape, const yade::State& state);
+    static void lookAtFlat(BodyInStep& body, const yade::Shape& shape);
     void lookAnew(BodyInStep& body, const boost::shared_ptr<yade::Shape>& shape, const yade::State& state);
 
     static std::atomic<Step*> running;
     std::uint64_t count = 0;
     Blocks<BodyInStep> bodies;
-    std::vector<Way> ways;
+    std::vector<Way> ways; // of those that were gathered
+    std::vector<FlatBody> flats; // by id
     Blocks<PairInStep> pairs;
     Blocks<ContactInStep> contacts;
 };

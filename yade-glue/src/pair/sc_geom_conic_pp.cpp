@@ -85,7 +85,7 @@ void ScGeomConicPP::pyRegisterClass(py::object scope)
     const auto ofPatch = [&](const char* name, auto member, const char* text) {
         using Value = typename Pointed<decltype(member)>::type;
         registered.add_property(name, pythonFunction<Value, const ScGeomConicPP&>(
-                                          [member](const ScGeomConicPP& geom) { return Value(geom.patch.*member); }), text);
+                                          [member](const ScGeomConicPP& geom) { return Value(geom.patch().*member); }), text);
     };
     ofPatch("contactArea", &ContactPatch::area, "Area of the contact patch, m^2; 0 without one.");
     ofPatch("couple", &ContactPatch::couple, "Couple of the pressure on body 2 about the normal, over the stiffness per area, m^4.");

@@ -33,10 +33,27 @@ public:
     pp_pair_state state {};
     // Not saved: made again by the first look after loading, and after saving.
     KeptApart apart;
-    // Of the last look, if the functor is told to find it; not saved.
-    ContactPatch patch;
+    // Of a facet that left its contact to another one at the last look: which, and where on the seam; not saved.
+    struct Left {
+        int to = -1; // -1: it did not
+        unsigned feature = 0; // of the facet
+        double share = 0; // on an edge, from its first vertex
+    } left;
+    // Of the last look, if the functor is told to find it; not saved. Only pairs that have one take the room for it.
+    const ContactPatch& patch() const
+    {
+        static const ContactPatch none;
+        return foundPatch ? *foundPatch : none;
+    }
+    void setPatch(const ContactPatch& found)
+    {
+        if (foundPatch)
+            *foundPatch = found;
+        else
+            foundPatch = std::make_unique<ContactPatch>(found);
+    }
 
-    // What the library keeps of the patch; not saved. Only pairs that have one take the room for it.
+    // What the library keeps of the patch; not saved.
     pp_patch_state* lastPatch()
     {
         if (!keptPatch)
@@ -73,9 +90,11 @@ private:
     {
         std::fill(std::begin(state.last_contact), std::end(state.last_contact), 0.0);
         apart.forget();
+        left = {};
         keptPatch.reset();
     }
 
+    std::unique_ptr<ContactPatch> foundPatch;
     std::unique_ptr<pp_patch_state> keptPatch;
     std::atomic<bool> saved { false };
 
