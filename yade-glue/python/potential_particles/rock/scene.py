@@ -165,7 +165,7 @@ def _id(given):
             return int(given)
     except (TypeError, ValueError):
         pass
-    raise ValueError(f"ids holds {given!r}: an id is a whole number")
+    raise ValueError(f"ids holds {given}: an id is a whole number")
 
 
 def _shape(block, r, overlap):
