@@ -212,8 +212,7 @@ impl<'a, 's> Field<'a, 's> {
             let excess = plane.excess + dot(&plane.normal, x);
             if excess > 0.0 {
                 look.active |= 1 << bit;
-            }
-            if excess > 0.0 && plane.owner != Owner::Edge {
+                // Edges have no weight, and change nothing.
                 let i = usize::from(plane.owner == Owner::B);
                 let weighted = self.plane_weight(plane.owner) * excess;
                 look.s[i] += weighted * excess;

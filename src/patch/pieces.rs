@@ -12,7 +12,7 @@ use super::zones::Zones;
 #[derive(Debug, Default)]
 pub(super) struct PieceScratch {
     corners: [Vec<Corner>; 2],
-    zones: Vec<Piece>,
+    pieces: Vec<Piece>,
     /// The flat part, where there is one.
     level: Option<Level>,
 }
@@ -43,7 +43,7 @@ pub(super) fn pieces(
     nodes: &mut Vec<Node>,
 ) -> Option<Estimate> {
     nodes.clear();
-    scratch.zones.clear();
+    scratch.pieces.clear();
     // Also where there are no pieces: the caller takes a level for that of this patch.
     scratch.level = None;
     if field.a.sphere_weight > 0.0 || field.b.is_some_and(|b| b.sphere_weight > 0.0) {
@@ -65,7 +65,7 @@ pub(super) fn pieces(
     if count[0] == 0 || field.b.is_some() != (count[1] > 0) {
         return None;
     }
-    let mut zones = Zones { field, pieces: &mut scratch.zones };
+    let mut zones = Zones { field, pieces: &mut scratch.pieces };
     let active = [&active[0][..count[0]], &active[1][..count[1]]];
     if let Some((level, sides)) = zones.face(active, &mut scratch.corners)? {
         scratch.level = Some(level);
@@ -76,15 +76,15 @@ pub(super) fn pieces(
         zones.edge_or_disc(active, &at, tolerance)?;
     }
     let flat = nodes.len();
-    refine(&mut scratch.zones, flat, tolerance, deepest, nodes)
+    refine(&mut scratch.pieces, flat, tolerance, deepest, nodes)
 }
 
-/// Integrates over all zones, with finer rules where the error is above its share; `deepest`: the least S.
-fn refine(zones: &mut [Piece], flat: usize, tolerance: f64, deepest: f64, nodes: &mut Vec<Node>) -> Option<Estimate> {
+/// Integrates over all pieces, with finer rules where the error is above its share; `deepest`: the least S.
+fn refine(pieces: &mut [Piece], flat: usize, tolerance: f64, deepest: f64, nodes: &mut Vec<Node>) -> Option<Estimate> {
     for _ in 0..MOST_RULES {
         nodes.truncate(flat);
         let mut estimate = Estimate::default();
-        for piece in zones.iter_mut() {
+        for piece in pieces.iter_mut() {
             let (force, area) = piece.integrate(tolerance, deepest, nodes)?;
             piece.error = force;
             estimate.force += force + piece.neglected;
@@ -98,11 +98,11 @@ fn refine(zones: &mut [Piece], flat: usize, tolerance: f64, deepest: f64, nodes:
         if estimate.force <= limit {
             return Some(estimate);
         }
-        if zones.iter().map(|piece| piece.neglected).sum::<f64>() > 0.9 * limit {
+        if pieces.iter().map(|piece| piece.neglected).sum::<f64>() > 0.9 * limit {
             return None;
         }
-        let share = 0.15 * limit / zones.len() as f64;
-        for piece in zones.iter_mut().filter(|piece| piece.error > share) {
+        let share = 0.15 * limit / pieces.len() as f64;
+        for piece in pieces.iter_mut().filter(|piece| piece.error > share) {
             piece.rule += 1;
             if piece.rule == MOST_RULES {
                 return None;

@@ -398,14 +398,12 @@ bool Ig2_ConicPP_ConicPP_ScGeom::tracksEnergy() const { return scene && scene->t
 bool Ig2_ConicPP_ConicPP_ScGeom::fillPatch(PairInScene& pair, pp_status status, const pp_patch& patch, const Vector3r& origin,
                                            double sense)
 {
-    const Vector3r force(patch.force);
-    const double size = force.norm();
-    // Nowhere does the pressure exceed that of the largest depth: a force beyond is no answer.
-    const bool found = status == PP_OK && !(patch.flags & PP_PATCH_EMPTY) && patch.area > 0 && size > 0;
-    if (!found || size > 1.1 * patch.area * patch.largest_depth) {
+    if (!ContactPatch::isIn(status, patch)) {
         pair.counts.add(Count::patchFallbacks);
         return false;
     }
+    const Vector3r force(patch.force);
+    const double size = force.norm();
     pair.counts.add(Count::patches);
     if (patch.flags & PP_PATCH_CARRIED)
         pair.counts.add(Count::patchesCarried);

@@ -67,10 +67,7 @@ class Domain:
 
         Blocks are then cut by the planes of a region, too, as far as they meet it. The pieces of a block stay one piece of rock: bodies() glues them.
         """
-        for region in regions:
-            if not isinstance(region, Domain) or region.left_out:
-                raise ValueError(f"a region is {type(region).__name__}: give convex Domains that leave nothing out themselves")
-        return Domain(self.planes, (*self.left_out, *regions))
+        return Domain(self.planes, (*self.left_out, *convex(regions)))
 
     def ball(self):
         """Centre (3,) and radius of a ball that holds it, without regards to what is left out; ValueError if it is empty or open."""
@@ -80,3 +77,12 @@ class Domain:
         corners = np.frombuffer(read["corners"]).reshape(-1, 3)
         centre = 0.5 * (corners.min(0) + corners.max(0))
         return centre, float(np.linalg.norm(corners - centre, axis=1).max())
+
+
+def convex(regions):
+    """These regions as a list; ValueError unless each is a Domain that leaves nothing out."""
+    found = [regions] if isinstance(regions, Domain) else list(regions)
+    for region in found:
+        if not isinstance(region, Domain) or region.left_out:
+            raise ValueError(f"a region is {type(region).__name__}: give convex Domains that leave nothing out themselves")
+    return found

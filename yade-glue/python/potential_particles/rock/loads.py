@@ -49,8 +49,6 @@ def apply_loads(ids, loads):
     """
     import yade
     forces, loads = {}, loads_of(loads, len(ids))
-    if len(ids) and loads.shape[1] == 3:
-        loads = np.column_stack([loads, np.zeros_like(loads)])
     for one, load in zip(ids, loads):
         body = yade.O.bodies[int(one)]
         if body is None:

@@ -10,7 +10,7 @@ import typing
 import numpy as np
 
 from ..arguments import number, whole, within
-from .domain import Domain
+from .domain import Domain, convex
 from .joints import Joint, JointSet
 
 # The structs of potential_particles.h.
@@ -159,11 +159,9 @@ def slice(domain, joints, regions=(), least_volume=0.0, least_thickness=0.0, lea
     from .. import _glue
     if not isinstance(domain, Domain):
         raise ValueError(f"domain is {type(domain).__name__}, not a rock.Domain: Domain.box(lower, upper) makes one")
-    regions = [regions] if isinstance(regions, Domain) else list(regions)
+    regions = convex(regions)
     for region in regions:
-        if not isinstance(region, Domain) or region.left_out:
-            raise ValueError(f"a region is {type(region).__name__}: give convex Domains that leave nothing out themselves")
-        region.ball()
+        region.ball()  # raises where it is empty or open
     limits = {"least_volume": _not_negative(least_volume, "least_volume"), "least_thickness": _not_negative(least_thickness, "least_thickness"),
               "least_width": _not_negative(least_width, "least_width"), "largest_aspect": 0.0 if largest_aspect == math.inf else within(largest_aspect, 1.0, math.inf, "largest_aspect"),
               "threads": len(os.sched_getaffinity(0)) if threads is None else whole(threads, 1, "threads"),

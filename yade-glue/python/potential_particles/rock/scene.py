@@ -198,14 +198,14 @@ def _marked(chosen, count, name):
 
 
 def loads_of(loads, count):
-    """Forces, and torques if there are any, as an array (count, 3 or more); ValueError for others."""
+    """Forces and torques as an array (count, 6), torques 0 where only forces are given; ValueError for what is neither."""
     try:
         found = np.asarray(loads, float)
     except (TypeError, ValueError):
         found = np.zeros(0)
     if found.ndim != 2 or found.shape[0] != count or found.shape[1] not in (3, 6) or not np.isfinite(found).all():
         raise ValueError(f"loads must be ({count}, 6) finite numbers, force and torque of each block, as of water_pressure()")
-    return found
+    return np.column_stack([found, np.zeros((count, 6 - found.shape[1]))])
 
 
 def _shade(number):
