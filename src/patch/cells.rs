@@ -155,11 +155,11 @@ impl CellScratch {
         self.nodes.clear();
         let least = OF_COARSE * tolerance * self.network.rough_load;
         for triangle in 0..self.triangles.len() {
-            let with = |rule| self.part(triangle as u32, &WHOLE, rule);
+            let place = self.parts.len();
             let is_straight = self.triangles[triangle].0.is_nearly_straight();
-            let coarse = is_straight.then(|| with(Rule::Coarse)).flatten().filter(|(part, _)| part.error[0] <= least);
-            let part = coarse.or_else(|| with(Rule::Fine))?;
-            self.put(part, None);
+            if !(is_straight && self.part(triangle as u32, &WHOLE, Rule::Coarse, place)?.error[0] <= least) {
+                self.part(triangle as u32, &WHOLE, Rule::Fine, place)?;
+            }
         }
         loop {
             let mut sums = [0.0; INTEGRALS];
@@ -190,42 +190,35 @@ impl CellScratch {
                 if self.parts[i].error[0] >= least {
                     let Part { triangle, corners, .. } = self.parts[i];
                     for (which, quarter) in quarters(&corners).iter().enumerate() {
-                        let part = self.part(triangle, quarter, Rule::Fine)?;
-                        self.put(part, (which == 0).then_some(i));
+                        let place = if which == 0 { i } else { self.parts.len() };
+                        self.part(triangle, quarter, Rule::Fine, place)?;
                     }
                 }
             }
         }
     }
 
-    /// Integrates over a part of a triangle; `None` where the patch is no graph.
+    /// Integrates over a part of a triangle, and puts it in the place of another or after the last; `None` where the patch is no graph.
     #[inline(always)]
-    fn part(&self, triangle: u32, corners: &[[f64; 3]; 3], rule: Rule) -> Option<(Part, [Node; POINTS])> {
+    fn part(&mut self, triangle: u32, corners: &[[f64; 3]; 3], rule: Rule, place: usize) -> Option<&Part> {
+        let none = Node { x: [0.0; 3], weight: 0.0, pressure: 0.0, normal: [0.0; 2] };
+        self.nodes.resize(self.nodes.len().max(POINTS * (place + 1)), none);
+        let nodes = &mut self.nodes[POINTS * place..][..rule.count()];
         let (curved, form) = &self.triangles[triangle as usize];
-        let mut nodes = [Node { x: [0.0; 3], weight: 0.0, pressure: 0.0, normal: [0.0; 2] }; POINTS];
-        let Integrals { value, off } = curved.integrate(corners, form, rule, &mut nodes)?;
+        let Integrals { value, off } = curved.integrate(corners, form, rule, nodes)?;
         let square = |node: &Node| node.x[0] * node.x[0] + node.x[1] * node.x[1];
-        let reach = nodes[..rule.count()].iter().map(square).fold(0.0, f64::max).sqrt();
+        let reach = nodes.iter().map(square).fold(0.0, f64::max).sqrt();
         let (size, difference) = (norm(&value[..3]), norm(&off[..3]).max(norm(&off[3..6]) / reach));
         let of = |off: f64, size: f64| {
             if off > 0.0 { off * (OF_DIFFERENCE * off / (self.deepest * size)).min(1.0) } else { 0.0 }
         };
         let error = [of(difference, size), of(off[6].abs(), value[6])];
-        Some((Part { triangle, corners: *corners, rule, value, error }, nodes))
-    }
-
-    /// Adds a part, or puts it in the place of another.
-    fn put(&mut self, (part, nodes): (Part, [Node; POINTS]), place: Option<usize>) {
-        match place {
-            Some(i) => {
-                self.parts[i] = part;
-                self.nodes[POINTS * i..POINTS * (i + 1)].copy_from_slice(&nodes);
-            }
-            None => {
-                self.parts.push(part);
-                self.nodes.extend_from_slice(&nodes);
-            }
+        let part = Part { triangle, corners: *corners, rule, value, error };
+        match self.parts.get_mut(place) {
+            Some(other) => *other = part,
+            None => self.parts.push(part),
         }
+        self.parts.get(place)
     }
 }
 

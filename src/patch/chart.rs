@@ -92,14 +92,13 @@ impl Chart {
     /// The place for coordinates over s and an excess of the last plane over s, with their changes by two parameters.
     #[inline(always)]
     pub fn place(&self, a: [f64; 3], by: [[f64; 3]; 2], last: f64, last_by: [f64; 2]) -> Place {
-        let f = last - self.change(a);
-        let s = self.c / f;
+        let inverse = 1.0 / (last - self.change(a));
+        let s = self.c * inverse;
         let away = self.combine(a);
-        let [first, second] = [0, 1].map(|i| {
-            let f1 = last_by[i] - self.change(by[i]);
-            (-s * f1 / f) * away + s * self.combine(by[i])
-        });
-        (self.origin + s * away, first.cross(&second), s)
+        let along =
+            |by: [f64; 3], last_by: f64| (-s * (last_by - self.change(by)) * inverse) * away + s * self.combine(by);
+        let area = along(by[0], last_by[0]).cross(&along(by[1], last_by[1]));
+        (self.origin + s * away, area, s)
     }
 }
 
@@ -143,12 +142,12 @@ pub(super) fn turn(half: f64) -> (f64, f64, f64) {
 /// a parameter has no end: a border that is reached at an angle of 0.
 #[inline(always)]
 pub(super) fn node(x: Vector, area: Vector, s: f64, weight: f64) -> Option<Node> {
-    let area = if area.z < 0.0 { -area } else { area };
+    let inverse = 1.0 / area.z;
     let node = Node {
         x: x.into(),
-        weight: weight * area.z,
+        weight: weight * area.z.abs(),
         pressure: (1.0 - s).max(0.0),
-        normal: [area.x / area.z, area.y / area.z],
+        normal: [area.x * inverse, area.y * inverse],
     };
     (node.normal[0].abs() + node.normal[1].abs() < STEEPEST && node.weight < f64::INFINITY).then_some(node)
 }

@@ -7,12 +7,14 @@ use super::ray::Node;
 use super::rules::FINE;
 use super::strip::Strip;
 
-/// Number of rules.
-pub(super) const MOST_RULES: usize = 5;
+/// Points of the rules of a strip, across and along, from coarse to fine.
+const OF_STRIPS: [[usize; 2]; 5] = [[3, 2], [3, 3], [4, 4], [5, 8], [8, 14]];
 
-/// Points of the rules, from coarse to fine: across a strip, along it, in a cap, in a disc outwards and around.
-const RULES: [[usize; 5]; MOST_RULES] =
-    [[3, 2, 1, 3, 7], [3, 2, 2, 3, 7], [4, 4, 3, 4, 10], [5, 8, 5, 6, 14], [8, 14, 8, 10, 24]];
+/// Of a cap, in both angles.
+const OF_CAPS: [usize; 5] = [1, 2, 3, 5, 8];
+
+/// Of a disc, outwards and around.
+const OF_DISCS: [[usize; 2]; 4] = [[3, 7], [4, 10], [6, 14], [10, 24]];
 
 /// Part of a cap's load by which rules of one point and of two in each angle are wrong at most, about: the difference of the two may vanish by
 /// chance.
@@ -22,11 +24,14 @@ const COARSE_CAP: [f64; 2] = [0.3, 0.1];
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Piece {
     pub kind: Kind,
-    /// The rule in use.
-    pub rule: usize,
+    /// The rule in use, of those of its kind.
+    rule: usize,
     /// What is neglected: of the force.
     pub neglected: f64,
-    pub error: f64,
+    /// Estimated errors of force and area.
+    pub errors: [f64; 2],
+    /// Where its points are.
+    nodes: (usize, usize),
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -37,9 +42,23 @@ pub(super) enum Kind {
 }
 
 impl Piece {
-    /// Appends its points; the estimated errors of force and area from a coarser rule.
-    pub fn integrate(&self, tolerance: f64, deepest: f64, nodes: &mut Vec<Node>) -> Option<(f64, f64)> {
-        let [across, along, cap, outwards, around] = RULES[self.rule];
+    pub fn new(kind: Kind, neglected: f64) -> Self {
+        Self { kind, rule: 0, neglected, errors: [0.0; 2], nodes: (0, 0) }
+    }
+
+    /// The next finer rule: of a cap one that may bring its error, so far no more than assumed, to a share.
+    pub fn refine(&mut self, share: f64) {
+        let skips = matches!(self.kind, Kind::Cap(_))
+            && self.rule == 0
+            && self.errors[0] * COARSE_CAP[1] > share * COARSE_CAP[0];
+        self.rule += 1 + usize::from(skips);
+    }
+
+    /// Appends its points, takes the weight of those of its last rule, and estimates the errors from a coarser rule. `None` where the
+    /// patch is no graph, and after the finest rule.
+    pub fn integrate(&mut self, tolerance: f64, deepest: f64, nodes: &mut Vec<Node>) -> Option<()> {
+        nodes[self.nodes.0..self.nodes.1].iter_mut().for_each(|node| node.weight = 0.0);
+        let first = nodes.len();
         let mut fine = [0.0; 4];
         let mut coarse = [0.0; 4];
         let add = |sums: &mut [f64; 4], node: &Node| {
@@ -57,18 +76,23 @@ impl Piece {
         let only = |node: Node| add(&mut coarse, &node);
         match &self.kind {
             Kind::Strip(strip) => {
+                let [across, along] = *OF_STRIPS.get(self.rule)?;
                 strip.integrate(across, along, into)?;
                 strip.integrate(across - 1, along - 1, only)?;
             }
-            Kind::Cap(zone) => {
-                zone.integrate(cap, into)?;
-                if let Some(part) = COARSE_CAP.get(cap - 1) {
+            Kind::Cap(cap) => {
+                let points = *OF_CAPS.get(self.rule)?;
+                cap.integrate(points, into)?;
+                if let Some(part) = COARSE_CAP.get(self.rule) {
                     let size = Vector::new(fine[0], fine[1], fine[2]).norm();
-                    return Some((part * size, part * fine[3]));
+                    self.errors = [part * size, part * fine[3]];
+                    self.nodes = (first, nodes.len());
+                    return Some(());
                 }
-                zone.integrate(cap - 1, only)?;
+                cap.integrate(points - 1, only)?;
             }
             Kind::Disc(disc) => {
+                let [outwards, around] = *OF_DISCS.get(self.rule)?;
                 disc.integrate(outwards, around, into)?;
                 disc.integrate(outwards - 1, around - 2, only)?;
             }
@@ -80,6 +104,8 @@ impl Piece {
         let of = |off: f64, size: f64| {
             if off > 0.0 { off * (3.0 * off / (deepest * size)).clamp(least, 1.0) } else { 0.0 }
         };
-        Some((of(off, size), of((fine[3] - coarse[3]).abs(), fine[3])))
+        self.errors = [of(off, size), of((fine[3] - coarse[3]).abs(), fine[3])];
+        self.nodes = (first, nodes.len());
+        Some(())
     }
 }

@@ -3,7 +3,7 @@
 
 use super::chart::{Vector, normal};
 use super::field::{Field, Owner};
-use super::piece::{MOST_RULES, Piece};
+use super::piece::Piece;
 use super::polygon::{Corner, Level, integrate};
 use super::ray::Node;
 use super::zones::Zones;
@@ -75,41 +75,36 @@ pub(super) fn pieces(
     } else {
         zones.edge_or_disc(active, &at, tolerance)?;
     }
-    let flat = nodes.len();
-    refine(&mut scratch.pieces, flat, tolerance, deepest, nodes)
+    refine(&mut scratch.pieces, tolerance, deepest, nodes)
 }
 
 /// Integrates over all pieces, with finer rules where the error is above its share; `deepest`: the least S.
-fn refine(pieces: &mut [Piece], flat: usize, tolerance: f64, deepest: f64, nodes: &mut Vec<Node>) -> Option<Estimate> {
-    for _ in 0..MOST_RULES {
-        nodes.truncate(flat);
-        let mut estimate = Estimate::default();
-        for piece in pieces.iter_mut() {
-            let (force, area) = piece.integrate(tolerance, deepest, nodes)?;
-            piece.error = force;
-            estimate.force += force + piece.neglected;
-            estimate.area += area;
-        }
+fn refine(pieces: &mut [Piece], tolerance: f64, deepest: f64, nodes: &mut Vec<Node>) -> Option<Estimate> {
+    for piece in pieces.iter_mut() {
+        piece.integrate(tolerance, deepest, nodes)?;
+    }
+    loop {
         let force: f64 = nodes.iter().map(|node| node.weight * node.pressure).sum();
         if !(force > 0.0) {
             return None;
         }
         let limit = SHARE * tolerance * force;
-        if estimate.force <= limit {
-            return Some(estimate);
+        let neglected: f64 = pieces.iter().map(|piece| piece.neglected).sum();
+        let [force, area] = [0, 1].map(|i| pieces.iter().map(|piece| piece.errors[i]).sum::<f64>());
+        if force + neglected <= limit {
+            // What a finer rule has replaced has no weight.
+            nodes.retain(|node| node.weight > 0.0);
+            return Some(Estimate { force: force + neglected, area, rays: 0 });
         }
-        if pieces.iter().map(|piece| piece.neglected).sum::<f64>() > 0.9 * limit {
+        if neglected > 0.9 * limit {
             return None;
         }
         let share = 0.15 * limit / pieces.len() as f64;
-        for piece in pieces.iter_mut().filter(|piece| piece.error > share) {
-            piece.rule += 1;
-            if piece.rule == MOST_RULES {
-                return None;
-            }
+        for piece in pieces.iter_mut().filter(|piece| piece.errors[0] > share) {
+            piece.refine(share);
+            piece.integrate(tolerance, deepest, nodes)?;
         }
     }
-    None
 }
 
 impl PieceScratch {

@@ -151,8 +151,9 @@ impl Strip {
     fn at(&self, theta: f64, along: f64) -> Place {
         let (sin, cos, rate) = turn(theta);
         let (f, f1) = self.denominator(sin, cos);
-        let s = (self.chart.c + self.chart.slopes[2] * along) / f;
-        let (by_theta, by_along) = (-s * f1 / f, self.chart.slopes[2] / f);
+        let inverse = 1.0 / f;
+        let s = (self.chart.c + self.chart.slopes[2] * along) * inverse;
+        let (by_theta, by_along) = (-s * f1 * inverse, self.chart.slopes[2] * inverse);
         let [d, e, t] = self.chart.arms;
         let r = self.radii[0];
         let outwards = r * (cos * d + sin * e);
@@ -164,15 +165,16 @@ impl Strip {
     /// Gauss' rule of points across and along.
     pub fn integrate(&self, across: usize, along: usize, mut visit: impl FnMut(Node)) -> Option<()> {
         let [(first, t0), (last, t1)] = self.corners;
-        let mut widths = [(0.0, 0.0); MOST_POINTS];
-        for (width, (tau, _)) in widths.iter_mut().zip(&gauss(along).nodes[..along]) {
+        let mut stations = [(0.0, 0.0, 0.0, 0.0); MOST_POINTS];
+        for (station, (sigma, weight)) in stations.iter_mut().zip(&gauss(along).nodes[..along]) {
+            let (tau, weight) = self.along(*sigma, *weight);
             let (wide, by_along) = self.width(t0 + tau * (t1 - t0));
-            *width = (wide, if first == last { 0.0 } else { by_along * (t1 - t0) });
+            *station = (tau, weight, wide, if first == last { 0.0 } else { by_along * (t1 - t0) });
         }
         for (lambda, weight) in &gauss(across).nodes[..across] {
             let [(from, from1), (to, to1)] =
                 [self.end(0, self.start + lambda * first), self.end(1, self.start + lambda * last)];
-            for ((tau, weight_along), (width, width_by_tau)) in gauss(along).nodes[..along].iter().zip(&widths) {
+            for (tau, weight_along, width, width_by_tau) in &stations[..along] {
                 let theta = self.start + lambda * width;
                 let jacobian =
                     width * (to - from) - lambda * width_by_tau * (from1 * first * (1.0 - tau) + to1 * last * tau);
@@ -181,5 +183,15 @@ impl Strip {
             }
         }
         Some(())
+    }
+
+    /// Place and weight along the strip: towards an end where s = 1 it narrows as a root does, which the square of the rest makes smooth.
+    #[inline(always)]
+    fn along(&self, sigma: f64, weight: f64) -> (f64, f64) {
+        match self.ends {
+            [End::At(_), End::Line { .. }] => (sigma * sigma, 2.0 * sigma * weight),
+            [End::Line { .. }, End::At(_)] => (1.0 - (1.0 - sigma) * (1.0 - sigma), 2.0 * (1.0 - sigma) * weight),
+            _ => (sigma, weight),
+        }
     }
 }

@@ -139,9 +139,17 @@ impl CurvedTriangle {
         (x, by[0][0] * by[1][1] - by[0][1] * by[1][0])
     }
 
-    /// Whether it turns counter-clockwise all over its points.
+    /// Whether it turns counter-clockwise all over its points: everywhere, if the Bernstein coefficients of the Jacobian, which is a
+    /// quadratic, are positive.
     pub fn is_regular(&self) -> bool {
-        FINE.iter().all(|(l, ..)| self.at(l).1 > 0.0)
+        let at_corner = WHOLE.map(|l| self.at(&l).1);
+        let in_between = |i: usize| {
+            let (here, next) = (&WHOLE[i], &WHOLE[(i + 1) % 3]);
+            let middle = self.at(&[0, 1, 2].map(|j| 0.5 * (here[j] + next[j]))).1;
+            2.0 * middle - 0.5 * (at_corner[i] + at_corner[(i + 1) % 3])
+        };
+        at_corner.iter().all(|c| *c > 0.0) && (0..3).all(|i| in_between(i) > 0.0)
+            || FINE.iter().all(|(l, ..)| self.at(l).1 > 0.0)
     }
 
     /// Whether its sides are straight enough for the coarse rule, whose degree a curved side uses up.

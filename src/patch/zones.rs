@@ -130,7 +130,7 @@ impl Zones<'_, '_, '_> {
             // The ends cross before the rim.
             neglected += width * (first.abs() + last.abs()) * strip.depth().max(0.0);
         }
-        self.push(Kind::Strip(strip), 1, &outline, &ends, neglected);
+        self.push(Kind::Strip(strip), &outline, &ends, neglected);
     }
 
     fn cap(&mut self, cap: Cap, active: &[u32]) {
@@ -138,7 +138,7 @@ impl Zones<'_, '_, '_> {
         let corner = cap.corner();
         let size = (outline[0] - corner).norm() * (outline[1] - corner).norm();
         let neglected = self.neglected(&outline, size, active) + size * cap.rise();
-        self.push(Kind::Cap(cap), 0, &[outline[0], outline[1], outline[2], corner], &[], neglected);
+        self.push(Kind::Cap(cap), &[outline[0], outline[1], outline[2], corner], &[], neglected);
     }
 
     /// What planes may change, over an area, that are on at one of these places though they do not count as active, or the reverse.
@@ -156,9 +156,9 @@ impl Zones<'_, '_, '_> {
     }
 
     /// Adds a zone with these places on its border, which ends at `ends`; what else of it lies outside a triangle is neglected, too.
-    fn push(&mut self, kind: Kind, rule: usize, border: &[Vector], ends: &[u32], neglected: f64) {
+    fn push(&mut self, kind: Kind, border: &[Vector], ends: &[u32], neglected: f64) {
         let neglected = neglected + self.beyond_edges(border, ends);
-        self.pieces.push(Piece { kind, rule, neglected, error: 0.0 });
+        self.pieces.push(Piece::new(kind, neglected));
     }
 
     /// Bound on ∫ p over the part of a zone that lies outside the triangle, since p ≤ 1; the edges in `ends` cut nothing off.
@@ -217,7 +217,7 @@ impl Zones<'_, '_, '_> {
         }
         let active = [three[0], three[1], three[2], last.unwrap_or(usize::MAX)].map(|k| k as u32);
         let neglected = self.neglected(&wider, across, &active);
-        self.push(Kind::Disc(disc), 1, &outline, &[], neglected);
+        self.push(Kind::Disc(disc), &outline, &[], neglected);
         Some(())
     }
 
