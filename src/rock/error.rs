@@ -31,14 +31,14 @@ pub enum RockError {
     },
     /// Corners that make no joint, and what they must do.
     #[error("the corners of a joint must {0}")]
-    NoPolygon(&'static str),
+    NoPolygon(String),
     /// The same of one of several joints.
     #[error("the corners of joint {joint} must {must}")]
     NoOutline {
         /// Index of the joint.
         joint: usize,
         /// What its corners must do.
-        must: &'static str,
+        must: String,
     },
     /// The planes of the domain enclose no volume.
     #[error("the domain is empty: no point lies inside of all its planes; normals have to point outwards")]
@@ -46,6 +46,16 @@ pub enum RockError {
     /// The planes of the domain leave a side open.
     #[error("the domain is open: its planes leave a direction in which it never ends")]
     Open,
+    /// More blocks than are allowed would be made: told before the first joint cuts.
+    #[error(
+        "some {expected:.0} blocks are expected, more than most_blocks = {most}: fewer joints, larger spacings or a larger most_blocks"
+    )]
+    TooManyExpected {
+        /// Blocks that planes in general position would make at least; of many joints an estimate.
+        expected: f64,
+        /// The limit.
+        most: usize,
+    },
     /// More blocks than were allowed.
     #[error("joint {joint} makes more than {most} blocks: fewer joints, a larger least_volume or a larger most_blocks")]
     TooManyBlocks {

@@ -62,18 +62,31 @@ impl Joint {
         let edge = |i: usize| corners[(i + 1) % count] - corners[i];
         let doubled = (0..count).map(|i| (corners[i] - point).cross(&edge(i))).sum::<Vector3<f64>>();
         let normal = doubled.normalize();
-        let is_flat = |at: &Vector3<f64>| (at - point).dot(&normal).abs() <= FLAT * radius;
-        if count < 3 || !(doubled.norm() > FLAT * radius * radius) || !corners.iter().all(is_flat) {
-            return Err(RockError::NoPolygon("lie in one plane, three or more and not on one line"));
+        let off = |at: &Vector3<f64>| (at - point).dot(&normal).abs();
+        let must = |what: &str| RockError::NoPolygon(what.to_string());
+        if count < 3 {
+            return Err(must("be three or more"));
+        }
+        if !(doubled.norm() > FLAT * radius * radius) {
+            return Err(must("be finite, and not all on one line"));
+        }
+        if let Some(i) = (0..count).find(|&i| !(off(&corners[i]) <= FLAT * radius)) {
+            return Err(must(&format!("lie in one plane: corner {i} is {:.1e} off it", off(&corners[i]))));
         }
         // Turns to the left that sum to one turn: a star has two.
         let turn = |i: usize| {
             let (here, next) = (edge(i), edge((i + 1) % count));
             here.cross(&next).dot(&normal).atan2(here.dot(&next))
         };
+        if let Some(i) = (0..count).find(|&i| turn(i) < -FLAT) {
+            return Err(must(&format!(
+                "be those of a convex polygon, in their order: it turns inwards at corner {}",
+                (i + 1) % count
+            )));
+        }
         let turned = (0..count).map(turn).sum::<f64>();
-        if (0..count).any(|i| turn(i) < -FLAT) || (turned - TAU).abs() > 0.1 {
-            return Err(RockError::NoPolygon("be those of a convex polygon, in their order"));
+        if (turned - TAU).abs() > 0.1 {
+            return Err(must("be those of a convex polygon, in their order: they go around more than once"));
         }
         Ok(Self { point, normal, radius, outline: Some(corners) })
     }
@@ -91,6 +104,14 @@ impl Joint {
     pub(super) fn about(&self, origin: &Vector3<f64>, normal: Vector3<f64>) -> Self {
         let outline = self.outline.as_ref().map(|outline| outline.iter().map(|at| at - origin).collect());
         Self { point: self.point - origin, normal, radius: self.radius, outline }
+    }
+
+    /// Unit normals and heights of planes across the joint's own, between which a polygon lies; none of other joints.
+    pub(super) fn borders(&self) -> impl Iterator<Item = (Vector3<f64>, f64)> {
+        sides(self.outline.as_deref().unwrap_or_default()).map(|(from, side)| {
+            let outwards = side.cross(&self.normal).normalize();
+            (outwards, outwards.dot(&from))
+        })
     }
 
     /// Whether the disc or polygon and a convex polygon in its plane, corners in order, have a point in common.
@@ -204,16 +225,13 @@ mod tests {
         );
         assert!((joint.radius - 1.25f64.sqrt()).abs() < 1e-15);
         let text = |corners: &[[f64; 3]]| Joint::polygon(corners).unwrap_err().to_string();
-        assert!(text(&square[..2]).contains("three or more") && text(&[[0.0; 3]; 4]).contains("not on one line"));
-        assert!(text(&[[f64::NAN; 3]; 4]).contains("one plane"));
+        assert!(text(&square[..2]).contains("three or more") && text(&[[0.0; 3]; 4]).contains("not all on one line"));
+        assert!(text(&[[f64::NAN; 3]; 4]).contains("finite"));
         let [a, b, c, d] = square;
-        assert!(
-            text(&[a, b, c, [0.0, 1.0, 1.1]]).contains("in one plane")
-                && text(&[a, c, b, [0.0, 2.0, 1.0]]).contains("convex")
-        );
-        assert!(
-            text(&[a, b, [1.0, 0.1, 1.0], d]).contains("convex") && Joint::polygon(&[a, b, [1.0, 0.5, 1.0], d]).is_ok()
-        );
+        assert!(text(&[a, b, c, [0.0, 1.0, 1.1]]).contains("in one plane: corner 0 is 2.5e-2 off it"));
+        assert!(text(&[a, c, b, [0.0, 2.0, 1.0]]).contains("convex"));
+        assert!(text(&[a, b, [1.0, 0.1, 1.0], d]).contains("inwards at corner 2"));
+        assert!(Joint::polygon(&[a, b, [1.0, 0.5, 1.0], d]).is_ok());
         let star: Vec<[f64; 3]> =
             (0..5).map(|i| (2.0 * TAU * f64::from(i) / 5.0).sin_cos()).map(|(s, c)| [c, s, 0.0]).collect();
         assert!(text(&star).contains("convex"));

@@ -10,6 +10,7 @@
 //! | `block` | what is cut out, with the joint or the side of the domain that each face comes from |
 //! | `settings` | limits of a rock mass |
 //! | `domain` | the polyhedron of the domain, and all planes |
+//! | `expected` | how many blocks joints will make |
 //! | `cutting` | what one plane makes of one part of the domain |
 //! | `regions` | what regions make of a part that joints have left |
 //! | `round` | what some joints make of many parts, on several threads |
@@ -22,6 +23,7 @@ mod block;
 mod cutting;
 mod domain;
 mod error;
+mod expected;
 mod joint;
 mod joint_set;
 mod partners;

@@ -13,7 +13,7 @@ pub struct SliceSettings {
     pub least_width: f64,
     /// Or if its extent along x, y or z would be more than so many times that diameter.
     pub largest_aspect: f64,
-    /// More blocks than this are an error.
+    /// More blocks than this are an error: where none of the limits above is set, it is told before the first joint cuts if more are expected.
     pub most_blocks: usize,
     /// How many threads cut, the calling one among them; 0 is 1. The blocks and their order are, to the last bit, the same for any number.
     pub threads: usize,
@@ -33,6 +33,14 @@ impl Default for SliceSettings {
 }
 
 impl SliceSettings {
+    /// Whether parts may be too small to be made.
+    pub(super) fn leaves_out(&self) -> bool {
+        self.least_volume > 0.0
+            || self.least_thickness > 0.0
+            || self.least_width > 0.0
+            || self.largest_aspect.is_finite()
+    }
+
     pub(super) fn validate(&self) -> Result<(), RockError> {
         within(self.least_volume, self.least_volume >= 0.0, "least_volume", "a volume of 0 or above")?;
         within(self.least_thickness, self.least_thickness >= 0.0, "least_thickness", "a length of 0 or above")?;

@@ -3,8 +3,9 @@
 use crate::particle::plane::Plane;
 use crate::rock::block::Block;
 use crate::rock::cutting::{Cuts, Part, Workbench};
-use crate::rock::domain::{enclosed, faces, unit_planes};
+use crate::rock::domain::{Oriented, enclosed, faces, unit_planes};
 use crate::rock::error::RockError;
+use crate::rock::expected::expected_blocks;
 use crate::rock::joint::Joint;
 use crate::rock::regions::parted;
 use crate::rock::round::{self, Round};
@@ -66,7 +67,15 @@ pub fn slice_with_regions(
     let outer = unit_planes(domain).map_err(RockError::NoPlane)?;
     let (origin, polyhedron) = enclosed(&outer)?;
     let planes = faces(&outer, joints, regions, &origin)?;
-    let local = joints.iter().zip(&planes[domain.len()..]).map(|(joint, (_, n, _))| joint.about(&origin, *n)).collect();
+    let local: Vec<Joint> =
+        joints.iter().zip(&planes[domain.len()..]).map(|(joint, (_, n, _))| joint.about(&origin, *n)).collect();
+    if !settings.leaves_out() {
+        let about = |(n, d): &Oriented| (*n, d - n.dot(&origin));
+        let expected = expected_blocks(&polyhedron, &outer.iter().map(about).collect::<Vec<_>>(), &local);
+        if expected > settings.most_blocks as f64 {
+            return Err(RockError::TooManyExpected { expected, most: settings.most_blocks });
+        }
+    }
     let cuts = Cuts::new(&polyhedron, &planes, local, domain.len(), settings);
     let sizes: Vec<usize> = regions.iter().map(Vec::len).collect();
     let block = |parent, part: &Part, region, bench: &mut Workbench| {

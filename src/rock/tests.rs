@@ -295,8 +295,12 @@ fn bad_domains_are_told() {
     assert_eq!(error(&turned, &[], &none), RockError::NoPlane(0));
     let least = SliceSettings { least_volume: f64::NAN, ..none };
     assert!(error(&domain, &[], &least).to_string().contains("least_volume = NaN must be"));
-    // The joint that makes one block too many is found by the counts, however many joints a round has.
     let joints = random_joints(4, 40, [0.0; 3], 0.2);
+    let few = SliceSettings { most_blocks: 2000, ..none };
+    let RockError::TooManyExpected { expected, most: 2000 } = error(&domain, &joints, &few) else { panic!("many") };
+    assert_eq!(expected, slice(&domain, &joints, &none).unwrap().blocks.len() as f64);
+    // With a limit on size, the joint that makes one block too many is found by the counts, however many joints a round has.
+    let none = SliceSettings { least_volume: f64::MIN_POSITIVE, ..none };
     let count = |joints: &[Joint]| slice(&domain, joints, &none).unwrap().blocks.len();
     for most_blocks in [5, 100, 2000] {
         let joint = (0..40).find(|&joint| count(&joints[..=joint]) > most_blocks).unwrap();

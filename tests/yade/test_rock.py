@@ -109,7 +109,7 @@ for text, action in (
         ("dip=95", lambda: rock.JointSet(95, 0, 1)), ("spacing=0", lambda: rock.JointSet(5, 0, 0)), ("fisher=-1", lambda: rock.JointSet(5, 0, 1, fisher=-1)),
         ("radius=0", lambda: rock.joint((0, 0, 0), 5, 0, 0)), ("must be finite", lambda: rock.joint((0, 0, math.nan), 5, 0)),
         ("the domain is open", lambda: rock.slice(Domain([(0, 0, 1, 1)]), sets)), ("the domain is empty", lambda: rock.slice(cube.below((0, 0, -5), 0, 0), sets)),
-        ("more than 7 blocks", lambda: rock.slice(slope, sets, most_blocks=7)), ("not a rock.Domain", lambda: rock.slice([(0, 0, 1, 1)], sets)),
+        ("more than most_blocks = 7", lambda: rock.slice(slope, sets, most_blocks=7)), ("not a rock.Domain", lambda: rock.slice([(0, 0, 1, 1)], sets)),
         ("joints[0] holds float", lambda: rock.slice(cube, [[1.5]])), ("least_volume=-1", lambda: rock.slice(cube, [], least_volume=-1)),
         ("must lie below", lambda: Domain.box((0, 0, 0), (1, 0, 1))), ("a region is list", lambda: rock.slice(cube, [], regions=[[1]])),
         ("at most 10 million joints", lambda: rock.slice(cube, [rock.JointSet(5, 0, 1e-8)])), ("r=0.7", lambda: rock.bodies(mass, r=0.7)),
