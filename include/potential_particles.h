@@ -935,6 +935,9 @@ typedef struct pp_block_face {
     double plane[4];
     // Area.
     double area;
+    // The part of it that lies in the true extent of its joint, a disc or polygon; all of it where the joint
+    // has no end, 0 on other planes.
+    double jointed_area;
     // Index of its first corner; the others follow, counter-clockwise from outside.
     uint64_t first_corner;
     // How many corners it has.

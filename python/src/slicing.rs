@@ -126,6 +126,12 @@ impl PyBlock {
         to_vector(py, &self.block().faces.iter().map(|face| face.area).collect::<Vec<_>>())
     }
 
+    /// (n,): the part of each that lies in the true extent of its joint, a disc or polygon; all of it where the joint has no end, 0 on other planes.
+    #[getter]
+    fn jointed_areas<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        to_vector(py, &self.block().faces.iter().map(|face| face.jointed_area).collect::<Vec<_>>())
+    }
+
     /// Corners of each face, counter-clockwise from outside.
     #[getter]
     fn polygons<'py>(&self, py: Python<'py>) -> Vec<Bound<'py, PyArray2<f64>>> {

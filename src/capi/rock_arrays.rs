@@ -71,6 +71,9 @@ pub struct pp_block_face {
     pub plane: [f64; 4],
     /// Area.
     pub area: f64,
+    /// The part of it that lies in the true extent of its joint, a disc or polygon; all of it where the joint
+    /// has no end, 0 on other planes.
+    pub jointed_area: f64,
     /// Index of its first corner; the others follow, counter-clockwise from outside.
     pub first_corner: u64,
     /// How many corners it has.
@@ -171,6 +174,7 @@ pub unsafe extern "C" fn pp_rock_faces(
                     index: index as u64,
                     plane: [n.x, n.y, n.z, offset],
                     area: face.area,
+                    jointed_area: face.jointed_area,
                     first_corner,
                     corner_count: block.corners_of(face).len() as u64,
                     block: number as u64,

@@ -30,6 +30,9 @@ pub struct BlockFace {
     pub plane: Plane,
     /// Area.
     pub area: f64,
+    /// The part of it that lies in the true extent of its joint, a disc or polygon: what else of it was rock. All of it where the joint has no end,
+    /// 0 on other planes.
+    pub jointed_area: f64,
     /// Its corners among those of the block.
     first: u32,
     count: u32,
@@ -53,12 +56,14 @@ pub struct Block {
 }
 
 impl Block {
-    /// From the faces of a polyhedron about `origin`, and a point inside; `plane`: what they come from and their unit normals and heights, by their numbers.
+    /// From the faces of a polyhedron about `origin`, and a point inside; `plane`: what they come from and their unit normals and heights, by their numbers;
+    /// `shared`: what a joint's extent shares with corners in its plane, `None` of one without end.
     pub(super) fn of(
         outlines: &Outlines,
         inside: &Vector3<f64>,
         origin: &Vector3<f64>,
         plane: impl Fn(usize) -> (FaceOf, Vector3<f64>, f64),
+        shared: impl Fn(usize, &[Vector3<f64>]) -> Option<f64>,
     ) -> Self {
         let mut faces = Vec::with_capacity(outlines.len());
         let mut all = Vec::with_capacity(outlines.corner_count());
@@ -81,7 +86,12 @@ impl Block {
             let plane = Plane { normal, offset: height + normal.dot(origin) };
             let (first, count) = (all.len() as u32, corners.len() as u32);
             all.extend(corners.iter().map(|at| at + origin));
-            faces.push(BlockFace { of, plane, area: 0.5 * doubled.norm(), first, count });
+            let area = 0.5 * doubled.norm();
+            let jointed_area = match of {
+                FaceOf::Joint(joint) => shared(joint, corners).map_or(area, |shared| shared.min(area)),
+                _ => 0.0,
+            };
+            faces.push(BlockFace { of, plane, area, jointed_area, first, count });
         }
         let centroid = origin + (pole + moment / volume);
         Self { volume, centroid, faces, corners: all, parent: 0, region: None }

@@ -92,6 +92,12 @@ impl<'a> Cuts<'a> {
         self.planes[number - OF_CUBE]
     }
 
+    /// The area that a joint which ends shares with a polygon in its plane, about the origin of the polyhedra.
+    pub fn shared_area(&self, joint: usize, polygon: &[Vector3<f64>]) -> Option<f64> {
+        let joint = &self.joints[joint];
+        joint.radius.is_finite().then(|| joint.shared_area(polygon))
+    }
+
     /// Unit normal and height of the plane of a face.
     pub fn plane(&self, number: usize) -> (Vector3<f64>, f64) {
         let (_, n, height) = self.face(number);

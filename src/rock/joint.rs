@@ -114,6 +114,22 @@ impl Joint {
         })
     }
 
+    /// The area that a convex polygon in its plane, corners in order, shares with the disc or polygon.
+    pub(super) fn shared_area(&self, polygon: &[Vector3<f64>]) -> f64 {
+        // Corners about the point of the joint, along two axes of its plane.
+        let across = self.normal.cross(&Vector3::ith(self.normal.iamin(), 1.0)).normalize();
+        let axes = [across, self.normal.cross(&across)];
+        let flat = |at: &Vector3<f64>| axes.map(|axis| axis.dot(&(at - self.point)));
+        let mut corners: Vec<[f64; 2]> = polygon.iter().map(flat).collect();
+        for (n, height) in self.borders() {
+            let normal = axes.map(|axis| axis.dot(&n));
+            clip(&mut corners, normal, height - n.dot(&self.point));
+        }
+        let radius = if self.outline.is_some() { f64::INFINITY } else { self.radius };
+        let pairs = corners.iter().zip(corners.iter().cycle().skip(1));
+        pairs.map(|(a, b)| within_circle(radius, *a, *b)).sum::<f64>().abs()
+    }
+
     /// Whether the disc or polygon and a convex polygon in its plane, corners in order, have a point in common.
     pub(super) fn meets(&self, polygon: &[Vector3<f64>]) -> bool {
         match &self.outline {
@@ -145,6 +161,46 @@ impl Joint {
         }
         nearest <= self.radius || !(signs[0] && signs[1])
     }
+}
+
+/// Takes from a convex polygon of the plane what lies beyond a line.
+fn clip(corners: &mut Vec<[f64; 2]>, normal: [f64; 2], height: f64) {
+    let above = |[x, y]: [f64; 2]| normal[0] * x + normal[1] * y - height;
+    let mut left = Vec::with_capacity(corners.len() + 1);
+    for (i, &a) in corners.iter().enumerate() {
+        let b = corners[(i + 1) % corners.len()];
+        let (here, next) = (above(a), above(b));
+        if here <= 0.0 {
+            left.push(a);
+        }
+        if (here <= 0.0) != (next <= 0.0) {
+            let share = here / (here - next);
+            left.push([0, 1].map(|c| a[c] + share * (b[c] - a[c])));
+        }
+    }
+    *corners = left;
+}
+
+/// Signed area that the triangle of the origin, a and b shares with a circle about the origin: counter-clockwise counts positive.
+fn within_circle(radius: f64, a: [f64; 2], b: [f64; 2]) -> f64 {
+    let cross = |p: [f64; 2], q: [f64; 2]| p[0] * q[1] - p[1] * q[0];
+    let dot = |p: [f64; 2], q: [f64; 2]| p[0] * q[0] + p[1] * q[1];
+    let way = [b[0] - a[0], b[1] - a[1]];
+    // Where the line from a to b enters the circle and leaves it, in parts of the way.
+    let (square, middle) = (dot(way, way), -dot(a, way));
+    let rest = middle * middle - square * (dot(a, a) - radius * radius);
+    if radius == f64::INFINITY || square == 0.0 {
+        return 0.5 * cross(a, b);
+    }
+    let sector = |p: [f64; 2], q: [f64; 2]| 0.5 * radius * radius * cross(p, q).atan2(dot(p, q));
+    let [enters, leaves] = [-1.0, 1.0].map(|sign| ((middle + sign * rest.max(0.0).sqrt()) / square).clamp(0.0, 1.0));
+    if !(rest > 0.0) || leaves <= enters {
+        return sector(a, b);
+    }
+    let [p, q] = [enters, leaves].map(|t| [0, 1].map(|c| a[c] + t * way[c]));
+    let before = if enters > 0.0 { sector(a, p) } else { 0.0 };
+    let after = if leaves < 1.0 { sector(q, b) } else { 0.0 };
+    before + 0.5 * cross(p, q) + after
 }
 
 /// The sides of a polygon with the corners at which they begin, but for those so short that their direction is rounding: where more than three planes meet
@@ -214,6 +270,46 @@ mod tests {
             if expected { together += 1 } else { apart += 1 }
         }
         assert!(apart > 50 && together > 50, "{apart} {together}");
+    }
+
+    /// Against closed forms, and the share of points drawn in the polygon that lie in the joint.
+    #[test]
+    fn shared_areas_are_those_of_points() {
+        let square = [[0.0, 0.0], [2.0, 0.0], [2.0, 2.0], [0.0, 2.0]].map(|[x, y]| Vector3::new(x, y, 0.0));
+        let disc = |x: f64, y: f64, radius| Joint::new([x, y, 0.0], 0.0, 0.0).unwrap().with_radius(radius).unwrap();
+        let quarter = TAU / 8.0;
+        let cases =
+            [(disc(1.0, 1.0, 0.5), quarter), (disc(0.0, 0.0, 1.0), quarter), (disc(1.0, 2.0, 1.0), 2.0 * quarter)];
+        for (joint, area) in cases {
+            assert!((joint.shared_area(&square) - area).abs() < 1e-14);
+        }
+        assert_eq!(disc(1.0, 1.0, 9.0).shared_area(&square), 4.0);
+        assert!(disc(5.0, 1.0, 1.0).shared_area(&square).abs() < 1e-14);
+        assert!((Joint::new([3.0, 1.0, 0.0], 0.0, 0.0).unwrap().shared_area(&square) - 4.0).abs() < 1e-15);
+        let mut random = Random::new(7, 0);
+        let normal = random.direction();
+        let axes = [normal.cross(&Vector3::x()).normalize(), normal.cross(&normal.cross(&Vector3::x())).normalize()];
+        let at = |x: f64, y: f64| x * axes[0] + y * axes[1];
+        let square = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]].map(|[x, y]| at(x, y));
+        for case in 0..20 {
+            let centre = [random.between(-1.0, 1.0), random.between(-1.0, 1.0)];
+            let radius = random.between(0.3, 1.5);
+            let turn = random.between(0.0, TAU);
+            let corner = |i: usize| (turn + TAU * i as f64 / 5.0).sin_cos();
+            let polygon: Vec<_> =
+                (0..5).map(|i| at(centre[0] + radius * corner(i).0, centre[1] + radius * corner(i).1)).collect();
+            let joint = match case % 2 {
+                0 => Joint::through(at(centre[0], centre[1]), normal).with_radius(radius).unwrap(),
+                _ => Joint::polygon(&polygon).unwrap(),
+            };
+            let drawn = 40_000;
+            let is_in = |at: &Vector3<f64>| {
+                (at - joint.point).norm() <= joint.radius && joint.borders().all(|(n, height)| n.dot(at) <= height)
+            };
+            let hits = (0..drawn).filter(|_| is_in(&at(random.between(-1.0, 1.0), random.between(-1.0, 1.0)))).count();
+            let expected = 4.0 * hits as f64 / f64::from(drawn);
+            assert!((joint.shared_area(&square) - expected).abs() < 0.05, "{case}: {expected}");
+        }
     }
 
     #[test]

@@ -80,7 +80,8 @@ pub fn slice_with_regions(
     let sizes: Vec<usize> = regions.iter().map(Vec::len).collect();
     let block = |parent, part: &Part, region, bench: &mut Workbench| {
         part.polyhedron.read_outlines(&mut bench.outlines);
-        Block { parent, region, ..Block::of(&bench.outlines, &part.middle, &origin, |number| cuts.face(number)) }
+        let (face, shared) = (|number| cuts.face(number), |joint, corners: &[_]| cuts.shared_area(joint, corners));
+        Block { parent, region, ..Block::of(&bench.outlines, &part.middle, &origin, face, shared) }
     };
     let finish = |parent, part: &Part, bench: &mut Workbench, blocks: &mut Vec<Block>| {
         if sizes.is_empty() {

@@ -281,6 +281,22 @@ fn inertia_is_that_of_closed_forms() {
     assert!((inertia[(0, 0)] - 2.0 * square).abs() < 1e-15 && (inertia[(0, 1)] + product).abs() < 1e-15);
 }
 
+/// A disc cuts the whole block, and its faces tell how much of them it is.
+#[test]
+fn faces_know_the_extent_of_their_joint() {
+    let domain = cuboid([2.0, 2.0, 2.0], [5.0, 0.0, -3.0]);
+    let centre = domain.iter().map(|plane| 0.5 * plane.offset * plane.normal).sum::<Vector3<f64>>();
+    let disc = Joint::new(centre, 20.0, 70.0).unwrap().with_radius(0.5).unwrap();
+    let mass = slice(&domain, &[disc], &SliceSettings::default()).unwrap();
+    assert_eq!(mass.blocks.len(), 2);
+    for block in &mass.blocks {
+        for face in &block.faces {
+            let expected = if face.of == FaceOf::Joint(0) { std::f64::consts::PI / 4.0 } else { 0.0 };
+            assert!((face.jointed_area - expected).abs() < 1e-12 && face.area > 1.0);
+        }
+    }
+}
+
 #[test]
 fn bad_domains_are_told() {
     let (domain, none) = (cuboid([1.0, 1.0, 1.0], [0.0; 3]), SliceSettings::default());

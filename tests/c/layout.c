@@ -191,11 +191,12 @@ void test_layout(void) {
     CHECK(offsetof(pp_block, inertia) == 32);
     CHECK(offsetof(pp_block, first_face) == 80);
     CHECK(offsetof(pp_block, region) == 104);
-    CHECK(sizeof(pp_block_face) == 80);
+    CHECK(sizeof(pp_block_face) == 88);
     CHECK(offsetof(pp_block_face, index) == 8);
     CHECK(offsetof(pp_block_face, plane) == 16);
     CHECK(offsetof(pp_block_face, area) == 48);
-    CHECK(offsetof(pp_block_face, block) == 72);
+    CHECK(offsetof(pp_block_face, jointed_area) == 56);
+    CHECK(offsetof(pp_block_face, block) == 80);
     CHECK(sizeof(pp_face_partners) == 24);
     CHECK(offsetof(pp_face_partners, area) == 16);
 

@@ -64,7 +64,7 @@ static void polygons_cut_what_they_reach(void) {
     CHECK(sum.blocks == 1 && sum.too_small == 2);
     pp_rock_free(rock);
     CHECK_STATUS(pp_rock_new(cube[0], SIDES, joints, 2, square[0], few, NULL, NULL, 0, NULL, NULL, NULL, &rock, why, sizeof why), PP_BAD_ROCK);
-    CHECK(strstr(why, "the corners of joint 1 must lie in one plane") != NULL);
+    CHECK(strstr(why, "the corners of joint 1 must be three or more") != NULL);
     CHECK_STATUS(pp_rock_new(cube[0], SIDES, joints, 2, square[0], huge, NULL, NULL, 0, NULL, NULL, NULL, &rock, why, sizeof why), PP_BAD_INDEX);
     CHECK_STATUS(pp_joint_from_corners(square[0], 2, &joints[1], why, sizeof why), PP_BAD_ROCK);
     CHECK_STATUS(pp_joint_from_corners(NULL, 4, &joints[1], why, sizeof why), PP_NULL_POINTER);
@@ -118,6 +118,7 @@ static void a_grid_of_eight(void) {
         }
         CHECK(blocks[i].face_count == 6 && blocks[i].first_face == 6 * i && blocks[i].parent == i && blocks[i].region == -1);
         for (size_t j = 6 * i; j < 6 * i + 6; j++) {
+            CHECK(faces[j].jointed_area == (faces[j].of == PP_FACE_OF_JOINT ? faces[j].area : 0.0));
             CHECK(faces[j].block == i && faces[j].corner_count == 4);
             CHECK_NEAR(faces[j].area, 1, 1e-14);
             of_joints += faces[j].of == PP_FACE_OF_JOINT;

@@ -59,6 +59,8 @@ halves = rock.joint((0, 0, 0), 90, 90)
 for direction, blocks in ((90, 3), (0, 4)):
     ended = rock.rectangle((0.5, 0, 0), 0, direction, length=1.2, width=0.9)
     check.equal(len(rock.slice(cube, [halves, ended], progress=False)), blocks, f"a rectangle towards {direction}")
+within = rock.slice(cube, [rock.rectangle((0.2, 0.1, 0), 30, 90, 0.5, 0.7)], progress=False).faces
+check.close(np.abs(np.sort(within["jointed_area"])[-3:] - (0, 0.35, 0.35)).max(), 0.0, 1e-12, "the area of its extent on both faces that it made")
 ended = rock.rectangle((1, 2, 3), 30, 90, 4, 2)
 down = np.array([math.cos(math.radians(30)), 0, -math.sin(math.radians(30))])
 check.close(np.abs(np.abs((np.array(ended.outline) - (1, 2, 3)) @ down) - 1).max(), 0.0, 1e-12, "its width down the dip")

@@ -29,7 +29,7 @@ def joint(point, dip, dip_direction, radius=math.inf):
 
 
 def polygon(corners):
-    """The Joint that is a convex polygon, by its corners (n, 3) in their order; ValueError where they lie off one plane, on one line, or are no convex polygon's."""
+    """The Joint that is a convex polygon, by its corners (n, 3) in their order; ValueError where they lie off one plane or on one line, or are no convex polygon's."""
     from .. import _glue
     outline = rows(corners, 3, "corners", "the three numbers x, y, z")
     made = np.frombuffer(_glue.joint_from_corners(outline.tobytes())).tolist()

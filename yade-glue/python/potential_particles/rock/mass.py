@@ -16,7 +16,7 @@ from .joints import Joint, JointSet
 # The structs of potential_particles.h.
 BLOCK = np.dtype([("volume", "f8"), ("centroid", "f8", 3), ("inertia", "f8", 6), ("first_face", "u8"), ("face_count", "u8"), ("parent", "u8"),
                   ("region", "i8")])
-FACE = np.dtype([("of", "u4"), ("region", "u4"), ("index", "u8"), ("plane", "f8", 4), ("area", "f8"), ("first_corner", "u8"), ("corner_count", "u8"),
+FACE = np.dtype([("of", "u4"), ("region", "u4"), ("index", "u8"), ("plane", "f8", 4), ("area", "f8"), ("jointed_area", "f8"), ("first_corner", "u8"), ("corner_count", "u8"),
                  ("block", "u8")])
 PARTNERS = np.dtype([("faces", "u8", 2), ("area", "f8")])
 OF_DOMAIN, OF_JOINT, OF_REGION = range(3)
@@ -44,7 +44,7 @@ class RockMass:
     """Blocks and their faces as numpy arrays, one row each; mass[i] is a Block, len(mass) their number.
 
     blocks: volume, centroid, inertia (xx, yy, zz, xy, xz, yz for density 1), parent, region (-1: none) ...
-    faces: block, area, plane (unit outward normal, offset), `of` (0: a plane of the domain, 1: a joint, 2: a plane of a region), index (of that plane or joint), region (of slice(); 2**32 - 1
+    faces: block, area, jointed_area (within the true extent of the joint, a disc or polygon; what else of the face was rock), plane (unit outward normal, offset), `of` (0: a plane of the domain, 1: a joint, 2: a plane of a region), index (of that plane or joint), region (of slice(); 2**32 - 1
     for what the domain leaves out) ...
     partners: pairs of faces that lie on each other, with the area that they share.
     joints: the Joints that have cut; set_of_joint: for each, the number of its entry in the `joints` of slice().
