@@ -823,6 +823,9 @@ typedef struct pp_patch_2d {
     double largest_depth;
     // Elastic energy over K, length^3; NaN unless asked for.
     double energy;
+    // Change of force and torque on B about the contact point, over K, with a shift and a turn of A: rows and
+    // columns x, y and angle.
+    double stiffness[9];
 } pp_patch_2d;
 
 // A point of quadrature on a patch of the plane.

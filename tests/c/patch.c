@@ -135,6 +135,8 @@ static void squares_of_the_plane(void) {
     CHECK_NEAR(patch.length, 0.8, 1e-4);
     CHECK_NEAR(patch.force[1], 0.8 * overlap, 1e-4 * overlap);
     CHECK_NEAR(patch.pressure_centre[0], 1.1, 1e-9);
+    CHECK_NEAR(patch.stiffness[4], 0.8, 2e-2); // that of the bed, and what the rounded ends add
+    CHECK_NEAR(patch.stiffness[5] - patch.stiffness[7], patch.force[0], 1e-9);
     CHECK_NEAR(patch.energy, 0.4 * overlap * overlap, 1e-4 * overlap * overlap);
     double length = 0;
     for (size_t i = 0; i < count; i++) length += points[i].length;

@@ -3,12 +3,12 @@
 use super::convert::pose_from;
 use super::particle::pp_particle_2d;
 use super::types::{pp_contact_2d, pp_pose_2d};
-use crate::PatchScratch;
 use crate::capi::fence::{borrow, fenced, output};
 use crate::capi::patch::{kind, settings, with_points};
 use crate::capi::status::*;
 use crate::contact::contact as space;
 use crate::planar::{Contact, PatchPoint, patch_of_contact};
+use crate::{PatchScratch, PatchSettings};
 
 /// The contact patch of two particles of the plane, a curve: the fields of struct pp_patch, with lengths in
 /// place of areas, all per unit of thickness.
@@ -45,6 +45,9 @@ pub struct pp_patch_2d {
     pub largest_depth: f64,
     /// Elastic energy over K, length^3; NaN unless asked for.
     pub energy: f64,
+    /// Change of force and torque on B about the contact point, over K, with a shift and a turn of A: rows and
+    /// columns x, y and angle.
+    pub stiffness: [f64; 9],
 }
 
 /// A point of quadrature on a patch of the plane.
@@ -82,7 +85,7 @@ pub unsafe extern "C" fn pp_patch_of_contact_2d(
         let (a, b) = unsafe { (&borrow(a)?.0, &borrow(b)?.0) };
         let (pose_a, pose_b) = unsafe { (pose_from(borrow(pose_a)?)?, pose_from(borrow(pose_b)?)?) };
         let contact = unsafe { borrow(contact) }?;
-        let settings = settings(tolerance, with_energy)?;
+        let settings = PatchSettings { with_stiffness: true, ..settings(tolerance, with_energy)? };
         let contact = Contact {
             kind: kind(contact.kind)?,
             s: contact.s,
@@ -120,6 +123,7 @@ pub unsafe extern "C" fn pp_patch_of_contact_2d(
             mean_depth: patch.mean_depth,
             largest_depth: patch.largest_depth,
             energy: patch.energy,
+            stiffness: std::array::from_fn(|i| patch.stiffness[(i / 3, i % 3)]),
         });
         Ok(())
     })
