@@ -49,7 +49,7 @@ const OF_DIFFERENCE: f64 = 10.0;
 const OF_MISFIT: f64 = 3.0;
 
 /// Part of the tolerance that the coarse rule may take in a triangle.
-const OF_COARSE: f64 = 0.01;
+const OF_COARSE: f64 = 0.04;
 
 /// Part of the tolerance that the rules may take.
 const SHARE: f64 = 0.9;

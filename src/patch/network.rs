@@ -12,14 +12,14 @@ const MOST_VERTICES: usize = 400;
 const MOST_ROUNDS: usize = 12;
 
 /// tan ½θ of the largest turn θ = 0.8 of half an arc.
-const HALF_TURN: f64 = 0.42;
+const HALF_TURN: f64 = 0.6;
 
 /// Relative distance within which two walks meet the same vertex.
 const SAME: f64 = 1e-6;
 
 /// What one arc may be off, over the tolerance: of the area, and of the load.
 const OF_AREA: f64 = 1.0;
-const OF_LOAD: f64 = 0.02;
+const OF_LOAD: f64 = 0.1;
 
 /// What is left of the misfit in area once the middle of an arc is corrected by it, at most about.
 const CORRECTED: f64 = 0.2;

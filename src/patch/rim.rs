@@ -6,7 +6,7 @@ use super::field::{Field, Look, Owner, dot};
 const MOST_STEPS: usize = 12;
 
 /// Relative to the length of an arc, how near its middle is to the rim: the error of the patch is of second order in it.
-const NEAR: f64 = 1e-9;
+const NEAR: f64 = 1e-5;
 
 /// Weight of a point of quadrature beside a curve over the square of its length.
 const OF_POINT: f64 = 1.0 / 32.0;

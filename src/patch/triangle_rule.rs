@@ -101,7 +101,7 @@ impl Rule {
 }
 
 /// Largest distance of the middle of a side from that of its chord, over the chord, for the coarse rule.
-const BULGE: f64 = 0.03;
+const BULGE: f64 = 0.08;
 
 /// Integrals of p n, of p u, p v and the torque about z, and of |n|.
 pub(super) const INTEGRALS: usize = 7;
