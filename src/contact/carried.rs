@@ -87,6 +87,45 @@ impl KnownPiece {
     }
 }
 
+/// What is left at a point where the active set is that of the piece.
+struct Within {
+    /// By which depths, distances from the centre and S have changed at most.
+    share: f64,
+    /// Distance from there within which no plane switches, length.
+    left: f64,
+}
+
+impl KnownPiece {
+    /// The same for a point x out of reach, frame of B, where S is `value`: by all planes that may have switched on the way. A point
+    /// on a face may go far along its edge, whose plane is never far from switching. `None` where one has switched, or may have.
+    ///
+    /// `self` is in the frame of its own body, which is A (0) or B (1).
+    #[cold]
+    #[inline(never)]
+    fn among_the_same_planes(&self, pair: &Pair, which: usize, x: &Vector3<f64>, value: f64) -> Option<Within> {
+        let (a, b) = Body::both(pair, 0.0);
+        let body = if which == 0 { a } else { b };
+        let (particle, point) = (body.particle, body.locate(x));
+        let way = point.y - self.from;
+        let (moved, longest) = (way.norm(), particle.bounds.longest_normal);
+        let (mut before, mut change, mut clear, mut same) = (0.0, 0.0, f64::INFINITY, true);
+        let most_left_out = particle.visit_near(&point.y, longest * moved + point.blur, |_, n, excess| {
+            let along = n.dot(&way);
+            let was_active = excess - along > 0.0;
+            same &= was_active == (excess > 0.0);
+            clear = smaller(excess.abs(), clear);
+            if was_active {
+                before += excess - along;
+                change += along.abs();
+            }
+        });
+        let left = (smaller(clear, -most_left_out) - MORE_ROUNDING * point.blur) / longest;
+        // Without an active plane 0/0, which counts for nothing.
+        let share = larger(change / before, larger(moved / self.from.norm(), 1.0 - value / self.value));
+        (same && left > 0.0 && share < 1.0).then_some(Within { share, left })
+    }
+}
+
 /// The equations of midway about a point x and weight u, for a way v and a change δ of the weight.
 ///
 /// With slope σ, d = ∇S_B − ∇S_A and E = H_B − H_A they are H v + d·δ = −σ − δ·E v and d·v = S_A − S_B − ½ v·E v, exactly.
@@ -244,7 +283,16 @@ impl LastContact {
         let (values, gradients) = ([a.value, b.value], [a.gradient, b.gradient]);
         let s = ((1.0 - u) * values[0] + u * values[1]).sqrt();
         let moved = [(x - pieces[0].from).norm(), (x - pieces[1].from).norm()];
-        let share = larger(moved[0] / pieces[0].reach, moved[1] / pieces[1].reach);
+        let within = |i: usize| {
+            let reach = pieces[i].reach;
+            if moved[i] < reach {
+                Some(Within { share: moved[i] / reach, left: reach - moved[i] })
+            } else {
+                self.pieces[i].among_the_same_planes(pair, i, x, values[i])
+            }
+        };
+        let within = [within(0)?, within(1)?];
+        let share = larger(within[0].share, within[1].share);
         // Depths and distances from the centres change by that share at most, places are rounded as much more.
         let grown = (1.0 + 3.0 * share) * (1.0 + 3.0 * share) / (1.0 - share);
         let gap = grown * self.gap + left.square / s;
@@ -257,7 +305,7 @@ impl LastContact {
         let along = |n: &Vector3<f64>| {
             let piece = |i: usize| Piece {
                 curvature: pieces[i].hessian.times(n).dot(n),
-                reach: pieces[i].reach - moved[i],
+                reach: within[i].left,
                 ..Piece::default()
             };
             [piece(0), piece(1)]
