@@ -252,7 +252,7 @@ fn contacts_of_any_shape_are_within_their_bounds() {
 #[ignore = "takes minutes; another seed in each run"]
 fn contacts_of_any_shape_are_within_their_bounds_for_longer() {
     let now = std::time::SystemTime::now().duration_since(std::time::UNIX_EPOCH).unwrap();
-    let seed = now.as_secs();
+    let seed = std::env::var("SEED").map_or(now.as_secs(), |s| s.parse().unwrap());
     println!("seed {seed}");
     wide_walks(seed, 30_000);
 }

@@ -9,7 +9,7 @@
 use crate::bounds::scale::Scale;
 use crate::bounds::solution::Solution;
 use crate::contact::contact::{Contact, Kind};
-use crate::contact::geometry::LocalContact;
+use crate::contact::geometry::{Across, LocalContact};
 use crate::flags::Flags;
 use crate::linalg::number::{larger, smaller};
 use crate::linalg::symmetric::{Factor, Symmetric};
@@ -19,10 +19,12 @@ use crate::pair::body::Body;
 use crate::pair::pair::Pair;
 use crate::pair::pair_state::{KnownPiece, LastContact, PairState, Remembered};
 use crate::particle::particle::Particle;
+use crate::particle::potential;
 use crate::pose::Pose;
 use crate::settings::Settings;
 use crate::solver::call::{Call, Solved};
 use nalgebra::Vector3;
+use std::cell::Cell;
 
 /// A piece at another point.
 struct Here {
@@ -36,6 +38,9 @@ const MOST_ROUNDS: u32 = 8;
 /// Each change is at most this share of the last: the method converges then (Kantorovich's theorem asks for the half).
 const CONVERGING: f64 = 0.25;
 
+/// The change that is left is at most this share of the last: ten times as much, by which two changes may tell too little, is the half.
+const TOLD: f64 = 0.05;
+
 /// Share of the tolerance that the predicted next change may take: the prediction from the first two changes is up to ten times too small.
 const ENOUGH: f64 = 0.02;
 
@@ -44,6 +49,20 @@ const MORE_ROUNDING: f64 = 4.0;
 
 /// Largest share by which the weighted curvatures may change on the way: what is left is then known to a factor of two (docs/theory.md).
 const MOST_CHANGE: f64 = 0.5;
+
+/// How often the pieces are set up anew about a point that goes on, before it is solved from the planes again: how the optimum answers to changes
+/// of its data is known from there.
+const MOST_FOLLOWS: f64 = 30.0;
+
+/// How many times as large the rounding of S may be there as where it was solved.
+const MOST_GROWTH: f64 = 8.0;
+
+/// Most that may be left of the way to a point that is followed, relative to the smaller bounding radius, whatever the tolerance: what long steps
+/// leave may be more than the last changes tell.
+const MOST_OPEN: f64 = 1e-9;
+
+/// Ratio of curvatures up to which the inverse is taken by minors: it loses as many digits, and what is left is measured at the end.
+const MOST_STIFF: f64 = 1e9;
 
 /// Most that the regularisation may have moved the solved point, relative to the smaller bounding radius: less than a contact point has to be
 /// known to.
@@ -87,42 +106,35 @@ impl KnownPiece {
     }
 }
 
-/// What is left at a point where the active set is that of the piece.
+/// How a point lies in what is known of a body.
+#[derive(Clone, Copy)]
 struct Within {
-    /// By which depths, distances from the centre and S have changed at most.
+    /// By which share depths and distances from the centre have changed at most.
     share: f64,
     /// Distance from there within which no plane switches, length.
     left: f64,
 }
 
 impl KnownPiece {
-    /// The same for a point x out of reach, frame of B, where S is `value`: by all planes that may have switched on the way. A point
-    /// on a face may go far along its edge, whose plane is never far from switching. `None` where one has switched, or may have.
-    ///
-    /// `self` is in the frame of its own body, which is A (0) or B (1).
-    #[cold]
-    #[inline(never)]
-    fn among_the_same_planes(&self, pair: &Pair, which: usize, x: &Vector3<f64>, value: f64) -> Option<Within> {
-        let (a, b) = Body::both(pair, 0.0);
-        let body = if which == 0 { a } else { b };
+    /// The same about a point x out of reach, frame of B, from the planes there, with the bound on the rounding of S; `None` where a plane has
+    /// switched on the way, or may have. `self` is in the frame of its body.
+    #[inline(always)]
+    fn about(&self, body: &Body, x: &Vector3<f64>) -> Option<(Self, f64)> {
         let (particle, point) = (body.particle, body.locate(x));
         let way = point.y - self.from;
-        let (moved, longest) = (way.norm(), particle.bounds.longest_normal);
-        let (mut before, mut change, mut clear, mut same) = (0.0, 0.0, f64::INFINITY, true);
-        let most_left_out = particle.visit_near(&point.y, longest * moved + point.blur, |_, n, excess| {
-            let along = n.dot(&way);
-            let was_active = excess - along > 0.0;
-            same &= was_active == (excess > 0.0);
-            clear = smaller(excess.abs(), clear);
-            if was_active {
-                before += excess - along;
-                change += along.abs();
-            }
-        });
-        let left = (smaller(clear, -most_left_out) - MORE_ROUNDING * point.blur) / longest;
-        // Without an active plane 0/0, which counts for nothing.
-        let share = larger(change / before, larger(moved / self.from.norm(), 1.0 - value / self.value));
-        (same && left > 0.0 && share < 1.0).then_some(Within { share, left })
+        let same = Cell::new(true);
+        let is_active = |place, excess| {
+            let was_active = excess > particle.normal(place).dot(&way);
+            same.set(same.get() && (excess > 0.0) == was_active);
+            excess > 0.0
+        };
+        let longest = particle.bounds.longest_normal;
+        // No plane that was active is further off than this.
+        let early = longest * way.norm() + point.blur;
+        let q = potential::turned(particle, particle.sphere_weight, |n| n, &point.y, early, is_active);
+        let reach = smaller((q.clear - MORE_ROUNDING * point.blur) / longest, point.y.norm());
+        let piece = Self { from: point.y, value: q.value, gradient: q.gradient, hessian: q.hessian, reach };
+        (same.get() && reach > 0.0).then(|| (piece, body.rounding(&point, &q)))
     }
 }
 
@@ -134,16 +146,28 @@ struct Equations {
     mismatch: f64,
     apart: Vector3<f64>,
     bend: Symmetric,
-    factor: Factor,
-    /// H⁻¹ d.
+    /// H⁻¹ times a unit, its determinant: by it nothing has to be divided first.
+    inverse: Symmetric,
+    unit: f64,
+    per_unit: f64,
+    /// H⁻¹d, and 1/(d·H⁻¹d), with H⁻¹ in that unit.
     along: Vector3<f64>,
-    /// 1/(d·H⁻¹d).
     inverse_rate: f64,
     /// Ratio of the sum of the curvatures of H to the least one.
     stiffness: f64,
 }
 
+/// A round of the iteration.
+#[derive(Clone, Copy)]
+struct Round {
+    step: Step,
+    /// Square of the change of the way by it.
+    change: f64,
+    number: u32,
+}
+
 /// A solution of the equations.
+#[derive(Clone, Copy)]
 struct Step {
     way: Vector3<f64>,
     /// Of the weight u.
@@ -159,36 +183,43 @@ impl Equations {
         let here = [a.at(x), b.at(x)];
         let apart = here[1].gradient - here[0].gradient;
         let h = a.hessian.weighted(1.0 - u, &b.hessian, u);
-        let least = larger((1.0 - u) * soft[0] + u * soft[1], h.least_eigenvalue());
-        let factor = Factor::of(&h, least)?;
-        let along = factor.solve(&apart);
+        let adjugate = h.adjugate();
+        let determinant = h.determinant(&adjugate);
+        let least = larger((1.0 - u) * soft[0] + u * soft[1], h.least_eigenvalue(determinant));
+        let stiffness = h.trace() / least;
+        // By minors, whose divisions wait for nothing but each other: in a factorisation they follow one another.
+        let (inverse, unit) =
+            if stiffness <= MOST_STIFF { (adjugate, determinant) } else { (Factor::of(&h, least)?.inverse(), 1.0) };
+        let along = inverse.times(&apart);
         Some(Self {
             slope: slope(&here, u),
             mismatch: here[0].value - here[1].value,
             apart,
             bend: b.hessian.weighted(1.0, &a.hessian, -1.0),
-            factor,
+            inverse,
             along,
             inverse_rate: 1.0 / apart.dot(&along),
-            stiffness: h.trace() / least,
+            per_unit: 1.0 / unit,
+            unit,
+            stiffness,
         })
     }
 
     /// The step that these right-hand sides, σ and S_A − S_B, call for.
     #[inline(always)]
     fn step(&self, slope: &Vector3<f64>, mismatch: f64) -> Step {
-        let first = self.factor.solve(slope);
-        let weight = -(mismatch + self.apart.dot(&first)) * self.inverse_rate;
-        Step { way: -(first + weight * self.along), weight, open: slope.dot(&first) }
+        let first = self.inverse.times(slope);
+        let weight = -(mismatch * self.unit + self.apart.dot(&first)) * self.inverse_rate;
+        let way = -self.per_unit * (first + weight * self.along);
+        Step { way, weight, open: self.per_unit * slope.dot(&first) }
     }
 
-    /// Their solution to within `room`, the square of the last change, and the number of rounds; `None` where they do not
-    /// converge.
+    /// Their solution to within `room`; `None` where they do not converge.
     #[inline(always)]
-    fn solve(&self, room: f64) -> Option<(Step, f64, u32)> {
+    fn solve(&self, room: f64) -> Option<Round> {
         let mut step = self.step(&self.slope, self.mismatch);
         let mut last = step.way.norm_squared();
-        for rounds in 2..=MOST_ROUNDS {
+        for number in 2..=MOST_ROUNDS {
             let bent = self.bend.times(&step.way);
             let next = self.step(&(self.slope + step.weight * bent), self.mismatch - 0.5 * step.way.dot(&bent));
             let change = (next.way - step.way).norm_squared();
@@ -198,7 +229,7 @@ impl Equations {
             }
             step = next;
             if change * change <= (ENOUGH * room) * (ENOUGH * room) * last {
-                return Some((step, change, rounds));
+                return Some(Round { step, change, number });
             }
             last = change;
         }
@@ -247,6 +278,13 @@ impl LastContact {
             pieces,
             gap: scale.gap,
             point_bound: point_bound + moved,
+            square: scale.s * scale.s,
+            roundings: [
+                bodies[0].rounding(&model.points[0], &model.q_a),
+                bodies[1].rounding(&model.points[1], &model.q_b),
+            ],
+            growth: 1.0,
+            follows: 0.0,
             precision: precision_of(settings),
         }
     }
@@ -257,7 +295,7 @@ impl LastContact {
         let soft = [2.0 * pair.a.sphere_weight, 2.0 * pair.b.sphere_weight];
         let weight = last.lambda / (1.0 + last.lambda);
         let equations = Equations::of(pieces, &last.x, weight, soft)?;
-        let (step, change, rounds) = equations.solve(room)?;
+        let Round { step, change, number } = equations.solve(room)?;
         let (x, u) = (last.x + step.way, weight + step.weight);
         let here = [pieces[0].at(&x), pieces[1].at(&x)];
         // What is left there, rounding included.
@@ -267,41 +305,57 @@ impl LastContact {
         // The curvatures there, H + δ·E, differ from those that were factored by no more than this share of H.
         let share = step.weight.abs() / smaller(weight, 1.0 - weight);
         let left_out = 1.0 + 2.0 * share * equations.stiffness.sqrt();
-        let converges = way * way <= CONVERGING * CONVERGING * change && 2.0 * way * left_out <= room;
+        let converges = way * way <= TOLD * TOLD * change && 2.0 * way * left_out <= room;
         // Where it is no shorter by far, it must be rounding.
         if !(share <= MOST_CHANGE && (converges || way <= self.point_bound)) {
             return None;
         }
         let left = Left { square: mismatch.abs() + next.open, way: way * left_out, stiffness: equations.stiffness };
-        Some(Optimum { x, u, here, left, rounds })
+        Some(Optimum { x, u, here, left, rounds: number })
+    }
+
+    /// Sets up the pieces about where the point is now, by a look at the planes that may have switched since it has left one of them: a point on
+    /// a face may go far along its edge, whose plane is never far from switching. `None` where one has, or where it was done too often.
+    #[inline(never)]
+    fn follow(&mut self, pair: &Pair, optimum: &Optimum) -> Option<[Within; 2]> {
+        let (a, b) = Body::both(pair, 0.0);
+        let pieces = [self.pieces[0].about(&a, &optimum.x)?, self.pieces[1].about(&b, &optimum.x)?];
+        let square = (1.0 - optimum.u) * optimum.here[0].value + optimum.u * optimum.here[1].value;
+        let more = |i: usize| pieces[i].1 / self.roundings[i];
+        // Written so that what is not a number fails.
+        self.growth = (self.square / square).max(1.0).sqrt() * more(0).max(more(1)).max(1.0);
+        self.follows += 1.0;
+        self.pieces = [pieces[0].0, pieces[1].0];
+        let whole = self.roundings.iter().chain([&self.square]).all(|value| *value > 0.0 && value.is_finite());
+        let within = |i: usize| Within { share: 0.0, left: self.pieces[i].reach };
+        let near = optimum.left.way <= MOST_OPEN * smaller(pair.a.bounding_radius(), pair.b.bounding_radius());
+        (whole && near && self.follows <= MOST_FOLLOWS && self.growth <= MOST_GROWTH).then(|| [within(0), within(1)])
     }
 
     /// Its contact, frame of B; `None` where it is not certain.
     #[inline(always)]
-    fn local(&self, pair: &Pair, pieces: &[KnownPiece; 2], optimum: &Optimum) -> Option<LocalContact> {
+    fn local(
+        &self,
+        pair: &Pair,
+        pieces: &[KnownPiece; 2],
+        optimum: &Optimum,
+        moved: [f64; 2],
+        within: [Within; 2],
+    ) -> Option<LocalContact> {
         let Optimum { x, u, here: [a, b], left, rounds } = optimum;
         let (values, gradients) = ([a.value, b.value], [a.gradient, b.gradient]);
         let s = ((1.0 - u) * values[0] + u * values[1]).sqrt();
-        let moved = [(x - pieces[0].from).norm(), (x - pieces[1].from).norm()];
-        let within = |i: usize| {
-            let reach = pieces[i].reach;
-            if moved[i] < reach {
-                Some(Within { share: moved[i] / reach, left: reach - moved[i] })
-            } else {
-                self.pieces[i].among_the_same_planes(pair, i, x, values[i])
-            }
-        };
-        let within = [within(0)?, within(1)?];
         let share = larger(within[0].share, within[1].share);
         // Depths and distances from the centres change by that share at most, places are rounded as much more.
-        let grown = (1.0 + 3.0 * share) * (1.0 + 3.0 * share) / (1.0 - share);
+        let grown = self.growth * (1.0 + 3.0 * share) * (1.0 + 3.0 * share) / (1.0 - share);
         let gap = grown * self.gap + left.square / s;
         if !(*u > 0.0 && *u < 1.0 && share < 1.0 && s + gap < 1.0) {
             return None;
         }
-        let gradient_norms = [gradients[0].norm(), gradients[1].norm()];
         let lambda = u / (1.0 - u);
-        let solution = Solution { gradients, gradient_norms, values, ..Solution::unsettled(*x, lambda, *rounds) };
+        let solution = Solution { gradients, values, ..Solution::unsettled(*x, lambda, *rounds) };
+        // Forces balance: both sides of it point the same way, and no unit vectors are needed to weigh them alike.
+        let across = Across::balanced((1.0 - u) * gradients[0] - *u * gradients[1]);
         let along = |n: &Vector3<f64>| {
             let piece = |i: usize| Piece {
                 curvature: pieces[i].hessian.times(n).dot(n),
@@ -316,6 +370,7 @@ impl LastContact {
         LocalContact::along_normal(
             pair,
             &solution,
+            across,
             Scale { s, gap, low: s - gap, high: s + gap },
             || bound,
             along,
@@ -335,16 +390,26 @@ impl PairState {
         settings: &Settings,
         answer: impl FnOnce(Contact) -> T,
     ) -> Option<T> {
-        let known = &self.last_contact;
+        let last = self.remembered(a, b);
+        let known = &mut self.last_contact;
         if !(known.is_of(a.0, b.0) && known.precision == precision_of(settings)) {
             return None;
         }
-        let last = self.remembered(a, b)?;
+        let last = last?;
         let pair = Pair::new(a.0, a.1, b.0, b.1);
         let pieces = [known.pieces[0].seen_from_b(&pair), known.pieces[1]];
         let room = settings.carry_tolerance * smaller(a.0.bounding_radius(), b.0.bounding_radius());
         let optimum = known.optimum(&pair, &pieces, &last, room)?;
-        let local = known.local(&pair, &pieces, &optimum)?;
+        let moved = [0, 1].map(|i| (optimum.x - pieces[i].from).norm());
+        let mut within = [0, 1].map(|i| {
+            let reach = pieces[i].reach;
+            Within { share: moved[i] / reach, left: reach - moved[i] }
+        });
+        // Written so that what is not a number is looked at, and fails there.
+        if !(within[0].left > 0.0 && within[1].left > 0.0) {
+            within = known.follow(&pair, &optimum)?;
+        }
+        let local = known.local(&pair, &pieces, &optimum, moved, within)?;
         let (x, lambda) = (optimum.x, optimum.u / (1.0 - optimum.u));
         self.remember(Remembered { x, lambda, ..last });
         let call = Contact { flags: Flags::WARM.with(Flags::CARRIED), iterations: optimum.rounds, ..Contact::UNKNOWN };

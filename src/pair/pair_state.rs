@@ -59,6 +59,12 @@ pub(crate) struct LastContact {
     /// Bounds that the contact had when it was solved.
     pub gap: f64,
     pub point_bound: f64,
+    /// S, and bounds on the rounding of S_A and S_B, when it was solved.
+    pub square: f64,
+    pub roundings: [f64; 2],
+    /// Bound on how many times as large the rounding is about the pieces, which have followed the point so often.
+    pub growth: f64,
+    pub follows: f64,
     /// `gap_tolerance` and `flat_regularisation` with which it was solved.
     pub precision: [f64; 2],
 }

@@ -121,7 +121,7 @@ struct Ig2_ConicPP_ConicPP_ScGeom::Pair : PairInScene {
     // Whether they were apart, and have not moved by the distance between them since.
     bool isKeptApart()
     {
-        const double left = own ? own->apart.left(turned1(), turned2(), branch()) : 0;
+        const double left = own && own->apart.isKnown() ? own->apart.left(turned1(), turned2(), branch()) : 0;
         if (left > 0)
             noteRoom(left);
         return left > 0;
