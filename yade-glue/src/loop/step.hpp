@@ -137,8 +137,11 @@ public:
         if (!place)
             return;
         // GCC 12 takes a function of __builtin_prefetch alone for one without effect, and drops it.
-        for (std::size_t i = offset; i < offset + size; i += lineSize)
-            asm volatile("prefetcht0 (%0)" : : "r"(static_cast<const char*>(place) + i));
+        const auto* const bytes = static_cast<const char*>(place) + offset;
+        for (std::size_t i = 0; i < size; i += lineSize)
+            asm volatile("prefetcht0 (%0)" : : "r"(bytes + i));
+        // YADE's objects begin anywhere in a line, and end in one more.
+        asm volatile("prefetcht0 (%0)" : : "r"(bytes + size - 1));
     }
 
 private:
