@@ -3,12 +3,13 @@
 //! At a contact that is solved, S_A and S_B are known as quadratics, each in the frame of its own body, and so is how far a
 //! point may move there before a plane switches. While the contact point stays within, midway at new poses is the problem of
 //! the same two quadratics: (1−u)∇S_A + u∇S_B = 0 and S_A = S_B (paper eq. 4). Newton's method from the last point solves
-//! it, with one 3×3 factorisation for all its rounds; what a further round would change, from the slope and the mismatch that
+//! it, with one 3×3 inverse for all its rounds; what a further round would change, from the slope and the mismatch that
 //! are left, bounds the error (docs/theory.md, "Carrying a contact on").
 
 use crate::bounds::scale::Scale;
 use crate::bounds::solution::Solution;
 use crate::contact::contact::{Contact, Kind};
+use crate::contact::followed::{MORE_ROUNDING, Within};
 use crate::contact::geometry::{Across, LocalContact};
 use crate::flags::Flags;
 use crate::linalg::number::{larger, smaller};
@@ -19,12 +20,10 @@ use crate::pair::body::Body;
 use crate::pair::pair::Pair;
 use crate::pair::pair_state::{KnownPiece, LastContact, PairState, Remembered};
 use crate::particle::particle::Particle;
-use crate::particle::potential;
 use crate::pose::Pose;
 use crate::settings::Settings;
 use crate::solver::call::{Call, Solved};
 use nalgebra::Vector3;
-use std::cell::Cell;
 
 /// A piece at another point.
 struct Here {
@@ -44,22 +43,8 @@ const TOLD: f64 = 0.05;
 /// Share of the tolerance that the predicted next change may take: the prediction from the first two changes is up to ten times too small.
 const ENOUGH: f64 = 0.02;
 
-/// Bound on how many times that of the solved contact the rounding of places is within reach (derived: 3.1).
-const MORE_ROUNDING: f64 = 4.0;
-
 /// Largest share by which the weighted curvatures may change on the way: what is left is then known to a factor of two (docs/theory.md).
 const MOST_CHANGE: f64 = 0.5;
-
-/// How often the pieces are set up anew about a point that goes on, before it is solved from the planes again: how the optimum answers to changes
-/// of its data is known from there.
-const MOST_FOLLOWS: f64 = 30.0;
-
-/// How many times as large the rounding of S may be there as where it was solved.
-const MOST_GROWTH: f64 = 8.0;
-
-/// Most that may be left of the way to a point that is followed, relative to the smaller bounding radius, whatever the tolerance: what long steps
-/// leave may be more than the last changes tell.
-const MOST_OPEN: f64 = 1e-9;
 
 /// Ratio of curvatures up to which the inverse is taken by minors: it loses as many digits, and what is left is measured at the end.
 const MOST_STIFF: f64 = 1e9;
@@ -103,38 +88,6 @@ impl KnownPiece {
         let way = x - self.from;
         let change = self.hessian.times(&way);
         Here { value: self.value + (self.gradient + 0.5 * change).dot(&way), gradient: self.gradient + change }
-    }
-}
-
-/// How a point lies in what is known of a body.
-#[derive(Clone, Copy)]
-struct Within {
-    /// By which share depths and distances from the centre have changed at most.
-    share: f64,
-    /// Distance from there within which no plane switches, length.
-    left: f64,
-}
-
-impl KnownPiece {
-    /// The same about a point x out of reach, frame of B, from the planes there, with the bound on the rounding of S; `None` where a plane has
-    /// switched on the way, or may have. `self` is in the frame of its body.
-    #[inline(always)]
-    fn about(&self, body: &Body, x: &Vector3<f64>) -> Option<(Self, f64)> {
-        let (particle, point) = (body.particle, body.locate(x));
-        let way = point.y - self.from;
-        let same = Cell::new(true);
-        let is_active = |place, excess| {
-            let was_active = excess > particle.normal(place).dot(&way);
-            same.set(same.get() && (excess > 0.0) == was_active);
-            excess > 0.0
-        };
-        let longest = particle.bounds.longest_normal;
-        // No plane that was active is further off than this.
-        let early = longest * way.norm() + point.blur;
-        let q = potential::turned(particle, particle.sphere_weight, |n| n, &point.y, early, is_active);
-        let reach = smaller((q.clear - MORE_ROUNDING * point.blur) / longest, point.y.norm());
-        let piece = Self { from: point.y, value: q.value, gradient: q.gradient, hessian: q.hessian, reach };
-        (same.get() && reach > 0.0).then(|| (piece, body.rounding(&point, &q)))
     }
 }
 
@@ -314,24 +267,6 @@ impl LastContact {
         Some(Optimum { x, u, here, left, rounds: number })
     }
 
-    /// Sets up the pieces about where the point is now, by a look at the planes that may have switched since it has left one of them: a point on
-    /// a face may go far along its edge, whose plane is never far from switching. `None` where one has, or where it was done too often.
-    #[inline(never)]
-    fn follow(&mut self, pair: &Pair, optimum: &Optimum) -> Option<[Within; 2]> {
-        let (a, b) = Body::both(pair, 0.0);
-        let pieces = [self.pieces[0].about(&a, &optimum.x)?, self.pieces[1].about(&b, &optimum.x)?];
-        let square = (1.0 - optimum.u) * optimum.here[0].value + optimum.u * optimum.here[1].value;
-        let more = |i: usize| pieces[i].1 / self.roundings[i];
-        // Written so that what is not a number fails.
-        self.growth = (self.square / square).max(1.0).sqrt() * more(0).max(more(1)).max(1.0);
-        self.follows += 1.0;
-        self.pieces = [pieces[0].0, pieces[1].0];
-        let whole = self.roundings.iter().chain([&self.square]).all(|value| *value > 0.0 && value.is_finite());
-        let within = |i: usize| Within { share: 0.0, left: self.pieces[i].reach };
-        let near = optimum.left.way <= MOST_OPEN * smaller(pair.a.bounding_radius(), pair.b.bounding_radius());
-        (whole && near && self.follows <= MOST_FOLLOWS && self.growth <= MOST_GROWTH).then(|| [within(0), within(1)])
-    }
-
     /// Its contact, frame of B; `None` where it is not certain.
     #[inline(always)]
     fn local(
@@ -344,7 +279,7 @@ impl LastContact {
     ) -> Option<LocalContact> {
         let Optimum { x, u, here: [a, b], left, rounds } = optimum;
         let (values, gradients) = ([a.value, b.value], [a.gradient, b.gradient]);
-        let s = ((1.0 - u) * values[0] + u * values[1]).sqrt();
+        let s = optimum.square().sqrt();
         let share = larger(within[0].share, within[1].share);
         // Depths and distances from the centres change by that share at most, places are rounded as much more.
         let grown = self.growth * (1.0 + 3.0 * share) * (1.0 + 3.0 * share) / (1.0 - share);
@@ -407,7 +342,7 @@ impl PairState {
         });
         // Written so that what is not a number is looked at, and fails there.
         if !(within[0].left > 0.0 && within[1].left > 0.0) {
-            within = known.follow(&pair, &optimum)?;
+            within = known.follow(&pair, &optimum.x, optimum.square(), optimum.left.way)?;
         }
         let local = known.local(&pair, &pieces, &optimum, moved, within)?;
         let (x, lambda) = (optimum.x, optimum.u / (1.0 - optimum.u));
@@ -426,6 +361,14 @@ struct Optimum {
     here: [Here; 2],
     left: Left,
     rounds: u32,
+}
+
+impl Optimum {
+    /// S.
+    #[inline(always)]
+    fn square(&self) -> f64 {
+        (1.0 - self.u) * self.here[0].value + self.u * self.here[1].value
+    }
 }
 
 /// What is left there.
