@@ -1,4 +1,4 @@
-//! The last contact of a pair carried on to new poses, without evaluating any plane.
+//! The last contact of a pair carried on to new poses, without a solution from the planes.
 //!
 //! At a contact that is solved, S_A and S_B are known as quadratics, each in the frame of its own body, and so is how far a
 //! point may move there before a plane switches. While the contact point stays within, midway at new poses is the problem of

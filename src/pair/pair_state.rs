@@ -7,7 +7,7 @@ use crate::pose::Pose;
 use nalgebra::Vector3;
 
 /// The state of one ordered pair (A, B), of two particles or of one and a boundary: the last solution, from which the next call starts, and, with [`crate::Settings::carry_tolerance`]
-/// above 0, both potentials as quadratics about the last contact, from which the next contact may follow without evaluating any plane.
+/// above 0, both potentials as quadratics about the last contact, from which the next contact may follow without a solution from the planes.
 /// Empty by default.
 ///
 /// The solution is a hint and can be saved ([`Self::into_raw`]): any content, even of another pair, leaves the answer within its gap.
