@@ -87,7 +87,7 @@ pub struct pp_settings {
     /// particles overlap: where it would, the default is used (PP_FLAG_DEFAULT_REGULARISATION).
     pub flat_regularisation: f64,
     /// 0 (default): every contact is solved. Above 0: a contact may be carried on from the last one of its
-    /// pair without solving it from its planes (PP_FLAG_CARRIED), as long as its point is known to this share of the
+    /// pair and not solved (PP_FLAG_CARRIED), as long as its point is known to this share of the
     /// smaller bounding radius. In [0, 0.1]; 1e-9 is a good choice. Needs a pp_pair_state; contacts of
     /// PP_CLOSEST and by PP_CONE_PROGRAM are always solved.
     pub carry_tolerance: f64,
