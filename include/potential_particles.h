@@ -280,7 +280,7 @@
 // Answered in extended precision (about 32 digits): doubles did not settle it, or not to the gap asked for.
 #define PP_FLAG_EXTENDED 16
 
-// Carried on from the last contact, without a look at the planes (carry_tolerance).
+// Carried on from the last contact, without a solution from the planes (carry_tolerance).
 #define PP_FLAG_CARRIED 32
 
 // The gap is above the tolerance asked for: rounding allows no better. It is still a bound.
@@ -355,7 +355,7 @@ typedef struct pp_settings {
     // particles overlap: where it would, the default is used (PP_FLAG_DEFAULT_REGULARISATION).
     double flat_regularisation;
     // 0 (default): every contact is solved. Above 0: a contact may be carried on from the last one of its
-    // pair without evaluating a plane (PP_FLAG_CARRIED), as long as its point is known to this share of the
+    // pair and not solved (PP_FLAG_CARRIED), as long as its point is known to this share of the
     // smaller bounding radius. In [0, 0.1]; 1e-9 is a good choice. Needs a pp_pair_state; contacts of
     // PP_CLOSEST and by PP_CONE_PROGRAM are always solved.
     double carry_tolerance;
@@ -1159,7 +1159,7 @@ pp_status pp_settings_default(struct pp_settings *settings);
 //
 // settings: may be NULL (defaults). state: may be NULL; else that of this ordered pair, read, and updated
 // when the call returns PP_OK. With carry_tolerance above 0 a contact of PP_MIDWAY by PP_FAST is carried on
-// from the last one without a look at any plane, where that can be: the answer has PP_FLAG_CARRIED, and its
+// from the last one and not solved, where that can be: the answer has PP_FLAG_CARRIED, and its
 // gap and point_bound hold as for any other. out: the answer; see struct pp_contact for frames, units and
 // signs.
 // Pointers: state and out are not used by another call at the same time.

@@ -86,7 +86,7 @@ pub struct Settings {
     /// contact is solved.
     ///
     /// Above 0 (1e-9, say) and with a [`crate::PairState`], a contact of [`Formulation::Midway`] by [`BackEnd::Fast`] follows from the
-    /// last one without a look at any plane ([`crate::Flags::CARRIED`]) where no plane can have switched and its point is known so well.
+    /// last one without a solution from its planes ([`crate::Flags::CARRIED`]) where no plane can have switched and its point is known so well.
     /// Its gap and `point_bound` hold as for any other.
     pub carry_tolerance: f64,
 }

@@ -28,18 +28,18 @@ from summary import print_table, write_summary
 
 OUT = TOP / "out" / "scale"
 PARTS = ("reset", "watch", "collider", "contacts", "motion")
-# Name: kind, bodies of the settled pile, copies of it, threads, way, windows, steps of a window.
+# Name: kind, bodies of the settled pile, copies of it, threads, way, windows, steps of a window: short, to fit between what else the machine does.
 RUNS = {
-    "spheres 300": ("spheres", 300, 1, 1, "plain", 12, 300),
-    "pyramids 200": ("pyramids", 200, 1, 1, "best", 12, 300),
-    "spheres 2,000": ("spheres", 2000, 1, 1, "plain", 12, 60),
-    "pyramids 2,000": ("pyramids", 2000, 1, 1, "best", 12, 60),
-    "pyramids 2,000, YADE's loop": ("pyramids", 2000, 1, 1, "plain", 12, 60),
-    "before 2,000": ("pyramids", 2000, 1, 1, "best", 12, 60),
-    "spheres 20,000": ("spheres", 2000, 10, 1, "plain", 6, 12),
-    "pyramids 20,000": ("pyramids", 2000, 10, 1, "best", 6, 12),
-    "before 20,000": ("pyramids", 2000, 10, 1, "best", 6, 12),
-    "pyramids 20,000, two threads": ("pyramids", 2000, 10, 2, "best", 6, 12),
+    "spheres 300": ("spheres", 300, 1, 1, "plain", 60, 60),
+    "pyramids 200": ("pyramids", 200, 1, 1, "best", 60, 60),
+    "spheres 2,000": ("spheres", 2000, 1, 1, "plain", 60, 12),
+    "pyramids 2,000": ("pyramids", 2000, 1, 1, "best", 60, 12),
+    "pyramids 2,000, YADE's loop": ("pyramids", 2000, 1, 1, "plain", 60, 12),
+    "before 2,000": ("pyramids", 2000, 1, 1, "best", 60, 12),
+    "spheres 20,000": ("spheres", 2000, 10, 1, "plain", 18, 4),
+    "pyramids 20,000": ("pyramids", 2000, 10, 1, "best", 18, 4),
+    "before 20,000": ("pyramids", 2000, 10, 1, "best", 18, 4),
+    "pyramids 20,000, two threads": ("pyramids", 2000, 10, 2, "best", 18, 4),
     "pyramids 100,000": ("pyramids", 2000, 50, 1, "best", 3, 4),
 }
 ONCE = {"pyramids 100,000"}

@@ -26,7 +26,7 @@ pub unsafe extern "C" fn pp_settings_default(settings: *mut pp_settings) -> pp_s
 ///
 /// settings: may be NULL (defaults). state: may be NULL; else that of this ordered pair, read, and updated
 /// when the call returns PP_OK. With carry_tolerance above 0 a contact of PP_MIDWAY by PP_FAST is carried on
-/// from the last one without a look at any plane, where that can be: the answer has PP_FLAG_CARRIED, and its
+/// from the last one and not solved, where that can be: the answer has PP_FLAG_CARRIED, and its
 /// gap and point_bound hold as for any other. out: the answer; see struct pp_contact for frames, units and
 /// signs.
 /// Pointers: state and out are not used by another call at the same time.

@@ -29,7 +29,7 @@ pub const PP_FLAG_NORMAL_BY_CENTRES: u32 = 4;
 pub const PP_FLAG_WARM: u32 = 8;
 /// Answered in extended precision (about 32 digits): doubles did not settle it, or not to the gap asked for.
 pub const PP_FLAG_EXTENDED: u32 = 16;
-/// Carried on from the last contact, without a look at the planes (carry_tolerance).
+/// Carried on from the last contact, without a solution from the planes (carry_tolerance).
 pub const PP_FLAG_CARRIED: u32 = 32;
 /// The gap is above the tolerance asked for: rounding allows no better. It is still a bound.
 pub const PP_FLAG_ROUNDING_LIMITED: u32 = 64;
@@ -87,7 +87,7 @@ pub struct pp_settings {
     /// particles overlap: where it would, the default is used (PP_FLAG_DEFAULT_REGULARISATION).
     pub flat_regularisation: f64,
     /// 0 (default): every contact is solved. Above 0: a contact may be carried on from the last one of its
-    /// pair without evaluating a plane (PP_FLAG_CARRIED), as long as its point is known to this share of the
+    /// pair and not solved (PP_FLAG_CARRIED), as long as its point is known to this share of the
     /// smaller bounding radius. In [0, 0.1]; 1e-9 is a good choice. Needs a pp_pair_state; contacts of
     /// PP_CLOSEST and by PP_CONE_PROGRAM are always solved.
     pub carry_tolerance: f64,

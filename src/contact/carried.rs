@@ -1,15 +1,16 @@
-//! The last contact of a pair carried on to new poses, without evaluating any plane.
+//! The last contact of a pair carried on to new poses, without a solution from the planes.
 //!
 //! At a contact that is solved, S_A and S_B are known as quadratics, each in the frame of its own body, and so is how far a
 //! point may move there before a plane switches. While the contact point stays within, midway at new poses is the problem of
 //! the same two quadratics: (1−u)∇S_A + u∇S_B = 0 and S_A = S_B (paper eq. 4). Newton's method from the last point solves
-//! it, with one 3×3 factorisation for all its rounds; what a further round would change, from the slope and the mismatch that
+//! it, with one 3×3 inverse for all its rounds; what a further round would change, from the slope and the mismatch that
 //! are left, bounds the error (docs/theory.md, "Carrying a contact on").
 
 use crate::bounds::scale::Scale;
 use crate::bounds::solution::Solution;
 use crate::contact::contact::{Contact, Kind};
-use crate::contact::geometry::LocalContact;
+use crate::contact::followed::{MORE_ROUNDING, Within};
+use crate::contact::geometry::{Across, LocalContact};
 use crate::flags::Flags;
 use crate::linalg::number::{larger, smaller};
 use crate::linalg::symmetric::{Factor, Symmetric};
@@ -36,14 +37,17 @@ const MOST_ROUNDS: u32 = 8;
 /// Each change is at most this share of the last: the method converges then (Kantorovich's theorem asks for the half).
 const CONVERGING: f64 = 0.25;
 
+/// The change that is left is at most this share of the last: ten times as much, by which two changes may tell too little, is the half.
+const TOLD: f64 = 0.05;
+
 /// Share of the tolerance that the predicted next change may take: the prediction from the first two changes is up to ten times too small.
 const ENOUGH: f64 = 0.02;
 
-/// Bound on how many times that of the solved contact the rounding of places is within reach (derived: 3.1).
-const MORE_ROUNDING: f64 = 4.0;
-
 /// Largest share by which the weighted curvatures may change on the way: what is left is then known to a factor of two (docs/theory.md).
 const MOST_CHANGE: f64 = 0.5;
+
+/// Ratio of curvatures up to which the inverse is taken by minors: it loses as many digits, and what is left is measured at the end.
+const MOST_STIFF: f64 = 1e9;
 
 /// Most that the regularisation may have moved the solved point, relative to the smaller bounding radius: less than a contact point has to be
 /// known to.
@@ -95,16 +99,28 @@ struct Equations {
     mismatch: f64,
     apart: Vector3<f64>,
     bend: Symmetric,
-    factor: Factor,
-    /// H⁻¹ d.
+    /// H⁻¹ times a unit, its determinant: by it nothing has to be divided first.
+    inverse: Symmetric,
+    unit: f64,
+    per_unit: f64,
+    /// H⁻¹d, and 1/(d·H⁻¹d), with H⁻¹ in that unit.
     along: Vector3<f64>,
-    /// 1/(d·H⁻¹d).
     inverse_rate: f64,
     /// Ratio of the sum of the curvatures of H to the least one.
     stiffness: f64,
 }
 
+/// A round of the iteration.
+#[derive(Clone, Copy)]
+struct Round {
+    step: Step,
+    /// Square of the change of the way by it.
+    change: f64,
+    number: u32,
+}
+
 /// A solution of the equations.
+#[derive(Clone, Copy)]
 struct Step {
     way: Vector3<f64>,
     /// Of the weight u.
@@ -120,36 +136,43 @@ impl Equations {
         let here = [a.at(x), b.at(x)];
         let apart = here[1].gradient - here[0].gradient;
         let h = a.hessian.weighted(1.0 - u, &b.hessian, u);
-        let least = larger((1.0 - u) * soft[0] + u * soft[1], h.least_eigenvalue());
-        let factor = Factor::of(&h, least)?;
-        let along = factor.solve(&apart);
+        let adjugate = h.adjugate();
+        let determinant = h.determinant(&adjugate);
+        let least = larger((1.0 - u) * soft[0] + u * soft[1], h.least_eigenvalue(determinant));
+        let stiffness = h.trace() / least;
+        // By minors, whose divisions wait for nothing but each other: in a factorisation they follow one another.
+        let (inverse, unit) =
+            if stiffness <= MOST_STIFF { (adjugate, determinant) } else { (Factor::of(&h, least)?.inverse(), 1.0) };
+        let along = inverse.times(&apart);
         Some(Self {
             slope: slope(&here, u),
             mismatch: here[0].value - here[1].value,
             apart,
             bend: b.hessian.weighted(1.0, &a.hessian, -1.0),
-            factor,
+            inverse,
             along,
             inverse_rate: 1.0 / apart.dot(&along),
-            stiffness: h.trace() / least,
+            per_unit: 1.0 / unit,
+            unit,
+            stiffness,
         })
     }
 
     /// The step that these right-hand sides, σ and S_A − S_B, call for.
     #[inline(always)]
     fn step(&self, slope: &Vector3<f64>, mismatch: f64) -> Step {
-        let first = self.factor.solve(slope);
-        let weight = -(mismatch + self.apart.dot(&first)) * self.inverse_rate;
-        Step { way: -(first + weight * self.along), weight, open: slope.dot(&first) }
+        let first = self.inverse.times(slope);
+        let weight = -(mismatch * self.unit + self.apart.dot(&first)) * self.inverse_rate;
+        let way = -self.per_unit * (first + weight * self.along);
+        Step { way, weight, open: self.per_unit * slope.dot(&first) }
     }
 
-    /// Their solution to within `room`, the square of the last change, and the number of rounds; `None` where they do not
-    /// converge.
+    /// Their solution to within `room`; `None` where they do not converge.
     #[inline(always)]
-    fn solve(&self, room: f64) -> Option<(Step, f64, u32)> {
+    fn solve(&self, room: f64) -> Option<Round> {
         let mut step = self.step(&self.slope, self.mismatch);
         let mut last = step.way.norm_squared();
-        for rounds in 2..=MOST_ROUNDS {
+        for number in 2..=MOST_ROUNDS {
             let bent = self.bend.times(&step.way);
             let next = self.step(&(self.slope + step.weight * bent), self.mismatch - 0.5 * step.way.dot(&bent));
             let change = (next.way - step.way).norm_squared();
@@ -159,7 +182,7 @@ impl Equations {
             }
             step = next;
             if change * change <= (ENOUGH * room) * (ENOUGH * room) * last {
-                return Some((step, change, rounds));
+                return Some(Round { step, change, number });
             }
             last = change;
         }
@@ -208,6 +231,13 @@ impl LastContact {
             pieces,
             gap: scale.gap,
             point_bound: point_bound + moved,
+            square: scale.s * scale.s,
+            roundings: [
+                bodies[0].rounding(&model.points[0], &model.q_a),
+                bodies[1].rounding(&model.points[1], &model.q_b),
+            ],
+            growth: 1.0,
+            follows: 0.0,
             precision: precision_of(settings),
         }
     }
@@ -218,7 +248,7 @@ impl LastContact {
         let soft = [2.0 * pair.a.sphere_weight, 2.0 * pair.b.sphere_weight];
         let weight = last.lambda / (1.0 + last.lambda);
         let equations = Equations::of(pieces, &last.x, weight, soft)?;
-        let (step, change, rounds) = equations.solve(room)?;
+        let Round { step, change, number } = equations.solve(room)?;
         let (x, u) = (last.x + step.way, weight + step.weight);
         let here = [pieces[0].at(&x), pieces[1].at(&x)];
         // What is left there, rounding included.
@@ -228,36 +258,43 @@ impl LastContact {
         // The curvatures there, H + δ·E, differ from those that were factored by no more than this share of H.
         let share = step.weight.abs() / smaller(weight, 1.0 - weight);
         let left_out = 1.0 + 2.0 * share * equations.stiffness.sqrt();
-        let converges = way * way <= CONVERGING * CONVERGING * change && 2.0 * way * left_out <= room;
+        let converges = way * way <= TOLD * TOLD * change && 2.0 * way * left_out <= room;
         // Where it is no shorter by far, it must be rounding.
         if !(share <= MOST_CHANGE && (converges || way <= self.point_bound)) {
             return None;
         }
         let left = Left { square: mismatch.abs() + next.open, way: way * left_out, stiffness: equations.stiffness };
-        Some(Optimum { x, u, here, left, rounds })
+        Some(Optimum { x, u, here, left, rounds: number })
     }
 
     /// Its contact, frame of B; `None` where it is not certain.
     #[inline(always)]
-    fn local(&self, pair: &Pair, pieces: &[KnownPiece; 2], optimum: &Optimum) -> Option<LocalContact> {
+    fn local(
+        &self,
+        pair: &Pair,
+        pieces: &[KnownPiece; 2],
+        optimum: &Optimum,
+        moved: [f64; 2],
+        within: [Within; 2],
+    ) -> Option<LocalContact> {
         let Optimum { x, u, here: [a, b], left, rounds } = optimum;
         let (values, gradients) = ([a.value, b.value], [a.gradient, b.gradient]);
-        let s = ((1.0 - u) * values[0] + u * values[1]).sqrt();
-        let moved = [(x - pieces[0].from).norm(), (x - pieces[1].from).norm()];
-        let share = larger(moved[0] / pieces[0].reach, moved[1] / pieces[1].reach);
+        let s = optimum.square().sqrt();
+        let share = larger(within[0].share, within[1].share);
         // Depths and distances from the centres change by that share at most, places are rounded as much more.
-        let grown = (1.0 + 3.0 * share) * (1.0 + 3.0 * share) / (1.0 - share);
+        let grown = self.growth * (1.0 + 3.0 * share) * (1.0 + 3.0 * share) / (1.0 - share);
         let gap = grown * self.gap + left.square / s;
         if !(*u > 0.0 && *u < 1.0 && share < 1.0 && s + gap < 1.0) {
             return None;
         }
-        let gradient_norms = [gradients[0].norm(), gradients[1].norm()];
         let lambda = u / (1.0 - u);
-        let solution = Solution { gradients, gradient_norms, values, ..Solution::unsettled(*x, lambda, *rounds) };
+        let solution = Solution { gradients, values, ..Solution::unsettled(*x, lambda, *rounds) };
+        // Forces balance: both sides of it point the same way, and no unit vectors are needed to weigh them alike.
+        let across = Across::balanced((1.0 - u) * gradients[0] - *u * gradients[1]);
         let along = |n: &Vector3<f64>| {
             let piece = |i: usize| Piece {
                 curvature: pieces[i].hessian.times(n).dot(n),
-                reach: pieces[i].reach - moved[i],
+                reach: within[i].left,
                 ..Piece::default()
             };
             [piece(0), piece(1)]
@@ -268,6 +305,7 @@ impl LastContact {
         LocalContact::along_normal(
             pair,
             &solution,
+            across,
             Scale { s, gap, low: s - gap, high: s + gap },
             || bound,
             along,
@@ -287,16 +325,26 @@ impl PairState {
         settings: &Settings,
         answer: impl FnOnce(Contact) -> T,
     ) -> Option<T> {
-        let known = &self.last_contact;
+        let last = self.remembered(a, b);
+        let known = &mut self.last_contact;
         if !(known.is_of(a.0, b.0) && known.precision == precision_of(settings)) {
             return None;
         }
-        let last = self.remembered(a, b)?;
+        let last = last?;
         let pair = Pair::new(a.0, a.1, b.0, b.1);
         let pieces = [known.pieces[0].seen_from_b(&pair), known.pieces[1]];
         let room = settings.carry_tolerance * smaller(a.0.bounding_radius(), b.0.bounding_radius());
         let optimum = known.optimum(&pair, &pieces, &last, room)?;
-        let local = known.local(&pair, &pieces, &optimum)?;
+        let moved = [0, 1].map(|i| (optimum.x - pieces[i].from).norm());
+        let mut within = [0, 1].map(|i| {
+            let reach = pieces[i].reach;
+            Within { share: moved[i] / reach, left: reach - moved[i] }
+        });
+        // Written so that what is not a number is looked at, and fails there.
+        if !(within[0].left > 0.0 && within[1].left > 0.0) {
+            within = known.follow(&pair, &optimum.x, optimum.square(), optimum.left.way)?;
+        }
+        let local = known.local(&pair, &pieces, &optimum, moved, within)?;
         let (x, lambda) = (optimum.x, optimum.u / (1.0 - optimum.u));
         self.remember(Remembered { x, lambda, ..last });
         let call = Contact { flags: Flags::WARM.with(Flags::CARRIED), iterations: optimum.rounds, ..Contact::UNKNOWN };
@@ -313,6 +361,14 @@ struct Optimum {
     here: [Here; 2],
     left: Left,
     rounds: u32,
+}
+
+impl Optimum {
+    /// S.
+    #[inline(always)]
+    fn square(&self) -> f64 {
+        (1.0 - self.u) * self.here[0].value + self.u * self.here[1].value
+    }
 }
 
 /// What is left there.

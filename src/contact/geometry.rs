@@ -47,7 +47,8 @@ impl LocalContact {
     #[inline(always)]
     pub fn midway(call: &Call, midway: &Solved, scale: Scale, overlapping: bool) -> Option<Self> {
         let bound = || call.point_bound(midway, Problem::Midway);
-        Self::along_normal(call.pair, &midway.solution, scale, bound, |n| call.pieces(midway, n), overlapping)
+        let across = Across::of(call.pair, &midway.solution.gradients, midway.solution.gradient_norms);
+        Self::along_normal(call.pair, &midway.solution, across, scale, bound, |n| call.pieces(midway, n), overlapping)
     }
 
     /// The same from the bound of the point and S_A and S_B along a vector: on the quadratics at P3 the surface is a square root away.
@@ -55,13 +56,13 @@ impl LocalContact {
     pub fn along_normal(
         pair: &Pair,
         solution: &Solution,
+        across: Across,
         scale: Scale,
         point_bound: impl Fn() -> f64,
         pieces: impl Fn(&Vector3<f64>) -> [Piece; 2],
         overlapping: bool,
     ) -> Option<Self> {
         let (x, gradients) = (&solution.x, &solution.gradients);
-        let across = Across::of(pair, gradients, solution.gradient_norms);
         let normal = across.normal();
         let surface = if overlapping {
             let pieces = pieces(&across.vector);
@@ -153,7 +154,7 @@ impl LocalContact {
 }
 
 /// The direction from A to B.
-struct Across {
+pub(crate) struct Across {
     /// Along the normal, of any length: what needs no unit vector does not wait for the root.
     vector: Vector3<f64>,
     length: f64,
@@ -162,6 +163,12 @@ struct Across {
 }
 
 impl Across {
+    /// Along a vector whose length is a number above 0.
+    #[inline(always)]
+    pub fn balanced(vector: Vector3<f64>) -> Self {
+        Self { vector, length: vector.norm(), by_centres: false }
+    }
+
     /// From ∇S_A and ∇S_B and their lengths, frame of B.
     #[inline(always)]
     fn of(pair: &Pair, gradients: &[Vector3<f64>; 2], gradient_norms: [f64; 2]) -> Self {

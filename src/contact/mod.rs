@@ -3,7 +3,7 @@
 //! [`detect::detect`] is read first; the whole of a call stands in that file:
 //!
 //! 1. *carried on*, if the settings ask for it: both quadratics of the last contact, moved with their bodies, are solved for the new poses
-//!    without evaluating any plane (section 7 of docs/theory.md);
+//!    without evaluating any plane, or those alone that may have switched (section 7 of docs/theory.md);
 //! 2. *rejected* by a separation test ([`crate::pair::separation`]), with a lower bound on the distance;
 //! 3. *solved* for x and λ ([`crate::solver`]), from the remembered solution or a start of its own;
 //! 4. *described*, and remembered for the next call.
@@ -26,6 +26,7 @@
 //! |---|---|
 //! | `contact` | the answer |
 //! | `geometry` | point, normal and overlap from a solution |
+//! | `followed` | the quadratics of a contact whose point has left their reach |
 //! | `carried` | the last contact carried on to new poses |
 //! | `detect` | the whole of a call |
 //! | `closest_point` | one closest point alone |
@@ -36,4 +37,5 @@ pub(crate) mod carried;
 pub(crate) mod closest_point;
 pub(crate) mod contact;
 pub(crate) mod detect;
+pub(crate) mod followed;
 pub(crate) mod geometry;

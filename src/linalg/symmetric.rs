@@ -112,16 +112,30 @@ impl Symmetric {
     /// Lower bound of the least eigenvalue of a matrix that has none below 0: the other two multiply to (½·tr)² at most, so that it
     /// is at least 4·det/tr². 0 where that is less than [`LEAST_TOLD`] of the trace.
     #[inline]
-    pub(crate) fn least_eigenvalue(&self) -> f64 {
-        let minors = [
-            self.yy * self.zz - self.zy * self.zy,
-            self.yx * self.zz - self.zy * self.zx,
-            self.yx * self.zy - self.yy * self.zx,
-        ];
-        let (determinant, trace) = (self.xx * minors[0] - self.yx * minors[1] + self.zx * minors[2], self.trace());
+    pub(crate) fn least_eigenvalue(&self, determinant: f64) -> f64 {
+        let trace = self.trace();
         let least = 4.0 * determinant / (trace * trace) * (1.0 - DETERMINANT_ROUNDING);
         // More than the trace is the infinity of a determinant beyond the range of numbers.
         if least > LEAST_TOLD * trace && least <= trace { least } else { 0.0 }
+    }
+
+    /// The matrix of minors with their signs: the inverse times the determinant.
+    #[inline]
+    pub(crate) fn adjugate(&self) -> Self {
+        Self {
+            xx: self.yy * self.zz - self.zy * self.zy,
+            yx: self.zy * self.zx - self.yx * self.zz,
+            yy: self.xx * self.zz - self.zx * self.zx,
+            zx: self.yx * self.zy - self.yy * self.zx,
+            zy: self.yx * self.zx - self.xx * self.zy,
+            zz: self.xx * self.yy - self.yx * self.yx,
+        }
+    }
+
+    /// The determinant, given the adjugate.
+    #[inline]
+    pub(crate) fn determinant(&self, adjugate: &Self) -> f64 {
+        self.xx * adjugate.xx + self.yx * adjugate.yx + self.zx * adjugate.zx
     }
 
     /// With zeros but for the first `dimensions` rows and columns.
@@ -244,6 +258,15 @@ mod tests {
     }
 
     #[test]
+    fn the_adjugate_is_the_inverse_times_the_determinant() {
+        let h = Symmetric { xx: 4.0, yx: -1.0, yy: 3.0, zx: 0.5, zy: 0.25, zz: 2.0 };
+        let adjugate = h.adjugate();
+        let determinant = h.determinant(&adjugate);
+        assert!((determinant - h.matrix().determinant()).abs() < 1e-14 * determinant);
+        assert!((h.matrix() * adjugate.matrix() - determinant * Matrix3::identity()).norm() < 1e-14 * determinant);
+    }
+
+    #[test]
     fn no_pivot_falls_below_the_least_curvature() {
         let flat = Symmetric { xx: 1.0, yx: 1.0, yy: 1.0, zx: 0.0, zy: 0.0, zz: 0.0 };
         let step = Factor::of(&flat, 0.5).unwrap().solve(&Vector3::new(0.0, 0.0, 1.0));
@@ -274,14 +297,11 @@ mod tests {
     fn the_least_eigenvalue_is_told_in_any_unit_or_not_at_all() {
         let regular = Symmetric { xx: 4.0, yx: -1.0, yy: 3.0, zx: 0.5, zy: 0.25, zz: 2.0 };
         let soft = Symmetric { xx: 1.0, yx: 1.0, yy: 1.0, zx: 0.0, zy: 0.0, zz: 1e-8 };
+        let least = |h: Symmetric| h.least_eigenvalue(h.determinant(&h.adjugate()));
         for exponent in [-1000, -400, -90, 0, 90, 340, 500, 1000] {
             let unit = 2f64.powi(exponent);
-            let (of_regular, of_soft) =
-                (regular.scaled(unit, 0.0).least_eigenvalue(), soft.scaled(unit, 0.0).least_eigenvalue());
-            assert!(
-                of_regular == 0.0 || of_regular == unit * regular.least_eigenvalue(),
-                "2^{exponent}: {of_regular:e}"
-            );
+            let (of_regular, of_soft) = (least(regular.scaled(unit, 0.0)), least(soft.scaled(unit, 0.0)));
+            assert!(of_regular == 0.0 || of_regular == unit * least(regular), "2^{exponent}: {of_regular:e}");
             assert_eq!(of_soft, 0.0, "2^{exponent}");
         }
     }

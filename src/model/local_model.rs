@@ -136,7 +136,8 @@ impl LocalModel {
 
     /// Whether the planes of the sum with these weights leave a direction without resistance, or nearly.
     fn has_soft_direction(&self, (a, b): (f64, f64)) -> bool {
-        self.q_a.hessian.weighted(a, &self.q_b.hessian, b).least_eigenvalue() == 0.0
+        let h = self.q_a.hessian.weighted(a, &self.q_b.hessian, b);
+        h.least_eigenvalue(h.determinant(&h.adjugate())) == 0.0
     }
 
     /// Takes the quadratics in axes aligned with the stiffest planes of that sum instead.

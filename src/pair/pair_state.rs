@@ -7,7 +7,7 @@ use crate::pose::Pose;
 use nalgebra::Vector3;
 
 /// The state of one ordered pair (A, B), of two particles or of one and a boundary: the last solution, from which the next call starts, and, with [`crate::Settings::carry_tolerance`]
-/// above 0, both potentials as quadratics about the last contact, from which the next contact may follow without evaluating any plane.
+/// above 0, both potentials as quadratics about the last contact, from which the next contact may follow without a solution from the planes.
 /// Empty by default.
 ///
 /// The solution is a hint and can be saved ([`Self::into_raw`]): any content, even of another pair, leaves the answer within its gap.
@@ -59,6 +59,12 @@ pub(crate) struct LastContact {
     /// Bounds that the contact had when it was solved.
     pub gap: f64,
     pub point_bound: f64,
+    /// S, and bounds on the rounding of S_A and S_B, when it was solved.
+    pub square: f64,
+    pub roundings: [f64; 2],
+    /// Bound on how many times as large the rounding is about the pieces, which have followed the point so often.
+    pub growth: f64,
+    pub follows: f64,
     /// `gap_tolerance` and `flat_regularisation` with which it was solved.
     pub precision: [f64; 2],
 }

@@ -55,7 +55,7 @@ struct ContactSettings {
               "as if k were this. Raise it (1e-4, say) when flat faces jitter.");
         visit("carryTolerance", &S::carryTolerance,
               "To what part of the smaller particle's size the point of a contact has to be known that is carried on from the "
-              "last step without a look at the planes; 0: every contact is solved in every step.");
+              "last step without a solution from the planes; 0: every contact is solved in every step.");
         visit("patch", &S::patch,
               "Whether the contact patch decides: contactPoint is then its centre of pressure, normal the direction of the force of its "
               "pressure, penetrationDepth that force over stiffness and area, KnKsPhys.contactArea the area.");

@@ -121,7 +121,7 @@ struct Ig2_ConicPP_ConicPP_ScGeom::Pair : PairInScene {
     // Whether they were apart, and have not moved by the distance between them since.
     bool isKeptApart()
     {
-        const double left = own ? own->apart.left(turned1(), turned2(), branch()) : 0;
+        const double left = own && own->apart.isKnown() ? own->apart.left(turned1(), turned2(), branch()) : 0;
         if (left > 0)
             noteRoom(left);
         return left > 0;
@@ -195,8 +195,8 @@ bool Ig2_ConicPP_ConicPP_ScGeom::goInLoop(Step& step, Counters::Row& counts, Bod
                                           PairInStep& pairInStep, const boost::shared_ptr<Interaction>& interaction) noexcept
 {
     const bool real = interaction->hasGeomAndPhys();
-    const boost::shared_ptr<Shape> &cm1 = body1.body->shape, &cm2 = body2.body->shape;
-    const State &state1 = *body1.body->state, &state2 = *body2.body->state;
+    const boost::shared_ptr<Shape> &cm1 = *body1.shape, &cm2 = *body2.shape;
+    const State &state1 = *body1.state, &state2 = *body2.state;
     const Vector3r shift2 = Vector3r::Zero();
     try {
         const AcceptedSettings& settings = *accepted.get();

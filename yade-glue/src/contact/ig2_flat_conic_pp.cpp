@@ -52,8 +52,8 @@ bool Ig2_Flat_ConicPP::goInLoop(Step& step, Counters::Row& counts, BodyInStep& b
                                 const boost::shared_ptr<Interaction>& interaction) noexcept
 {
     const bool real = interaction->hasGeomAndPhys();
-    const boost::shared_ptr<Shape> &cm1 = body1.body->shape, &cm2 = body2.body->shape;
-    const State &state1 = *body1.body->state, &state2 = *body2.body->state;
+    const boost::shared_ptr<Shape> &cm1 = *body1.shape, &cm2 = *body2.shape;
+    const State &state1 = *body1.state, &state2 = *body2.state;
     const Vector3r shift2 = Vector3r::Zero();
     try {
         const AcceptedSettings& settings = *accepted.get();

@@ -51,6 +51,9 @@ public:
     Way way;
     // Null: there is none with that id.
     yade::Body* body = nullptr;
+    // Its own, if it has both.
+    const boost::shared_ptr<yade::Shape>* shape = nullptr;
+    const yade::State* state = nullptr;
     yade::Vector3r position = yade::Vector3r::Zero();
     yade::Quaternionr orientation = yade::Quaternionr::Identity();
     yade::Vector3r velocity, spin;

@@ -74,6 +74,8 @@ void Pushes::add(const Step& step, yade::ForceContainer& forces, std::size_t bod
     Vector3r force = Vector3r::Zero(), torque = Vector3r::Zero();
     bool any = false;
     for (std::size_t i = begins[body]; i < ends[body]; ++i) {
+        if (i + ahead < entries.size())
+            Step::fetch(step.knownContactAt(entries[i + ahead].place), sizeof(ContactInStep));
         const ContactInStep& contact = *step.knownContactAt(entries[i].place);
         if (contact.pushedIn != step.number())
             continue;

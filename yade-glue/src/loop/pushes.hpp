@@ -30,6 +30,8 @@ private:
     };
     // A contact that has ended is listed anew for so many steps: many begin again.
     static constexpr std::uint64_t late = 100;
+    // Entries whose contacts are fetched before their turn.
+    static constexpr std::size_t ahead = 16;
     // Contacts that may come to a body before all lists are made anew.
     static constexpr std::uint32_t spare = 6;
 

@@ -153,6 +153,8 @@ void Step::fill(BodyInStep& body, yade::Body* given)
         return;
     }
     const yade::State& state = *given->state;
+    body.shape = &given->shape;
+    body.state = &state;
     body.position = state.se3.position;
     body.orientation = state.se3.orientation;
     body.velocity = state.vel;

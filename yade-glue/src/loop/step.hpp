@@ -8,6 +8,7 @@
 #include "blocks.hpp"
 #include "body_in_step.hpp"
 #include "pair_in_step.hpp"
+#include "pair/sc_geom_conic_pp.hpp"
 
 #include <potential_particles.h>
 
@@ -115,6 +116,8 @@ public:
     // Asks for the data of the pair that is so many places further than this one in YADE's list, if it touches.
     void fetchAhead(std::size_t place) const
     {
+        if (const PairInStep* const later = pairs.find(place + 2 * ahead); later && later->touching)
+            fetch(contacts.find(place + 2 * ahead), sizeof(ContactInStep));
         const PairInStep* const next = pairs.find(place + ahead);
         if (!next || !next->touching)
             return;
@@ -125,7 +128,20 @@ public:
             return;
         fetch(contact->interaction, sizeof(yade::Interaction));
         fetch(contact->geom, geomSize);
+        fetch(contact->geom, stateSize, stateOffset);
         fetch(contact->phys, physSize);
+    }
+
+    static void fetch(const void* place, std::size_t size, std::size_t offset = 0)
+    {
+        if (!place)
+            return;
+        // GCC 12 takes a function of __builtin_prefetch alone for one without effect, and drops it.
+        const auto* const bytes = static_cast<const char*>(place) + offset;
+        for (std::size_t i = 0; i < size; i += lineSize)
+            asm volatile("prefetcht0 (%0)" : : "r"(bytes + i));
+        // YADE's objects begin anywhere in a line, and end in one more.
+        asm volatile("prefetcht0 (%0)" : : "r"(bytes + size - 1));
     }
 
 private:
@@ -134,17 +150,9 @@ private:
     static constexpr std::size_t ahead = 6;
     static constexpr std::size_t lineSize = 64;
     // What a contact touches of ScGeomConicPP and KnKsPhys.
-    static constexpr std::size_t geomSize = 256 + sizeof(pp_pair_state), physSize = 480;
+    static constexpr std::size_t geomSize = 256, stateOffset = sizeof(ScGeomConicPP) - sizeof(pp_pair_state);
+    static constexpr std::size_t stateSize = sizeof(pp_pair_state), physSize = 480;
     static constexpr std::uint64_t busy = ~std::uint64_t(0);
-
-    static void fetch(const void* place, std::size_t size)
-    {
-        if (!place)
-            return;
-        // GCC 12 takes a function of __builtin_prefetch alone for one without effect, and drops it.
-        for (std::size_t i = 0; i < size; i += lineSize)
-            asm volatile("prefetcht0 (%0)" : : "r"(static_cast<const char*>(place) + i));
-    }
 
     struct FlatBody {
         yade::Body* body = nullptr; // null: it is no wall or facet

@@ -50,6 +50,8 @@ public:
     }
 
     void forget() { limit = 0; }
+    // Whether anything is known.
+    bool isKnown() const { return limit > 0; }
 
     // By how much they are still apart for sure; 0 when nothing is known. No point of a particle moves further than its
     // centre does, and by its turn on the ball around it.

@@ -29,16 +29,25 @@ public:
     ~ScGeomConicPP() override;
     PP_ABI_SERIALIZABLE_OVERRIDES
 
-    // Saved but for its last contact.
-    pp_pair_state state {};
-    // Not saved: made again by the first look after loading, and after saving.
-    KeptApart apart;
+private:
+    // First: they are looked at in each step, and lie beside what YADE's class ends with.
+    std::atomic<bool> saved { false };
+    bool heldByBond = false;
+    std::unique_ptr<ContactPatch> foundPatch;
+    std::unique_ptr<pp_patch_state> keptPatch;
+
+public:
     // Of a facet that left its contact to another one at the last look: which, and where on the seam; not saved.
     struct Left {
         int to = -1; // -1: it did not
         unsigned feature = 0; // of the facet
         double share = 0; // on an edge, from its first vertex
     } left;
+    // Not saved: made again by the first look after loading, and after saving.
+    KeptApart apart;
+    // Saved but for its last contact. Last: in each step a contact reads what stands before, the beginning of `apart`, and this.
+    pp_pair_state state {};
+
     // Of the last look, if the functor is told to find it; not saved. Only pairs that have one take the room for it.
     const ContactPatch& patch() const
     {
@@ -84,8 +93,6 @@ public:
     }
 
 private:
-    bool heldByBond = false;
-
     void forgetUnsaved()
     {
         std::fill(std::begin(state.last_contact), std::end(state.last_contact), 0.0);
@@ -93,10 +100,6 @@ private:
         left = {};
         keptPatch.reset();
     }
-
-    std::unique_ptr<ContactPatch> foundPatch;
-    std::unique_ptr<pp_patch_state> keptPatch;
-    std::atomic<bool> saved { false };
 
     friend class boost::serialization::access;
     template <class Archive> void serialize(Archive& archive, unsigned);

@@ -1,0 +1,77 @@
+//! A contact that is carried on and whose point has left the reach of its quadratics: they are set up anew about the point where the planes that
+//! are active are still the same (docs/theory.md, "Carrying a contact on").
+//!
+//! A point on a face may go far along its edge, whose plane is never far from switching.
+
+use crate::linalg::number::smaller;
+use crate::pair::body::Body;
+use crate::pair::pair::Pair;
+use crate::pair::pair_state::{KnownPiece, LastContact};
+use crate::particle::potential;
+use nalgebra::Vector3;
+use std::cell::Cell;
+
+/// Bound on how many times that of the solved contact the rounding of places is within reach (derived: 3.1).
+pub(super) const MORE_ROUNDING: f64 = 4.0;
+
+/// How often the pieces are set up anew about a point that goes on, before it is solved from the planes again: how the optimum answers to changes
+/// of its data is known from there.
+const MOST_FOLLOWS: f64 = 30.0;
+
+/// How many times as large the rounding of S may be there as where it was solved.
+const MOST_GROWTH: f64 = 8.0;
+
+/// Most that may be left of the way to a point that is followed, relative to the smaller bounding radius, whatever the tolerance: what long steps
+/// leave may be more than the last changes tell.
+const MOST_OPEN: f64 = 1e-9;
+
+/// How a point lies in what is known of a body.
+#[derive(Clone, Copy)]
+pub(super) struct Within {
+    /// By which share depths and distances from the centre have changed at most.
+    pub share: f64,
+    /// Distance from there within which no plane switches, length.
+    pub left: f64,
+}
+
+impl KnownPiece {
+    /// The same about a point x out of reach, frame of B, from the planes there, with the bound on the rounding of S; `None` where a plane has
+    /// switched on the way, or may have. `self` is in the frame of its body.
+    #[inline(always)]
+    fn about(&self, body: &Body, x: &Vector3<f64>) -> Option<(Self, f64)> {
+        let (particle, point) = (body.particle, body.locate(x));
+        let way = point.y - self.from;
+        let same = Cell::new(true);
+        let is_active = |place, excess| {
+            let was_active = excess > particle.normal(place).dot(&way);
+            same.set(same.get() && (excess > 0.0) == was_active);
+            excess > 0.0
+        };
+        let longest = particle.bounds.longest_normal;
+        // No plane that was active is further off than this.
+        let early = longest * way.norm() + point.blur;
+        let q = potential::turned(particle, particle.sphere_weight, |n| n, &point.y, early, is_active);
+        let reach = smaller((q.clear - MORE_ROUNDING * point.blur) / longest, point.y.norm());
+        let piece = Self { from: point.y, value: q.value, gradient: q.gradient, hessian: q.hessian, reach };
+        (same.get() && reach > 0.0).then(|| (piece, body.rounding(&point, &q)))
+    }
+}
+
+impl LastContact {
+    /// Sets up the pieces about where the point x is now, frame of B, at this S and with so much left of its way, by a look at the planes that may
+    /// have switched since it has left one of them. `None` where one has, or where it was done too often.
+    #[inline(never)]
+    pub(super) fn follow(&mut self, pair: &Pair, x: &Vector3<f64>, square: f64, way: f64) -> Option<[Within; 2]> {
+        let (a, b) = Body::both(pair, 0.0);
+        let [(of_a, rounding_a), (of_b, rounding_b)] = [self.pieces[0].about(&a, x)?, self.pieces[1].about(&b, x)?];
+        let more = (rounding_a / self.roundings[0]).max(rounding_b / self.roundings[1]);
+        self.growth = (self.square / square).max(1.0).sqrt() * more.max(1.0);
+        self.follows += 1.0;
+        self.pieces = [of_a, of_b];
+        // Written so that what is not a number fails.
+        let whole = self.roundings.iter().chain([&self.square]).all(|value| *value > 0.0 && value.is_finite());
+        let near = way <= MOST_OPEN * smaller(pair.a.bounding_radius(), pair.b.bounding_radius());
+        let within = self.pieces.map(|piece| Within { share: 0.0, left: piece.reach });
+        (whole && near && self.follows <= MOST_FOLLOWS && self.growth <= MOST_GROWTH).then_some(within)
+    }
+}
