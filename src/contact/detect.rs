@@ -184,7 +184,15 @@ fn solved(
             }
             Start { x: last.x, lambda: last.lambda }
         }
-        None => call.cold(),
+        None => {
+            let (start, apart) = call.cold_or_apart();
+            if let Some(Apart { distance, .. }) = apart.filter(|_| !settings.solve_separated && settings.back_end == BackEnd::Fast) {
+                remember(state, Remembered { x: start.x, lambda: start.lambda, overlapping: false, closest: [1.0; 2] });
+                let flags = call.flags.with(Flags::REJECTED);
+                return Ok(Contact { flags, distance, ..Contact::separated(settings.formulation, 1.0) });
+            }
+            start
+        }
     };
     let mut model = call.model(&start, Problem::Midway);
     let overlapped = last.filter(|last| last.overlapping && settings.formulation == Formulation::Closest);

@@ -91,8 +91,8 @@ pub(crate) fn still_apart(
 
 /// How far `other`, centred at `centre` in the frame of `host`, lies beyond a face of `host`, if it does.
 ///
-/// f ≤ 0 implies n·x ≤ d + r/√(1−k). The ball of `other` is tried against every face; its corners, which
-/// are tighter, against the face that its centre lies furthest beyond. `to_other` takes
+/// f ≤ 0 implies n·x ≤ d + r/√(1−k). The ball of `other` is tried and its corners, which are tighter, are tried against a face that its
+/// centre lies far beyond: any face proves what it does. `to_other` takes
 /// directions from the frame of `host` to that of `other`.
 fn beyond_a_face(
     host: &Particle,
@@ -105,7 +105,7 @@ fn beyond_a_face(
         return None;
     }
     let ball = other.bounding_radius();
-    let (most, face) = host.farthest_excess(centre);
+    let (most, face) = host.likely_excess(centre);
     let n = host.normal(face);
     let length = n.norm();
     let reach = host.bounds.face_reach;

@@ -10,6 +10,7 @@ use crate::model::problem::Problem;
 use crate::pair::body::Body;
 use crate::pair::pair::Pair;
 use crate::pair::role::Role;
+use crate::pair::separation::Apart;
 use crate::reference::{self, ConeProgramError};
 use crate::settings::{BackEnd, Settings};
 use crate::solver::newton::{self, Goal};
@@ -71,6 +72,11 @@ impl<'a> Call<'a> {
 
     /// Where to begin if nothing is known.
     pub fn cold(&self) -> Start {
+        self.cold_or_apart().0
+    }
+
+    /// The same, with the proof that the bodies are apart if it was found on the way.
+    pub fn cold_or_apart(&self) -> (Start, Option<Apart>) {
         initial_guess::cold(self.pair, self.bodies())
     }
 

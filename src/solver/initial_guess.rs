@@ -14,11 +14,15 @@
 //! As long as the same planes decide, the minimiser of max(S_A, S_B) without the spheres' shares then is known in closed
 //! form. Forces balance at excesses √w·(n_i·x − d_i) = τ c_i/α on A and τ c_i/β on B, where α² and β² are the
 //! sums of c_i² over the planes of A and of B; both S are τ², τ = F/(α + β), and the ratio of weights is λ = β/α.
+//!
+//! The same planes prove that bodies are apart, whatever led to them ([`Hull::proof`]).
 
-use crate::linalg::number::larger;
+use crate::flags::Flags;
+use crate::linalg::number::{larger, smaller};
 use crate::model::local_model::Start;
 use crate::pair::body::Body;
 use crate::pair::pair::Pair;
+use crate::pair::separation::{Apart, MARGIN};
 use nalgebra::Vector3;
 
 /// Most planes that take over, one after the other, and most trials for each. A start need not be perfect.
@@ -42,18 +46,18 @@ const SLOW: f64 = 1e-6;
 /// Square of the shortest vector of the hull, relative to the longest, that counts as 0: the planes balance.
 const VANISHING: f64 = 1e-20;
 
-/// A start without memory; on a boundary, its point nearest to the centre.
-pub(crate) fn cold(pair: &Pair, [a, b]: [&Body; 2]) -> Start {
+/// A start without memory, with the proof that the bodies are apart if it was found on the way; on a boundary, its point nearest to the centre.
+pub(crate) fn cold(pair: &Pair, [a, b]: [&Body; 2]) -> (Start, Option<Apart>) {
     if b.particle.is_boundary() {
-        return Start { x: Vector3::zeros(), lambda: 1.0 };
+        return (Start { x: Vector3::zeros(), lambda: 1.0 }, None);
     }
     let on_centre_line = Start { x: centre_line(pair), lambda: 1.0 };
     if is_smooth(a) || is_smooth(b) {
-        return on_centre_line;
+        return (on_centre_line, None);
     }
     // Rounding may leave the program without a direction.
     let between = between_polyhedra([a, b], on_centre_line.x);
-    between.filter(|start| start.x.iter().all(|c| c.is_finite())).unwrap_or(on_centre_line)
+    between.filter(|(start, _)| start.x.iter().all(|c| c.is_finite())).unwrap_or((on_centre_line, None))
 }
 
 /// Whether so many planes share each place of the surface that the sharp polyhedron is a poor start. On a ball, a plane is on
@@ -71,7 +75,7 @@ fn centre_line(pair: &Pair) -> Vector3<f64> {
 }
 
 /// The minimum of F and what follows from it. `None` where the point to begin at is inside both, or no start is found.
-fn between_polyhedra(bodies: [&Body; 2], from: Vector3<f64>) -> Option<Start> {
+fn between_polyhedra(bodies: [&Body; 2], from: Vector3<f64>) -> Option<(Start, Option<Apart>)> {
     let mut envelope = Envelope::of(bodies);
     let mut x = from;
     let (mut level, first) = envelope.first(&x);
@@ -84,13 +88,15 @@ fn between_polyhedra(bodies: [&Body; 2], from: Vector3<f64>) -> Option<Start> {
         let y = hull.shortest();
         let rate = y.norm_squared();
         if hull.count == 4 || rate <= VANISHING * hull.longest {
-            return hull.start(x, level);
+            let balance = hull.balance()?;
+            let apart = if level > balance.alpha + balance.beta { hull.proof(bodies, &x, &balance) } else { None };
+            return Some((hull.start(x, level, &balance)?, apart));
         }
         let (way, next) = envelope.next(&x, &y, level, rate);
         x -= way * y;
         let Some(plane) = next else {
             // F = 0: inside both polyhedra.
-            return Some(Start { x, lambda: 1.0 });
+            return Some((Start { x, lambda: 1.0 }, None));
         };
         level -= way * rate;
         hull.join(envelope.face(plane))?;
@@ -109,6 +115,8 @@ struct Envelope<'a> {
     heights: [[f64; MOST_FOLLOWED]; 2],
     falls: [[f64; MOST_FOLLOWED]; 2],
     way: f64,
+    /// Of many: the last plane that was the highest, of each body.
+    last: [usize; 2],
 }
 
 /// Body (0, 1) and place of a plane.
@@ -118,12 +126,13 @@ impl<'a> Envelope<'a> {
     fn of(bodies: [&'a Body<'a>; 2]) -> Self {
         let few = bodies.iter().all(|body| body.particle.len() <= MOST_FOLLOWED);
         let roots = bodies.map(|body| body.plane_weight().sqrt());
-        Self { bodies, roots, few, heights: [[0.0; MOST_FOLLOWED]; 2], falls: [[0.0; MOST_FOLLOWED]; 2], way: 0.0 }
+        Self { bodies, roots, few, heights: [[0.0; MOST_FOLLOWED]; 2], falls: [[0.0; MOST_FOLLOWED]; 2], way: 0.0, last: [0; 2] }
     }
 
     /// F where the search begins, and the plane that it is that of.
     fn first(&mut self, x: &Vector3<f64>) -> (f64, Which) {
         if !self.few {
+            self.last = self.bodies.map(|body| body.likely_excess(x).1);
             return self.highest(x);
         }
         let mut highest = (f64::NEG_INFINITY, (0, 0));
@@ -139,15 +148,17 @@ impl<'a> Envelope<'a> {
         highest
     }
 
-    /// F, and the plane that it is that of.
-    fn highest(&self, x: &Vector3<f64>) -> (f64, Which) {
-        let [(of_a, place_a), (of_b, place_b)] = self.bodies.map(|body| body.farthest_excess(x));
+    /// F, and the plane that it is that of, by a walk over neighbours from the last planes.
+    fn highest(&mut self, x: &Vector3<f64>) -> (f64, Which) {
+        let [(of_a, place_a), (of_b, place_b)] =
+            [0, 1].map(|i| self.bodies[i].particle.climbed(&self.bodies[i].local(x), self.last[i]));
+        self.last = [place_a, place_b];
         let (of_a, of_b) = (self.roots[0] * of_a, self.roots[1] * of_b);
         if of_a > of_b { (of_a, (0, place_a)) } else { (of_b, (1, place_b)) }
     }
 
     fn face(&self, (body, place): Which) -> Face {
-        Face { gradient: self.roots[body] * self.bodies[body].normal(place), on_a: body == 0 }
+        Face { gradient: self.roots[body] * self.bodies[body].normal(place), on_a: body == 0, place }
     }
 
     /// How far F, now `level`, falls by `rate` a unit of way against y, and which plane takes over there; as far as
@@ -177,7 +188,7 @@ impl<'a> Envelope<'a> {
     }
 
     /// By Newton's method from the far end: what lies above F there takes over earlier.
-    fn next_of_many(&self, x: &Vector3<f64>, y: &Vector3<f64>, level: f64, rate: f64) -> (f64, Option<Which>) {
+    fn next_of_many(&mut self, x: &Vector3<f64>, y: &Vector3<f64>, level: f64, rate: f64) -> (f64, Option<Which>) {
         let (mut way, mut next) = (level / rate, None);
         for _ in 0..MOST_TRIALS {
             let (here, plane) = self.highest(&(x - way * y));
@@ -198,6 +209,13 @@ struct Face {
     /// g = √w·n in the solver's frame.
     gradient: Vector3<f64>,
     on_a: bool,
+    place: usize,
+}
+
+/// α and β.
+struct Balance {
+    alpha: f64,
+    beta: f64,
 }
 
 /// Planes that balance each other as far as they can: y = Σ c_i g_i is the shortest vector of their convex hull.
@@ -300,17 +318,49 @@ impl Hull {
         }
     }
 
-    /// The minimiser of max(S_A, S_B) from that of F, and its λ.
-    fn start(&self, x: Vector3<f64>, level: f64) -> Option<Start> {
+    /// `None` of one particle's planes alone: its own centre is meant, not a contact.
+    fn balance(&self) -> Option<Balance> {
         let squares = |on_a: bool| {
             let of = (0..self.count).filter(|&i| self.faces[i].on_a == on_a);
             of.map(|i| self.shares[i] * self.shares[i]).sum::<f64>().sqrt()
         };
         let (alpha, beta) = (squares(true), squares(false));
-        // One particle's planes alone: its own centre is meant, not a contact.
-        if !(alpha > 0.0 && beta > 0.0) {
-            return None;
+        (alpha > 0.0 && beta > 0.0).then_some(Balance { alpha, beta })
+    }
+
+    /// What the planes of the hull at x prove, if that the particles share no point.
+    ///
+    /// In a particle Σ c_i √w (n_i·x − d_i), over any of its planes, is at most the root of the sum of c_i², since the sum of the w⟨n_i·x − d_i⟩² is at
+    /// most 1. Over the planes of both the sum has the slope y and is at most α + β at a point of both, which is no farther from x than
+    /// the far side of either ball. Of two points at a distance d, one in A and one in B, the sum at either is at most that and what the planes
+    /// of the other one gain on d.
+    #[inline(never)]
+    fn proof(&self, [a, b]: [&Body; 2], x: &Vector3<f64>, Balance { alpha, beta }: &Balance) -> Option<Apart> {
+        let (at_a, at_b) = (a.local(x), b.local(x));
+        let (to_a, to_b) = ((x - a.centre()).norm(), x.norm());
+        let reach = smaller(to_a + a.particle.bounding_radius(), to_b + b.particle.bounding_radius());
+        let lengths = 2.0 * (to_a + to_b + a.particle.bounds.offset_within(to_a) + b.particle.bounds.offset_within(to_b));
+        let (mut sum, mut weights, mut steepest) = (0.0, 0.0, 0.0);
+        let (mut slope, mut slope_a) = (Vector3::zeros(), Vector3::zeros());
+        for (face, share) in self.faces.iter().zip(self.shares).take(self.count) {
+            let (body, at) = if face.on_a { (a, &at_a) } else { (b, &at_b) };
+            let share = larger(share, 0.0);
+            let weight = share * body.plane_weight().sqrt();
+            sum += weight * body.particle.excess(face.place, at);
+            weights += weight;
+            steepest += weight * body.particle.bounds.longest_normal;
+            slope += share * face.gradient;
+            slope_a += if face.on_a { share * face.gradient } else { Vector3::zeros() };
         }
+        let doubt = MARGIN * (lengths * (weights + steepest) + reach * steepest);
+        let slope = slope.norm();
+        let over = sum - slope * reach - doubt - (alpha + beta) * (1.0 + MARGIN);
+        // What the planes of either one gain is no more than that.
+        (over > 0.0).then(|| Apart::new(Flags::NONE, over / (slope_a.norm() + slope)))
+    }
+
+    /// The minimiser of max(S_A, S_B) from that of F, and its λ.
+    fn start(&self, x: Vector3<f64>, level: f64, &Balance { alpha, beta }: &Balance) -> Option<Start> {
         let tau = level / (alpha + beta);
         let per_share = [tau / beta, tau / alpha];
         let excess = |i: usize| per_share[usize::from(self.faces[i].on_a)] * self.shares[i];
@@ -340,7 +390,7 @@ mod tests {
             let pose_b = Pose::at([0.0; 3]).unwrap();
             let pair = Pair::new(&blunt, &pose_a, &sharp, &pose_b);
             let (a, b) = Body::both(&pair, 0.0);
-            let start = cold(&pair, [&a, &b]);
+            let (start, _) = cold(&pair, [&a, &b]);
             assert!((start.x.x - (0.5 + s * of_b)).abs() < 1e-14, "{start:?}");
             assert!((start.lambda / (of_b / of_a) - 1.0).abs() < 1e-12, "{start:?}");
             assert!([&a, &b].iter().all(|body| (body.value(&start.x) - s * s).abs() < 1e-11), "{start:?}");
@@ -355,7 +405,7 @@ mod tests {
             let mut chance = scattered(40 * seed);
             let mut face = || {
                 let gradient = Vector3::new(0.4, 0.0, 0.0) + Vector3::<f64>::from_fn(|_, _| chance());
-                Face { gradient, on_a: true }
+                Face { gradient, on_a: true, place: 0 }
             };
             let mut hull = Hull::of(face());
             for _ in 0..10 {
