@@ -181,15 +181,6 @@ impl Shape {
         a * y.x + b * y.y + c * y.z - d
     }
 
-    /// Calls `visit` as [`Self::visit_near`] does, with a plane and its neighbours alone.
-    #[inline(always)]
-    pub(crate) fn visit_around(&self, place: usize, y: &Vector3<f64>, mut visit: impl FnMut(usize, Vector3<f64>, f64)) {
-        let around = self.neighbours.around(place).iter().map(|&other| usize::from(other));
-        for place in around.chain([place]) {
-            visit(place, self.normal(place), self.excess(place, y));
-        }
-    }
-
     /// The largest n·y − d and the index of its plane; −∞ when there are no planes.
     #[inline]
     pub(crate) fn farthest_excess(&self, y: &Vector3<f64>) -> (f64, usize) {
