@@ -115,8 +115,7 @@ fn between_polyhedra(bodies: [&Body; 2], from: Vector3<f64>) -> Option<Guess> {
 #[inline(never)]
 fn proof(bodies: [&Body; 2], hull: &Hull, x: &Vector3<f64>, roots: [f64; 2]) -> Option<Apart> {
     let local = bodies.map(|body| body.local(x));
-    let excess =
-        |face: &Face| bodies[usize::from(!face.on_a)].particle.excess(face.place, &local[usize::from(!face.on_a)]);
+    let excess = |face: &Face| bodies[face.of].particle.excess(face.place, &local[face.of]);
     hull.proof(bodies.map(|body| body.particle), roots, bodies.map(|body| (x - body.centre()).norm()), excess)
 }
 
@@ -181,8 +180,8 @@ impl<'a> Envelope<'a> {
         if of_a > of_b { (of_a, (0, place_a)) } else { (of_b, (1, place_b)) }
     }
 
-    fn face(&self, (body, place): Which) -> Face {
-        Face { gradient: self.roots[body] * self.bodies[body].normal(place), on_a: body == 0, place }
+    fn face(&self, (of, place): Which) -> Face {
+        Face { gradient: self.roots[of] * self.bodies[of].normal(place), of, place }
     }
 
     /// How far F, now `level`, falls by `rate` a unit of way against y, and which plane takes over there; as far as
@@ -229,17 +228,15 @@ impl<'a> Envelope<'a> {
 
 /// The minimiser of max(S_A, S_B) from that of F, and its λ. `None` of one particle's planes alone: its own centre is meant, not a contact.
 fn balanced(hull: &Hull, x: &Vector3<f64>, level: f64) -> Option<(Start, f64)> {
-    let squares = |on_a: bool| {
-        let of = (0..hull.count).filter(|&i| hull.faces[i].on_a == on_a);
-        of.map(|i| hull.shares[i] * hull.shares[i]).sum::<f64>().sqrt()
-    };
-    let (alpha, beta) = (squares(true), squares(false));
+    let mut squares = [0.0; 2];
+    (0..hull.count).for_each(|i| squares[hull.faces[i].of] += hull.shares[i] * hull.shares[i]);
+    let [alpha, beta] = squares.map(f64::sqrt);
     if !(alpha > 0.0 && beta > 0.0) {
         return None;
     }
     let tau = level / (alpha + beta);
-    let per_share = [tau / beta, tau / alpha];
-    let excess = |i: usize| per_share[usize::from(hull.faces[i].on_a)] * hull.shares[i];
+    let per_share = [tau / alpha, tau / beta];
+    let excess = |i: usize| per_share[hull.faces[i].of] * hull.shares[i];
     let last = hull.count - 1;
     let to_last = excess(last);
     let step = (0..last).fold(Vector3::zeros(), |sum, i| sum + (excess(i) - to_last) * hull.reciprocal[i]);
