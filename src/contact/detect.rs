@@ -188,11 +188,11 @@ fn solved(
         }
         None => {
             let (start, apart) = call.cold_or_apart();
-            if let Some((Apart { distance, .. }, hull)) =
+            if let Some((Apart { distance, .. }, planes)) =
                 apart.filter(|_| !settings.solve_separated && settings.back_end == BackEnd::Fast)
             {
                 let Start { x, lambda } = start;
-                remember(state, Remembered { x, lambda, overlapping: false, balanced: true, closest: hull.places() });
+                remember(state, Remembered { x, lambda, overlapping: false, balanced: true, closest: planes });
                 let flags = call.flags.with(Flags::REJECTED);
                 return Ok(Contact { flags, distance, ..Contact::separated(settings.formulation, 1.0) });
             }

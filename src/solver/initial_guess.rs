@@ -17,6 +17,7 @@
 //!
 //! Whatever led to them, the same planes may prove the bodies apart ([`Hull::proof`]).
 
+use crate::linalg::number::larger;
 use crate::model::local_model::Start;
 use crate::pair::body::Body;
 use crate::pair::hull::{Face, Hull};
@@ -45,8 +46,8 @@ const SLOW: f64 = 1e-6;
 /// Square of the shortest vector of the hull, relative to the longest, that counts as 0: the planes balance.
 const VANISHING: f64 = 1e-20;
 
-/// A start, with the planes that prove the bodies apart if they were found on the way.
-pub(crate) type Guess = (Start, Option<(Apart, Hull)>);
+/// A start, with the proof that the bodies are apart if it was found on the way, and its planes ([`Hull::places`]).
+pub(crate) type Guess = (Start, Option<(Apart, [f64; 2])>);
 
 /// A start without memory; on a boundary, its point nearest to the centre.
 pub(crate) fn cold(pair: &Pair, bodies: [&Body; 2]) -> Guess {
@@ -97,7 +98,7 @@ fn between_polyhedra(bodies: [&Body; 2], from: Vector3<f64>) -> Option<Guess> {
             let (start, tau) = balanced(&hull, &x, level)?;
             // Otherwise the same planes prove nothing.
             let proof = if tau > 1.0 { proof(bodies, &hull, &x, envelope.roots) } else { None };
-            return Some((start, proof.map(|apart| (apart, hull))));
+            return Some((start, proof.map(|apart| (apart, hull.places()))));
         }
         let (way, next) = envelope.next(&x, &y, level, rate);
         x -= way * y;
@@ -155,8 +156,7 @@ impl<'a> Envelope<'a> {
     /// F where the search begins, and the plane that it is that of.
     fn first(&mut self, x: &Vector3<f64>) -> (f64, Which) {
         if !self.few {
-            self.last = self.bodies.map(|body| body.likely_excess(x).1);
-            return self.highest(x);
+            return self.higher(self.bodies.map(|body| body.likely_excess(x)));
         }
         let mut highest = (f64::NEG_INFINITY, (0, 0));
         for (i, (body, root)) in self.bodies.iter().zip(self.roots).enumerate() {
@@ -173,8 +173,11 @@ impl<'a> Envelope<'a> {
 
     /// F, and the plane that it is that of, by a walk over neighbours from the last planes.
     fn highest(&mut self, x: &Vector3<f64>) -> (f64, Which) {
-        let [(of_a, place_a), (of_b, place_b)] =
-            [0, 1].map(|i| self.bodies[i].particle.climbed(&self.bodies[i].local(x), self.last[i]));
+        self.higher([0, 1].map(|i| self.bodies[i].particle.climbed(&self.bodies[i].local(x), self.last[i])))
+    }
+
+    /// That of the higher one of a plane of A and one of B, given by n·x − d.
+    fn higher(&mut self, [(of_a, place_a), (of_b, place_b)]: [(f64, usize); 2]) -> (f64, Which) {
         self.last = [place_a, place_b];
         let (of_a, of_b) = (self.roots[0] * of_a, self.roots[1] * of_b);
         if of_a > of_b { (of_a, (0, place_a)) } else { (of_b, (1, place_b)) }
@@ -210,9 +213,21 @@ impl<'a> Envelope<'a> {
         (way, next)
     }
 
-    /// By Newton's method from the far end: what lies above F there takes over earlier.
+    /// First among the neighbours of the last planes; then by Newton's method from there: what lies above F there takes over earlier.
     fn next_of_many(&mut self, x: &Vector3<f64>, y: &Vector3<f64>, level: f64, rate: f64) -> (f64, Option<Which>) {
         let (mut way, mut next) = (level / rate, None);
+        for i in 0..2 {
+            let (body, last) = (self.bodies[i], self.last[i]);
+            let (at, fall) = (body.local(x), self.roots[i] * body.turn(y));
+            let around = body.particle.neighbours.around(last).iter().map(|&place| usize::from(place));
+            for place in around.chain([last]) {
+                let below = larger(level - self.roots[i] * body.particle.excess(place, &at), 0.0);
+                let closing = rate - body.particle.normal(place).dot(&fall);
+                if closing > SLOW * rate && below < way * closing {
+                    (way, next) = (below / closing, Some((i, place)));
+                }
+            }
+        }
         for _ in 0..MOST_TRIALS {
             let (here, plane) = self.highest(&(x - way * y));
             let over = here - (level - way * rate);
