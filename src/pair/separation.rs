@@ -101,7 +101,8 @@ fn beyond_a_face(
     to_other: &Matrix3<f64>,
     distance: f64,
 ) -> Option<f64> {
-    if host.is_sphere() {
+    // No face lies nearer to the centre of `host` than the first of these, and `other` reaches as far as the second all around.
+    if host.is_sphere() || distance <= host.bounds.nearest + other.bounds.inner {
         return None;
     }
     let ball = other.bounding_radius();
@@ -113,6 +114,9 @@ fn beyond_a_face(
     let gap = most - reach - slack;
     if gap > ball * length {
         return Some(gap / length - ball);
+    }
+    if gap <= other.bounds.inner * length {
+        return None;
     }
     let extent = other.support(&(to_other * (-n / length)));
     (gap > length * extent).then(|| gap / length - extent)
