@@ -202,8 +202,10 @@ impl Shape {
     /// less than the largest of all, which takes several times as long to find. −∞ when there are no planes.
     #[inline]
     pub(crate) fn likely_excess(&self, y: &Vector3<f64>) -> (f64, usize) {
-        let (most, from) = self.largest_of(self.clusters.most_likely(y), y);
-        if self.clusters.is_single() { (most, from) } else { self.climbed(y, from) }
+        if self.clusters.is_single() {
+            return self.largest_of(0..self.len(), y);
+        }
+        self.climbed(y, self.largest_of(self.clusters.most_likely(y), y).1)
     }
 
     /// The same from a plane on, from neighbour to neighbour.
