@@ -59,7 +59,8 @@ pub(crate) fn cold(pair: &Pair, bodies: [&Body; 2]) -> Guess {
         return (on_centre_line, None);
     }
     // Rounding may leave the program without a direction.
-    between_polyhedra(bodies, on_centre_line.x).unwrap_or((on_centre_line, None))
+    let between = between_polyhedra(bodies, on_centre_line.x);
+    between.filter(|(start, _)| start.x.iter().all(|c| c.is_finite())).unwrap_or((on_centre_line, None))
 }
 
 /// Whether the sharp polyhedra are a good start.
@@ -256,7 +257,7 @@ fn balanced(hull: &Hull, x: &Vector3<f64>, level: f64) -> Option<(Start, f64)> {
     let to_last = excess(last);
     let step = (0..last).fold(Vector3::zeros(), |sum, i| sum + (excess(i) - to_last) * hull.reciprocal[i]);
     let (x, lambda) = (x + step, beta / alpha);
-    (lambda.is_finite() && x.iter().all(|v| v.is_finite())).then_some((Start { x, lambda }, tau))
+    lambda.is_finite().then_some((Start { x, lambda }, tau))
 }
 
 #[cfg(test)]
