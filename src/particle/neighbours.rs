@@ -96,12 +96,12 @@ mod tests {
     fn a_walk_on_the_surface_ends_at_the_farthest_plane() {
         let particle = around_a_ball(500, 3.0);
         for corner in super::polyhedron(&particle.rows, &particle.bounds).corners() {
-            let most = particle.farthest_excess(&corner);
+            let most = particle.farthest_excess(corner);
             for from in (0..particle.len()).step_by(50) {
-                let found = particle.climbed(&corner, from);
+                let found = particle.climbed(corner, from);
                 assert!((found.0 - most.0).abs() < 1e-12, "{found:?}, {most:?}");
             }
-            assert!((particle.likely_excess(&corner).0 - most.0).abs() < 1e-12);
+            assert!((particle.likely_excess(corner).0 - most.0).abs() < 1e-12);
         }
     }
 }
