@@ -175,7 +175,7 @@ impl Call<'_> {
         let flags = contact.flags.with(search.flags);
         if let (Some(state), Some(x)) = (state, search.remembered) {
             let overlapping = contact.kind == Kind::Overlapping;
-            state.remember(Remembered { x, lambda: 1.0, overlapping, closest: [1.0; 2] });
+            state.remember(Remembered { x, lambda: 1.0, overlapping, balanced: false, closest: [1.0; 2] });
         }
         Ok(FlatContact { flags, iterations: search.iterations, ..contact })
     }

@@ -6,6 +6,7 @@ use crate::contact::geometry::LocalContact;
 use crate::flags::Flags;
 use crate::model::local_model::Start;
 use crate::model::problem::Problem;
+use crate::pair::hull;
 use crate::pair::pair::Pair;
 use crate::pair::pair_state::{LastContact, PairState, Remembered, from_memory_or_anew};
 use crate::pair::separation::{self, Apart};
@@ -177,6 +178,7 @@ fn solved(
     let mut call = Call::new(pair, settings);
     // Unpacked once more: handed on through memory it would hold up the proofs of separation.
     let last = state.as_deref().filter(|_| remembers).map(|state| state.unpacked());
+    let last = last.filter(|last| last.overlapping || settings.solve_separated || !call.is_sharp());
     let start = match last {
         Some(last) => {
             if settings.back_end == BackEnd::Fast {
@@ -184,7 +186,18 @@ fn solved(
             }
             Start { x: last.x, lambda: last.lambda }
         }
-        None => call.cold(),
+        None => {
+            let (start, apart) = call.cold_or_apart();
+            if let Some((Apart { distance, .. }, planes)) =
+                apart.filter(|_| !settings.solve_separated && settings.back_end == BackEnd::Fast)
+            {
+                let Start { x, lambda } = start;
+                remember(state, Remembered { x, lambda, overlapping: false, balanced: true, closest: planes });
+                let flags = call.flags.with(Flags::REJECTED);
+                return Ok(Contact { flags, distance, ..Contact::separated(settings.formulation, 1.0) });
+            }
+            start
+        }
     };
     let mut model = call.model(&start, Problem::Midway);
     let overlapped = last.filter(|last| last.overlapping && settings.formulation == Formulation::Closest);
@@ -210,7 +223,7 @@ fn solved(
     }
     let overlapping = !separated && scale.s < 1.0;
     let Solution { x, lambda, values, .. } = midway.solution;
-    let mut remembered = Remembered { x, lambda, overlapping, closest: [1.0; 2] };
+    let mut remembered = Remembered { x, lambda, overlapping, balanced: false, closest: [1.0; 2] };
     if separated {
         remember(state, remembered);
         let s = scale.low.max(1.0);
@@ -262,7 +275,11 @@ fn begin<T>(
 ) -> T {
     let overlapped = last.is_some_and(|last| last.overlapping);
     let known = last.filter(|_| !overlapped && !settings.solve_separated);
-    if let Some(proof) = known.and_then(|last| separation::still_apart(a, b, &last.x)) {
+    let still_apart = |last: Remembered| match last.balanced {
+        true => hull::still_balanced(a, b, &last.x, &last.closest),
+        false => separation::still_apart(a, b, &last.x),
+    };
+    if let Some(proof) = known.and_then(still_apart) {
         return rejected(proof);
     }
     let pair = Pair::new(a.0, a.1, b.0, b.1);

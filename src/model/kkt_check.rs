@@ -232,7 +232,7 @@ mod tests {
         let (_, body) = Body::both(&pair, 0.0);
         let (point, v) = (body.locate(&y.into()), Vector3::from(v));
         let q = body.at(&point, None);
-        let (_, face) = body.farthest_excess(&Vector3::new(1.0, 0.0, 0.0));
+        let (_, face) = body.particle.farthest_excess(&Vector3::new(1.0, 0.0, 0.0));
         (KktCheck::after(&body, &point, &q, &v, v.norm()), face, point)
     }
 

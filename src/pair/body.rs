@@ -103,10 +103,10 @@ impl<'a> Body<'a> {
         self.centre
     }
 
-    /// The largest n·x − d, and the place of its plane.
+    /// A large n·x − d and the place of its plane (see [`crate::particle::shape::Shape::likely_excess`]).
     #[inline]
-    pub fn farthest_excess(&self, x: &Vector3<f64>) -> (f64, usize) {
-        self.particle.farthest_excess(&self.local(x))
+    pub fn likely_excess(&self, x: &Vector3<f64>) -> (f64, usize) {
+        self.particle.likely_excess(&self.local(x))
     }
 
     /// The normal of a plane, solver frame.

@@ -45,7 +45,9 @@ pub(crate) struct Remembered {
     pub lambda: f64,
     /// Whether the particles overlapped: if so, most separation tests are left out.
     pub overlapping: bool,
-    /// Factors from the λ of P1 and P2 that `solver::closest::from_between` predicts to theirs; used where the products are in the range of λ.
+    /// Whether planes in balance kept them apart.
+    pub balanced: bool,
+    /// Which planes those were, by [`crate::pair::hull::Hull::places`]. Else factors from the λ of P1 and P2 that `solver::closest::from_between` predicts to theirs; used where the products are in the range of λ.
     pub closest: [f64; 2],
 }
 
@@ -92,13 +94,16 @@ impl PairState {
     /// Marks a solution that is there; all-zero bytes are an empty state.
     const FILLED: f64 = 1.0;
 
+    /// In the place of 1 where the pair overlapped: planes in balance kept it apart.
+    const BALANCED: f64 = 2.0;
+
     /// With a remembered solution, from the eight numbers of [`Self::into_raw`]. Whatever is none is as good as an empty state.
     pub fn from_raw(solution: [f64; 8]) -> Self {
         Self { solution, last_contact: LastContact::default() }
     }
 
     /// The remembered solution as eight numbers: 1 if there is one, else 0; x, y, z of the midway point in the local frame of B, length;
-    /// λ = u/(1−u); 1 if the pair overlapped, else 0; factors on λ for P1 and P2. Of a boundary: x, y, z is the point of its plane, in the
+    /// λ = u/(1−u); 1 if the pair overlapped, 2 if planes kept it apart, else 0; factors on λ for P1 and P2, or which planes. Of a boundary: x, y, z is the point of its plane, in the
     /// local frame of the particle, and λ and the factors are 1.
     pub fn into_raw(self) -> [f64; 8] {
         self.solution
@@ -132,12 +137,15 @@ impl PairState {
     #[inline(always)]
     pub(crate) fn unpacked(&self) -> Remembered {
         let [_, x, y, z, lambda, overlapping, of_p1, of_p2] = self.solution;
-        Remembered { x: Vector3::new(x, y, z), lambda, overlapping: overlapping == 1.0, closest: [of_p1, of_p2] }
+        let (overlapping, balanced) = (overlapping == 1.0, overlapping == Self::BALANCED);
+        Remembered { x: Vector3::new(x, y, z), lambda, overlapping, balanced, closest: [of_p1, of_p2] }
     }
 
     #[inline(always)]
-    pub(crate) fn remember(&mut self, Remembered { x, lambda, overlapping, closest: [of_p1, of_p2] }: Remembered) {
-        self.solution = [Self::FILLED, x.x, x.y, x.z, lambda, f64::from(u8::from(overlapping)), of_p1, of_p2];
+    pub(crate) fn remember(&mut self, remembered: Remembered) {
+        let Remembered { x, lambda, overlapping, balanced, closest: [of_p1, of_p2] } = remembered;
+        let kept = if balanced { Self::BALANCED } else { f64::from(u8::from(overlapping)) };
+        self.solution = [Self::FILLED, x.x, x.y, x.z, lambda, kept, of_p1, of_p2];
     }
 }
 

@@ -91,8 +91,8 @@ pub(crate) fn still_apart(
 
 /// How far `other`, centred at `centre` in the frame of `host`, lies beyond a face of `host`, if it does.
 ///
-/// f ≤ 0 implies n·x ≤ d + r/√(1−k). The ball of `other` is tried against every face; its corners, which
-/// are tighter, against the face that its centre lies furthest beyond. `to_other` takes
+/// f ≤ 0 implies n·x ≤ d + r/√(1−k). The ball of `other` is tried and its corners, which are tighter, are tried against a face that its
+/// centre lies far beyond: any face proves what it does. `to_other` takes
 /// directions from the frame of `host` to that of `other`.
 fn beyond_a_face(
     host: &Particle,
@@ -101,11 +101,12 @@ fn beyond_a_face(
     to_other: &Matrix3<f64>,
     distance: f64,
 ) -> Option<f64> {
-    if host.is_sphere() {
+    // No face lies nearer to the centre of `host` than the first of these, and `other` reaches as far as the second all around.
+    if host.is_sphere() || distance <= host.bounds.nearest + other.bounds.inner {
         return None;
     }
     let ball = other.bounding_radius();
-    let (most, face) = host.farthest_excess(centre);
+    let (most, face) = host.likely_excess(centre);
     let n = host.normal(face);
     let length = n.norm();
     let reach = host.bounds.face_reach;
@@ -113,6 +114,9 @@ fn beyond_a_face(
     let gap = most - reach - slack;
     if gap > ball * length {
         return Some(gap / length - ball);
+    }
+    if gap <= other.bounds.inner * length {
+        return None;
     }
     let extent = other.support(&(to_other * (-n / length)));
     (gap > length * extent).then(|| gap / length - extent)
@@ -147,11 +151,12 @@ mod tests {
                     break;
                 }
                 let proofs = [Flags::BY_SPHERES, Flags::BY_FACE, Flags::BY_MEMORY];
-                let Some(proof) = proofs.iter().position(|&proof| contact.flags.contains(proof)) else {
-                    assert_eq!(contact.distance, 0.0, "a solver knows no distance");
-                    continue;
-                };
-                seen[proof] += 1;
+                // Else planes in balance may have proved it, or a solver has, who knows no distance.
+                match proofs.iter().position(|&proof| contact.flags.contains(proof)) {
+                    Some(proof) => seen[proof] += 1,
+                    None if contact.distance == 0.0 => continue,
+                    None => {}
+                }
                 assert!(contact.distance > 0.0);
                 for towards in [-direction, vector().normalize(), vector().normalize()] {
                     let moved = at(far * direction + 0.999_999 * contact.distance * towards);

@@ -26,6 +26,9 @@ pub(crate) struct Bounds {
     /// min |n_i| of all planes, and of those that are active anywhere within [`NEARBY`] times the radius.
     pub shortest_normal: f64,
     shortest_nearby: f64,
+    /// Radius of a ball about the origin within all planes, and of one within all n_i·x ≤ d_i + r/√(1−k); 0 where there is none that is known.
+    pub inner: f64,
+    pub nearest: f64,
     /// How far beyond d_i the particle can reach along n_i: r/√(1−k); infinite for k = 1.
     pub face_reach: f64,
     /// {S ≤ s²} lies in a ball of radius·(1 + growth·(s − 1)), s ≥ 1.
@@ -99,19 +102,22 @@ impl Bounds {
         let radius = farthest.min(sphere_reach) * MARGIN;
         let offsets = || planes.iter().map(|(_, d)| *d);
         let lengths = || planes.iter().map(|(n, _)| n.norm());
+        let (least_offset, longest_normal) = (offsets().fold(f64::INFINITY, f64::min), lengths().fold(0.0, f64::max));
+        let within = |offset: f64| if planes.is_empty() { 0.0 } else { offset.max(0.0) / longest_normal };
         // Where the faces alone enclose the particle, {S ≤ s²} lies between those at d_i + s·r/√(1−k): for small r that grows
         // far less than convexity of s allows. With a shadow sphere they do if no corner lies on the cube.
         let enclosed = !sphere_reach.is_finite() || farthest < 0.99 * half;
-        let nearest = offsets().fold(f64::INFINITY, f64::min) + face_reach;
-        let by_faces = if enclosed { face_reach / nearest } else { f64::INFINITY };
+        let by_faces = if enclosed { face_reach / (least_offset + face_reach) } else { f64::INFINITY };
         // Its square is a weight of the solvers.
         (radius * radius).is_normal().then(|| Self {
             radius,
             corners: corners.into_iter().map(|c| c * MARGIN).collect(),
             merged: SLACK * farthest * MARGIN,
             longest_offset: offsets().map(f64::abs).fold(0.0, f64::max),
-            least_offset: offsets().fold(f64::INFINITY, f64::min),
-            longest_normal: lengths().fold(0.0, f64::max),
+            least_offset,
+            longest_normal,
+            inner: within(least_offset),
+            nearest: within(least_offset + face_reach),
             shortest_normal: lengths().fold(f64::INFINITY, f64::min),
             shortest_nearby: lengths()
                 .zip(offsets())
@@ -131,6 +137,8 @@ impl Bounds {
             longest_offset: 0.0,
             least_offset: f64::INFINITY,
             longest_normal: 0.0,
+            inner: 0.0,
+            nearest: 0.0,
             shortest_normal: f64::INFINITY,
             shortest_nearby: f64::INFINITY,
             face_reach: f64::INFINITY,

@@ -9,7 +9,7 @@
 //! The quadrilaterals share corners and edges, so that each direction is covered once whatever rounding does to the corners, if one that is
 //! folded over counts as negative.
 
-use crate::particle::cutter::Cutter;
+use crate::particle::neighbours::{self, LEAST};
 use crate::particle::outlines::Outline;
 use crate::particle::polyhedron::{OF_CUBE, Polyhedron};
 use crate::particle::shape::Shape;
@@ -25,9 +25,6 @@ pub(crate) struct Patch {
     /// Where v is divided to begin with: 0 < `cuts[0]` < `cuts[1]` < 1, or both 0.
     cuts: [f64; 2],
 }
-
-/// Least height of a face and least depth of a cut, over the bounding radius: far more than the rounding of corners.
-const LEAST: f64 = 1e-9;
 
 /// So many faces are followed in any case: they are fewer than the cells that most bodies need.
 const FEW: usize = 1_000;
@@ -68,19 +65,12 @@ impl Patch {
 
 /// Patches along the faces of a particle, or along those of a cube where there are many and most are all rounding.
 pub(crate) fn of(shape: &Shape) -> Vec<Patch> {
-    let mut polyhedron = Polyhedron::cube(shape.bounds.radius, LEAST * shape.bounds.radius);
-    let cube = polyhedron.outlines();
-    let mut cutter = Cutter::default();
-    let count = if shape.is_sphere() { 0 } else { shape.len() };
-    for number in OF_CUBE..OF_CUBE + count {
-        let (normal, height) = plane(shape, number);
-        polyhedron.cut(&mut cutter, number, &normal, height);
-    }
-    let mut faces = polyhedron.outlines();
+    let rows = if shape.is_sphere() { &[] } else { &shape.rows[..] };
+    let mut faces = neighbours::polyhedron(rows, &shape.bounds).outlines();
     let mut divided: Vec<Option<Vec<Patch>>> = faces.iter().map(|face| with_strips(&face, shape)).collect();
     if faces.len() > FEW && 2 * divided.iter().flatten().count() < faces.len() {
-        divided = vec![None; cube.len()];
-        faces = cube;
+        faces = Polyhedron::cube(shape.bounds.radius, 0.0).outlines();
+        divided = vec![None; faces.len()];
     }
     let patches = divided
         .into_iter()
@@ -95,8 +85,7 @@ fn plane(shape: &Shape, number: usize) -> (Vector3<f64>, f64) {
     if number < OF_CUBE {
         return (Vector3::ith(number / 2, [1.0, -1.0][number % 2]), radius);
     }
-    let (n, d) = (shape.normal(number - OF_CUBE), shape.offset(number - OF_CUBE));
-    (n.normalize(), ((d + shape.bounds.face_reach) / n.norm()).max(LEAST * radius))
+    neighbours::face(&shape.normal(number - OF_CUBE), shape.offset(number - OF_CUBE), &shape.bounds)
 }
 
 /// A polygon as triangles about its middle.

@@ -8,11 +8,12 @@
 //! | `linear_program` | whether half-spaces enclose a volume, and how large it is (Seidel's algorithm) |
 //! | `largest_ball` | the largest ball within half-spaces, by the simplex method |
 //! | `bounding_volumes` | a ball and a polyhedron that hold the particle |
+//! | `cutter`, `polyhedron`, `outlines` | a polyhedron that stays closed while planes cut it, what a plane takes away, and the faces |
+//! | `neighbours` | which planes are neighbours on the polyhedron that holds a particle |
 //! | `shape` | the validated definition with its clusters and bounding volumes |
 //! | `potential` | S, its gradient and its Hessian |
 //! | `ray_cast` | the distance from a point inside to the surface |
 //! | `gauge` | where rays through a piece of a plane leave the particle, and which planes are active there |
-//! | `cutter`, `polyhedron`, `outlines` | a polyhedron that stays closed while planes cut it, what a plane takes away, and the faces |
 //! | `direction_mesh` | a partition of all directions along faces and edges |
 //! | `quadrature` | a rule on an interval, and what its error is at most |
 //! | `mass_properties` | volume, centroid and inertia |
@@ -26,6 +27,7 @@ pub mod gauge;
 pub mod largest_ball;
 pub mod linear_program;
 pub mod mass_properties;
+pub mod neighbours;
 pub mod outlines;
 pub mod particle;
 pub mod plane;

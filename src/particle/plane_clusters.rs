@@ -86,7 +86,7 @@ impl PlaneClusters {
             return largest_of(all.planes.clone());
         }
         let length = y.norm() * (1.0 + MARGIN);
-        let likely = self.most_likely(y, length);
+        let likely = self.likely(y, length);
         let mut largest = (f64::NEG_INFINITY, 0);
         if let Some(cluster) = self.0.get(likely) {
             largest = largest_of(cluster.planes.clone());
@@ -105,8 +105,13 @@ impl PlaneClusters {
         largest
     }
 
-    /// The undivided cluster to which the larger bounds lead.
-    fn most_likely(&self, y: &Vector3<f64>, length: f64) -> usize {
+    /// The planes of the undivided cluster to which the larger bounds lead.
+    pub fn most_likely(&self, y: &Vector3<f64>) -> Range<usize> {
+        self.0.get(self.likely(y, y.norm())).map_or(0..0, |cluster| cluster.planes.clone())
+    }
+
+    /// That cluster.
+    fn likely(&self, y: &Vector3<f64>, length: f64) -> usize {
         let mut i = 0;
         while self.0.get(i).is_some_and(|cluster| i + 1 < cluster.next) {
             let (left, right) = (i + 1, self.0[i + 1].next);

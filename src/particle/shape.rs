@@ -12,9 +12,11 @@
 
 use crate::particle::bounding_volumes::{self, Bounds, Extent};
 use crate::particle::error::ParticleError;
+use crate::particle::neighbours::Neighbours;
 use crate::particle::plane::{MAX_PLANES, Plane};
 use crate::particle::plane_clusters::PlaneClusters;
 use nalgebra::Vector3;
+use std::ops::Range;
 
 /// Most bounding radii in units of r/√(1−k). A plane that bounds the particle along a ray rises by at least the inverse of this along
 /// the ray; depth times rise and the square of the rise, at the surface, are then no smaller than 1e-304 and 1e-300, normal numbers.
@@ -24,7 +26,7 @@ const MOST_RADII: f64 = 1e150;
 #[derive(Clone, Debug)]
 pub struct Shape {
     /// (a, b, c, d) of each plane in the order of `clusters`, which evaluation reads one after the other.
-    rows: Box<[[f64; 4]]>,
+    pub(super) rows: Box<[[f64; 4]]>,
     /// Number of coordinates in which a point of it may move: 3, or 2 where only the cut at z = 0 is meant (`planar`); of a
     /// boundary 2, 1 or 0.
     pub(crate) dimensions: usize,
@@ -39,6 +41,8 @@ pub struct Shape {
     pub(crate) depth_length: f64,
     pub(crate) bounds: Bounds,
     pub(crate) clusters: PlaneClusters,
+    /// Of planes in several clusters.
+    pub(crate) neighbours: Neighbours,
     /// For each row, the index of its plane among those given.
     order: Box<[usize]>,
 }
@@ -70,6 +74,8 @@ impl Shape {
         if !rows.is_empty() && plane_weight.sqrt() * bounds.radius > MOST_RADII {
             return Err(ParticleError::RoundingTooSmall { r, radius: bounds.radius });
         }
+        let single = clusters.is_single();
+        let neighbours = if single { Neighbours::default() } else { Neighbours::of(&rows, &bounds) };
         let depth_length = depth_length(&rows, plane_weight, sphere_weight, shadow_radius);
         Ok(Self {
             rows,
@@ -82,6 +88,7 @@ impl Shape {
             sphere_weight,
             bounds,
             clusters,
+            neighbours,
             order,
         })
     }
@@ -100,6 +107,7 @@ impl Shape {
             sphere_weight: 0.0,
             bounds: Bounds::unbounded(),
             clusters,
+            neighbours: Neighbours::default(),
             order,
         }
     }
@@ -166,20 +174,56 @@ impl Shape {
         })
     }
 
+    /// n·y − d of a plane.
+    #[inline(always)]
+    pub(crate) fn excess(&self, place: usize, y: &Vector3<f64>) -> f64 {
+        let [a, b, c, d] = self.rows[place];
+        a * y.x + b * y.y + c * y.z - d
+    }
+
     /// The largest n·y − d and the index of its plane; −∞ when there are no planes.
     #[inline]
     pub(crate) fn farthest_excess(&self, y: &Vector3<f64>) -> (f64, usize) {
-        let largest_of = |run: std::ops::Range<usize>| {
-            let mut largest = (f64::NEG_INFINITY, 0);
-            for (i, [a, b, c, d]) in run.clone().zip(&self.rows[run]) {
-                let excess = a * y.x + b * y.y + c * y.z - d;
-                if excess > largest.0 {
-                    largest = (excess, i);
+        self.clusters.largest(y, |run| self.largest_of(run, y))
+    }
+
+    fn largest_of(&self, run: Range<usize>, y: &Vector3<f64>) -> (f64, usize) {
+        let mut largest = (f64::NEG_INFINITY, 0);
+        for (i, [a, b, c, d]) in run.clone().zip(&self.rows[run]) {
+            let excess = a * y.x + b * y.y + c * y.z - d;
+            if excess > largest.0 {
+                largest = (excess, i);
+            }
+        }
+        largest
+    }
+
+    /// An excess that no neighbour exceeds, and its plane, sought among the planes where the largest one most likely is and from there: seldom
+    /// less than the largest of all, which takes several times as long to find. −∞ when there are no planes.
+    #[inline]
+    pub(crate) fn likely_excess(&self, y: &Vector3<f64>) -> (f64, usize) {
+        if self.clusters.is_single() {
+            return self.largest_of(0..self.len(), y);
+        }
+        self.climbed(y, self.largest_of(self.clusters.most_likely(y), y).1)
+    }
+
+    /// The same from a plane on, from neighbour to neighbour.
+    #[inline]
+    pub(crate) fn climbed(&self, y: &Vector3<f64>, from: usize) -> (f64, usize) {
+        let mut highest = (self.excess(from, y), from);
+        loop {
+            let here = highest.1;
+            for &other in self.neighbours.around(here) {
+                let excess = self.excess(usize::from(other), y);
+                if excess > highest.0 {
+                    highest = (excess, usize::from(other));
                 }
             }
-            largest
-        };
-        self.clusters.largest(y, largest_of)
+            if highest.1 == here {
+                return highest;
+            }
+        }
     }
 
     /// Radius of a ball about the origin that holds {S ≤ level}.

@@ -12,6 +12,7 @@ use crate::pair::pair::Pair;
 use crate::pair::role::Role;
 use crate::reference::{self, ConeProgramError};
 use crate::settings::{BackEnd, Settings};
+use crate::solver::initial_guess::Guess;
 use crate::solver::newton::{self, Goal};
 use crate::solver::{extended, initial_guess};
 use nalgebra::Vector3;
@@ -71,7 +72,17 @@ impl<'a> Call<'a> {
 
     /// Where to begin if nothing is known.
     pub fn cold(&self) -> Start {
+        self.cold_or_apart().0
+    }
+
+    /// The same, with the planes that prove the bodies apart if they were found on the way.
+    pub fn cold_or_apart(&self) -> Guess {
         initial_guess::cold(self.pair, self.bodies())
+    }
+
+    /// Whether a start from nothing is as good as one from where bodies were apart.
+    pub fn is_sharp(&self) -> bool {
+        initial_guess::is_sharp(self.bodies())
     }
 
     /// Both quadratics where a search begins.

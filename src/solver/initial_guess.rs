@@ -14,11 +14,15 @@
 //! As long as the same planes decide, the minimiser of max(S_A, S_B) without the spheres' shares then is known in closed
 //! form. Forces balance at excesses √w·(n_i·x − d_i) = τ c_i/α on A and τ c_i/β on B, where α² and β² are the
 //! sums of c_i² over the planes of A and of B; both S are τ², τ = F/(α + β), and the ratio of weights is λ = β/α.
+//!
+//! Whatever led to them, the same planes may prove the bodies apart ([`Hull::proof`]).
 
 use crate::linalg::number::larger;
 use crate::model::local_model::Start;
 use crate::pair::body::Body;
+use crate::pair::hull::{Face, Hull};
 use crate::pair::pair::Pair;
+use crate::pair::separation::Apart;
 use nalgebra::Vector3;
 
 /// Most planes that take over, one after the other, and most trials for each. A start need not be perfect.
@@ -42,18 +46,26 @@ const SLOW: f64 = 1e-6;
 /// Square of the shortest vector of the hull, relative to the longest, that counts as 0: the planes balance.
 const VANISHING: f64 = 1e-20;
 
+/// A start, with the proof that the bodies are apart if it was found on the way, and its planes ([`Hull::places`]).
+pub(crate) type Guess = (Start, Option<(Apart, [f64; 2])>);
+
 /// A start without memory; on a boundary, its point nearest to the centre.
-pub(crate) fn cold(pair: &Pair, [a, b]: [&Body; 2]) -> Start {
-    if b.particle.is_boundary() {
-        return Start { x: Vector3::zeros(), lambda: 1.0 };
+pub(crate) fn cold(pair: &Pair, bodies: [&Body; 2]) -> Guess {
+    if bodies[1].particle.is_boundary() {
+        return (Start { x: Vector3::zeros(), lambda: 1.0 }, None);
     }
     let on_centre_line = Start { x: centre_line(pair), lambda: 1.0 };
-    if is_smooth(a) || is_smooth(b) {
-        return on_centre_line;
+    if !is_sharp(bodies) {
+        return (on_centre_line, None);
     }
     // Rounding may leave the program without a direction.
-    let between = between_polyhedra([a, b], on_centre_line.x);
-    between.filter(|start| start.x.iter().all(|c| c.is_finite())).unwrap_or(on_centre_line)
+    let between = between_polyhedra(bodies, on_centre_line.x);
+    between.filter(|(start, _)| start.x.iter().all(|c| c.is_finite())).unwrap_or((on_centre_line, None))
+}
+
+/// Whether the sharp polyhedra are a good start.
+pub(crate) fn is_sharp([a, b]: [&Body; 2]) -> bool {
+    !is_smooth(a) && !is_smooth(b)
 }
 
 /// Whether so many planes share each place of the surface that the sharp polyhedron is a poor start. On a ball, a plane is on
@@ -71,7 +83,7 @@ fn centre_line(pair: &Pair) -> Vector3<f64> {
 }
 
 /// The minimum of F and what follows from it. `None` where the point to begin at is inside both, or no start is found.
-fn between_polyhedra(bodies: [&Body; 2], from: Vector3<f64>) -> Option<Start> {
+fn between_polyhedra(bodies: [&Body; 2], from: Vector3<f64>) -> Option<Guess> {
     let mut envelope = Envelope::of(bodies);
     let mut x = from;
     let (mut level, first) = envelope.first(&x);
@@ -84,18 +96,29 @@ fn between_polyhedra(bodies: [&Body; 2], from: Vector3<f64>) -> Option<Start> {
         let y = hull.shortest();
         let rate = y.norm_squared();
         if hull.count == 4 || rate <= VANISHING * hull.longest {
-            return hull.start(x, level);
+            let (start, tau) = balanced(&hull, &x, level)?;
+            // Otherwise the same planes prove nothing.
+            let proof = if tau > 1.0 { proof(bodies, &hull, &x, envelope.roots) } else { None };
+            return Some((start, proof.map(|apart| (apart, hull.places()))));
         }
         let (way, next) = envelope.next(&x, &y, level, rate);
         x -= way * y;
         let Some(plane) = next else {
             // F = 0: inside both polyhedra.
-            return Some(Start { x, lambda: 1.0 });
+            return Some((Start { x, lambda: 1.0 }, None));
         };
         level -= way * rate;
         hull.join(envelope.face(plane))?;
     }
     None
+}
+
+/// What the planes in force prove at x.
+#[inline(never)]
+fn proof(bodies: [&Body; 2], hull: &Hull, x: &Vector3<f64>, roots: [f64; 2]) -> Option<Apart> {
+    let local = bodies.map(|body| body.local(x));
+    let excess = |face: &Face| bodies[face.of].particle.excess(face.place, &local[face.of]);
+    hull.proof(bodies.map(|body| body.particle), roots, bodies.map(|body| (x - body.centre()).norm()), excess)
 }
 
 /// F.
@@ -109,6 +132,8 @@ struct Envelope<'a> {
     heights: [[f64; MOST_FOLLOWED]; 2],
     falls: [[f64; MOST_FOLLOWED]; 2],
     way: f64,
+    /// Of many: the last plane that was the highest, of each body.
+    last: [usize; 2],
 }
 
 /// Body (0, 1) and place of a plane.
@@ -118,13 +143,21 @@ impl<'a> Envelope<'a> {
     fn of(bodies: [&'a Body<'a>; 2]) -> Self {
         let few = bodies.iter().all(|body| body.particle.len() <= MOST_FOLLOWED);
         let roots = bodies.map(|body| body.plane_weight().sqrt());
-        Self { bodies, roots, few, heights: [[0.0; MOST_FOLLOWED]; 2], falls: [[0.0; MOST_FOLLOWED]; 2], way: 0.0 }
+        Self {
+            bodies,
+            roots,
+            few,
+            heights: [[0.0; MOST_FOLLOWED]; 2],
+            falls: [[0.0; MOST_FOLLOWED]; 2],
+            way: 0.0,
+            last: [0; 2],
+        }
     }
 
     /// F where the search begins, and the plane that it is that of.
     fn first(&mut self, x: &Vector3<f64>) -> (f64, Which) {
         if !self.few {
-            return self.highest(x);
+            return self.higher(self.bodies.map(|body| body.likely_excess(x)));
         }
         let mut highest = (f64::NEG_INFINITY, (0, 0));
         for (i, (body, root)) in self.bodies.iter().zip(self.roots).enumerate() {
@@ -139,15 +172,20 @@ impl<'a> Envelope<'a> {
         highest
     }
 
-    /// F, and the plane that it is that of.
-    fn highest(&self, x: &Vector3<f64>) -> (f64, Which) {
-        let [(of_a, place_a), (of_b, place_b)] = self.bodies.map(|body| body.farthest_excess(x));
+    /// F, and the plane that it is that of, by a walk over neighbours from the last planes.
+    fn highest(&mut self, x: &Vector3<f64>) -> (f64, Which) {
+        self.higher([0, 1].map(|i| self.bodies[i].particle.climbed(&self.bodies[i].local(x), self.last[i])))
+    }
+
+    /// That of the higher one of a plane of A and one of B, given by n·x − d.
+    fn higher(&mut self, [(of_a, place_a), (of_b, place_b)]: [(f64, usize); 2]) -> (f64, Which) {
+        self.last = [place_a, place_b];
         let (of_a, of_b) = (self.roots[0] * of_a, self.roots[1] * of_b);
         if of_a > of_b { (of_a, (0, place_a)) } else { (of_b, (1, place_b)) }
     }
 
-    fn face(&self, (body, place): Which) -> Face {
-        Face { gradient: self.roots[body] * self.bodies[body].normal(place), on_a: body == 0 }
+    fn face(&self, (of, place): Which) -> Face {
+        Face { gradient: self.roots[of] * self.bodies[of].normal(place), of, place }
     }
 
     /// How far F, now `level`, falls by `rate` a unit of way against y, and which plane takes over there; as far as
@@ -176,9 +214,21 @@ impl<'a> Envelope<'a> {
         (way, next)
     }
 
-    /// By Newton's method from the far end: what lies above F there takes over earlier.
-    fn next_of_many(&self, x: &Vector3<f64>, y: &Vector3<f64>, level: f64, rate: f64) -> (f64, Option<Which>) {
+    /// First among the neighbours of the last planes; then by Newton's method from there: what lies above F there takes over earlier.
+    fn next_of_many(&mut self, x: &Vector3<f64>, y: &Vector3<f64>, level: f64, rate: f64) -> (f64, Option<Which>) {
         let (mut way, mut next) = (level / rate, None);
+        for i in 0..2 {
+            let (body, last) = (self.bodies[i], self.last[i]);
+            let (at, fall) = (body.local(x), self.roots[i] * body.turn(y));
+            let around = body.particle.neighbours.around(last).iter().map(|&place| usize::from(place));
+            for place in around.chain([last]) {
+                let below = larger(level - self.roots[i] * body.particle.excess(place, &at), 0.0);
+                let closing = rate - body.particle.normal(place).dot(&fall);
+                if closing > SLOW * rate && below < way * closing {
+                    (way, next) = (below / closing, Some((i, place)));
+                }
+            }
+        }
         for _ in 0..MOST_TRIALS {
             let (here, plane) = self.highest(&(x - way * y));
             let over = here - (level - way * rate);
@@ -192,140 +242,27 @@ impl<'a> Envelope<'a> {
     }
 }
 
-/// A plane in force.
-#[derive(Clone, Copy)]
-struct Face {
-    /// g = √w·n in the solver's frame.
-    gradient: Vector3<f64>,
-    on_a: bool,
-}
-
-/// Planes that balance each other as far as they can: y = Σ c_i g_i is the shortest vector of their convex hull.
-struct Hull {
-    faces: [Face; 4],
-    /// c_i > 0, Σ c_i = 1.
-    shares: [f64; 4],
-    count: usize,
-    /// Square of the longest g that was ever in it.
-    longest: f64,
-    /// Vectors in the span of the differences g_i − g_last, each with product 1 with its own and 0 with the others.
-    reciprocal: [Vector3<f64>; 3],
-}
-
-impl Hull {
-    fn of(face: Face) -> Self {
-        let longest = face.gradient.norm_squared();
-        let reciprocal = [Vector3::zeros(); 3];
-        Self { faces: [face; 4], shares: [1.0, 0.0, 0.0, 0.0], count: 1, longest, reciprocal }
+/// The minimiser of max(S_A, S_B) from that of F, and its λ. `None` of one particle's planes alone: its own centre is meant, not a contact.
+fn balanced(hull: &Hull, x: &Vector3<f64>, level: f64) -> Option<(Start, f64)> {
+    let mut squares = [0.0; 2];
+    (0..hull.count).for_each(|i| squares[hull.faces[i].of] += hull.shares[i] * hull.shares[i]);
+    let [alpha, beta] = squares.map(f64::sqrt);
+    if !(alpha > 0.0 && beta > 0.0) {
+        return None;
     }
-
-    /// y.
-    fn shortest(&self) -> Vector3<f64> {
-        (1..self.count).fold(self.shares[0] * self.g(0), |sum, i| sum + self.shares[i] * self.g(i))
-    }
-
-    fn g(&self, i: usize) -> &Vector3<f64> {
-        &self.faces[i].gradient
-    }
-
-    /// One more plane; those that y needs no longer go (Wolfe's algorithm). `None` where rounding decides.
-    fn join(&mut self, face: Face) -> Option<()> {
-        self.longest = larger(face.gradient.norm_squared(), self.longest);
-        self.faces[self.count] = face;
-        self.shares[self.count] = 0.0;
-        self.count += 1;
-        loop {
-            let wanted = self.affine();
-            // The way to `wanted` on which all shares stay positive, and which vanishes first.
-            let (mut way, mut first) = (1.0, None);
-            // By index: iterators make these short loops longer.
-            #[allow(clippy::needless_range_loop)]
-            for i in 0..self.count {
-                let (have, want) = (self.shares[i], wanted[i]);
-                if !want.is_finite() {
-                    return None;
-                }
-                if want <= 0.0 && have <= way * (have - want) {
-                    (way, first) = (have / (have - want), Some(i));
-                }
-            }
-            #[allow(clippy::needless_range_loop)]
-            for i in 0..self.count {
-                self.shares[i] += way * (wanted[i] - self.shares[i]);
-            }
-            let Some(i) = first else { return Some(()) };
-            self.count -= 1;
-            if i == self.count {
-                return None;
-            }
-            // The newest stays last.
-            for j in i..self.count {
-                (self.faces[j], self.shares[j]) = (self.faces[j + 1], self.shares[j + 1]);
-            }
-        }
-    }
-
-    /// Shares, of any sign, of the shortest vector in the affine hull.
-    fn affine(&mut self) -> [f64; 4] {
-        let last = self.count - 1;
-        self.reciprocal = self.reciprocal_to_last();
-        let g = self.g(last);
-        let shares = self.reciprocal.map(|r| -g.dot(&r));
-        let mut all = [0.0; 4];
-        all[..last].copy_from_slice(&shares[..last]);
-        all[last] = 1.0 - shares[..last].iter().sum::<f64>();
-        all
-    }
-
-    fn reciprocal_to_last(&self) -> [Vector3<f64>; 3] {
-        let last = self.g(self.count - 1);
-        let zero = Vector3::zeros();
-        match self.count {
-            2 => {
-                let u = self.g(0) - last;
-                [u * (1.0 / u.norm_squared()), zero, zero]
-            }
-            3 => {
-                let (u, v) = (self.g(0) - last, self.g(1) - last);
-                let across = u.cross(&v);
-                let per_area = 1.0 / across.norm_squared();
-                [v.cross(&across) * per_area, across.cross(&u) * per_area, zero]
-            }
-            _ => {
-                let (u, v, w) = (self.g(0) - last, self.g(1) - last, self.g(2) - last);
-                let across = v.cross(&w);
-                let per_volume = 1.0 / u.dot(&across);
-                [across * per_volume, w.cross(&u) * per_volume, u.cross(&v) * per_volume]
-            }
-        }
-    }
-
-    /// The minimiser of max(S_A, S_B) from that of F, and its λ.
-    fn start(&self, x: Vector3<f64>, level: f64) -> Option<Start> {
-        let squares = |on_a: bool| {
-            let of = (0..self.count).filter(|&i| self.faces[i].on_a == on_a);
-            of.map(|i| self.shares[i] * self.shares[i]).sum::<f64>().sqrt()
-        };
-        let (alpha, beta) = (squares(true), squares(false));
-        // One particle's planes alone: its own centre is meant, not a contact.
-        if !(alpha > 0.0 && beta > 0.0) {
-            return None;
-        }
-        let tau = level / (alpha + beta);
-        let per_share = [tau / beta, tau / alpha];
-        let excess = |i: usize| per_share[usize::from(self.faces[i].on_a)] * self.shares[i];
-        let last = self.count - 1;
-        let to_last = excess(last);
-        let step = (0..last).fold(Vector3::zeros(), |sum, i| sum + (excess(i) - to_last) * self.reciprocal[i]);
-        let (x, lambda) = (x + step, beta / alpha);
-        (lambda.is_finite() && x.iter().all(|v| v.is_finite())).then_some(Start { x, lambda })
-    }
+    let tau = level / (alpha + beta);
+    let per_share = [tau / alpha, tau / beta];
+    let excess = |i: usize| per_share[hull.faces[i].of] * hull.shares[i];
+    let last = hull.count - 1;
+    let to_last = excess(last);
+    let step = (0..last).fold(Vector3::zeros(), |sum, i| sum + (excess(i) - to_last) * hull.reciprocal[i]);
+    let (x, lambda) = (x + step, beta / alpha);
+    lambda.is_finite().then_some((Start { x, lambda }, tau))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::pair::scattered;
     use crate::particle::particle::Particle;
     use crate::pose::Pose;
 
@@ -340,41 +277,10 @@ mod tests {
             let pose_b = Pose::at([0.0; 3]).unwrap();
             let pair = Pair::new(&blunt, &pose_a, &sharp, &pose_b);
             let (a, b) = Body::both(&pair, 0.0);
-            let start = cold(&pair, [&a, &b]);
+            let (start, _) = cold(&pair, [&a, &b]);
             assert!((start.x.x - (0.5 + s * of_b)).abs() < 1e-14, "{start:?}");
             assert!((start.lambda / (of_b / of_a) - 1.0).abs() < 1e-12, "{start:?}");
             assert!([&a, &b].iter().all(|body| (body.value(&start.x) - s * s).abs() < 1e-11), "{start:?}");
         }
-    }
-
-    /// Each plane that joins shortens y, which has the same product with all that are left: none is nearer to the origin.
-    #[test]
-    fn the_hull_gives_the_shortest_vector() {
-        let mut joined = 0;
-        for seed in 0..300 {
-            let mut chance = scattered(40 * seed);
-            let mut face = || {
-                let gradient = Vector3::new(0.4, 0.0, 0.0) + Vector3::<f64>::from_fn(|_, _| chance());
-                Face { gradient, on_a: true }
-            };
-            let mut hull = Hull::of(face());
-            for _ in 0..10 {
-                let (next, last) = (face(), hull.shortest());
-                // Others do not take over.
-                if hull.count == 4 || next.gradient.dot(&last) >= 0.9 * last.norm_squared() {
-                    continue;
-                }
-                if hull.join(next).is_none() {
-                    break;
-                }
-                joined += 1;
-                let (y, shares) = (hull.shortest(), &hull.shares[..hull.count]);
-                assert!(hull.count == 4 || y.norm() < last.norm(), "{y:?}");
-                assert!((shares.iter().sum::<f64>() - 1.0).abs() < 1e-12 && shares.iter().all(|share| *share > 0.0));
-                let scale = 1e-9 * hull.longest;
-                assert!((0..hull.count).all(|i| (y.dot(hull.g(i)) - y.norm_squared()).abs() < scale), "{y:?}");
-            }
-        }
-        assert!(joined > 300, "{joined}");
     }
 }
