@@ -329,7 +329,7 @@ edge = cube().surfaceDistance([(0, 1, 1)])[0]
 pair(2 * edge + 0.002 - 1)
 O.bodies[0].state.ori, O.bodies[1].state.ori = turned((1, 0, 0), math.pi / 4), turned((0, 1, 0), math.pi / 4)
 run(5)
-check.equal((functor().answers["motion"], O.interactions[0, 1].isReal), (3, False), f"edges that cross sleep: {functor().answers}")
+check.equal((functor().answers["motion"], O.interactions[0, 1].isReal), (4, False), f"edges that cross sleep: {functor().answers}")
 remembered = O.interactions[0, 1].geom.memory
 collide()
 run(2)
