@@ -9,7 +9,7 @@
 use crate::bounds::scale::Scale;
 use crate::bounds::solution::Solution;
 use crate::contact::contact::{Contact, Kind};
-use crate::contact::followed::{MORE_ROUNDING, Within};
+use crate::contact::followed::{MORE_ROUNDING, MOST_OPEN};
 use crate::contact::geometry::{Across, LocalContact};
 use crate::flags::Flags;
 use crate::linalg::number::{larger, smaller};
@@ -117,6 +117,27 @@ struct Round {
     /// Square of the change of the way by it.
     change: f64,
     number: u32,
+}
+
+/// How a point lies in what is known of a body.
+#[derive(Clone, Copy)]
+struct Within {
+    /// Its distance from the solved point, length.
+    moved: f64,
+    /// By which share depths and distances from the centre have changed at most.
+    share: f64,
+    /// Distance from there within which no plane switches, length.
+    left: f64,
+}
+
+impl Within {
+    #[inline(always)]
+    fn reach(pieces: &[KnownPiece; 2], x: &Vector3<f64>) -> [Self; 2] {
+        [0, 1].map(|i| {
+            let (moved, reach) = ((x - pieces[i].from).norm(), pieces[i].reach);
+            Self { moved, share: moved / reach, left: reach - moved }
+        })
+    }
 }
 
 /// A solution of the equations.
@@ -274,7 +295,6 @@ impl LastContact {
         pair: &Pair,
         pieces: &[KnownPiece; 2],
         optimum: &Optimum,
-        moved: [f64; 2],
         within: [Within; 2],
     ) -> Option<LocalContact> {
         let Optimum { x, u, here: [a, b], left, rounds } = optimum;
@@ -299,7 +319,7 @@ impl LastContact {
             };
             [piece(0), piece(1)]
         };
-        let steep = SLOPE_ROUNDING * left.stiffness * (moved[0] + moved[1]);
+        let steep = SLOPE_ROUNDING * left.stiffness * (within[0].moved + within[1].moved);
         // That of the pieces, which are turned back and forth, and that of this place.
         let bound = (1.0 + grown) * self.point_bound + 2.0 * left.way + steep;
         LocalContact::along_normal(
@@ -332,19 +352,22 @@ impl PairState {
         }
         let last = last?;
         let pair = Pair::new(a.0, a.1, b.0, b.1);
-        let pieces = [known.pieces[0].seen_from_b(&pair), known.pieces[1]];
+        let mut pieces = [known.pieces[0].seen_from_b(&pair), known.pieces[1]];
         let room = settings.carry_tolerance * smaller(a.0.bounding_radius(), b.0.bounding_radius());
-        let optimum = known.optimum(&pair, &pieces, &last, room)?;
-        let moved = [0, 1].map(|i| (optimum.x - pieces[i].from).norm());
-        let mut within = [0, 1].map(|i| {
-            let reach = pieces[i].reach;
-            Within { share: moved[i] / reach, left: reach - moved[i] }
-        });
+        let mut optimum = known.optimum(&pair, &pieces, &last, room)?;
+        let mut within = Within::reach(&pieces, &optimum.x);
         // Written so that what is not a number is looked at, and fails there.
-        if !(within[0].left > 0.0 && within[1].left > 0.0) {
-            within = known.follow(&pair, &optimum.x, optimum.square(), optimum.left.way)?;
+        if !within.iter().all(|within| within.left > 0.0) {
+            let Optimum { x, u, .. } = optimum;
+            known.follow(&pair, &x, optimum.square())?;
+            // From there to the end: what long steps leave may be more than their changes tell.
+            pieces = [known.pieces[0].seen_from_b(&pair), known.pieces[1]];
+            let near = Remembered { x, lambda: u / (1.0 - u), ..last };
+            let smaller = smaller(a.0.bounding_radius(), b.0.bounding_radius());
+            optimum = known.optimum(&pair, &pieces, &near, MOST_OPEN * smaller)?;
+            within = Within::reach(&pieces, &optimum.x);
         }
-        let local = known.local(&pair, &pieces, &optimum, moved, within)?;
+        let local = known.local(&pair, &pieces, &optimum, within)?;
         let (x, lambda) = (optimum.x, optimum.u / (1.0 - optimum.u));
         self.remember(Remembered { x, lambda, ..last });
         let call = Contact { flags: Flags::WARM.with(Flags::CARRIED), iterations: optimum.rounds, ..Contact::UNKNOWN };

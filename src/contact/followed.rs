@@ -21,18 +21,9 @@ const MOST_FOLLOWS: f64 = 30.0;
 /// How many times as large the rounding of S may be there as where it was solved.
 const MOST_GROWTH: f64 = 8.0;
 
-/// Most that may be left of the way to a point that is followed, relative to the smaller bounding radius, whatever the tolerance: what long steps
-/// leave may be more than the last changes tell.
-const MOST_OPEN: f64 = 1e-9;
-
-/// How a point lies in what is known of a body.
-#[derive(Clone, Copy)]
-pub(super) struct Within {
-    /// By which share depths and distances from the centre have changed at most.
-    pub share: f64,
-    /// Distance from there within which no plane switches, length.
-    pub left: f64,
-}
+/// Most that may be left of the way to a point that is followed, relative to the smaller bounding radius, whatever the tolerance: a followed contact
+/// is as one that is solved, so that runs which solve it anew, as on several ranks, stay the same.
+pub(super) const MOST_OPEN: f64 = 1e-13;
 
 impl KnownPiece {
     /// The same about a point x out of reach, frame of B, from the planes there, with the bound on the rounding of S; `None` where a plane has
@@ -58,20 +49,21 @@ impl KnownPiece {
 }
 
 impl LastContact {
-    /// Sets up the pieces about where the point x is now, frame of B, at this S and with so much left of its way, by a look at the planes that may
-    /// have switched since it has left one of them. `None` where one has, or where it was done too often.
+    /// Sets up the pieces about where the point x is now, frame of B, at this S, by a look at the planes that may have switched since it has left
+    /// one of them. `None` where one has, or where it was done too often.
     #[inline(never)]
-    pub(super) fn follow(&mut self, pair: &Pair, x: &Vector3<f64>, square: f64, way: f64) -> Option<[Within; 2]> {
+    pub(super) fn follow(&mut self, pair: &Pair, x: &Vector3<f64>, square: f64) -> Option<()> {
         let (a, b) = Body::both(pair, 0.0);
         let [(of_a, rounding_a), (of_b, rounding_b)] = [self.pieces[0].about(&a, x)?, self.pieces[1].about(&b, x)?];
         let more = (rounding_a / self.roundings[0]).max(rounding_b / self.roundings[1]);
-        self.growth = (self.square / square).max(1.0).sqrt() * more.max(1.0);
-        self.follows += 1.0;
-        self.pieces = [of_a, of_b];
+        let growth = (self.square / square).max(1.0).sqrt() * more.max(1.0);
         // Written so that what is not a number fails.
         let whole = self.roundings.iter().chain([&self.square]).all(|value| *value > 0.0 && value.is_finite());
-        let near = way <= MOST_OPEN * smaller(pair.a.bounding_radius(), pair.b.bounding_radius());
-        let within = self.pieces.map(|piece| Within { share: 0.0, left: piece.reach });
-        (whole && near && self.follows <= MOST_FOLLOWS && self.growth <= MOST_GROWTH).then_some(within)
+        if !(whole && self.follows < MOST_FOLLOWS && growth <= MOST_GROWTH) {
+            return None;
+        }
+        (self.growth, self.pieces) = (growth, [of_a, of_b]);
+        self.follows += 1.0;
+        Some(())
     }
 }

@@ -3,8 +3,8 @@
 //! Let g_i = ρ n_i be the gradients of planes of both particles, with a factor ρ for each particle, and c_i ≥ 0 shares. In a particle
 //! Σ c_i ρ (n_i·x − d_i), over any of its planes, is at most ρ·r/√(1−k) times the root of the sum of c_i², since w Σ⟨n_i·x − d_i⟩² is at most 1. The sum
 //! over the planes of both has the slope y = Σ c_i g_i. Where that is 0 or nearly, the sum is the same everywhere, and no point lies in
-//! both particles if it is more than what both allow. Of two points at a distance d, one in A and one in B, the sum at either is at most that and what the
-//! planes of the other one gain on d.
+//! both particles if it is more than what both allow. Of two points at a distance d, one in A and one in B, the sum at either exceeds that by at most d
+//! times the slope of the other one's planes.
 
 use crate::flags::Flags;
 use crate::linalg::number::{larger, smaller};
@@ -184,7 +184,12 @@ fn planes_at(particles: [&Particle; 2], [first, second]: &[f64; 2]) -> ([(usize,
     let [first, second] = [*first as usize, *second as usize];
     let planes =
         [first % TWO, first / TWO, second % TWO, second / TWO].map(|one| (one / MOST_PLACES, one % MOST_PLACES));
-    let count = planes.iter().take_while(|(of, place)| *of < 2 && *place < particles[*of].len()).count();
+    // Each once: the bound is of different planes.
+    let is_one = |&i: &usize| {
+        let (of, place) = planes[i];
+        of < 2 && place < particles[of].len() && !planes[..i].contains(&planes[i])
+    };
+    let count = (0..4).take_while(is_one).count();
     (planes, count)
 }
 

@@ -34,7 +34,9 @@ impl Cap {
         let mut cap = Self { chart, radii: strip.radii, third, start: strip.start, width: 0.0 };
         let wave = Wave::new(-chart.slopes[0] * cap.radii[0], -chart.slopes[1] * cap.radii[0]);
         cap.width = wave.fallen_to(chart.c - cap.radii[1], strip.sign).0 - cap.start;
-        cap.width.is_finite().then_some(cap)
+        // Within a quarter turn of the second angle it ends as well; else the patch goes on over another face.
+        let (constant, wave) = cap.across(cap.start);
+        (cap.width.is_finite() && chart.c >= constant + wave.b).then_some(cap)
     }
 
     /// F as a constant and a wave in the second angle.

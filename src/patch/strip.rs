@@ -185,7 +185,8 @@ impl Strip {
         Some(())
     }
 
-    /// Place and weight along the strip: towards an end where s = 1 it narrows as a root does, which the square of the rest makes smooth.
+    /// Place and weight along the strip: towards an end where s = 1 it narrows as a root does, which the square of the rest makes smooth. A strip
+    /// with two such ends is left as it is.
     #[inline(always)]
     fn along(&self, sigma: f64, weight: f64) -> (f64, f64) {
         match self.ends {

@@ -48,7 +48,7 @@ pub enum RockError {
     Open,
     /// More blocks than are allowed would be made: told before the first joint cuts.
     #[error(
-        "some {expected:.0} blocks are expected, more than most_blocks = {most}: fewer joints, larger spacings or a larger most_blocks"
+        "some {expected:.0} blocks or more are expected, more than most_blocks = {most}: fewer joints, larger spacings or a larger most_blocks"
     )]
     TooManyExpected {
         /// Blocks that planes in general position would make at least; of many joints an estimate.

@@ -97,7 +97,7 @@ impl Joint {
     /// A radius that is not above 0.
     pub fn with_radius(self, radius: f64) -> Result<Self, RockError> {
         within(radius, radius > 0.0, "radius of a joint", "above 0")?;
-        Ok(Self { radius, ..self })
+        Ok(Self { radius, outline: None, ..self })
     }
 
     /// The same with its place given from another origin, and a unit normal.
@@ -183,7 +183,8 @@ fn clip(corners: &mut Vec<[f64; 2]>, normal: [f64; 2], height: f64) {
 
 /// Signed area that the triangle of the origin, a and b shares with a circle about the origin: counter-clockwise counts positive.
 fn within_circle(radius: f64, a: [f64; 2], b: [f64; 2]) -> f64 {
-    let cross = |p: [f64; 2], q: [f64; 2]| p[0] * q[1] - p[1] * q[0];
+    // By the difference, which keeps its digits far from the origin.
+    let cross = |p: [f64; 2], q: [f64; 2]| p[0] * (q[1] - p[1]) - p[1] * (q[0] - p[0]);
     let dot = |p: [f64; 2], q: [f64; 2]| p[0] * q[0] + p[1] * q[1];
     let way = [b[0] - a[0], b[1] - a[1]];
     // Where the line from a to b enters the circle and leaves it, in parts of the way.

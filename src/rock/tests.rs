@@ -314,7 +314,7 @@ fn bad_domains_are_told() {
     let joints = random_joints(4, 40, [0.0; 3], 0.2);
     let few = SliceSettings { most_blocks: 2000, ..none };
     let RockError::TooManyExpected { expected, most: 2000 } = error(&domain, &joints, &few) else { panic!("many") };
-    assert_eq!(expected, slice(&domain, &joints, &none).unwrap().blocks.len() as f64);
+    assert!((expected / slice(&domain, &joints, &none).unwrap().blocks.len() as f64 - 1.0).abs() < 1e-12);
     // With a limit on size, the joint that makes one block too many is found by the counts, however many joints a round has.
     let none = SliceSettings { least_volume: f64::MIN_POSITIVE, ..none };
     let count = |joints: &[Joint]| slice(&domain, joints, &none).unwrap().blocks.len();
