@@ -82,8 +82,7 @@ pub struct Settings {
     /// k → 0⁺, the point nearest to the centres. Where the choice would leave open whether the particles overlap at all,
     /// the default value decides, and its contact is the answer ([`crate::Flags::DEFAULT_REGULARISATION`]).
     pub flat_regularisation: f64,
-    /// To what part of the smaller bounding radius the point of a contact has to be known that is carried on, in [0, 0.1]; 0: every
-    /// contact is solved.
+    /// A contact is carried on only where its point is known to this part of the smaller bounding radius, in [0, 0.1]; 0: every contact is solved.
     ///
     /// Above 0 (1e-9, say) and with a [`crate::PairState`], a contact of [`Formulation::Midway`] by [`BackEnd::Fast`] follows from the
     /// last one without a solution from its planes ([`crate::Flags::CARRIED`]) where no plane can have switched and its point is known so well.

@@ -263,7 +263,7 @@ fn of_patch(patch: &PyPatch, contact: &Bound<'_, PyAny>) -> PyResult<PyPatchDeri
         let contact = contact.extract::<PyRef<'_, PyFlatContact>>()?;
         [contact.0.branch - 0.5 * contact.0.overlap * contact.0.normal; 2]
     };
-    let found = patch_derivatives(&patch.patch, to_point);
+    let found = patch_derivatives(&patch.0, to_point);
     found.map(PyPatchDerivatives).ok_or_else(|| refused("the patch has no stiffness: ask for it with stiffness=True"))
 }
 

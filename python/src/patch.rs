@@ -2,7 +2,7 @@
 
 use crate::arrays::{to_rows, to_vector};
 use crate::boundary::{PyFlatContact, PyTriangle};
-use crate::contact::{PyContact, names};
+use crate::contact::{PyContact, getters, names};
 use crate::errors::refused;
 use crate::particle::PyParticle;
 use crate::pose::PyPose;
@@ -15,39 +15,26 @@ use std::cell::RefCell;
 
 /// The surface on which two bodies press on each other; what is proportional to the stiffness K per area is given over K.
 #[pyclass(name = "Patch", module = "potential_particles", frozen)]
-pub struct PyPatch {
-    pub patch: Patch,
-    points: Vec<PatchPoint>,
-}
+pub struct PyPatch(pub Patch, Vec<PatchPoint>);
 
-macro_rules! patch_getters {
-    ($($number:ident),*; $($vector:ident),*; $($matrix:ident $size:literal),*) => {
-        #[pymethods]
-        impl PyPatch {
-            $(#[getter]
-            fn $number(&self) -> f64 {
-                self.patch.$number
-            })*
-            $(#[getter]
-            fn $vector<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
-                to_vector(py, self.patch.$vector.as_slice())
-            })*
-            $(#[getter]
-            fn $matrix<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<f64>> {
-                to_rows(py, (0..$size).map(|i| std::array::from_fn::<f64, $size, _>(|j| self.patch.$matrix[(i, j)])))
-            })*
-        }
-    };
-}
-
-patch_getters!(length, couple, area, polar_moment, twist_lever, mean_depth, largest_depth, energy, error, area_error;
-    force, torque, pressure_centre, branch_a, branch_b, centroid; second_moment 3, stiffness 6);
+getters!(PyPatch: length, couple, area, polar_moment, twist_lever, mean_depth, largest_depth, energy, error, area_error;
+    force, torque, pressure_centre, branch_a, branch_b, centroid);
 
 #[pymethods]
 impl PyPatch {
     #[getter]
     fn flags(&self) -> Vec<String> {
-        names(self.patch.flags.bits(), self.patch.flags)
+        names(self.0.flags.bits(), self.0.flags)
+    }
+
+    #[getter]
+    fn second_moment<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<f64>> {
+        to_rows(py, (0..3).map(|i| [0, 1, 2].map(|j| self.0.second_moment[(i, j)])))
+    }
+
+    #[getter]
+    fn stiffness<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<f64>> {
+        to_rows(py, (0..6).map(|i| [0, 1, 2, 3, 4, 5].map(|j| self.0.stiffness[(i, j)])))
     }
 
     /// Rows of position (3, from the contact point), area, depth and normal (3) of each point of quadrature.
@@ -57,17 +44,17 @@ impl PyPatch {
             let ([x, y, z], [a, b, c]) = (point.position.into(), point.normal.into());
             [x, y, z, point.area, point.depth, a, b, c]
         };
-        to_rows(py, self.points.iter().map(row))
+        to_rows(py, self.1.iter().map(row))
     }
 
     fn __repr__(&self) -> String {
-        let Patch { force: f, area, .. } = self.patch;
+        let Patch { force: f, area, .. } = self.0;
         format!("<Patch: area {area:.6e}, force/K ({:.4e}, {:.4e}, {:.4e})>", f.x, f.y, f.z)
     }
 }
 
 thread_local! {
-    static SCRATCH: RefCell<PatchScratch> = RefCell::new(PatchScratch::new());
+    pub static SCRATCH: RefCell<PatchScratch> = RefCell::new(PatchScratch::new());
 }
 
 fn made(
@@ -77,7 +64,7 @@ fn made(
     let settings = PatchSettings { tolerance, with_energy: energy, with_stiffness: stiffness };
     let mut points = Vec::new();
     let patch = SCRATCH.with_borrow_mut(|scratch| find(&settings, scratch, &mut points)).map_err(refused)?;
-    Ok(PyPatch { patch, points })
+    Ok(PyPatch(patch, points))
 }
 
 /// The patch {s_A = s_B <= 1} of an overlapping contact, with the pressure K l (1 - s) on it, as a Patch; world axes, all over K.

@@ -3,13 +3,14 @@
 use crate::arrays::{rows, to_rows, to_vector, vector};
 use crate::contact::{PyPairState, getters, getters_of_contact, names};
 use crate::errors::{of_contact, refused};
+use crate::patch::SCRATCH;
 use crate::settings::{PySettings, or_default};
 use numpy::{PyArray1, PyArray2};
 use potential_particles::Kind;
+use potential_particles::PatchSettings;
 use potential_particles::planar::{
     AreaProperties, Contact, Line, Particle, Patch, PatchPoint, Pose, Section, patch_of_contact,
 };
-use potential_particles::{PatchScratch, PatchSettings};
 use pyo3::prelude::*;
 
 /// A validated potential particle of the plane, immutable.
@@ -202,55 +203,36 @@ fn contact_length(
 
 /// The curve on which two bodies press on each other; what is proportional to the stiffness K per area is given over K, all per unit of thickness.
 #[pyclass(name = "Patch", module = "potential_particles.planar", frozen)]
-pub struct PyPlanarPatch {
-    patch: Patch,
-    points: Vec<PatchPoint>,
-}
+pub struct PyPlanarPatch(Patch, Vec<PatchPoint>);
+
+getters!(PyPlanarPatch: depth_length, torque, length, second_moment, mean_depth, largest_depth, energy, error;
+    force, pressure_centre, branch_a, branch_b, centroid);
 
 #[pymethods]
 impl PyPlanarPatch {
     #[getter]
     fn flags(&self) -> Vec<String> {
-        names(self.patch.flags.bits(), self.patch.flags)
+        names(self.0.flags.bits(), self.0.flags)
     }
 
     /// Change of force and torque on B about the contact point, over K, with a shift and a turn of A: rows and columns x, y and angle.
     #[getter]
     fn stiffness<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<f64>> {
-        to_rows(py, (0..3).map(|i| [0, 1, 2].map(|j| self.patch.stiffness[(i, j)])))
+        to_rows(py, (0..3).map(|i| [0, 1, 2].map(|j| self.0.stiffness[(i, j)])))
     }
 
     /// Rows of position (2, from the contact point), length, depth and normal (2) of each point of quadrature.
     #[getter]
     fn points<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<f64>> {
         let row = |p: &PatchPoint| [p.position.x, p.position.y, p.length, p.depth, p.normal.x, p.normal.y];
-        to_rows(py, self.points.iter().map(row))
+        to_rows(py, self.1.iter().map(row))
     }
 
     fn __repr__(&self) -> String {
-        let Patch { force: f, length, .. } = self.patch;
+        let Patch { force: f, length, .. } = self.0;
         format!("<planar.Patch: length {length:.6e}, force/K ({:.4e}, {:.4e})>", f.x, f.y)
     }
 }
-
-macro_rules! patch_getters {
-    ($($number:ident),*; $($vector:ident),*) => {
-        #[pymethods]
-        impl PyPlanarPatch {
-            $(#[getter]
-            fn $number(&self) -> f64 {
-                self.patch.$number
-            })*
-            $(#[getter]
-            fn $vector<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
-                to_vector(py, self.patch.$vector.as_slice())
-            })*
-        }
-    };
-}
-
-patch_getters!(depth_length, torque, length, second_moment, mean_depth, largest_depth, energy, error;
-    force, pressure_centre, branch_a, branch_b, centroid);
 
 /// The patch {s_A = s_B <= 1} of an overlapping contact of the plane, as a planar.Patch; otherwise as patch_of_contact in space.
 #[pyfunction(name = "patch_of_contact")]
@@ -266,9 +248,11 @@ fn patch(
 ) -> PyResult<PyPlanarPatch> {
     let settings = PatchSettings { tolerance, with_energy: energy, with_stiffness: true };
     let mut points = Vec::new();
-    let (mut scratch, visit) = (PatchScratch::new(), |point| points.push(point));
-    let patch = patch_of_contact(&a.0, &pose_a.pose, &b.0, &pose_b.pose, &contact.0, &settings, &mut scratch, visit);
-    Ok(PyPlanarPatch { patch: patch.map_err(refused)?, points })
+    let visit = |point| points.push(point);
+    let patch = SCRATCH.with_borrow_mut(|scratch| {
+        patch_of_contact(&a.0, &pose_a.pose, &b.0, &pose_b.pose, &contact.0, &settings, scratch, visit)
+    });
+    Ok(PyPlanarPatch(patch.map_err(refused)?, points))
 }
 
 pub fn add(parent: &Bound<'_, PyModule>) -> PyResult<()> {

@@ -37,7 +37,8 @@ const MOST_ROUNDS: u32 = 8;
 /// Each change is at most this share of the last: the method converges then (Kantorovich's theorem asks for the half).
 const CONVERGING: f64 = 0.25;
 
-/// The change that is left is at most this share of the last: ten times as much, by which two changes may tell too little, is the half.
+/// The change that is left is at most this share of the last. It is predicted from two changes and may be ten times as large: ten times this share is
+/// the half that the theorem asks for.
 const TOLD: f64 = 0.05;
 
 /// Share of the tolerance that the predicted next change may take: the prediction from the first two changes is up to ten times too small.
@@ -99,7 +100,7 @@ struct Equations {
     mismatch: f64,
     apart: Vector3<f64>,
     bend: Symmetric,
-    /// H⁻¹ times a unit, its determinant: by it nothing has to be divided first.
+    /// H⁻¹ times a unit: the adjugate, whose unit is the determinant of H, or the inverse itself. No solution waits for that division.
     inverse: Symmetric,
     unit: f64,
     per_unit: f64,
@@ -132,7 +133,7 @@ struct Within {
 
 impl Within {
     #[inline(always)]
-    fn reach(pieces: &[KnownPiece; 2], x: &Vector3<f64>) -> [Self; 2] {
+    fn of(pieces: &[KnownPiece; 2], x: &Vector3<f64>) -> [Self; 2] {
         [0, 1].map(|i| {
             let (moved, reach) = ((x - pieces[i].from).norm(), pieces[i].reach);
             Self { moved, share: moved / reach, left: reach - moved }
@@ -353,9 +354,9 @@ impl PairState {
         let last = last?;
         let pair = Pair::new(a.0, a.1, b.0, b.1);
         let mut pieces = [known.pieces[0].seen_from_b(&pair), known.pieces[1]];
-        let room = settings.carry_tolerance * smaller(a.0.bounding_radius(), b.0.bounding_radius());
-        let mut optimum = known.optimum(&pair, &pieces, &last, room)?;
-        let mut within = Within::reach(&pieces, &optimum.x);
+        let radius = smaller(a.0.bounding_radius(), b.0.bounding_radius());
+        let mut optimum = known.optimum(&pair, &pieces, &last, settings.carry_tolerance * radius)?;
+        let mut within = Within::of(&pieces, &optimum.x);
         // Written so that what is not a number is looked at, and fails there.
         if !within.iter().all(|within| within.left > 0.0) {
             let Optimum { x, u, .. } = optimum;
@@ -363,9 +364,8 @@ impl PairState {
             // From there to the end: what long steps leave may be more than their changes tell.
             pieces = [known.pieces[0].seen_from_b(&pair), known.pieces[1]];
             let near = Remembered { x, lambda: u / (1.0 - u), ..last };
-            let smaller = smaller(a.0.bounding_radius(), b.0.bounding_radius());
-            optimum = known.optimum(&pair, &pieces, &near, MOST_OPEN * smaller)?;
-            within = Within::reach(&pieces, &optimum.x);
+            optimum = known.optimum(&pair, &pieces, &near, MOST_OPEN * radius)?;
+            within = Within::of(&pieces, &optimum.x);
         }
         let local = known.local(&pair, &pieces, &optimum, within)?;
         let (x, lambda) = (optimum.x, optimum.u / (1.0 - optimum.u));

@@ -21,8 +21,8 @@ const MOST_FOLLOWS: f64 = 30.0;
 /// How many times as large the rounding of S may be there as where it was solved.
 const MOST_GROWTH: f64 = 8.0;
 
-/// Most that may be left of the way to a point that is followed, relative to the smaller bounding radius, whatever the tolerance: a followed contact
-/// is as one that is solved, so that runs which solve it anew, as on several ranks, stay the same.
+/// Most that may be left of the way to a point that is followed, relative to the smaller bounding radius, whatever the tolerance: near the
+/// rounding of a solved one, so that runs which solve it anew, as on several ranks, stay as near as the regularisation lets them.
 pub(super) const MOST_OPEN: f64 = 1e-13;
 
 impl KnownPiece {

@@ -109,7 +109,7 @@ impl Symmetric {
         }
     }
 
-    /// Lower bound of the least eigenvalue of a matrix that has none below 0: the other two multiply to (½·tr)² at most, so that it
+    /// Lower bound of the least eigenvalue of a matrix that has none below 0, given its determinant: the other two multiply to (½·tr)² at most, so that it
     /// is at least 4·det/tr². 0 where that is less than [`LEAST_TOLD`] of the trace.
     #[inline]
     pub(crate) fn least_eigenvalue(&self, determinant: f64) -> f64 {

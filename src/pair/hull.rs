@@ -9,7 +9,7 @@
 use crate::flags::Flags;
 use crate::linalg::number::{larger, smaller};
 use crate::pair::separation::{Apart, MARGIN};
-use crate::particle::particle::Particle;
+use crate::particle::particle::{MAX_PLANES, Particle};
 use crate::pose::Pose;
 use nalgebra::Vector3;
 
@@ -166,24 +166,24 @@ impl Hull {
     pub fn places(&self) -> [f64; 2] {
         let one = |i: usize| {
             let Face { of, place, .. } = self.faces[i];
-            if i < self.count { MOST_PLACES * of + place } else { NO_PLANE }
+            if i < self.count { MAX_PLANES * of + place } else { NO_PLANE }
         };
-        [0, 2].map(|i| (one(i) + TWO * one(i + 1)) as f64)
+        [0, 2].map(|i| (one(i) + SECOND * one(i + 1)) as f64)
     }
 }
 
-/// In a whole number of two planes: what is added to a place of B, what stands for none, and the factor of the second one.
-const MOST_PLACES: usize = 65_536;
-const NO_PLANE: usize = 131_072;
-const TWO: usize = 262_144;
+/// A whole number tells two planes: each by its place, that of a plane of B with [`MAX_PLANES`] added, or by this where there is none; the second
+/// one times [`SECOND`].
+const NO_PLANE: usize = 2 * MAX_PLANES;
+const SECOND: usize = 4 * MAX_PLANES;
 
 /// Body (0, 1) and place of the planes of [`Hull::places`], whatever the numbers are, as far as the particles have them; and how many.
 #[inline(always)]
 fn planes_at(particles: [&Particle; 2], [first, second]: &[f64; 2]) -> ([(usize, usize); 4], usize) {
     // What is negative or not a number becomes 0.
     let [first, second] = [*first as usize, *second as usize];
-    let planes =
-        [first % TWO, first / TWO, second % TWO, second / TWO].map(|one| (one / MOST_PLACES, one % MOST_PLACES));
+    let planes = [first % SECOND, first / SECOND, second % SECOND, second / SECOND]
+        .map(|one| (one / MAX_PLANES, one % MAX_PLANES));
     // Each once: the bound is of different planes.
     let is_one = |&i: &usize| {
         let (of, place) = planes[i];
@@ -298,11 +298,11 @@ mod tests {
             let far = [0.9, 1.1, 1.5][seed % 3];
             let pose_b = Pose::new((far * towards).into(), [0.5, other.x, other.y, other.z]).unwrap();
             let contact = detect(a, &pose_a, b, &pose_b, &Settings::default(), None).unwrap();
-            let plane = |share: f64| MOST_PLACES * usize::from(share < 0.0) + (7.0 * share.abs()) as usize;
+            let plane = |share: f64| MAX_PLANES * usize::from(share < 0.0) + (7.0 * share.abs()) as usize;
             let places = match seed % 10 {
                 0 => [f64::NAN, x.x],
                 1 => [f64::INFINITY, -1e300 * x.x],
-                _ => [[x.x, x.y], [x.z, y.x]].map(|[p, q]| (plane(p) + TWO * plane(q)) as f64),
+                _ => [[x.x, x.y], [x.z, y.x]].map(|[p, q]| (plane(p) + SECOND * plane(q)) as f64),
             };
             let proof = still_balanced((a, &pose_a), (b, &pose_b), &(0.5 * y), &places);
             overlapping += u32::from(contact.kind == Kind::Overlapping);

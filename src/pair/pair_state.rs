@@ -47,7 +47,8 @@ pub(crate) struct Remembered {
     pub overlapping: bool,
     /// Whether planes in balance kept them apart.
     pub balanced: bool,
-    /// Which planes those were, by [`crate::pair::hull::Hull::places`]. Else factors from the λ of P1 and P2 that `solver::closest::from_between` predicts to theirs; used where the products are in the range of λ.
+    /// Where planes in balance kept them apart: which ones, by [`crate::pair::hull::Hull::places`]. Else factors from the λ of P1 and P2 that
+    /// `solver::closest::from_between` predicts to theirs; used where the products are in the range of λ.
     pub closest: [f64; 2],
 }
 
@@ -94,7 +95,7 @@ impl PairState {
     /// Marks a solution that is there; all-zero bytes are an empty state.
     const FILLED: f64 = 1.0;
 
-    /// In the place of 1 where the pair overlapped: planes in balance kept it apart.
+    /// The sixth number where planes in balance kept the pair apart; 1 where it overlapped.
     const BALANCED: f64 = 2.0;
 
     /// With a remembered solution, from the eight numbers of [`Self::into_raw`]. Whatever is none is as good as an empty state.

@@ -11,7 +11,7 @@ pub(super) const MOST_PLANES: usize = 128;
 const MOST_VERTICES: usize = 400;
 const MOST_ROUNDS: usize = 12;
 
-/// tan ½θ of the largest turn θ = 0.8 of half an arc.
+/// tan ½θ of the largest turn θ = 1.1 of half an arc.
 const HALF_TURN: f64 = 0.6;
 
 /// Relative distance within which two walks meet the same vertex.

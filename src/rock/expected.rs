@@ -7,10 +7,11 @@ use crate::rock::joint::Joint;
 use nalgebra::{Matrix3, Vector3};
 use std::collections::HashSet;
 
-/// Up to so many pairs or triples are all looked at; of more some are drawn by chance, fewer of many joints, each of which is looked at for each.
+/// Up to so many pairs or triples are all looked at. Of more a sample is drawn, of as many at most and of so many at least: each costs a look at every joint, and the whole
+/// so many looks.
 const MOST_DRAWN: usize = 20_000;
-const MOST_LOOKS: usize = 4_000_000;
 const LEAST_DRAWN: usize = 1_000;
+const MOST_LOOKS: usize = 4_000_000;
 
 /// Planes this near, over the size of the domain, are one, and go through a point.
 const SAME: f64 = 1e-9;
@@ -149,11 +150,11 @@ impl Crossing<'_> {
         // Planes through one line have a determinant of rounding.
         let inverse = rows.try_inverse().filter(|_| rows.determinant().abs() > SAME);
         let Some(at) = inverse.map(|inverse| inverse * heights) else { return 0.0 };
-        let is_inside = self.outer.iter().all(|(n, height)| n.dot(&at) < *height)
-            && of.iter().all(|joint| {
-                (at - joint.point).norm() <= joint.radius && joint.borders().all(|(n, height)| n.dot(&at) <= height)
-            });
-        if is_inside { 3.0 / self.through(&[at]).max(3.0) } else { 0.0 }
+        if self.outer.iter().all(|(n, height)| n.dot(&at) < *height) && of.iter().all(|joint| joint.holds(&at)) {
+            3.0 / self.through(&[at]).max(3.0)
+        } else {
+            0.0
+        }
     }
 }
 

@@ -1,7 +1,8 @@
 //! A joint: a plane through the rock, or a disc or polygon of it.
 
 use crate::rock::error::{RockError, within};
-use nalgebra::Vector3;
+use crate::rock::polygon::{axes_across, clip, within_circle};
+use nalgebra::{Vector2, Vector3};
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
@@ -117,17 +118,21 @@ impl Joint {
     /// The area that a convex polygon in its plane, corners in order, shares with the disc or polygon.
     pub(super) fn shared_area(&self, polygon: &[Vector3<f64>]) -> f64 {
         // Corners about the point of the joint, along two axes of its plane.
-        let across = self.normal.cross(&Vector3::ith(self.normal.iamin(), 1.0)).normalize();
-        let axes = [across, self.normal.cross(&across)];
-        let flat = |at: &Vector3<f64>| axes.map(|axis| axis.dot(&(at - self.point)));
-        let mut corners: Vec<[f64; 2]> = polygon.iter().map(flat).collect();
+        let [u, v] = axes_across(&self.normal);
+        let flat = |x: &Vector3<f64>| Vector2::new(u.dot(x), v.dot(x));
+        let mut corners: Vec<_> = polygon.iter().map(|at| flat(&(at - self.point))).collect();
         for (n, height) in self.borders() {
-            let normal = axes.map(|axis| axis.dot(&n));
-            clip(&mut corners, normal, height - n.dot(&self.point));
+            let (normal, left) = (flat(&n), height - n.dot(&self.point));
+            clip(&mut corners, |at| left - normal.dot(at));
         }
         let radius = if self.outline.is_some() { f64::INFINITY } else { self.radius };
         let pairs = corners.iter().zip(corners.iter().cycle().skip(1));
-        pairs.map(|(a, b)| within_circle(radius, *a, *b)).sum::<f64>().abs()
+        pairs.map(|(a, b)| within_circle(radius, a, b)).sum::<f64>().abs()
+    }
+
+    /// Whether a point of its plane lies in the disc or polygon.
+    pub(super) fn holds(&self, at: &Vector3<f64>) -> bool {
+        (at - self.point).norm() <= self.radius && self.borders().all(|(n, height)| n.dot(at) <= height)
     }
 
     /// Whether the disc or polygon and a convex polygon in its plane, corners in order, have a point in common.
@@ -161,47 +166,6 @@ impl Joint {
         }
         nearest <= self.radius || !(signs[0] && signs[1])
     }
-}
-
-/// Takes from a convex polygon of the plane what lies beyond a line.
-fn clip(corners: &mut Vec<[f64; 2]>, normal: [f64; 2], height: f64) {
-    let above = |[x, y]: [f64; 2]| normal[0] * x + normal[1] * y - height;
-    let mut left = Vec::with_capacity(corners.len() + 1);
-    for (i, &a) in corners.iter().enumerate() {
-        let b = corners[(i + 1) % corners.len()];
-        let (here, next) = (above(a), above(b));
-        if here <= 0.0 {
-            left.push(a);
-        }
-        if (here <= 0.0) != (next <= 0.0) {
-            let share = here / (here - next);
-            left.push([0, 1].map(|c| a[c] + share * (b[c] - a[c])));
-        }
-    }
-    *corners = left;
-}
-
-/// Signed area that the triangle of the origin, a and b shares with a circle about the origin: counter-clockwise counts positive.
-fn within_circle(radius: f64, a: [f64; 2], b: [f64; 2]) -> f64 {
-    // By the difference, which keeps its digits far from the origin.
-    let cross = |p: [f64; 2], q: [f64; 2]| p[0] * (q[1] - p[1]) - p[1] * (q[0] - p[0]);
-    let dot = |p: [f64; 2], q: [f64; 2]| p[0] * q[0] + p[1] * q[1];
-    let way = [b[0] - a[0], b[1] - a[1]];
-    // Where the line from a to b enters the circle and leaves it, in parts of the way.
-    let (square, middle) = (dot(way, way), -dot(a, way));
-    let rest = middle * middle - square * (dot(a, a) - radius * radius);
-    if radius == f64::INFINITY || square == 0.0 {
-        return 0.5 * cross(a, b);
-    }
-    let sector = |p: [f64; 2], q: [f64; 2]| 0.5 * radius * radius * cross(p, q).atan2(dot(p, q));
-    let [enters, leaves] = [-1.0, 1.0].map(|sign| ((middle + sign * rest.max(0.0).sqrt()) / square).clamp(0.0, 1.0));
-    if !(rest > 0.0) || leaves <= enters {
-        return sector(a, b);
-    }
-    let [p, q] = [enters, leaves].map(|t| [0, 1].map(|c| a[c] + t * way[c]));
-    let before = if enters > 0.0 { sector(a, p) } else { 0.0 };
-    let after = if leaves < 1.0 { sector(q, b) } else { 0.0 };
-    before + 0.5 * cross(p, q) + after
 }
 
 /// The sides of a polygon with the corners at which they begin, but for those so short that their direction is rounding: where more than three planes meet
@@ -304,10 +268,8 @@ mod tests {
                 _ => Joint::polygon(&polygon).unwrap(),
             };
             let drawn = 40_000;
-            let is_in = |at: &Vector3<f64>| {
-                (at - joint.point).norm() <= joint.radius && joint.borders().all(|(n, height)| n.dot(at) <= height)
-            };
-            let hits = (0..drawn).filter(|_| is_in(&at(random.between(-1.0, 1.0), random.between(-1.0, 1.0)))).count();
+            let hits =
+                (0..drawn).filter(|_| joint.holds(&at(random.between(-1.0, 1.0), random.between(-1.0, 1.0)))).count();
             let expected = 4.0 * hits as f64 / f64::from(drawn);
             assert!((joint.shared_area(&square) - expected).abs() < 0.05, "{case}: {expected}");
         }

@@ -3,6 +3,7 @@
 use crate::random::Random;
 use crate::rock::error::{RockError, within};
 use crate::rock::joint::Joint;
+use crate::rock::polygon::axes_across;
 use nalgebra::Vector3;
 use std::f64::consts::{PI, TAU};
 
@@ -102,8 +103,8 @@ impl JointSet {
         let cos = 1.0 + (u + (1.0 - u) * (-2.0 * self.fisher).exp()).ln() / self.fisher;
         let sin = ((1.0 - cos) * (1.0 + cos)).max(0.0).sqrt();
         let (across, along) = (TAU * random.uniform()).sin_cos();
-        let u = mean.cross(&Vector3::ith(mean.iamin(), 1.0)).normalize();
-        (cos * mean + sin * (along * u + across * mean.cross(&u))).normalize()
+        let [u, v] = axes_across(mean);
+        (cos * mean + sin * (along * u + across * v)).normalize()
     }
 }
 

@@ -5,6 +5,7 @@
 //! | file | holds |
 //! |---|---|
 //! | `error` | why a rock mass cannot be cut |
+//! | `polygon` | convex polygons of a plane |
 //! | `joint` | a plane, a disc or a polygon in the rock, by dip and dip direction |
 //! | `joint_set` | joints of one orientation and spacing, with their scatter |
 //! | `block` | what is cut out, with the joint or the side of the domain that each face comes from |
@@ -27,6 +28,7 @@ mod expected;
 mod joint;
 mod joint_set;
 mod partners;
+mod polygon;
 mod regions;
 mod round;
 mod settings;

@@ -2,6 +2,7 @@
 
 use crate::rock::block::FaceOf;
 use crate::rock::joint::SHORT;
+use crate::rock::polygon::{axes_across, clip};
 use crate::rock::slicing::RockMass;
 use nalgebra::{Vector2, Vector3};
 use std::collections::BTreeMap;
@@ -54,8 +55,7 @@ impl RockMass {
     fn in_plane(&self, faces: &[[usize; 2]]) -> Vec<Partners> {
         let face = |[i, j]: [usize; 2]| &self.blocks[i].faces[j];
         let (normal, origin) = (face(faces[0]).plane.normal, self.corners(faces[0])[0]);
-        let u = normal.cross(&Vector3::ith(normal.iamin(), 1.0)).normalize();
-        let v = normal.cross(&u);
+        let [u, v] = axes_across(&normal);
         let outline = |&at: &[usize; 2]| {
             let place = |x: &Vector3<f64>| Vector2::new(u.dot(&(x - origin)), v.dot(&(x - origin)));
             let mut corners: Vec<_> = self.corners(at).iter().map(place).collect();
@@ -96,19 +96,7 @@ fn shared(first: &[Vector2<f64>], second: &[Vector2<f64>]) -> f64 {
     let mut left: Vec<Vector2<f64>> = first.to_vec();
     for (i, from) in second.iter().enumerate() {
         let along = second[(i + 1) % second.len()] - from;
-        let inside = |x: &Vector2<f64>| cross(x - from, along);
-        let mut kept = Vec::with_capacity(left.len() + 1);
-        for (j, here) in left.iter().enumerate() {
-            let there = &left[(j + 1) % left.len()];
-            let (a, b) = (inside(here), inside(there));
-            if a >= 0.0 {
-                kept.push(*here);
-            }
-            if (a < 0.0) != (b < 0.0) {
-                kept.push(here + a / (a - b) * (there - here));
-            }
-        }
-        left = kept;
+        clip(&mut left, |x| cross(x - from, along));
         if left.len() < 3 {
             return 0.0;
         }

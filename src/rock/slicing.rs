@@ -70,8 +70,8 @@ pub fn slice_with_regions(
     let local: Vec<Joint> =
         joints.iter().zip(&planes[domain.len()..]).map(|(joint, (_, n, _))| joint.about(&origin, *n)).collect();
     if !settings.leaves_out() {
-        let about = |(n, d): &Oriented| (*n, d - n.dot(&origin));
-        let expected = expected_blocks(&polyhedron, &outer.iter().map(about).collect::<Vec<_>>(), &local);
+        let outer: Vec<Oriented> = planes[..domain.len()].iter().map(|(_, n, height)| (*n, *height)).collect();
+        let expected = expected_blocks(&polyhedron, &outer, &local);
         if expected > settings.most_blocks as f64 {
             return Err(RockError::TooManyExpected { expected, most: settings.most_blocks });
         }

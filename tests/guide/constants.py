@@ -16,6 +16,8 @@ CORE = ["linalg", "pair", "model", "bounds", "solver", "contact", "boundary"]
 CONST = re.compile(r"\bconst ([A-Z][A-Z0-9_]*): (?:f64|usize|u8|u16|u32|u64|\(f64, f64\)|\[f64; \d+\]) =\s*([^;]+);")
 SUPERSCRIPTS = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻", "0123456789-")
 EPSILON = 2.0**-52
+# Of a particle, outside of CORE.
+MAX_PLANES = int(re.search(r"const MAX_PLANES: usize = ([\d_]+);", (TOP / "src/particle/plane.rs").read_text())[1])
 UNITS = {"ε": EPSILON, "u": EPSILON / 2, "U": 4 * EPSILON**2, "π": math.pi, "√": math.sqrt}
 
 
@@ -31,7 +33,7 @@ def constants(path):
     for name, value in CONST.findall(source(path)):
         value = value.replace("f64::EPSILON", "EPSILON").replace("DoubleDouble::UNIT", "UNIT_OF_WIDE").replace("[", "(").replace("]", ")")
         value = value.replace("std::f64::consts::FRAC_PI_2", "HALF_PI")
-        known = {"EPSILON": EPSILON, "UNIT_OF_WIDE": UNITS["U"], "HALF_PI": math.pi / 2}
+        known = {"EPSILON": EPSILON, "UNIT_OF_WIDE": UNITS["U"], "HALF_PI": math.pi / 2, "MAX_PLANES": MAX_PLANES}
         known.update({name: values[0] for name, values in found.items()})
         number = eval(value, {"__builtins__": {}}, known)
         found.setdefault(name, []).extend(number if isinstance(number, tuple) else [number])
