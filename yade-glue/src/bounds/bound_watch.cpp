@@ -3,7 +3,8 @@
 
 #include "bound_watch.hpp"
 #include "bounding_box.hpp"
-#include "shape/conic_potential_particle.hpp"
+#include "particle/fetch.hpp"
+#include "shape/particle_of.hpp"
 #include "pair/turn_bound.hpp"
 
 #include <algorithm>
@@ -44,28 +45,61 @@ bool BoundWatch::cellHasChanged()
     return true;
 }
 
+namespace {
+
+    // What is looked at of the bodies that are some places further than this one: first the body, then what it points at.
+    void fetchBodiesAhead(const std::vector<boost::shared_ptr<yade::Body>>& bodies, std::size_t place)
+    {
+        constexpr std::size_t ahead = 8;
+        if (place + 2 * ahead < bodies.size())
+            fetch(bodies[place + 2 * ahead].get(), sizeof(yade::Body));
+        const yade::Body* const later = place + ahead < bodies.size() ? bodies[place + ahead].get() : nullptr;
+        if (!later || !later->state || !later->bound)
+            return;
+        fetch(&later->state->se3, sizeof(yade::Se3r));
+        fetch(&later->bound->min, 2 * sizeof(yade::Vector3r));
+        fetch(later->shape.get(), sizeof(void*));
+    }
+
+} // namespace
+
 bool BoundWatch::someBodyIsOutside()
 {
     const auto& bodies = scene->bodies->body;
     known.resize(bodies.size());
-    for (std::size_t i = 0; i < bodies.size(); ++i)
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+        fetchBodiesAhead(bodies, i);
         if (bodies[i] && bodies[i]->bound && bodies[i]->shape && isOutside(*bodies[i], known[i]))
             return true;
+    }
     return false;
+}
+
+BoundWatch::Kind BoundWatch::kindOf(const yade::Shape& shape)
+{
+    return hasCorners(shape)                                        ? Kind::corners
+        : typeid(shape) == typeid(ConicPotentialParticle)           ? Kind::conic
+        : dynamic_cast<const yade::PotentialParticle*>(&shape)      ? Kind::potential
+                                                                    : Kind::other;
 }
 
 bool BoundWatch::isOutside(const yade::Body& body, Inside& known) const
 {
-    if (hasCorners(*body.shape))
+    const void* const itsClass = classOf(*body.shape);
+    if (itsClass != known.classOfShape) {
+        known.classOfShape = itsClass;
+        known.kind = kindOf(*body.shape);
+    }
+    if (known.kind == Kind::other)
+        return false;
+    if (known.kind == Kind::corners)
         return cornersAreOutside(body, known);
     const yade::Se3r& at = body.state->se3;
     const Particle* particle = nullptr;
-    if (typeid(*body.shape) == typeid(ConicPotentialParticle)) {
+    if (known.kind == Kind::conic) {
         // Only where the box is the library's does the particle alone say what must lie within.
         const auto& conic = static_cast<const ConicPotentialParticle&>(*body.shape);
         particle = conic.automaticBox ? conic.particle() : nullptr;
-    } else if (!dynamic_cast<const yade::PotentialParticle*>(body.shape.get())) {
-        return false;
     }
     if (particle && known.stillHolds(*particle, at, *body.bound))
         return false;

@@ -42,10 +42,16 @@ private:
     bool cellHasChanged();
     bool someBodyIsOutside();
 
+    // How a body is looked at, by the class of its shape.
+    enum class Kind : unsigned char { other, corners, conic, potential };
+    static Kind kindOf(const yade::Shape& shape);
+
     // A particle with this serial number, posed so, lies in the box with `room` to spare on each side. That holds whatever
     // body it is, so that nobody has to tell when bodies, shapes or boxes are changed.
     struct Inside {
         std::uint64_t serial = 0;
+        const void* classOfShape = nullptr; // its virtual table
+        Kind kind = Kind::other;
         yade::Vector3r position;
         yade::Quaternionr turn;
         yade::Vector3r min, max;

@@ -75,7 +75,7 @@ void Pushes::add(const Step& step, yade::ForceContainer& forces, std::size_t bod
     bool any = false;
     for (std::size_t i = begins[body]; i < ends[body]; ++i) {
         if (i + ahead < entries.size())
-            Step::fetch(step.knownContactAt(entries[i + ahead].place), sizeof(ContactInStep));
+            fetch(step.knownContactAt(entries[i + ahead].place), sizeof(ContactInStep));
         const ContactInStep& contact = *step.knownContactAt(entries[i].place);
         if (contact.pushedIn != step.number())
             continue;

@@ -170,8 +170,7 @@ void Step::fill(BodyInStep& body, yade::Body* given)
         body.highest = given->bound->max;
     }
     const yade::Shape& shape = *given->shape;
-    // What an object is does not change, and its virtual table says it.
-    const void* const itsClass = *reinterpret_cast<const void* const*>(&shape);
+    const void* const itsClass = classOf(shape);
     if (itsClass != body.classOfShape) {
         body.classOfShape = itsClass;
         body.isPotential = potentialParticle(shape);

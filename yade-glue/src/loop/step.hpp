@@ -8,6 +8,7 @@
 #include "blocks.hpp"
 #include "body_in_step.hpp"
 #include "pair_in_step.hpp"
+#include "particle/fetch.hpp"
 #include "pair/sc_geom_conic_pp.hpp"
 
 #include <potential_particles.h>
@@ -132,23 +133,10 @@ public:
         fetch(contact->phys, physSize);
     }
 
-    static void fetch(const void* place, std::size_t size, std::size_t offset = 0)
-    {
-        if (!place)
-            return;
-        // GCC 12 takes a function of __builtin_prefetch alone for one without effect, and drops it.
-        const auto* const bytes = static_cast<const char*>(place) + offset;
-        for (std::size_t i = 0; i < size; i += lineSize)
-            asm volatile("prefetcht0 (%0)" : : "r"(bytes + i));
-        // YADE's objects begin anywhere in a line, and end in one more.
-        asm volatile("prefetcht0 (%0)" : : "r"(bytes + size - 1));
-    }
-
 private:
     // A contact takes some hundred nanoseconds, and so does a load from memory: six contacts are time enough for the loads
     // of one.
     static constexpr std::size_t ahead = 6;
-    static constexpr std::size_t lineSize = 64;
     // What a contact touches of ScGeomConicPP and KnKsPhys.
     static constexpr std::size_t geomSize = 256, stateOffset = sizeof(ScGeomConicPP) - sizeof(pp_pair_state);
     static constexpr std::size_t stateSize = sizeof(pp_pair_state), physSize = 480;

@@ -12,6 +12,9 @@
 
 namespace potential_particles {
 
+// Tells the classes of objects apart: what an object is does not change, and its virtual table says it.
+inline const void* classOf(const yade::Shape& shape) { return *reinterpret_cast<const void* const*>(&shape); }
+
 // `keeper` owns it when the shape itself does not.
 inline const Particle* particleOf(const boost::shared_ptr<yade::Shape>& shape, const yade::PotentialParticle& pp,
                                   std::shared_ptr<const Particle>& keeper)
@@ -41,6 +44,8 @@ inline const yade::PotentialParticle* potentialParticle(const yade::Shape& shape
 inline const Particle* particleOf(const boost::shared_ptr<yade::Shape>& shape, std::shared_ptr<const Particle>& keeper)
 {
     const yade::Shape& one = *shape;
+    if (typeid(one) == typeid(ConicPotentialParticle)) // most are, and the others are told by comparing names
+        return particleOf(shape, static_cast<const ConicPotentialParticle&>(one), keeper);
     if (const StandIn* kind = standInOf(one))
         keeper = ParticleStore::instance().find(shape, *kind);
     else if (const auto* pp = potentialParticle(one))
