@@ -178,7 +178,7 @@ fn solved(
     let mut call = Call::new(pair, settings);
     // Unpacked once more: handed on through memory it would hold up the proofs of separation.
     let last = state.as_deref().filter(|_| remembers).map(|state| state.unpacked());
-    let last = last.filter(|last| last.overlapping || settings.solve_separated || !call.is_sharp());
+    let last = last.filter(|last| !last.balanced || settings.solve_separated || !call.is_sharp());
     let start = match last {
         Some(last) => {
             if settings.back_end == BackEnd::Fast {
@@ -228,7 +228,8 @@ fn solved(
         remember(state, remembered);
         let s = scale.low.max(1.0);
         let flags = call.flags.with(Flags::REJECTED);
-        return Ok(Contact { formulation: settings.formulation, flags, s, ..summary(&call) });
+        let distance = separation::distance_of_scale(pair, scale.low);
+        return Ok(Contact { formulation: settings.formulation, flags, s, distance, ..summary(&call) });
     }
     let points = if settings.formulation == Formulation::Closest { call.closest(&midway)? } else { None };
     let local = match &points {

@@ -67,9 +67,10 @@ impl LocalContact {
         let surface = if overlapping {
             let pieces = pieces(&across.vector);
             let (ray_a, ray_b) = (|| Ray::of_a(pair, x, &normal), || Ray::of_b(pair, x, &normal));
-            let slope = |i: usize| (gradients[i] - pieces[i].surplus_gradient).dot(&across.vector);
-            let to_a = across.way(solution.values[0], pieces[0], slope(0), |guess| ray_a().way(guess))?;
-            let to_b = across.way(solution.values[1], pieces[1], -slope(1), |guess| ray_b().way(guess))?;
+            let slope_a = (gradients[0] - pieces[0].surplus_gradient).dot(&across.vector);
+            let slope_b = (gradients[1] - pieces[1].surplus_gradient).dot(&across.vector);
+            let to_a = across.way(solution.values[0], pieces[0], slope_a, |guess| ray_a().way(guess))?;
+            let to_b = across.way(solution.values[1], pieces[1], -slope_b, |guess| ray_b().way(guess))?;
             // Where s < 1 by less than the rounding of the point, the surfaces seem to have passed each other.
             let passed = to_a + to_b < 0.0;
             let (to_a, to_b) = if passed { meeting([ray_a(), ray_b()], [to_a, to_b]) } else { (to_a, to_b) };

@@ -37,6 +37,7 @@ pub(crate) enum Given<'a> {
 
 impl<'a> Pair<'a> {
     /// The pair (A, B) at the given poses.
+    #[inline(always)]
     pub fn new(a: &'a Particle, pose_a: &'a Pose, b: &'a Particle, pose_b: &'a Pose) -> Self {
         let centre = pose_b.rotation().tr_mul(&(pose_a.position() - pose_b.position()));
         Self {

@@ -27,6 +27,12 @@ impl Apart {
     }
 }
 
+/// Lower bound on the distance of two particles for which midway has s > 1: at a point between them s of either is above 1 by no more than its slope
+/// takes it to over the way there.
+pub(crate) fn distance_of_scale(pair: &Pair, low: f64) -> f64 {
+    larger(low - 1.0, 0.0) * (pair.a.slope_length + pair.b.slope_length) * (1.0 - MARGIN)
+}
+
 /// Two balls that hold the particles and do not meet.
 pub fn balls_apart(pair: &Pair) -> Option<Apart> {
     let distance = pair.centre.norm() * (1.0 - MARGIN) - (pair.a.bounding_radius() + pair.b.bounding_radius());
