@@ -9,6 +9,7 @@
 use crate::bounds::scale::Scale;
 use crate::bounds::solution::Solution;
 use crate::contact::contact::{Contact, Kind};
+use crate::contact::detect::Form;
 use crate::contact::followed::{MORE_ROUNDING, MOST_OPEN};
 use crate::contact::geometry::{Across, LocalContact};
 use crate::flags::Flags;
@@ -344,7 +345,7 @@ impl PairState {
         a: (&Particle, &Pose),
         b: (&Particle, &Pose),
         settings: &Settings,
-        answer: impl FnOnce(Contact) -> T,
+        answer: &impl Form<T>,
     ) -> Option<T> {
         let last = self.remembered(a, b);
         let known = &mut self.last_contact;
@@ -373,7 +374,7 @@ impl PairState {
         let call = Contact { flags: Flags::WARM.with(Flags::CARRIED), iterations: optimum.rounds, ..Contact::UNKNOWN };
         let contact = local.placed(&pair, b.1, call);
         debug_assert!(contact.kind == Kind::Overlapping && contact.overlap >= 0.0);
-        Some(answer(contact))
+        Some(answer.of(contact))
     }
 }
 
