@@ -17,7 +17,6 @@ pub(crate) fn rounded(v: &Wide) -> Vector3<f64> {
 }
 
 /// a − b without rounding.
-#[inline(always)]
 pub(crate) fn difference(a: &Vector3<f64>, b: &Vector3<f64>) -> Wide {
     a.zip_map(b, |a, b| DoubleDouble::sum(a, -b))
 }
