@@ -322,19 +322,13 @@ impl LastContact {
         let solution = Solution { gradients, values, ..Solution::unsettled(*x, lambda, *rounds) };
         // Forces balance: both sides of it point the same way, and no unit vectors are needed to weigh them alike.
         let across = Across::balanced((1.0 - u) * gradients[0] - *u * gradients[1]);
-        let along = |n: &Vector3<f64>| [within[0].along(&pieces[0], n), within[1].along(&pieces[1], n)];
+        let n = across.vector();
+        let along = [within[0].along(&pieces[0], n), within[1].along(&pieces[1], n)];
         let steep = SLOPE_ROUNDING * left.stiffness * (within[0].moved + within[1].moved);
         // That of the pieces, which are turned back and forth, and that of this place.
         let bound = (1.0 + grown) * self.point_bound + 2.0 * left.way + steep;
-        LocalContact::along_normal(
-            pair,
-            &solution,
-            across,
-            Scale { s, gap, low: s - gap, high: s + gap },
-            || bound,
-            along,
-            true,
-        )
+        let scale = Scale { s, gap, low: s - gap, high: s + gap };
+        LocalContact::along_normal(pair, &solution, across, scale, bound, Some(along))
     }
 }
 

@@ -191,6 +191,7 @@ fn solved(
     let mut call = Call::new(pair, settings);
     // Unpacked once more: handed on through memory it would hold up the proofs of separation.
     let last = state.as_deref().filter(|_| remembers).map(|state| state.unpacked());
+    // Where planes in balance kept sharp bodies apart, such planes are looked for again. Where none did, they are closer than planes can tell.
     let last = last.filter(|last| !last.balanced || settings.solve_separated || !call.is_sharp());
     let start = match last {
         Some(last) => {
