@@ -175,8 +175,12 @@ mod tests {
     /// A little further apart than where they touch, where no other proof than the solution is found.
     #[test]
     fn particles_that_are_solved_apart_do_not_meet_within_their_distance() {
-        let shapes =
-            [cube(), Particle::cube(0.5, 1e-3, 0.0, 0.0), Particle::cube(0.45, 0.05, 0.3, 0.8), cube().scaled(1e-3).unwrap()];
+        let shapes = [
+            cube(),
+            Particle::cube(0.5, 1e-3, 0.0, 0.0),
+            Particle::cube(0.45, 0.05, 0.3, 0.8),
+            cube().scaled(1e-3).unwrap(),
+        ];
         let mut solved = 0;
         for seed in 0..600 {
             let mut chance = scattered(500 * seed);
