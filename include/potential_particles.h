@@ -422,7 +422,7 @@ typedef struct pp_contact {
     // Point on the surface of B inside A, world frame; P2 of closest. NaN when separated.
     double point_on_b[3];
     // Separated: lower bound on the distance between the two particles, length, with the rounding of their
-    // bounding volumes estimated; 0 when none is known, as for every pair that was solved. NaN when
+    // bounding volumes estimated; 0 when none is known, as for pairs that were solved to the end. NaN when
     // overlapping.
     double distance;
 } pp_contact;
@@ -764,7 +764,7 @@ typedef struct pp_contact_2d {
     // Point on the boundary of B inside A, world frame; P2 of closest. NaN when separated.
     double point_on_b[2];
     // Separated: lower bound on the distance between the two particles, length, with the rounding of their
-    // bounding volumes estimated; 0 when none is known, as for every pair that was solved. NaN when
+    // bounding volumes estimated; 0 when none is known, as for pairs that were solved to the end. NaN when
     // overlapping.
     double distance;
 } pp_contact_2d;

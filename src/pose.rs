@@ -147,6 +147,7 @@ impl Pose {
     }
 
     /// Local direction to world direction.
+    #[inline(always)]
     pub fn rotate(&self, local: &Vector3<f64>) -> Vector3<f64> {
         self.rotation * local
     }

@@ -6,8 +6,8 @@ use super::particle::pp_particle;
 use super::status::*;
 use super::types::*;
 use crate::contact::closest_point::closest_point;
-use crate::contact::detect::detect_as;
-use crate::{PairState, Particle, Pose, Section, Settings};
+use crate::contact::detect::{Form, detect_as};
+use crate::{Contact, PairState, Particle, Pose, Section, Settings};
 
 /// Fills settings with the defaults.
 ///
@@ -54,6 +54,13 @@ pub unsafe extern "C" fn pp_contact_detect(
     })
 }
 
+impl Form<()> for Output<pp_contact> {
+    #[inline(always)]
+    fn of(&self, contact: Contact) {
+        self.write(contact_to(&contact));
+    }
+}
+
 /// Finds one contact and writes it.
 #[inline(always)]
 pub(super) fn contact(
@@ -63,8 +70,7 @@ pub(super) fn contact(
     state: Option<&mut PairState>,
     out: Output<pp_contact>,
 ) -> Result<(), pp_status> {
-    let write = |contact| out.write(contact_to(&contact));
-    detect_as(a, b, settings, state, write).map_err(|error| detect_status(&error))
+    detect_as(a, b, settings, state, out).map_err(|error| detect_status(&error))
 }
 
 /// The point on one of the particles where the scale of the other is least: P1 on A, P2 on B (paper eqs

@@ -110,7 +110,13 @@ pub fn detect_batch_into<T: Send>(
 /// One contact, carried on where it can be. It is written where it comes into being: copying it takes a twentieth of the time.
 #[inline(never)]
 fn carry_on(a: Placed, b: Placed, settings: &Settings, state: &mut PairState, answer: &mut Answer) {
-    if state.carry_on(a, b, settings, |contact| *answer = Ok(contact)).is_none() {
+    let place = Cell::new(Some(&mut *answer));
+    let write = |contact| {
+        if let Some(place) = place.take() {
+            *place = Ok(contact);
+        }
+    };
+    if state.carry_on(a, b, settings, &write).is_none() {
         *answer = not_carried_on(a, b, settings, state, identity);
     }
 }

@@ -9,6 +9,7 @@
 use crate::bounds::scale::Scale;
 use crate::bounds::solution::Solution;
 use crate::contact::contact::{Contact, Kind};
+use crate::contact::detect::Form;
 use crate::contact::followed::{MORE_ROUNDING, MOST_OPEN};
 use crate::contact::geometry::{Across, LocalContact};
 use crate::flags::Flags;
@@ -133,11 +134,20 @@ struct Within {
 
 impl Within {
     #[inline(always)]
-    fn of(pieces: &[KnownPiece; 2], x: &Vector3<f64>) -> [Self; 2] {
-        [0, 1].map(|i| {
-            let (moved, reach) = ((x - pieces[i].from).norm(), pieces[i].reach);
-            Self { moved, share: moved / reach, left: reach - moved }
-        })
+    fn of([a, b]: &[KnownPiece; 2], x: &Vector3<f64>) -> [Self; 2] {
+        [Self::of_one(a, x), Self::of_one(b, x)]
+    }
+
+    #[inline(always)]
+    fn of_one(&KnownPiece { from, reach, .. }: &KnownPiece, x: &Vector3<f64>) -> Self {
+        let moved = (x - from).norm();
+        Self { moved, share: moved / reach, left: reach - moved }
+    }
+
+    /// What remains of a piece there, along a vector.
+    #[inline(always)]
+    fn along(&self, piece: &KnownPiece, n: &Vector3<f64>) -> Piece {
+        Piece { curvature: piece.hessian.times(n).dot(n), reach: self.left, ..Piece::default() }
     }
 }
 
@@ -312,26 +322,13 @@ impl LastContact {
         let solution = Solution { gradients, values, ..Solution::unsettled(*x, lambda, *rounds) };
         // Forces balance: both sides of it point the same way, and no unit vectors are needed to weigh them alike.
         let across = Across::balanced((1.0 - u) * gradients[0] - *u * gradients[1]);
-        let along = |n: &Vector3<f64>| {
-            let piece = |i: usize| Piece {
-                curvature: pieces[i].hessian.times(n).dot(n),
-                reach: within[i].left,
-                ..Piece::default()
-            };
-            [piece(0), piece(1)]
-        };
+        let n = across.vector();
+        let along = [within[0].along(&pieces[0], n), within[1].along(&pieces[1], n)];
         let steep = SLOPE_ROUNDING * left.stiffness * (within[0].moved + within[1].moved);
         // That of the pieces, which are turned back and forth, and that of this place.
         let bound = (1.0 + grown) * self.point_bound + 2.0 * left.way + steep;
-        LocalContact::along_normal(
-            pair,
-            &solution,
-            across,
-            Scale { s, gap, low: s - gap, high: s + gap },
-            || bound,
-            along,
-            true,
-        )
+        let scale = Scale { s, gap, low: s - gap, high: s + gap };
+        LocalContact::along_normal(pair, &solution, across, scale, bound, Some(along))
     }
 }
 
@@ -344,7 +341,7 @@ impl PairState {
         a: (&Particle, &Pose),
         b: (&Particle, &Pose),
         settings: &Settings,
-        answer: impl FnOnce(Contact) -> T,
+        answer: &impl Form<T>,
     ) -> Option<T> {
         let last = self.remembered(a, b);
         let known = &mut self.last_contact;
@@ -373,7 +370,7 @@ impl PairState {
         let call = Contact { flags: Flags::WARM.with(Flags::CARRIED), iterations: optimum.rounds, ..Contact::UNKNOWN };
         let contact = local.placed(&pair, b.1, call);
         debug_assert!(contact.kind == Kind::Overlapping && contact.overlap >= 0.0);
-        Some(answer(contact))
+        Some(answer.of(contact))
     }
 }
 

@@ -54,7 +54,7 @@ pub struct Contact {
     /// Overlap, length, ≥ 0 when overlapping (0 where s < 1 by rounding alone); NaN when separated.
     pub overlap: f64,
     /// Separated: lower bound on the distance between the particles, length, with the rounding of their bounding volumes estimated; 0 when
-    /// none is known, as for every pair that was solved. NaN when overlapping.
+    /// none is known, as for pairs that were solved to the end. NaN when overlapping.
     pub distance: f64,
     /// Unit normal from A to B.
     pub normal: Vector3<f64>,

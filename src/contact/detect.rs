@@ -97,6 +97,19 @@ pub fn detect(
     detect_as((a, pose_a), (b, pose_b), settings, state, identity)
 }
 
+/// What makes the form T of a contact that the caller asked for. Any closure does; a type may have it taken into each place where a contact comes
+/// into being, which no closure can say of itself.
+pub(crate) trait Form<T> {
+    fn of(&self, contact: Contact) -> T;
+}
+
+impl<T, F: Fn(Contact) -> T> Form<T> for F {
+    #[inline(always)]
+    fn of(&self, contact: Contact) -> T {
+        self(contact)
+    }
+}
+
 /// The whole of [`detect()`], for every entry that gives a contact another form. `answer` makes that form where the contact
 /// comes into being: a contact is large, and most pairs of a scene are rejected by a separation test, where copying it would take longer
 /// than finding it.
@@ -106,7 +119,7 @@ pub(crate) fn detect_as<T>(
     b: (&Particle, &Pose),
     settings: &Settings,
     state: Option<&mut PairState>,
-    answer: impl Fn(Contact) -> T,
+    answer: impl Form<T>,
 ) -> Result<T, DetectError> {
     settings.validate()?;
     match state {
@@ -122,7 +135,7 @@ fn carried_on_or_anew<T>(
     b: (&Particle, &Pose),
     settings: &Settings,
     state: &mut PairState,
-    answer: impl Fn(Contact) -> T,
+    answer: impl Form<T>,
 ) -> Result<T, DetectError> {
     match state.carry_on(a, b, settings, &answer) {
         Some(answer) => Ok(answer),
@@ -136,7 +149,7 @@ pub(crate) fn not_carried_on<T>(
     b: (&Particle, &Pose),
     settings: &Settings,
     state: &mut PairState,
-    answer: impl Fn(Contact) -> T,
+    answer: impl Form<T>,
 ) -> Result<T, DetectError> {
     state.last_contact.of = [0; 2];
     anew(a, b, settings, Some(state), answer)
@@ -150,17 +163,17 @@ fn anew<T>(
     b: (&Particle, &Pose),
     settings: &Settings,
     state: Option<&mut PairState>,
-    answer: impl Fn(Contact) -> T,
+    answer: impl Form<T>,
 ) -> Result<T, DetectError> {
     let last = state.as_deref().and_then(|state| state.remembered(a, b));
     let rejected = |Apart { by, distance }: Apart| {
         let flags = by.with(Flags::REJECTED);
-        Ok(answer(Contact { flags, distance, ..Contact::separated(settings.formulation, 1.0) }))
+        Ok(answer.of(Contact { flags, distance, ..Contact::separated(settings.formulation, 1.0) }))
     };
     begin(a, b, settings, last, rejected, |pair| {
         let mut state = state;
         from_memory_or_anew(last.is_some(), |remembers| {
-            solved(pair, b.1, settings, state.as_deref_mut(), remembers).map(&answer)
+            solved(pair, b.1, settings, state.as_deref_mut(), remembers).map(|contact| answer.of(contact))
         })
     })
 }
@@ -178,7 +191,8 @@ fn solved(
     let mut call = Call::new(pair, settings);
     // Unpacked once more: handed on through memory it would hold up the proofs of separation.
     let last = state.as_deref().filter(|_| remembers).map(|state| state.unpacked());
-    let last = last.filter(|last| last.overlapping || settings.solve_separated || !call.is_sharp());
+    // Where planes in balance kept sharp bodies apart, such planes are looked for again. Where none did, they are closer than planes can tell.
+    let last = last.filter(|last| !last.balanced || settings.solve_separated || !call.is_sharp());
     let start = match last {
         Some(last) => {
             if settings.back_end == BackEnd::Fast {
@@ -228,7 +242,8 @@ fn solved(
         remember(state, remembered);
         let s = scale.low.max(1.0);
         let flags = call.flags.with(Flags::REJECTED);
-        return Ok(Contact { formulation: settings.formulation, flags, s, ..summary(&call) });
+        let distance = separation::distance_of_scale(pair, scale.low);
+        return Ok(Contact { formulation: settings.formulation, flags, s, distance, ..summary(&call) });
     }
     let points = if settings.formulation == Formulation::Closest { call.closest(&midway)? } else { None };
     let local = match &points {

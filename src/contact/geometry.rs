@@ -46,30 +46,31 @@ impl LocalContact {
     /// Midway: normal from both unit gradients at P3, surface points along it from there.
     #[inline(always)]
     pub fn midway(call: &Call, midway: &Solved, scale: Scale, overlapping: bool) -> Option<Self> {
-        let bound = || call.point_bound(midway, Problem::Midway);
+        let bound = call.point_bound(midway, Problem::Midway);
         let across = Across::of(call.pair, &midway.solution.gradients, midway.solution.gradient_norms);
-        Self::along_normal(call.pair, &midway.solution, across, scale, bound, |n| call.pieces(midway, n), overlapping)
+        let pieces = overlapping.then(|| call.pieces(midway, across.vector()));
+        Self::along_normal(call.pair, &midway.solution, across, scale, bound, pieces)
     }
 
-    /// The same from the bound of the point and S_A and S_B along a vector: on the quadratics at P3 the surface is a square root away.
+    /// The same from the bound of the point and, where the particles overlap, S_A and S_B along the vector of `across`: on the quadratics at P3 the surface
+    /// is a square root away.
     #[inline(always)]
     pub fn along_normal(
         pair: &Pair,
         solution: &Solution,
         across: Across,
         scale: Scale,
-        point_bound: impl Fn() -> f64,
-        pieces: impl Fn(&Vector3<f64>) -> [Piece; 2],
-        overlapping: bool,
+        point_bound: f64,
+        pieces: Option<[Piece; 2]>,
     ) -> Option<Self> {
         let (x, gradients) = (&solution.x, &solution.gradients);
         let normal = across.normal();
-        let surface = if overlapping {
-            let pieces = pieces(&across.vector);
+        let surface = if let Some(pieces) = pieces {
             let (ray_a, ray_b) = (|| Ray::of_a(pair, x, &normal), || Ray::of_b(pair, x, &normal));
-            let slope = |i: usize| (gradients[i] - pieces[i].surplus_gradient).dot(&across.vector);
-            let to_a = across.way(solution.values[0], pieces[0], slope(0), |guess| ray_a().way(guess))?;
-            let to_b = across.way(solution.values[1], pieces[1], -slope(1), |guess| ray_b().way(guess))?;
+            let slope_a = (gradients[0] - pieces[0].surplus_gradient).dot(&across.vector);
+            let slope_b = (gradients[1] - pieces[1].surplus_gradient).dot(&across.vector);
+            let to_a = across.way(solution.values[0], pieces[0], slope_a, |guess| ray_a().way(guess))?;
+            let to_b = across.way(solution.values[1], pieces[1], -slope_b, |guess| ray_b().way(guess))?;
             // Where s < 1 by less than the rounding of the point, the surfaces seem to have passed each other.
             let passed = to_a + to_b < 0.0;
             let (to_a, to_b) = if passed { meeting([ray_a(), ray_b()], [to_a, to_b]) } else { (to_a, to_b) };
@@ -83,7 +84,7 @@ impl LocalContact {
             s_b: f64::NAN,
             lambda: solution.lambda,
             gap: scale.gap,
-            point_bound: point_bound(),
+            point_bound,
             point: *x,
             normal,
             normal_by_centres: across.by_centres,
@@ -180,6 +181,11 @@ impl Across {
             let (vector, by_centres) = normal_of_extremes(pair, gradients);
             Self { vector, length: 1.0, by_centres }
         }
+    }
+
+    #[inline(always)]
+    pub fn vector(&self) -> &Vector3<f64> {
+        &self.vector
     }
 
     /// At unit length.

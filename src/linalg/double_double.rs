@@ -21,6 +21,7 @@ impl DoubleDouble {
     pub const UNIT: f64 = 4.0 * f64::EPSILON * f64::EPSILON;
 
     /// a + b without rounding.
+    #[inline(always)]
     pub fn sum(a: f64, b: f64) -> Self {
         let high = a + b;
         let part = high - a;

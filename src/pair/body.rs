@@ -57,7 +57,7 @@ impl<'a> Body<'a> {
             sphere_weight: larger(particle.sphere_weight, least_sphericity / particle.bounding_radius().powi(2)),
         };
         (
-            body(pair.a, pair.rotation, true, pair.centre, pair.lengths),
+            body(pair.a, pair.rotation, true, pair.centre, pair.lengths()),
             body(pair.b, Matrix3::identity(), false, Vector3::zeros(), 0.0),
         )
     }

@@ -151,11 +151,11 @@ impl<'a> ExtendedBody<'a> {
         let (pose_a, of_b, centre, lengths) = match pair.given {
             Given::Poses([pose_a, pose_b]) => {
                 let (of_b, to_a) = (axes(pose_b), difference(pose_a.position(), pose_b.position()));
-                (pose_a, of_b, Vector3::from(of_b.map(|axis| axis.dot(&to_a))), pair.lengths)
+                (pose_a, of_b, Vector3::from(of_b.map(|axis| axis.dot(&to_a))), pair.lengths())
             }
             Given::Boundary(placed) => {
                 let WideFrame { axes, centre } = *placed.wide_frame();
-                (placed.pose, axes, centre, pair.lengths * placed.part.wide_condition())
+                (placed.pose, axes, centre, pair.lengths() * placed.part.wide_condition())
             }
         };
         let identity = [0, 1, 2].map(|i| wide(&Vector3::ith(i, 1.0)));

@@ -1,7 +1,6 @@
 //! Two bodies in one frame: the relative pose in doubles.
 
 use crate::linalg::double_double::DoubleDouble;
-use crate::linalg::wide::difference;
 use crate::pair::boundary_part::PlacedPart;
 use crate::particle::particle::Particle;
 use crate::pose::Pose;
@@ -24,8 +23,6 @@ pub struct Pair<'a> {
     pub rotation: Matrix3<f64>,
     /// Centre of A in the local frame of B.
     pub centre: Vector3<f64>,
-    /// Length that the rounding of the centre is proportional to.
-    pub(crate) lengths: f64,
 }
 
 /// Poses and boundaries as the caller gave them.
@@ -37,6 +34,7 @@ pub(crate) enum Given<'a> {
 
 impl<'a> Pair<'a> {
     /// The pair (A, B) at the given poses.
+    #[inline(always)]
     pub fn new(a: &'a Particle, pose_a: &'a Pose, b: &'a Particle, pose_b: &'a Pose) -> Self {
         let centre = pose_b.rotation().tr_mul(&(pose_a.position() - pose_b.position()));
         Self {
@@ -45,7 +43,6 @@ impl<'a> Pair<'a> {
             given: Given::Poses([pose_a, pose_b]),
             rotation: pose_b.rotation().tr_mul(pose_a.rotation()),
             centre,
-            lengths: centre.norm(),
         }
     }
 
@@ -58,7 +55,14 @@ impl<'a> Pair<'a> {
             given: Given::Boundary(placed),
             rotation: frame.rotation.tr_mul(placed.pose.rotation()),
             centre: frame.centre,
-            lengths: frame.lengths,
+        }
+    }
+
+    /// Length that the rounding of the centre is proportional to.
+    pub(crate) fn lengths(&self) -> f64 {
+        match self.given {
+            Given::Poses(..) => self.centre.norm(),
+            Given::Boundary(placed) => placed.frame.lengths,
         }
     }
 
@@ -68,8 +72,12 @@ impl<'a> Pair<'a> {
     pub(crate) fn branch_a(&self, branch_b: &Vector3<f64>) -> Vector3<f64> {
         match self.given {
             Given::Poses([pose_a, pose_b]) => {
-                let between = difference(pose_b.position(), pose_a.position());
-                branch_b.zip_map(&between, |branch, DoubleDouble { high, low }| (branch + high) + low)
+                let (to, from) = (pose_b.position(), pose_a.position());
+                Vector3::new(
+                    far(branch_b.x, to.x, from.x),
+                    far(branch_b.y, to.y, from.y),
+                    far(branch_b.z, to.z, from.z),
+                )
             }
             // The centre of A is what a boundary is placed from.
             Given::Boundary(..) => *branch_b,
@@ -80,6 +88,13 @@ impl<'a> Pair<'a> {
     pub fn in_a(&self, x: &Vector3<f64>) -> Vector3<f64> {
         self.rotation.tr_mul(&(x - self.centre))
     }
+}
+
+/// branch + (to − from), where the difference is not rounded.
+#[inline(always)]
+fn far(branch: f64, to: f64, from: f64) -> f64 {
+    let between = DoubleDouble::sum(to, -from);
+    (branch + between.high) + between.low
 }
 
 #[cfg(test)]

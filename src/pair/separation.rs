@@ -27,6 +27,12 @@ impl Apart {
     }
 }
 
+/// Lower bound on the distance of two particles for which midway has s > 1: at a point between them s of either is above 1 by no more than its slope
+/// takes it to over the way there.
+pub(crate) fn distance_of_scale(pair: &Pair, low: f64) -> f64 {
+    larger(low - 1.0, 0.0) * (pair.a.slope_length + pair.b.slope_length) * (1.0 - MARGIN)
+}
+
 /// Two balls that hold the particles and do not meet.
 pub fn balls_apart(pair: &Pair) -> Option<Apart> {
     let distance = pair.centre.norm() * (1.0 - MARGIN) - (pair.a.bounding_radius() + pair.b.bounding_radius());
@@ -151,11 +157,9 @@ mod tests {
                     break;
                 }
                 let proofs = [Flags::BY_SPHERES, Flags::BY_FACE, Flags::BY_MEMORY];
-                // Else planes in balance may have proved it, or a solver has, who knows no distance.
-                match proofs.iter().position(|&proof| contact.flags.contains(proof)) {
-                    Some(proof) => seen[proof] += 1,
-                    None if contact.distance == 0.0 => continue,
-                    None => {}
+                // Else planes in balance have proved it, or a solver has.
+                if let Some(proof) = proofs.iter().position(|&proof| contact.flags.contains(proof)) {
+                    seen[proof] += 1;
                 }
                 assert!(contact.distance > 0.0);
                 for towards in [-direction, vector().normalize(), vector().normalize()] {
@@ -166,6 +170,46 @@ mod tests {
             }
         }
         assert!(seen.iter().all(|&count| count > 100), "{seen:?}");
+    }
+
+    /// A little further apart than where they touch, where no other proof than the solution is found.
+    #[test]
+    fn particles_that_are_solved_apart_do_not_meet_within_their_distance() {
+        let shapes = [
+            cube(),
+            Particle::cube(0.5, 1e-3, 0.0, 0.0),
+            Particle::cube(0.45, 0.05, 0.3, 0.8),
+            cube().scaled(1e-3).unwrap(),
+        ];
+        let mut solved = 0;
+        for seed in 0..600 {
+            let mut chance = scattered(500 * seed);
+            let mut vector = || Vector3::from_fn(|_, _| chance());
+            let (a, b) = (&shapes[seed % 4], &shapes[seed / 4 % 4]);
+            let (direction, turn, other) = (vector().normalize(), vector(), vector());
+            let pose_a = Pose::new([0.0; 3], [0.5, turn.x, turn.y, turn.z]).unwrap();
+            let at = |position: Vector3<f64>| Pose::new(position.into(), [0.5, other.x, other.y, other.z]).unwrap();
+            let look = |position| detect(a, &pose_a, b, &at(position), &Settings::default(), None).unwrap();
+            let (mut deep, mut apart) = (0.0, a.bounding_radius() + b.bounding_radius());
+            for _ in 0..30 {
+                let middle = 0.5 * (deep + apart);
+                let touching = look(middle * direction).kind == Kind::Overlapping;
+                if touching { deep = middle } else { apart = middle }
+            }
+            for share in [1e-6, 1e-4, 1e-3] {
+                let position = (1.0 + share) * apart * direction;
+                let contact = look(position);
+                assert!(contact.kind == Kind::Separated && contact.distance > 0.0, "{contact:?}");
+                // No more than the way back to where they touch.
+                assert!(contact.distance <= 1.001 * ((1.0 + share) * apart - deep), "{contact:?}");
+                solved += usize::from(contact.flags == Flags::REJECTED && contact.iterations > 0);
+                for towards in [-direction, vector().normalize(), vector().normalize()] {
+                    let then = look(position + 0.999_999 * contact.distance * towards);
+                    assert_eq!(then.kind, Kind::Separated, "{contact:?} moved along {towards:?}");
+                }
+            }
+        }
+        assert!(solved > 300, "{solved}");
     }
 
     /// However far from both: the tangents there prove nothing that is not so.

@@ -10,6 +10,7 @@
 //! f = 0 is the surface, f < 0 the inside. Normals are used as given and never renormalised, so that the particle is
 //! exactly the one that the caller defined.
 
+use crate::linalg::symmetric::Symmetric;
 use crate::particle::bounding_volumes::{self, Bounds, Extent};
 use crate::particle::error::ParticleError;
 use crate::particle::neighbours::Neighbours;
@@ -39,6 +40,8 @@ pub struct Shape {
     pub(crate) sphere_weight: f64,
     /// See `Particle::depth_length`.
     pub(crate) depth_length: f64,
+    /// Length over which s = √S changes by 1 at most; 0 where none is known.
+    pub(crate) slope_length: f64,
     pub(crate) bounds: Bounds,
     pub(crate) clusters: PlaneClusters,
     /// Of planes in several clusters.
@@ -78,6 +81,7 @@ impl Shape {
         let neighbours = if single { Neighbours::default() } else { Neighbours::of(&rows, &bounds) };
         let depth_length = depth_length(&rows, plane_weight, sphere_weight, shadow_radius);
         Ok(Self {
+            slope_length: slope_length(&rows, plane_weight, sphere_weight),
             rows,
             depth_length,
             dimensions,
@@ -99,6 +103,7 @@ impl Shape {
         Self {
             rows: Box::default(),
             depth_length: f64::INFINITY,
+            slope_length: 0.0,
             dimensions,
             rounding_radius: 0.0,
             sphericity: 1.0,
@@ -295,6 +300,20 @@ fn depth_length(rows: &[[f64; 4]], plane_weight: f64, sphere_weight: f64, shadow
     let height = (plane_weight * length * offset + root) / curvature;
     let excess = (length * root - offset * sphere_weight) / curvature;
     1.0 / (plane_weight * length * excess + sphere_weight * height)
+}
+
+/// s is the length of the vector of all √w⟨n_i·x − d_i⟩ and √m x, each of which changes by no more than without the brackets: so |∇s|² is at most
+/// w times the largest eigenvalue of Σ n_i n_iᵀ, and m.
+fn slope_length(rows: &[[f64; 4]], plane_weight: f64, sphere_weight: f64) -> f64 {
+    let mut squares = Symmetric::default();
+    for [a, b, c, _] in rows.iter().filter(|_| plane_weight > 0.0) {
+        squares.add_square(&(plane_weight.sqrt() * Vector3::new(*a, *b, *c)));
+    }
+    // What has left the range of numbers says nothing.
+    if !(squares.trace() + sphere_weight >= 1e-280 && squares.trace() < 1e280) {
+        return 0.0;
+    }
+    1.0 / (squares.matrix().symmetric_eigenvalues().max() + sphere_weight).sqrt()
 }
 
 /// The error that names the plane furthest behind the origin.

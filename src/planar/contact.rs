@@ -117,5 +117,7 @@ pub(crate) fn detect_as<T>(
     answer: impl Fn(Contact) -> T,
 ) -> Result<T, DetectError> {
     let (pose_a, pose_b) = (pose_a.in_space(), pose_b.in_space());
-    detect::detect_as((&a.0, &pose_a), (&b.0, &pose_b), settings, state, |contact| answer(contact.into()))
+    detect::detect_as((&a.0, &pose_a), (&b.0, &pose_b), settings, state, |contact: contact::Contact| {
+        answer(contact.into())
+    })
 }
