@@ -43,13 +43,13 @@ struct Part {
 
 /// Error of the rule over the load and the square of the relative difference to that of lower degree, times the least S: the nearer s = √S
 /// comes to the kink at its 0, the slower the rules converge.
-const OF_DIFFERENCE: f64 = 10.0;
+const OF_DIFFERENCE: [f64; 2] = [30.0, 10.0];
 
 /// Error of the load by the sides over its estimate, at most about.
 const OF_MISFIT: f64 = 3.0;
 
-/// Part of the tolerance that the coarse rule may take in a triangle.
-const OF_COARSE: f64 = 0.04;
+/// Error of the coarse rule in a triangle over what all may take, from which on it is tried in no other: about corners all triangles are alike.
+const HOPELESS: f64 = 60.0;
 
 /// Part of the tolerance that the rules may take.
 const SHARE: f64 = 0.9;
@@ -153,11 +153,16 @@ impl CellScratch {
     fn integrate(&mut self, tolerance: f64, points: &mut Vec<Node>) -> Option<Estimate> {
         self.parts.clear();
         self.nodes.clear();
-        let least = OF_COARSE * tolerance * self.network.rough_load;
+        let most = SHARE * tolerance * self.network.rough_load;
+        let mut is_hopeless = false;
         for triangle in 0..self.triangles.len() {
             let place = self.parts.len();
-            let is_straight = self.triangles[triangle].0.is_nearly_straight();
-            if !(is_straight && self.part(triangle as u32, &WHOLE, Rule::Coarse, place)?.error[0] <= least) {
+            let mut may_do = !is_hopeless;
+            if may_do {
+                let error = self.part(triangle as u32, &WHOLE, Rule::Coarse, place)?.error[0];
+                (may_do, is_hopeless) = (error <= most, error > HOPELESS * most);
+            }
+            if !may_do {
                 self.part(triangle as u32, &WHOLE, Rule::Fine, place)?;
             }
         }
@@ -188,7 +193,11 @@ impl CellScratch {
             let least = (0.5 * worst).min(allowed / self.parts.len() as f64);
             for i in 0..self.parts.len() {
                 if self.parts[i].error[0] >= least {
-                    let Part { triangle, corners, .. } = self.parts[i];
+                    let Part { triangle, corners, rule, .. } = self.parts[i];
+                    if rule == Rule::Coarse {
+                        self.part(triangle, &corners, Rule::Fine, i)?;
+                        continue;
+                    }
                     for (which, quarter) in quarters(&corners).iter().enumerate() {
                         let place = if which == 0 { i } else { self.parts.len() };
                         self.part(triangle, quarter, Rule::Fine, place)?;
@@ -209,8 +218,9 @@ impl CellScratch {
         let square = |node: &Node| node.x[0] * node.x[0] + node.x[1] * node.x[1];
         let reach = nodes.iter().map(square).fold(0.0, f64::max).sqrt();
         let (size, difference) = (norm(&value[..3]), norm(&off[..3]).max(norm(&off[3..6]) / reach));
+        let factor = OF_DIFFERENCE[usize::from(rule == Rule::Fine)];
         let of = |off: f64, size: f64| {
-            if off > 0.0 { off * (OF_DIFFERENCE * off / (self.deepest * size)).min(1.0) } else { 0.0 }
+            if off > 0.0 { off * (factor * off / (self.deepest * size)).min(1.0) } else { 0.0 }
         };
         let error = [of(difference, size), of(off[6].abs(), value[6])];
         let part = Part { triangle, corners: *corners, rule, value, error };
