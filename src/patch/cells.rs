@@ -42,7 +42,7 @@ struct Part {
 }
 
 /// Error of the rule over the load and the square of the relative difference to that of lower degree, times the least S: the nearer s = √S
-/// comes to the kink at its 0, the slower the rules converge.
+/// comes to the kink at its 0, the slower the rules converge. Of the coarse and of the fine rule.
 const OF_DIFFERENCE: [f64; 2] = [30.0, 10.0];
 
 /// Error of the load by the sides over its estimate, at most about.
