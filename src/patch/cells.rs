@@ -20,6 +20,8 @@ pub(super) struct CellScratch {
     parts: Vec<Part>,
     /// The least S.
     deepest: f64,
+    /// Whether the sides took too much of the tolerance.
+    is_off: bool,
     /// [`POINTS`] for each part, of which it may use less.
     nodes: Vec<Node>,
 }
@@ -48,6 +50,10 @@ const OF_DIFFERENCE: [f64; 2] = [30.0, 10.0];
 /// Error of the load by the sides over its estimate, at most about.
 const OF_MISFIT: f64 = 3.0;
 
+/// Part of what all may take that the sides may take; where they take more, they are drawn once more, with this part of the tolerance.
+const OF_SIDES: f64 = 0.95;
+const FINER: f64 = 0.25;
+
 /// Error of the coarse rule in a triangle over what all may take, from which on it is tried in no other: about corners all triangles are alike.
 const HOPELESS: f64 = 60.0;
 
@@ -66,22 +72,29 @@ pub(super) fn cells(
     scratch: &mut CellScratch,
     points: &mut Vec<Node>,
 ) -> Option<Estimate> {
-    let drawing = Drawing { axis, depth: 1.0 - deepest, tolerance };
-    loop {
-        if walker.field.planes.len() > MOST_PLANES {
-            return None;
-        }
-        match scratch.network.draw(walker, &drawing) {
-            Ok(()) => break,
-            Err(Trouble::Far(distance)) if walker.field.loaded().is_finite() => {
-                walker.field.load(distance.max(2.0 * walker.field.loaded()));
-            }
-            Err(_) => return None,
-        }
-    }
-    scratch.triangulate(walker)?;
     scratch.deepest = deepest;
-    scratch.integrate(tolerance, points)
+    let mut drawing = Drawing { axis, depth: 1.0 - deepest, tolerance };
+    for _ in 0..2 {
+        loop {
+            if walker.field.planes.len() > MOST_PLANES {
+                return None;
+            }
+            match scratch.network.draw(walker, &drawing) {
+                Ok(()) => break,
+                Err(Trouble::Far(distance)) if walker.field.loaded().is_finite() => {
+                    walker.field.load(distance.max(2.0 * walker.field.loaded()));
+                }
+                Err(_) => return None,
+            }
+        }
+        scratch.triangulate(walker)?;
+        let estimate = scratch.integrate(tolerance, points);
+        if estimate.is_some() || !scratch.is_off {
+            return estimate;
+        }
+        drawing.tolerance *= FINER;
+    }
+    None
 }
 
 impl CellScratch {
@@ -153,6 +166,7 @@ impl CellScratch {
     fn integrate(&mut self, tolerance: f64, points: &mut Vec<Node>) -> Option<Estimate> {
         self.parts.clear();
         self.nodes.clear();
+        self.is_off = false;
         let most = SHARE * tolerance * self.network.rough_load;
         let mut is_hopeless = false;
         for triangle in 0..self.triangles.len() {
@@ -177,7 +191,9 @@ impl CellScratch {
                 worst = worst.max(part.error[0]);
             }
             let allowed = SHARE * tolerance * norm(&sums[..3]);
-            if !(allowed > 0.0) || misfit.load > allowed {
+            // What the sides are off no finer rule mends.
+            self.is_off = OF_MISFIT * misfit.load >= OF_SIDES * allowed;
+            if self.is_off || !(allowed > 0.0) {
                 return None;
             }
             if errors[0] <= allowed {

@@ -291,9 +291,9 @@ impl Summary {
             }
             sums.area += share;
             sums.load += share * pressure;
-            for i in 0..3 {
-                sums.first[i] += at[i];
-                sums.loaded[i] += pressure * at[i];
+            for ((first, loaded), term) in sums.first.iter_mut().zip(&mut sums.loaded).zip(at) {
+                *first += term;
+                *loaded += pressure * term;
             }
             for (sum, term) in sums.second.iter_mut().zip(products) {
                 *sum += term;
