@@ -20,6 +20,8 @@ pub(super) struct CellScratch {
     parts: Vec<Part>,
     /// The least S.
     deepest: f64,
+    /// Whether the sides took too much of the tolerance.
+    is_off: bool,
     /// [`POINTS`] for each part, of which it may use less.
     nodes: Vec<Node>,
 }
@@ -42,14 +44,18 @@ struct Part {
 }
 
 /// Error of the rule over the load and the square of the relative difference to that of lower degree, times the least S: the nearer s = √S
-/// comes to the kink at its 0, the slower the rules converge.
-const OF_DIFFERENCE: f64 = 10.0;
+/// comes to the kink at its 0, the slower the rules converge. Of the coarse and of the fine rule.
+const OF_DIFFERENCE: [f64; 2] = [30.0, 10.0];
 
 /// Error of the load by the sides over its estimate, at most about.
 const OF_MISFIT: f64 = 3.0;
 
-/// Part of the tolerance that the coarse rule may take in a triangle.
-const OF_COARSE: f64 = 0.04;
+/// Part of what all may take that the sides may take; where they take more, they are drawn once more, with this part of the tolerance.
+const OF_SIDES: f64 = 0.95;
+const FINER: f64 = 0.25;
+
+/// Error of the coarse rule in a triangle over what all may take, from which on it is tried in no other: about corners all triangles are alike.
+const HOPELESS: f64 = 60.0;
 
 /// Part of the tolerance that the rules may take.
 const SHARE: f64 = 0.9;
@@ -66,22 +72,29 @@ pub(super) fn cells(
     scratch: &mut CellScratch,
     points: &mut Vec<Node>,
 ) -> Option<Estimate> {
-    let drawing = Drawing { axis, depth: 1.0 - deepest, tolerance };
-    loop {
-        if walker.field.planes.len() > MOST_PLANES {
-            return None;
-        }
-        match scratch.network.draw(walker, &drawing) {
-            Ok(()) => break,
-            Err(Trouble::Far(distance)) if walker.field.loaded().is_finite() => {
-                walker.field.load(distance.max(2.0 * walker.field.loaded()));
-            }
-            Err(_) => return None,
-        }
-    }
-    scratch.triangulate(walker)?;
     scratch.deepest = deepest;
-    scratch.integrate(tolerance, points)
+    let mut drawing = Drawing { axis, depth: 1.0 - deepest, tolerance };
+    for _ in 0..2 {
+        loop {
+            if walker.field.planes.len() > MOST_PLANES {
+                return None;
+            }
+            match scratch.network.draw(walker, &drawing) {
+                Ok(()) => break,
+                Err(Trouble::Far(distance)) if walker.field.loaded().is_finite() => {
+                    walker.field.load(distance.max(2.0 * walker.field.loaded()));
+                }
+                Err(_) => return None,
+            }
+        }
+        scratch.triangulate(walker)?;
+        let estimate = scratch.integrate(tolerance, points);
+        if estimate.is_some() || !scratch.is_off {
+            return estimate;
+        }
+        drawing.tolerance *= FINER;
+    }
+    None
 }
 
 impl CellScratch {
@@ -153,11 +166,17 @@ impl CellScratch {
     fn integrate(&mut self, tolerance: f64, points: &mut Vec<Node>) -> Option<Estimate> {
         self.parts.clear();
         self.nodes.clear();
-        let least = OF_COARSE * tolerance * self.network.rough_load;
+        self.is_off = false;
+        let most = SHARE * tolerance * self.network.rough_load;
+        let mut is_hopeless = false;
         for triangle in 0..self.triangles.len() {
             let place = self.parts.len();
-            let is_straight = self.triangles[triangle].0.is_nearly_straight();
-            if !(is_straight && self.part(triangle as u32, &WHOLE, Rule::Coarse, place)?.error[0] <= least) {
+            let mut may_do = !is_hopeless;
+            if may_do {
+                let error = self.part(triangle as u32, &WHOLE, Rule::Coarse, place)?.error[0];
+                (may_do, is_hopeless) = (error <= most, error > HOPELESS * most);
+            }
+            if !may_do {
                 self.part(triangle as u32, &WHOLE, Rule::Fine, place)?;
             }
         }
@@ -172,7 +191,9 @@ impl CellScratch {
                 worst = worst.max(part.error[0]);
             }
             let allowed = SHARE * tolerance * norm(&sums[..3]);
-            if !(allowed > 0.0) || misfit.load > allowed {
+            // What the sides are off no finer rule mends.
+            self.is_off = OF_MISFIT * misfit.load >= OF_SIDES * allowed;
+            if self.is_off || !(allowed > 0.0) {
                 return None;
             }
             if errors[0] <= allowed {
@@ -188,7 +209,11 @@ impl CellScratch {
             let least = (0.5 * worst).min(allowed / self.parts.len() as f64);
             for i in 0..self.parts.len() {
                 if self.parts[i].error[0] >= least {
-                    let Part { triangle, corners, .. } = self.parts[i];
+                    let Part { triangle, corners, rule, .. } = self.parts[i];
+                    if rule == Rule::Coarse {
+                        self.part(triangle, &corners, Rule::Fine, i)?;
+                        continue;
+                    }
                     for (which, quarter) in quarters(&corners).iter().enumerate() {
                         let place = if which == 0 { i } else { self.parts.len() };
                         self.part(triangle, quarter, Rule::Fine, place)?;
@@ -209,8 +234,9 @@ impl CellScratch {
         let square = |node: &Node| node.x[0] * node.x[0] + node.x[1] * node.x[1];
         let reach = nodes.iter().map(square).fold(0.0, f64::max).sqrt();
         let (size, difference) = (norm(&value[..3]), norm(&off[..3]).max(norm(&off[3..6]) / reach));
+        let factor = OF_DIFFERENCE[usize::from(rule == Rule::Fine)];
         let of = |off: f64, size: f64| {
-            if off > 0.0 { off * (OF_DIFFERENCE * off / (self.deepest * size)).min(1.0) } else { 0.0 }
+            if off > 0.0 { off * (factor * off / (self.deepest * size)).min(1.0) } else { 0.0 }
         };
         let error = [of(difference, size), of(off[6].abs(), value[6])];
         let part = Part { triangle, corners: *corners, rule, value, error };

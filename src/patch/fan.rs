@@ -31,6 +31,11 @@ const RADIAL: f64 = 0.1;
 /// Relative distance from a straight line up to which a border counts as straight: the loads of flat cells are then polynomials.
 const STRAIGHT: f64 = 1e-7;
 
+/// Where the ray in the middle of a sector is so much longer than half the chord, the sector has a tip, and the part of its load by which
+/// three rays are wrong there at most, about.
+const TIP: f64 = 2.0;
+const OF_TIP: f64 = 0.1;
+
 /// Largest angle of a sector that is made of several.
 const WIDEST: f64 = 1.7;
 
@@ -391,6 +396,7 @@ impl<'w, 'f, 'a, 's> Fan<'w, 'f, 'a, 's> {
         let estimate = |off: f64, size: f64| match count {
             _ if like.is_none() || odd.is_some() => off,
             1 => 0.0,
+            3 if TIP * bulge < 1.0 => OF_TIP * size,
             3 => off * (2.0 * off / size).powi(2).min(1.0),
             _ => off * (10.0 * off / size).min(1.0),
         };

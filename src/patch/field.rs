@@ -211,7 +211,8 @@ impl<'a, 's> Field<'a, 's> {
         for (bit, plane) in self.planes.iter().enumerate() {
             let excess = plane.excess + dot(&plane.normal, x);
             if excess > 0.0 {
-                look.active |= 1 << bit;
+                // None for planes beyond the last bit: who asks for them has no more.
+                look.active |= 1_u128.checked_shl(bit as u32).unwrap_or(0);
                 // Edges have no weight, and change nothing.
                 let i = usize::from(plane.owner == Owner::B);
                 let weighted = self.plane_weight(plane.owner) * excess;

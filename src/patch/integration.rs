@@ -258,21 +258,52 @@ fn inwards(walker: &mut Walker, start: [f64; 3], inside: Option<[f64; 2]>) -> [f
 /// The answer in the making.
 struct Summary {
     patch: Patch,
+    sums: Sums,
+}
+
+/// Sums over the points, about the origin of the frame.
+#[derive(Default)]
+struct Sums {
+    area: f64,
+    /// ∫ x, ∫ x xᵀ (xx, yy, zz, xy, xz, yz), ∫ p and ∫ p x.
+    first: [f64; 3],
+    second: [f64; 6],
+    load: f64,
+    loaded: [f64; 3],
+    /// The square of the largest distance.
+    reach: f64,
 }
 
 impl Summary {
-    /// Force and torque, by the sums over the points; `deepest`: S at the contact point.
+    /// All that needs no axis of the wrench; `deepest`: S at the contact point.
     fn of(task: &Task, points: &[Node], deepest: f64) -> Self {
-        let (mut force, mut torque) = (Vector3::zeros(), Vector3::zeros());
-        for node in points {
-            let load = node.weight * node.pressure * vector(node);
-            force += load;
-            torque += Vector3::from(node.x).cross(&load);
+        let (mut force, mut torque, mut sums) = ([0.0; 3], [0.0; 3], Sums::default());
+        for Node { x: [x, y, z], weight, pressure, normal: [n_u, n_v] } in points {
+            let (load, share) = (weight * pressure, weight * (1.0 + (n_u * n_u + n_v * n_v)).sqrt());
+            let [f, g] = [load * n_u, load * n_v];
+            let at = [share * x, share * y, share * z];
+            let products = [at[0] * x, at[1] * y, at[2] * z, at[0] * y, at[0] * z, at[1] * z];
+            for (sum, term) in force.iter_mut().zip([f, g, load]) {
+                *sum += term;
+            }
+            for (sum, term) in torque.iter_mut().zip([y * load - z * g, z * f - x * load, x * g - y * f]) {
+                *sum += term;
+            }
+            sums.area += share;
+            sums.load += share * pressure;
+            for ((first, loaded), term) in sums.first.iter_mut().zip(&mut sums.loaded).zip(at) {
+                *first += term;
+                *loaded += pressure * term;
+            }
+            for (sum, term) in sums.second.iter_mut().zip(products) {
+                *sum += term;
+            }
+            sums.reach = sums.reach.max(x * x + y * y + z * z);
         }
         let patch = Patch {
             length: task.length,
-            force: task.length * (task.frame * force),
-            torque: task.length * (task.frame * torque),
+            force: task.length * (task.frame * Vector3::from(force)),
+            torque: task.length * (task.frame * Vector3::from(torque)),
             pressure_centre: task.position + task.branches[0],
             branch_a: task.branches[0],
             branch_b: task.branches[1],
@@ -293,7 +324,7 @@ impl Summary {
             points: points.len(),
             rays: 0,
         };
-        Self { patch }
+        Self { patch, sums }
     }
 
     /// What needs the axis of the wrench.
@@ -302,26 +333,24 @@ impl Summary {
         let (force, torque) =
             (frame.tr_mul(&self.patch.force) / task.length, frame.tr_mul(&self.patch.torque) / task.length);
         let axis = force.normalize();
-        let (mut area, mut first, mut load, mut loaded) = (0.0, Vector3::zeros(), 0.0, Vector3::zeros());
-        for node in points {
-            let (x, share) = (Vector3::from(node.x), node.weight * vector(node).norm());
-            area += share;
-            first += share * x;
-            load += share * node.pressure;
-            loaded += share * node.pressure * x;
-        }
-        let (centroid, mean) = (first / area, loaded / load);
+        let Sums { area, first, second: [xx, yy, zz, xy, xz, yz], load, loaded, reach } = self.sums;
+        let (first, mean) = (Vector3::from(first), Vector3::from(loaded) / load);
+        let centroid = first / area;
         // The point of the axis that is nearest to the origin, and from there to the height of the patch.
         let foot = force.cross(&torque) / force.norm_squared();
         let pole = foot + axis * axis.dot(&(mean - foot));
-        let (mut second, mut polar, mut lever, mut reach) = (Matrix3::zeros(), 0.0, 0.0, 0.0_f64);
-        for node in points {
-            let (x, share) = (Vector3::from(node.x), node.weight * vector(node).norm());
-            let (y, arm) = (x - centroid, (x - pole).cross(&axis));
-            second += share * y * y.transpose();
-            polar += share * arm.norm_squared();
-            lever += share * node.pressure * arm.norm();
-            reach = reach.max(x.norm_squared());
+        let second = Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz) - first * centroid.transpose();
+        let off = centroid - pole;
+        let about_pole = second + area * off * off.transpose();
+        let polar = about_pole.trace() - axis.dot(&(about_pole * axis));
+        // Distances from the axis, by their parts along two directions across it.
+        let across = axis.cross(&Vector3::ith(axis.iamin(), 1.0)).normalize();
+        let [[a, b, c], [d, e, f]]: [[f64; 3]; 2] = [across.into(), axis.cross(&across).into()];
+        let [along, aside] = [a * pole.x + b * pole.y + c * pole.z, d * pole.x + e * pole.y + f * pole.z];
+        let mut lever = 0.0;
+        for Node { x: [x, y, z], weight, pressure, normal: [n_u, n_v] } in points {
+            let (p, q) = (a * x + b * y + c * z - along, d * x + e * y + f * z - aside);
+            lever += weight * pressure * ((1.0 + (n_u * n_u + n_v * n_v)) * (p * p + q * q)).sqrt();
         }
         let patch = &mut self.patch;
         let branch = frame * pole;

@@ -214,11 +214,16 @@ impl Network {
         }
         self.ring.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
         let mut is_complete = true;
-        for i in 0..self.ring.len() {
-            let ends = [self.ring[i].1, self.ring[(i + 1) % self.ring.len()].1];
-            let at = |end: u32| RimPoint::new(field, self.vertices[end as usize].x).ok_or(Trouble::Lost);
-            let (from, to) = (at(ends[0])?, at(ends[1])?);
+        let at = |vertex: &Vertex| RimPoint::new(field, vertex.x).ok_or(Trouble::Lost);
+        let count = self.ring.len();
+        let first = self.ring.first().ok_or(Trouble::Lost)?.1;
+        let first = at(&self.vertices[first as usize])?;
+        let mut from = first;
+        for i in 0..count {
+            let ends = [self.ring[i].1, self.ring[(i + 1) % count].1];
+            let to = if i + 1 < count { at(&self.vertices[ends[1] as usize])? } else { first };
             is_complete &= self.arc(field, drawing, (ends, [&from, &to]), 0)?;
+            from = to;
         }
         if !is_complete {
             self.sides.truncate(known.0);

@@ -6,7 +6,7 @@
 
 use super::field::{Owner, dot};
 use super::pieces::Estimate;
-use super::ray::{Line, Node, SUMS, Walker};
+use super::ray::{Line, Node, Ray, SUMS, Walker};
 use super::smoothness::norm;
 use super::zones::BETWEEN;
 use std::f64::consts::TAU;
@@ -23,6 +23,11 @@ const OF_HALF: f64 = 1.0 / 4.0;
 
 /// The same of the difference between half and a quarter as many.
 const OF_QUARTER: f64 = 1.0 / 50.0;
+
+/// Error of the sum over the area that the directions of the rim tell of between the rays: at a corner they meet farther out than the
+/// curve that is drawn by them. And over that between half as many.
+const OF_BETWEEN: f64 = 4.0;
+const OF_LAST_BETWEEN: f64 = 0.4;
 
 /// A ray of the sum.
 #[derive(Clone, Copy, Default)]
@@ -43,6 +48,16 @@ struct Oval<'w, 'f, 'a, 's> {
     sums: [f64; SUMS],
     radial: f64,
     extent: f64,
+    /// By parts of the way around.
+    ends: [End; MOST],
+}
+
+/// Where a ray ends, at R times the radius of the ellipse.
+#[derive(Clone, Copy, Default)]
+struct End {
+    /// 1/R², and its change with the angle on the ellipse: of a straight side, or of another ellipse, a wave of twice the angle.
+    inverse: f64,
+    change: f64,
 }
 
 /// Fills `points`; `None` where the sum has not converged.
@@ -61,9 +76,10 @@ pub(super) fn oval(
     walker.budget = RADIAL * tolerance * 0.25 * rough;
     let axes = [axis.map(|c| 0.5 * c * lengths[0]), [-0.5 * axis[1] * lengths[1], 0.5 * axis[0] * lengths[1]]];
     let (spokes, sums) = ([Spoke::default(); MOST], [0.0; SUMS]);
-    let mut oval = Oval { walker, centre, axes, spokes, count: 0, sums, radial: 0.0, extent: 0.0 };
+    let mut oval =
+        Oval { walker, centre, axes, spokes, count: 0, sums, radial: 0.0, extent: 0.0, ends: [End::default(); MOST] };
     (0..FIRST / 2).try_for_each(|step| oval.cast(step as f64 / (FIRST / 2) as f64))?;
-    let (mut before, mut last) = (f64::INFINITY, oval.mean());
+    let (mut before, mut last, mut between_last) = (f64::INFINITY, oval.mean(), 0.0_f64);
     while oval.count < MOST {
         let half = oval.count;
         (0..half).try_for_each(|step| oval.cast((step as f64 + 0.5) / half as f64))?;
@@ -71,7 +87,11 @@ pub(super) fn oval(
         let off: [f64; SUMS] = std::array::from_fn(|i| mean[i] - last[i]);
         let force = norm(&mean[..3]);
         let change = norm(&off[..3]).max(norm(&off[3..6]) / oval.extent);
-        let error = (OF_HALF * change).max(OF_QUARTER * before.min(force)) + oval.radial / oval.count as f64;
+        // A corner between two rays changes neither sum.
+        let between = oval.between();
+        let missed = (OF_BETWEEN * between).max(OF_LAST_BETWEEN * between_last) * force;
+        let error =
+            (OF_HALF * change).max(OF_QUARTER * before.min(force)).max(missed) + oval.radial / oval.count as f64;
         if oval.meets_edges() {
             return None;
         }
@@ -84,7 +104,7 @@ pub(super) fn oval(
         if !(OF_HALF * change * (oval.count as f64 / MOST as f64).powi(3) <= 0.5 * tolerance * force) {
             return None;
         }
-        (before, last) = (change, mean);
+        (before, last, between_last) = (change, mean, between.min(1.0));
     }
     None
 }
@@ -105,9 +125,38 @@ impl Oval<'_, '_, '_, '_> {
         self.sums.iter_mut().zip(ray.sums).for_each(|(sum, value)| *sum += weight * value);
         self.radial += weight * ray.error;
         self.extent = self.extent.max(ray.length());
+        self.ends[(MOST as f64 * turn) as usize] = self.end(&ray, [cos, sin])?;
         self.spokes[self.count] = Spoke { nodes: ray.nodes, weight };
         self.count += 1;
         Some(())
+    }
+
+    /// The end of a ray at an angle, where S is 1 along the rim.
+    fn end(&self, ray: &Ray, [cos, sin]: [f64; 2]) -> Option<End> {
+        let ([a, b], field) = (self.axes, &self.walker.field);
+        let [on, around] = [[cos, sin], [-sin, cos]].map(|[p, q]| [0, 1].map(|c| p * a[c] + q * b[c]));
+        let last = ray.event(ray.count.checked_sub(1)?)?;
+        let (rho, [e, f], [u, v, z]) = (last.rho, ray.direction, self.centre);
+        let slope = field.look(&[u + rho * e, v + rho * f, z + last.zeta]).slope(field.b.is_some());
+        let along = |way: &[f64; 2]| slope[0] * way[0] + slope[1] * way[1];
+        let inverse = (on[0] * on[0] + on[1] * on[1]) / (rho * rho);
+        Some(End { inverse, change: 2.0 * inverse * along(&around) / along(&on) })
+    }
+
+    /// How far the area is off by what the directions of the rim at the ends of all rays tell of the places midway between, over the area.
+    fn between(&self) -> f64 {
+        let (every, step) = (MOST / self.count, TAU / self.count as f64);
+        let (mut area, mut more) = (0.0, 0.0);
+        for i in (0..MOST).step_by(every) {
+            let (this, next) = (&self.ends[i], &self.ends[(i + every) % MOST]);
+            let middle = 0.5 * (this.inverse + next.inverse) + 0.125 * step * (this.change - next.change);
+            if !(middle > 0.0) {
+                return f64::INFINITY;
+            }
+            area += 1.0 / this.inverse;
+            more += 1.0 / middle - 1.0 / this.inverse;
+        }
+        0.5 * more.abs() / area
     }
 
     /// Whether the edges of a triangle may cut something off, between two rays, too: the load of a ray is not smooth there.

@@ -100,9 +100,6 @@ impl Rule {
     }
 }
 
-/// Largest distance of the middle of a side from that of its chord, over the chord, for the coarse rule.
-const BULGE: f64 = 0.08;
-
 /// Integrals of p n, of p u, p v and the torque about z, and of |n|.
 pub(super) const INTEGRALS: usize = 7;
 
@@ -150,16 +147,6 @@ impl CurvedTriangle {
         };
         at_corner.iter().all(|c| *c > 0.0) && (0..3).all(|i| in_between(i) > 0.0)
             || FINE.iter().all(|(l, ..)| self.at(l).1 > 0.0)
-    }
-
-    /// Whether its sides are straight enough for the coarse rule, whose degree a curved side uses up.
-    pub fn is_nearly_straight(&self) -> bool {
-        (0..3).all(|i| {
-            let ([a, b], [c, d]) = (self.corners[i], self.corners[(i + 1) % 3]);
-            let [u, v] = self.middles[i];
-            let square = |x: f64, y: f64| x * x + y * y;
-            square(u - 0.5 * (a + c), v - 0.5 * (b + d)) <= BULGE * BULGE * square(c - a, d - b)
-        })
     }
 
     /// Integrates over the part whose corners have these barycentric coordinates; `None` where the patch is no graph.

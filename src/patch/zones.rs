@@ -143,15 +143,25 @@ impl Zones<'_, '_, '_> {
 
     /// What planes may change, over an area, that are on at one of these places though they do not count as active, or the reverse.
     fn neglected(&self, places: &[Vector], area: f64, active: &[u32]) -> f64 {
-        let mut most = 0.0_f64;
-        let weight = [0.5 * self.field.a.plane_weight, 0.5 * self.field.b.map_or(0.0, |b| b.plane_weight)];
+        let mut squares = [0.0_f64; 2];
+        // A ball about the first place has them all: most planes pass it by.
+        let Some((first, others)) = places.split_first() else { return 0.0 };
+        let square = |x: &Vector| x.norm_squared();
+        let reach = others.iter().map(|x| square(&(x - first))).fold(0.0, larger).sqrt();
         for (k, plane) in self.field.planes.iter().enumerate().filter(|(_, plane)| plane.owner != Owner::Edge) {
             let n = normal(plane);
+            let at_first = plane.excess + n.dot(first);
+            let around = reach * (n.x.abs() + n.y.abs() + n.z.abs());
             let sign = if active.contains(&(k as u32)) { -1.0 } else { 1.0 };
-            let excess = places.iter().map(|x| sign * (plane.excess + n.dot(x))).fold(0.0, f64::max);
-            most = most.max(weight[usize::from(plane.owner == Owner::B)] * excess * excess);
+            if sign * at_first + around > 0.0 {
+                let excess = others.iter().map(|x| sign * (plane.excess + n.dot(x))).fold(sign * at_first, larger);
+                let most = &mut squares[usize::from(plane.owner == Owner::B)];
+                *most = larger(*most, if excess > 0.0 { excess * excess } else { 0.0 });
+            }
         }
-        let farthest = places.iter().map(|x| x.norm()).fold(0.0, f64::max);
+        let weights = [self.field.a.plane_weight, self.field.b.map_or(0.0, |b| b.plane_weight)];
+        let most = 0.5 * larger(weights[0] * squares[0], weights[1] * squares[1]);
+        let farthest = places.iter().map(square).fold(0.0, larger).sqrt();
         if farthest > self.field.loaded() { f64::INFINITY } else { area * most }
     }
 
@@ -307,4 +317,10 @@ impl Zones<'_, '_, '_> {
         }
         Some(true)
     }
+}
+
+/// The larger one; the first where the second is no number.
+#[inline(always)]
+fn larger(a: f64, b: f64) -> f64 {
+    if b > a { b } else { a }
 }

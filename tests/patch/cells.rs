@@ -90,30 +90,43 @@ fn on_a_triangle(chance: &mut Chance) -> Option<Taken> {
     Some(taken_on(triangle, a, pose))
 }
 
+/// Every third patch of a pair, on a plane and on a triangle.
+fn taken(round: u64, chance: &mut Chance) -> Option<Taken> {
+    match round % 3 {
+        0 => pair(chance),
+        1 => on_a_plane(chance),
+        _ => on_a_triangle(chance),
+    }
+}
+
 /// PATCH_SEED and PATCH_ROUNDS in the environment choose other ones.
+fn seed_and_rounds(rounds: u64) -> (u64, u64) {
+    let of = |name: &str, otherwise| std::env::var(name).map_or(otherwise, |value| value.parse().expect("a number"));
+    (of("PATCH_SEED", 21), of("PATCH_ROUNDS", rounds))
+}
+
+fn is_whole(patch: &Patch) -> bool {
+    !patch.flags.contains(PatchFlags::FOLDED) && !patch.flags.contains(PatchFlags::EMPTY)
+}
+
+/// How far force and torque are off, relative.
+fn off(found: &Patch, exact: &Patch) -> f64 {
+    let (force, reach) = (exact.force.norm(), exact.area.sqrt());
+    ((found.force - exact.force).norm() / force).max(0.1 * (found.torque - exact.torque).norm() / (force * reach))
+}
+
 #[test]
 fn cells_are_as_rays() {
-    let of = |name: &str, otherwise| std::env::var(name).map_or(otherwise, |value| value.parse().expect("a number"));
-    let (seed, rounds) = (of("PATCH_SEED", 21), of("PATCH_ROUNDS", 400));
+    let (seed, rounds) = seed_and_rounds(400);
     let mut chance = Chance::new(seed);
     let (mut in_cells, mut above, mut far, mut estimated, mut compared) = (0, 0, 0, 0, 0);
     for round in 0..rounds {
-        let taken = match round % 3 {
-            0 => pair(&mut chance),
-            1 => on_a_plane(&mut chance),
-            _ => on_a_triangle(&mut chance),
-        };
-        let Some(taken) = taken else { continue };
+        let Some(taken) = taken(round, &mut chance) else { continue };
         let (found, exact) = (taken(1e-4), taken(1e-7));
-        if [found, exact]
-            .iter()
-            .any(|patch| patch.flags.contains(PatchFlags::FOLDED) || patch.flags.contains(PatchFlags::EMPTY))
-        {
+        if !is_whole(&found) || !is_whole(&exact) {
             continue;
         }
-        let (force, reach) = (exact.force.norm(), exact.area.sqrt());
-        let off = ((found.force - exact.force).norm() / force)
-            .max(0.1 * (found.torque - exact.torque).norm() / (force * reach));
+        let off = off(&found, &exact);
         let area = (found.area / exact.area - 1.0).abs();
         compared += 1;
         in_cells += u64::from(found.rays == 0);
@@ -130,4 +143,38 @@ fn cells_are_as_rays() {
     assert!(compared > rounds * 9 / 10 && in_cells > compared * 8 / 10, "{in_cells} of {compared}");
     assert!(far == 0, "{far} of {compared}");
     assert!(200 * above <= compared + 199 && 50 * estimated <= compared + 49, "{above} and {estimated} of {compared}");
+}
+
+/// With few rays a tip of the patch may lie between two of them.
+#[test]
+fn coarse_patches_are_within_their_tolerance() {
+    let (seed, rounds) = seed_and_rounds(1000);
+    let mut chance = Chance::new(seed);
+    let (mut compared, mut above, mut far, mut estimated) = (0, 0, 0, 0);
+    for round in 0..rounds {
+        let Some(taken) = taken(round, &mut chance) else { continue };
+        let exact = taken(1e-6);
+        if !is_whole(&exact) {
+            continue;
+        }
+        for tolerance in [1e-2, 1e-3] {
+            let found = taken(tolerance);
+            let off = off(&found, &exact);
+            compared += 1;
+            above += u64::from(off > tolerance);
+            far += u64::from(off > 3.0 * tolerance);
+            estimated += u64::from(off > 3.0 * found.error.max(0.1 * tolerance));
+            assert!(off < 10.0 * tolerance, "seed {seed}, round {round}: off by {off:e}, estimated {:e}", found.error);
+        }
+    }
+    println!(
+        "seed {seed}: of {compared} patches {above} off by more than the tolerance, {far} by more than three times that, {estimated} by more \
+         than three times the estimate"
+    );
+    assert!(compared > rounds * 18 / 10);
+    assert!(far <= compared / 5000, "{far} of {compared}");
+    assert!(
+        1000 * above <= compared + 999 && 1000 * estimated <= compared + 999,
+        "{above} and {estimated} of {compared}"
+    );
 }
