@@ -24,17 +24,26 @@ pub enum ShapeError {
     /// Fewer than four points.
     #[error("{0} points enclose no volume: at least 4 are needed")]
     TooFewPoints(usize),
-    /// All points lie in a plane, to a share of 1e-9 of their extent.
-    #[error("the {0} points are flat: all lie in one plane")]
+    /// All points lie in a plane, to a share of 1e-6 of their extent, at which neighbouring faces are one, or as far as their coordinates tell.
+    #[error(
+        "the {0} points are flat: all lie in one plane, to 1e-6 of their extent or to the last digit of their coordinates; give points that are \
+         farther apart, or, if they are, nearer to the origin"
+    )]
     Flat(usize),
     /// A half-space has no normal, or numbers that are not finite.
     #[error("plane {0} is none: its normal must have a length, and its numbers must be finite")]
     NoPlane(usize),
     /// No point lies inside all half-spaces.
-    #[error("no point lies inside all planes: turn their normals outwards, or move them apart")]
+    #[error(
+        "no point lies inside all planes: turn their normals outwards, or move them apart; a body more than 1e8 times its size away from the \
+         origin has to be given about an origin near it"
+    )]
     Empty,
     /// The half-spaces leave a side open.
-    #[error("the planes enclose no volume: add the planes that are missing")]
+    #[error(
+        "the planes enclose no volume: add the planes that are missing, or, if none is, take a body that reaches less than 1e4 times as far as \
+         its planes are from the origin"
+    )]
     Open,
     /// There is no regular solid of so many faces.
     #[error("faces={0}: regular solids have 4, 6, 8, 12 or 20")]
