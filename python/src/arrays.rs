@@ -64,7 +64,7 @@ pub fn read<'py, T: Element, D: Dimension>(
 ) -> PyResult<PyReadonlyArray<'py, T, D>> {
     array
         .try_readonly()
-        .map_err(|_| refused(format!("another thread writes into {name}: give each thread its own arrays")))
+        .map_err(|_| refused(format!("{name} is written as out of another call: give each thread arrays of its own")))
 }
 
 /// The elements of an array as rows or records that lie in its memory. Of none, the place in memory does not matter: it may be any.

@@ -88,9 +88,7 @@ pub enum ShapeError {
     #[error("the surface crosses itself: its triangles cover its convex hull {0:.4} times")]
     Covers(f64),
     /// The centre of the shadow sphere does not settle at the centroid.
-    #[error(
-        "no centre is its own centroid, to which k={k} with R={shadow_radius} leads: take a smaller k, or a larger R"
-    )]
+    #[error("{}", no_centre(*k, *shadow_radius))]
     NoCentre {
         /// Sphericity.
         k: f64,
@@ -111,6 +109,16 @@ impl From<RockError> for ShapeError {
             _ => Self::Empty,
         }
     }
+}
+
+/// At k = 0 the shape does not depend on the centre: its centroid is then not found for want of digits.
+fn no_centre(k: f64, shadow_radius: f64) -> String {
+    if k == 0.0 {
+        return "the centroid cannot be found to the digits of a double: take a larger r, or a body that is less flat or long".into();
+    }
+    format!(
+        "no centre is its own centroid, to which k={k} with R={shadow_radius} leads: take a smaller k, or a larger R"
+    )
 }
 
 /// The number, if it is finite and in its range.
