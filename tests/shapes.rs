@@ -77,6 +77,73 @@ fn a_hull_stands_where_its_points_are() {
     }
 }
 
+/// However flat they are, as far as faces are not coplanar: pyramids and tetrahedra have their volumes h/3 and h/6, and their centroids where a quarter
+/// of their height is.
+#[test]
+fn flat_hulls_have_their_volumes() {
+    for height in [0.1, 0.02, 1e-2, 1e-3, 1e-4, 1e-5] {
+        let pyramid = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [1.0, 1.0, 0.0], [0.5, 0.5, height]];
+        let tetrahedron = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, height]];
+        let pyramid = shapes::hull(&pyramid, &sharp()).unwrap();
+        let tetrahedron = shapes::hull(&tetrahedron, &sharp()).unwrap();
+        for (shape, volume, middle) in [(pyramid, height / 3.0, 0.5), (tetrahedron, height / 6.0, 0.25)] {
+            assert!((shape.mass.volume / volume - 1.0).abs() < 1e-5 + shape.mass.error, "{height}: {:?}", shape.mass);
+            let off = shape.centroid - Vector3::new(middle, middle, 0.25 * height);
+            assert!(off.amax() < 1e-4 && off.z.abs() < 1e-4 * height, "{height}: {off}");
+        }
+        for k in [0.02, 0.5] {
+            let rounded = shapes::hull(
+                &[[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, height]],
+                &Rounding::new(0.05, k),
+            );
+            assert_framed(&rounded.unwrap());
+        }
+    }
+}
+
+/// Of points far away their differences count.
+#[test]
+fn hulls_and_surfaces_may_be_far_from_the_origin() {
+    let near = shapes::surface(&cube(0.0), &CUBE, &sharp()).unwrap();
+    for far in [1e6, 1e10, 1e15] {
+        for shape in [shapes::hull(&cube(far), &sharp()), shapes::surface(&cube(far), &CUBE, &sharp())] {
+            let shape = shape.unwrap();
+            assert_eq!(shape.particle.plane_count(), 6);
+            assert_volume(&shape, near.mass.volume);
+            assert!((shape.centroid - Vector3::repeat(far + 0.5)).amax() <= 1e-6 + f64::EPSILON * far);
+        }
+    }
+    let lost = shapes::hull(&cube(1e17), &sharp()).unwrap_err().to_string();
+    assert!(lost.contains("8 points are flat") && lost.contains("nearer to the origin"), "{lost}");
+    let planes = |far: f64| {
+        let plane = |(axis, sign): (usize, f64)| Plane { normal: Vector3::ith(axis, sign), offset: 0.5 + sign * far };
+        [0, 1, 2].map(|axis| [1.0, -1.0].map(|sign| plane((axis, sign)))).concat()
+    };
+    assert_volume(&shapes::half_spaces(&planes(1e6), &sharp()).unwrap(), 1.0);
+    let lost = shapes::half_spaces(&planes(1e10), &sharp()).unwrap_err().to_string();
+    assert!(lost.contains("about an origin near it"), "{lost}");
+}
+
+fn cube(corner: f64) -> Vec<[f64; 3]> {
+    (0..8).map(|i| [0, 1, 2].map(|axis| f64::from(i >> axis & 1) + corner)).collect()
+}
+
+/// Its triangles, two a side.
+const CUBE: [[u32; 3]; 12] = [
+    [0, 2, 1],
+    [1, 2, 3],
+    [4, 5, 6],
+    [5, 7, 6],
+    [0, 1, 4],
+    [1, 5, 4],
+    [2, 6, 3],
+    [3, 6, 7],
+    [0, 4, 2],
+    [2, 4, 6],
+    [1, 3, 5],
+    [3, 7, 5],
+];
+
 /// The mesh of a shape, read as a surface, is that shape again.
 #[test]
 fn a_mesh_is_a_closed_convex_surface() {

@@ -1,8 +1,13 @@
 //! Numbers and rows from Python, vectors and matrices to it.
 
 use crate::errors::refused;
+use bytemuck::{AnyBitPattern, NoUninit};
 use numpy::ndarray::Array2;
-use numpy::{Element, PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2, PyUntypedArrayMethods, ToPyArray};
+use numpy::ndarray::Dimension;
+use numpy::{
+    Element, PyArray, PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray, PyReadonlyArray2, PyUntypedArrayMethods,
+    ToPyArray,
+};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
@@ -30,6 +35,9 @@ fn two_dimensional<'py, T: Element>(
     let wrong = |reason: String| refused(format!("{name} must be rows of {meaning}: {reason}"));
     let found =
         numpy.call_method1("ascontiguousarray", (values,)).map_err(|error| wrong(error.value(py).to_string()))?;
+    // Of a part of a buffer it may begin anywhere.
+    let is_aligned: bool = found.getattr("flags")?.getattr("aligned")?.extract()?;
+    let found = if is_aligned { found } else { found.call_method0("copy")? };
     let options = PyDict::new(py);
     options.set_item("casting", "same_kind")?;
     options.set_item("copy", false)?;
@@ -46,7 +54,41 @@ fn two_dimensional<'py, T: Element>(
     if array.shape()[1] != width {
         return Err(wrong(format!("the array has {} columns", array.shape()[1])));
     }
-    Ok(array.readonly())
+    read(&array, name)
+}
+
+/// An array to read from; not one that a call of another thread writes meanwhile.
+pub fn read<'py, T: Element, D: Dimension>(
+    array: &Bound<'py, PyArray<T, D>>,
+    name: &str,
+) -> PyResult<PyReadonlyArray<'py, T, D>> {
+    array
+        .try_readonly()
+        .map_err(|_| refused(format!("{name} is written as out of another call: give each thread arrays of its own")))
+}
+
+/// The elements of an array as rows or records that lie in its memory. Of none, the place in memory does not matter: it may be any.
+pub fn in_place<'a, A: NoUninit, B: AnyBitPattern>(elements: &'a [A], name: &str) -> PyResult<&'a [B]> {
+    if elements.is_empty() {
+        return Ok(&[]);
+    }
+    bytemuck::try_cast_slice(elements).map_err(|_| misplaced(name))
+}
+
+/// The same, to write.
+pub fn in_place_mut<'a, A: NoUninit + AnyBitPattern, B: NoUninit + AnyBitPattern>(
+    elements: &'a mut [A],
+    name: &str,
+) -> PyResult<&'a mut [B]> {
+    if elements.is_empty() {
+        return Ok(&mut []);
+    }
+    bytemuck::try_cast_slice_mut(elements).map_err(|_| misplaced(name))
+}
+
+/// Numpy makes such arrays of parts of buffers.
+fn misplaced(name: &str) -> PyErr {
+    refused(format!("{name} does not begin at a multiple of 8 bytes in memory: give a copy of it, {name}.copy()"))
 }
 
 /// So many numbers.

@@ -8,6 +8,7 @@ use pyo3::sync::PyOnceLock;
 use pyo3::types::{PyDict, PyList};
 use std::mem::offset_of;
 
+use crate::arrays::read;
 use crate::errors::refused;
 
 /// A place and a quaternion w, x, y, z.
@@ -153,6 +154,10 @@ fn bytes<'py>(
     if !(contiguous && (is_records || is_rows)) {
         return Err(wrong());
     }
+    // Nothing is read or written, wherever that lies.
+    if shape[0] == 0 {
+        return Ok(PyArray1::zeros(array.py(), 0, false));
+    }
     let flat = if is_rows { array.call_method1("reshape", (-1,))? } else { array.clone() };
     flat.call_method1("view", ("u1",))?.cast_into().map_err(|_| wrong())
 }
@@ -160,14 +165,17 @@ fn bytes<'py>(
 /// Poses of an array, in place.
 pub fn poses<'py>(array: &Bound<'py, PyAny>) -> PyResult<PyReadonlyArray1<'py, u8>> {
     let meaning = "an array of pose_type, or of doubles with rows x, y, z, w, x, y, z (position and quaternion)";
-    Ok(bytes(array, pose_type(array.py())?, Some(7), "poses", meaning)?.readonly())
+    read(&bytes(array, pose_type(array.py())?, Some(7), "poses", meaning)?, "poses")
 }
 
 /// Contacts of an array that can be written, in place.
 pub fn contacts<'py>(array: &Bound<'py, PyAny>) -> PyResult<PyReadwriteArray1<'py, u8>> {
     let meaning = "an array of contact_type";
     let found = bytes(array, contact_type(array.py())?, None, "out", meaning)?;
-    found.try_readwrite().map_err(|error| refused(format!("out: {error}")))
+    found.try_readwrite().map_err(|error| {
+        let remedy = "give an array that can be written, and that no other argument or thread uses meanwhile";
+        refused(format!("out: {error}; {remedy}"))
+    })
 }
 
 pub fn add(module: &Bound<'_, PyModule>) -> PyResult<()> {

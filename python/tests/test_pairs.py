@@ -161,6 +161,92 @@ class Batches(unittest.TestCase):
         with self.assertRaisesRegex(ValueError, "body 7: position .* is not finite"):
             pp.detect_batch(particles, poses, pairs)
 
+    def test_nothing_is_given_and_nothing_comes_back(self):
+        particles, poses, pairs = scene(20)
+        row = poses.view(float).reshape(-1, 7)
+        buffer = np.zeros(8 * len(pairs) + 3, np.uint8)
+        # No rows as numpy makes them: new, of a larger array, of a part of a buffer that begins anywhere.
+        no_pairs = ([], (), np.zeros((0, 2), np.uint32), np.zeros((0, 2), np.int64), np.zeros((0, 2)), pairs[:0], pairs[5:5], pairs[::-3][:0],
+                    buffer[3:3].view(np.uint32).reshape(0, 2), np.column_stack([np.zeros(0, int)] * 2))
+        no_contacts = (None, np.empty(0, pp.contact_type), np.empty(5, pp.contact_type)[3:3], buffer[1:1].view(pp.contact_type))
+        no_poses = (np.zeros(0, pp.pose_type), np.zeros((0, 7)), poses[7:7], row[:0], buffer[1:1].view(pp.pose_type))
+        for bodies, places in [(particles, poses), (particles, row), *(([], places) for places in no_poses)]:
+            for given in no_pairs:
+                for out in no_contacts:
+                    for remember in (True, False):
+                        batch = pp.Batch(bodies, remember=remember, threads=2)
+                        for found in (batch.detect(places, given, out), pp.detect_batch(bodies, places, given, out=out)):
+                            self.assertEqual((found.shape, found.dtype), ((0,), pp.contact_type))
+                        self.assertEqual((batch.pairs.shape, batch.solutions.shape), ((0, 2), (0, 8)))
+        with self.assertRaisesRegex(IndexError, "pair 0: body 0 does not exist: there are 0"):
+            pp.detect_batch([], no_poses[0], [[0, 0]])
+        with self.assertRaisesRegex(ValueError, "0 poses given where 20"):
+            pp.detect_batch(particles, poses[:0], [])
+        with self.assertRaisesRegex(ValueError, "out has 1 records where 0"):
+            pp.detect_batch(particles, poses, [], out=np.empty(1, pp.contact_type))
+
+    def test_steps_without_pairs_forget_what_was_solved(self):
+        batch = pp.Batch([pp.Particle.sphere(1.0)] * 2)
+        flags = []
+        for apart in (1.9, 5.0, 1.9, 1.9):
+            poses = np.array([[0, 0, 0, 1, 0, 0, 0], [apart, 0, 0, 1, 0, 0, 0]], float)
+            near = np.array([[0, 1]], np.uint32)[: int(apart < 2)]
+            flags += [int(flag) & 8 for flag in batch.detect(poses, near)["flags"]]
+        self.assertEqual(flags, [0, 0, 8])
+
+    def test_arrays_that_begin_anywhere_in_memory(self):
+        particles, poses, pairs = scene(20)
+        expected = pp.detect_batch(particles, poses, pairs)
+
+        def moved(array):
+            buffer = np.zeros(array.nbytes + 1, np.uint8)[1:]
+            buffer[:] = array.reshape(-1).view(np.uint8)
+            return buffer.view(array.dtype).reshape(array.shape)
+        self.assertFalse(moved(pairs).flags.aligned)
+        for places in (moved(pairs), np.asfortranarray(pairs), moved(np.asfortranarray(pairs).T).T, np.repeat(pairs, 2, 0)[::2]):
+            found = pp.detect_batch(particles, poses, places)
+            np.testing.assert_array_equal(found.view(np.uint64), expected.view(np.uint64))
+        np.testing.assert_array_equal(pp.Particle(moved(CUBE), 0.1).planes, CUBE)
+        for name, arguments in (("poses", (moved(poses), pairs)), ("out", (poses, pairs, None))):
+            out = moved(expected) if name == "out" else None
+            with self.assertRaisesRegex(ValueError, f"give a copy of it, {name}.copy()"):
+                pp.detect_batch(particles, *arguments, out=out)
+
+    def test_threads_share_a_batch(self):
+        particles, poses, pairs = scene(300)
+        expected, found, wrong = pp.detect_batch(particles, poses, pairs), [], []
+        for remember in (True, False):
+            batch = pp.Batch(particles, remember=remember)
+
+            def steps():
+                try:
+                    for step in range(20):
+                        few = pairs[: len(pairs) - step]
+                        contacts = batch.detect(poses, few)
+                        overlapping = contacts["kind"] == pp.OVERLAPPING
+                        self.assertTrue((contacts["kind"] == expected["kind"][: len(few)]).all())
+                        found.append(np.abs(contacts["s"] - expected["s"][: len(few)])[overlapping].max())
+                        str(batch), batch.solutions, batch.pairs
+                        if step % 7 == 3:
+                            batch.forget()
+                except BaseException as error:
+                    wrong.append(error)
+            threads = [threading.Thread(target=steps) for _ in range(4)]
+            for thread in threads:
+                thread.start()
+            for thread in threads:
+                thread.join()
+            self.assertEqual(wrong, [])
+        self.assertLess(max(found), 1e-9)
+
+    def test_an_array_in_use_is_told(self):
+        particles, poses, pairs = scene(4)
+        out = np.zeros(max(len(pairs), 4), pp.contact_type)
+        places = out.view(np.uint8)[: poses.nbytes].view(pp.pose_type)
+        places[:] = poses
+        with self.assertRaisesRegex(ValueError, "no other argument or thread uses"):
+            pp.detect_batch(particles, places, pairs, out=out[: len(pairs)])
+
     def test_other_threads_run_meanwhile(self):
         particles, poses, pairs = scene(3000)
         pairs = np.vstack([pairs] * 20)

@@ -46,6 +46,39 @@ class Builders(unittest.TestCase):
         self.assertLess(heights.max(), shape.particle.r * (1 + 1e-6) + 1e-9)
         self.assertGreater(heights.max(0).min(), shape.particle.r * (1 - 1e-6) - 1e-9)
 
+    def test_flat_and_far_hulls(self):
+        square = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (1, 1, 0)]
+        for height in (0.02, 1e-4):
+            self.assertAlmostEqual(builders.hull(square + [(0.5, 0.5, height)], k=0, r=1e-4).volume * 3 / height, 1, delta=2e-5)
+            self.assertAlmostEqual(builders.hull(square[:3] + [(0, 0, height)], k=0, r=1e-4).volume * 6 / height, 1, delta=2e-5)
+        cube = np.array([(x, y, z) for x in (0, 1) for y in (0, 1) for z in (0, 1)], float)
+        shape = builders.hull(cube + 1e10, k=0, r=1e-4)
+        self.assertAlmostEqual(shape.volume, 1, delta=2e-5)
+        np.testing.assert_allclose(shape.centroid, 1e10 + 0.5, rtol=1e-15)
+        with self.assertRaisesRegex(ValueError, "8 points are flat.*nearer to the origin"):
+            builders.hull(cube + 1e17)
+
+    def test_no_rows(self):
+        """Arrays and lists without rows are sphere, domain and rock, or are told."""
+        for none in ([], np.zeros((0, 4)), np.zeros((0, 4), np.float32), np.zeros((0, 4), int), (np.zeros((0, 3)), [])):
+            sphere = pp.Particle(none, r=0.1, k=1, R=2)
+            self.assertEqual((sphere.planes.shape, sphere.potential((2, 0, 0))), ((0, 4), 0))
+            self.assertEqual(pickle.loads(pickle.dumps(sphere)), sphere)
+            rock = slicing.slice(BOX, [], regions=[])
+            self.assertEqual(len(rock.blocks), 1)
+            for make, sentence in [
+                    (lambda: pp.Particle(none, r=0.1), "do not enclose"), (lambda: builders.half_spaces(none), "enclose no volume"),
+                    (lambda: slicing.slice(none, []), "open")]:
+                with self.assertRaisesRegex(ValueError, sentence):
+                    make()
+        for none in ([], np.zeros((0, 3)), np.zeros((0, 3), np.uint32)):
+            with self.assertRaisesRegex(ValueError, "0 points"):
+                builders.hull(none)
+            with self.assertRaisesRegex(ValueError, "0 points"):
+                builders.surface(none, none)
+            with self.assertRaisesRegex(ValueError, "do not enclose|enclose no area"):
+                planar.Particle(none, r=0.1)
+
     def test_files(self):
         ball = builders.sphere(1.0).particle.mesh(0.1)
         points, triangles = ball.vertices, ball.triangles

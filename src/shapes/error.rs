@@ -24,17 +24,26 @@ pub enum ShapeError {
     /// Fewer than four points.
     #[error("{0} points enclose no volume: at least 4 are needed")]
     TooFewPoints(usize),
-    /// All points lie in a plane, to a share of 1e-9 of their extent.
-    #[error("the {0} points are flat: all lie in one plane")]
+    /// All points lie in a plane, to a share of 1e-6 of their extent, at which neighbouring faces are one, or as far as their coordinates tell.
+    #[error(
+        "the {0} points are flat: all lie in one plane, to 1e-6 of their extent or to the last digit of their coordinates; give points that are \
+         farther apart, or, if they are, nearer to the origin"
+    )]
     Flat(usize),
     /// A half-space has no normal, or numbers that are not finite.
     #[error("plane {0} is none: its normal must have a length, and its numbers must be finite")]
     NoPlane(usize),
     /// No point lies inside all half-spaces.
-    #[error("no point lies inside all planes: turn their normals outwards, or move them apart")]
+    #[error(
+        "no point lies inside all planes: turn their normals outwards, or move them apart; a body more than 1e8 times its size away from the \
+         origin has to be given about an origin near it"
+    )]
     Empty,
     /// The half-spaces leave a side open.
-    #[error("the planes enclose no volume: add the planes that are missing")]
+    #[error(
+        "the planes enclose no volume: add the planes that are missing, or, if none is, take a body that reaches less than 1e4 times as far as \
+         its planes are from the origin"
+    )]
     Open,
     /// There is no regular solid of so many faces.
     #[error("faces={0}: regular solids have 4, 6, 8, 12 or 20")]
@@ -79,9 +88,7 @@ pub enum ShapeError {
     #[error("the surface crosses itself: its triangles cover its convex hull {0:.4} times")]
     Covers(f64),
     /// The centre of the shadow sphere does not settle at the centroid.
-    #[error(
-        "no centre is its own centroid, to which k={k} with R={shadow_radius} leads: take a smaller k, or a larger R"
-    )]
+    #[error("{}", no_centre(*k, *shadow_radius))]
     NoCentre {
         /// Sphericity.
         k: f64,
@@ -102,6 +109,16 @@ impl From<RockError> for ShapeError {
             _ => Self::Empty,
         }
     }
+}
+
+/// At k = 0 the shape does not depend on the centre: its centroid is then not found for want of digits.
+fn no_centre(k: f64, shadow_radius: f64) -> String {
+    if k == 0.0 {
+        return "the centroid cannot be found to the digits of a double: take a larger r, or a body that is less flat or long".into();
+    }
+    format!(
+        "no centre is its own centroid, to which k={k} with R={shadow_radius} leads: take a smaller k, or a larger R"
+    )
 }
 
 /// The number, if it is finite and in its range.

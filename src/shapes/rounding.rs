@@ -21,8 +21,9 @@ use crate::pose::Pose;
 use crate::rock::{Block, SliceSettings, slice};
 use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
 
-/// The repetition ends when the centre is the centroid to this share of the size, found with fewer digits, which takes far less time. A last step
-/// with all digits follows; the shape does not change by it, but in the product of this share and k.
+/// The repetition ends when the centre is the centroid to this share of the size, found with fewer digits, which takes far less time, or, of bodies so
+/// flat or long that these digits do not say as much, when it comes no nearer and is the centroid as far as they tell. A last step with all digits
+/// follows; the shape does not change by it, but in the product of this share and k.
 const CENTRED: f64 = 1e-5;
 const ROUGHLY: f64 = 1e-4;
 const MOST_STEPS: usize = 50;
@@ -89,7 +90,11 @@ impl Shape {
 
     /// The shape {n·x ≤ h} of half-spaces, rounded.
     pub(super) fn rounded(half_spaces: &[Plane], rounding: &Rounding) -> Result<Self, ShapeError> {
-        let block = block(half_spaces)?;
+        Self::of_block(&block(half_spaces)?, rounding)
+    }
+
+    /// A sharp body, rounded.
+    pub(super) fn of_block(block: &Block, rounding: &Rounding) -> Result<Self, ShapeError> {
         let centroid = block.centroid;
         let heights: Vec<_> = block.faces.iter().map(|face| (face.plane.normal, face.plane.offset)).collect();
         let about = |centre: &Vector3<f64>| heights.iter().map(|(n, h)| (*n, h - n.dot(centre))).collect::<Vec<_>>();
@@ -111,14 +116,19 @@ impl Shape {
         size: f64,
     ) -> Result<Self, ShapeError> {
         let mut found = None;
+        let mut last = f64::INFINITY;
         for _ in 0..MOST_STEPS {
             let Definition { k, shadow_radius, .. } = definition(&centre);
             let particle = definition(&centre).particle()?;
-            let shift = mass_properties::of(&particle, ROUGHLY).centroid;
-            if !(shift.amax() > CENTRED * size) {
+            let mass = mass_properties::of(&particle, ROUGHLY);
+            let shift = mass.centroid;
+            let is_known_no_better =
+                shift.amax() > 0.5 * last && known(&mass).zip_map(&shift, |k, s| s.abs() - k).max() <= 0.0;
+            if !(shift.amax() > CENTRED * size) || is_known_no_better {
                 found = Some(particle);
                 break;
             }
+            last = shift.amax();
             centre += shift;
             if !centre.iter().all(|c| c.is_finite()) {
                 return Err(ShapeError::NoCentre { k, shadow_radius });
@@ -139,6 +149,13 @@ impl Shape {
         let mass = mass_properties::of(&particle, MASS_TOLERANCE);
         Ok(Self { particle, mass, centroid: centre, orientation })
     }
+}
+
+/// How far the centroid may be off along each axis: its error is a share of the radius of gyration √(∫x²dV/V); none where nothing is known.
+fn known(mass: &MassProperties) -> Vector3<f64> {
+    let error = if mass.error.is_finite() { mass.error } else { 0.0 };
+    let all = 0.5 * mass.inertia.trace();
+    mass.inertia.diagonal().map(|about| error * ((all - about).max(0.0) / mass.volume).sqrt())
 }
 
 /// The sharp body of half-spaces: a domain of rock without joints.

@@ -5,6 +5,7 @@ use super::hull::faces;
 use super::rounding::{Definition, Rounding, Shape, block};
 use super::surface::{refuse_concave, refuse_open};
 use crate::particle::plane::Plane;
+use crate::rock::{Block, FaceOf};
 use nalgebra::Vector3;
 use std::f64::consts::{PI, TAU};
 
@@ -22,8 +23,8 @@ pub fn half_spaces(planes: &[Plane], rounding: &Rounding) -> Result<Shape, Shape
 /// # Errors
 /// Points that are not finite, fewer than four, or all in a plane; a rounding out of range.
 pub fn hull(points: &[[f64; 3]], rounding: &Rounding) -> Result<Shape, ShapeError> {
-    let points: Vec<Vector3<f64>> = points.iter().map(|&point| point.into()).collect();
-    Shape::rounded(&faces(&points)?, rounding)
+    let (middle, points) = about_middle(points);
+    placed(&body(&faces(&points)?, &points)?, &middle, rounding)
 }
 
 /// Of a closed convex surface of triangles, three indices of points each, in any sense of rotation.
@@ -31,12 +32,47 @@ pub fn hull(points: &[[f64; 3]], rounding: &Rounding) -> Result<Shape, ShapeErro
 /// # Errors
 /// Those of [`hull`]; a surface that is open, not convex or crosses itself, of which [`hull`] makes the convex hull.
 pub fn surface(points: &[[f64; 3]], triangles: &[[u32; 3]], rounding: &Rounding) -> Result<Shape, ShapeError> {
-    let points: Vec<Vector3<f64>> = points.iter().map(|&point| point.into()).collect();
+    let (middle, points) = about_middle(points);
     refuse_open(points.len(), triangles)?;
     let faces = faces(&points)?;
-    let area = block(&faces)?.faces.iter().map(|face| face.area).sum();
-    refuse_concave(&points, triangles, &faces, area)?;
-    Shape::rounded(&faces, rounding)
+    let body = body(&faces, &points)?;
+    refuse_concave(&points, triangles, &faces, body.faces.iter().map(|face| face.area).sum())?;
+    placed(&body, &middle, rounding)
+}
+
+/// The middle of points, and the points about it: their distances from it have all digits, however far away they are.
+fn about_middle(points: &[[f64; 3]]) -> (Vector3<f64>, Vec<Vector3<f64>>) {
+    let points: Vec<Vector3<f64>> = points.iter().map(|&point| point.into()).collect();
+    let [low, high] = extremes(&points);
+    let middle = 0.5 * low + 0.5 * high;
+    let origin = if middle.iter().all(|c| c.is_finite()) { middle } else { Vector3::zeros() };
+    (origin, points.iter().map(|point| point - origin).collect())
+}
+
+fn extremes(points: &[Vector3<f64>]) -> [Vector3<f64>; 2] {
+    let first = points.first().copied().unwrap_or_default();
+    points.iter().fold([first; 2], |[low, high], point| [low.inf(point), high.sup(point)])
+}
+
+/// The sharp body of the faces of a hull of points about their middle. Of a flat body all planes may pass close to the origin, while it reaches far: a
+/// box about the points says how far, and makes no face.
+fn body(faces: &[Plane], points: &[Vector3<f64>]) -> Result<Block, ShapeError> {
+    let [low, high] = extremes(points);
+    let sides = (0..6).map(|i| {
+        let normal = Vector3::ith(i / 2, if i % 2 == 0 { 1.0 } else { -1.0 });
+        Plane { normal, offset: (high - low).max() }
+    });
+    let planes: Vec<Plane> = sides.chain(faces.iter().copied()).collect();
+    let flat = ShapeError::Flat(points.len());
+    let body = block(&planes).map_err(|_| flat.clone())?;
+    let is_open = body.faces.iter().any(|face| matches!(face.of, FaceOf::Domain(side) if side < 6));
+    if is_open { Err(flat) } else { Ok(body) }
+}
+
+/// A body about a place, rounded.
+fn placed(body: &Block, place: &Vector3<f64>, rounding: &Rounding) -> Result<Shape, ShapeError> {
+    let shape = Shape::of_block(body, rounding)?;
+    Ok(Shape { centroid: shape.centroid + place, ..shape })
 }
 
 /// A sphere: k = 1.

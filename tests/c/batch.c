@@ -212,6 +212,10 @@ static void bad_arguments_write_nothing(results *got) {
     /* Nothing to do, and nothing to do it with. */
     CHECK_STATUS(pp_contact_detect_batch(NULL, NULL, 0, NULL, 0, NULL, 4, NULL, NULL, NULL), PP_OK);
     CHECK_STATUS(BATCH(s.particles, s.poses, BODIES, NULL, 0, NULL, NULL), PP_OK);
+    /* Where a pointer to nothing leads does not matter: other languages have such ones. */
+    void *anywhere = (void *)(uintptr_t)1;
+    CHECK_STATUS(BATCH(s.particles, s.poses, BODIES, anywhere, 0, anywhere, anywhere), PP_OK);
+    CHECK_STATUS(pp_contact_detect_batch(anywhere, anywhere, 0, anywhere, 0, NULL, 1, anywhere, anywhere, anywhere), PP_OK);
     CHECK_UNTOUCHED(*got);
     CHECK_STATUS(BATCH(NULL, NULL, 0, s.pairs, 1, got->contacts, got->statuses), PP_OK);
     CHECK_STATUS(got->statuses[0], PP_BAD_INDEX);

@@ -158,6 +158,8 @@ static void bad_arguments_write_nothing(const scene *s, results *got) {
     settings.gap_tolerance = 0;
     CHECK_STATUS(batch(s, &settings, 2, got->states, got), PP_BAD_SETTING);
     CHECK_STATUS(pp_contact_detect_batch_2d(NULL, NULL, 0, NULL, 0, NULL, 4, NULL, NULL, NULL), PP_OK);
+    void *anywhere = (void *)(uintptr_t)1;
+    CHECK_STATUS(pp_contact_detect_batch_2d(anywhere, anywhere, 0, anywhere, 0, NULL, 1, anywhere, anywhere, anywhere), PP_OK);
     CHECK_UNTOUCHED(*got);
 #undef BATCH
 }
