@@ -2,11 +2,11 @@
 """The law of joints of a scene in LAMMPS's words: what its materials give two bodies, as Ip2_ConicJointMat_ConicJointMat_ConicJointPhys has it, and
 how the joints that there are begin."""
 import math
-import warnings
 from typing import NamedTuple
 
 from .bodies import image_shift
 from .joints import LAW, of_engine
+from .lammps_limits import warn
 
 # Relative, of numbers that a contact was given and those that its materials give.
 _SAME = 1e-6
@@ -91,7 +91,7 @@ def _of_bodies(scene, joints, makes_bonds, later):
     sheared = [contact for contact in bonded if max(contact.phys.shearForce.norm(), abs(contact.phys.twistMoment) / _reach(contact.phys)) > _NO_FORCE * contact.phys.normalForce.norm()]
     if sheared:
         most = max(contact.phys.shearForce.norm() for contact in sheared)
-        _warn(f"{_few(sheared, 'bond holds', 'bonds hold')[0]} shear or twist, up to {most:.3g} N, and LAMMPS begins without that: convert the scene before its first step")
+        warn(f"{_few(sheared, 'bond holds shear or twist', 'bonds hold shear or twist')[0]}, up to {most:.3g} N, and LAMMPS begins without that: convert the scene before its first step")
     return bonds, whole
 
 
@@ -99,7 +99,7 @@ def _of_walls(joints, later):
     """Steps before which joints with walls are whole."""
     bonded = [contact for contact in joints if contact.phys.bondArea > 0]
     if bonded:
-        _warn(f"{_few(bonded, 'bond with a wall', 'bonds with walls')[0]}: walls of LAMMPS make none; take fixed bodies in their place")
+        warn(f"{_few(bonded, 'bond with a wall', 'bonds with walls')[0]}: walls of LAMMPS make none; take fixed bodies in their place")
     kept = any(_would_lose(contact.phys) for contact in joints)
     whole = max(later, 1) if kept else later
     broken = [contact for contact in joints if contact.phys.broken and _weakens(contact.phys)]
@@ -157,11 +157,6 @@ def _few(contacts, one, more):
         return []
     names = ", ".join(f"{contact.id1} and {contact.id2}" for contact in contacts[:3]) + (", ..." if len(contacts) > 3 else "")
     return [f"{_count(len(contacts), one, more)} ({names})"]
-
-
-def _warn(text):
-    from .check import SceneWarning
-    warnings.warn_explicit(f"potential_particles: to_lammps: {text}", SceneWarning, "potential_particles", 0)
 
 
 def parameters(one, other, radii, given=None):
