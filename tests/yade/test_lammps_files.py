@@ -168,5 +168,11 @@ O.engines[-1].damping = 0.3
 O.engines = [*O.engines, yade.TranslationEngine(translationAxis=(0, 1, 0), velocity=-0.1, ids=[4])]
 told = written()[1]
 check.true(len(told) == 2 and "NewtonIntegrator(damping=0.3)" in told[0] and "TranslationEngine is not written" in told[1], f"damping and engines: {told}")
+column()
+O.periodic = True
+O.cell.setBox(2, 2, 2)
+O.cell.velGrad = yade.Matrix3(0, 0.1, 0, 0, 0, 0, 0, 0, 0)
+told = written()[1]
+check.true(len(told) == 1 and "the periodic cell deforms" in told[0], f"a cell that deforms: {told}")
 
 check.finish()

@@ -34,8 +34,11 @@ def require_motion(body, moves_freely):
 
 
 def warn_of_engines(scene):
-    """Warns of damping, and of engines that move or load bodies."""
+    """Warns of damping, of engines that move or load bodies, and of a cell that deforms."""
     import yade
+    # What a script sets is the next one until a step is made.
+    if scene.periodic and max(scene.cell.velGrad.norm(), scene.cell.nextVelGrad.norm()) > 0:
+        warn("the periodic cell deforms, and that of LAMMPS stays as it is: add 'fix deform' to the script that is written")
     for engine in scene.engines:
         if engine.dead:
             continue

@@ -73,6 +73,7 @@ def joint_engine(mass, ids, materials, period=1):
     mass, ids: as of bodies(). materials: for entries of the `joints` of slice() a Material: of a ConicJointMat friction angles, cohesion, tensile
     strength, softening and, where they are above 0, both stiffnesses count, but with KnKsPhys neither softening nor stiffnesses; of another FrictMat the friction angle. Contacts between blocks that were
     neighbours on a joint of these sets take them in the first step after they are made, looked for every `period` steps; all others keep what their bodies give them.
+    What a script makes of a joint later stays, also in a run that loads the scene.
     Saved with the scene, in O.tags; a script that loads it imports potential_particles. Each rock mass has an engine of its own.
     """
     import yade
