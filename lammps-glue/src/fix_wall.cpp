@@ -34,9 +34,20 @@ int FixWall::setmask() { return FixConst::POST_FORCE; }
 
 void FixWall::init() { shapes = FixShapes::of(lmp, std::string("fix ") + style); }
 
+void FixWall::setup(int flags)
+{
+    const double time = timeNow();
+    if (comm->me == 0 && time < lastTime && (linear.norm() > 0 || rate != 0))
+        error->warning(FLERR, "{} {}: the time has gone back from {} to {}, and with it the wall to where it was then; 'reset_timestep {} time {}' leaves it where it is",
+                       style, id, lastTime, time, update->ntimestep, lastTime);
+    post_force(flags);
+}
+
+double FixWall::timeNow() const { return update->atime + static_cast<double>(update->ntimestep - update->atimestep) * update->dt; }
+
 FixWall::Frame FixWall::frameNow() const
 {
-    const double time = update->atime + static_cast<double>(update->ntimestep - update->atimestep) * update->dt;
+    const double time = timeNow();
     return { Quaterniond(Eigen::AngleAxisd(std::fmod(rate * time, 2 * M_PI), axis)), centre + time * linear, linear, rate * axis };
 }
 
@@ -55,6 +66,7 @@ void FixWall::post_force(int)
 {
     own[contacts] = own[elastic] = own[forceX] = own[forceY] = own[forceZ] = 0;
     const Frame frame = frameNow();
+    lastTime = timeNow();
     const bool advance = !update->setupflag;
     size_t most = 0;
     for (int i = 0; i < atom->nlocal; ++i)

@@ -32,7 +32,7 @@ public:
 
     int setmask() override;
     void init() override;
-    void setup(int flags) override { post_force(flags); }
+    void setup(int flags) override;
     void post_force(int) override;
     double compute_vector(int n) override;
 
@@ -85,6 +85,7 @@ private:
 
     double numberAt(char** arguments, int i, const char* what) const;
     Frame frameNow() const;
+    double timeNow() const;
     Eigen::Vector3d intoWall(const Frame& frame, const Eigen::Vector3d& x) const;
     void meet(int i, const Frame& frame, bool advance);
     void lookAround(Surroundings& here, double radius);
@@ -104,6 +105,7 @@ private:
     LawParameters law;
     bool byPatch = false;
     double patchTolerance = 1e-4;
+    double lastTime = 0; // at which it was where it is
     LAMMPS_NS::bigint wholeBefore = 1;
     JointParameters joint;
     pp_settings how;

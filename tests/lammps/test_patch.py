@@ -234,6 +234,26 @@ def test_same_blocks_in_yade(folder):
     assert errors[0] < 1e-7 and errors[1] < 0.6 * errors[0], errors
 
 
+def test_blocks_of_yade_after_some_steps(folder):
+    """Bonds that have made steps are there in LAMMPS; a lasting force, a held block that moves and a wall that moves act as in YADE, to the order of the time step."""
+    if not YADE.exists():
+        print("not tried: the YADE plugin is not built (make build)")
+        return
+    done = subprocess.run([TOP / "scripts" / "yade.sh", "-j1", TOP / "tests" / "lammps" / "yade_later_scene.py", folder], stdin=subprocess.DEVNULL,
+                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=120)
+    assert (folder / "yade.npz").exists() and "SceneWarning" not in done.stdout, done.stdout[-2000:]
+    yade = np.load(folder / "yade.npz")
+    wanted = yade["rows"]
+    status, said = lammps(folder, "include scene.lmp\ncompute pp all pair potential/particle\nthermo_style custom step c_pp[8]\nthermo 1\n"
+                          f"dump 1 all custom 1 all.dump id type x y z d2_orientation[1] d2_orientation[2] d2_orientation[3] d2_orientation[4]\ndump_modify 1 sort id format float %.17g\nrun {len(wanted) - 1}")
+    assert status == 0, said[-2000:]
+    mine = np.array([np.column_stack([columns[c] for c in "xyz"]) for _, columns in frames(folder / "all.dump")])
+    assert set(thermo(said)["c_pp[8]"]) == {3} and yade["bonds"] == 3, said[-2000:]
+    moved, off = np.abs(wanted - wanted[0]).max(axis=(0, 2)), np.abs(mine - wanted).max(axis=(0, 2))
+    assert moved[0] == 0 and moved[1:].min() > 2e-8, moved
+    assert off[0] == 0 and (off[1:] < 0.02 * moved[1:]).all(), (off, moved)
+
+
 def test_bad_input(folder):
     """What is refused of patches, with value and remedy."""
     bodies = [still((0, 0, 0)), still((0, 0, 2 * HALF[2] - 1e-6))]

@@ -58,6 +58,18 @@ def test_belt(folder):
     assert abs(late[3] - 0.2) < 0.01 and abs(late[2] - (0.03 - mass * 9.81 / STIFFNESS)) < 2e-5, late
 
 
+def test_time_that_goes_back(folder):
+    """reset_timestep takes a wall that moves back to where it was, and a warning says so; with the time it stays. A wall at rest has none."""
+    block = [(2, (0, 0, 0.0295), (0, 0, 0), (0, 0, 0), (1, 0, 0, 0))]
+    wall = "fix wall all wall/potential/particle %g %g %g 0.3 plane 0 0 0 0 0 1" % (STIFFNESS, SHEAR, FRICTION)
+    moving = wall + " linear 0 0 -0.01"
+    for command, reset, told in ((moving, "reset_timestep 0", True), (moving, "reset_timestep 0 time 0.01", False), (moving, "", False), (wall, "reset_timestep 0", False)):
+        _, said = run(folder, block, walls=command, run="run 100", after=f"undump all\n{reset}\nrun 1")
+        line = " ".join(line for line in said.splitlines() if "the time has gone back" in line)
+        assert bool(line) == told, said[-2000:]
+        assert not told or "from 0.01 to 0" in line and "'reset_timestep 0 time 0.01' leaves it where it is" in line, line
+
+
 def test_rotating_mesh(folder):
     """A wall that turns with the body's own angular velocity about its axis holds it as one at rest holds a body at rest."""
     write_stl(folder / "floor.stl", floor(5, 0.5))

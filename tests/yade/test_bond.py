@@ -420,7 +420,17 @@ check.equal(swinging(yade.ConicInteractionLoop, saved=True), plain_loop, "a run 
 
 # --- what is refused -----------------------------------------------------------------------------------------------------------
 
-for name, value in (("cohesion", -1), ("tensileStrength", math.inf), ("residualFrictionAngle", 2), ("softening", -1)):
+for name, value in (("cohesion", -1), ("tensileStrength", math.inf), ("residualFrictionAngle", 2), ("softening", -1), ("frictionAngle", 30), ("frictionAngle", -0.1)):
     check.raises(ValueError, lambda: yade.ConicJointMat(**{name: value}), name, f"{name} = {'inf' if value == math.inf else value}: give")
+# Set later it is YADE's attribute, which takes any number: the run is refused.
+column()
+O.materials[0].frictionAngle = 30
+check.raises(ValueError, O.step, "degrees", "frictionAngle of ConicJointMat 0 in O.materials = 30: give radians in [0, pi/2)")
+O.reset()
+O.materials.append(yade.FrictMat(frictionAngle=30))
+block((0, 0, 0))
+check.true(any("frictionAngle=30" in one.what and "radians" in one.remedy for one in potential_particles.check()), "check() finds it in FrictMat, too")
+O.engines = [yade.InteractionLoop([yade.Ig2_ConicPP_ConicPP_ScGeom()], [yade.Ip2_FrictMat_FrictMat_FrictPhys()], [yade.Law2_ScGeom_FrictPhys_CundallStrack(sphericalBodies=False)])]
+check.raises(ValueError, potential_particles.use_joints, "use_joints in degrees", "frictionAngle = 30: give radians in [0, pi/2)")
 
 check.finish()

@@ -217,6 +217,15 @@ upper = two.blocks["centroid"][:, 2] > 1.9
 ids = rock.bodies(two, r=0.01, fixed=~upper)
 O.engines = O.engines[:3] + [rock.joint_engine(two, ids, {0: yade.ConicJointMat(frictionAngle=0.35, cohesion=7.0, residualCohesion=7.0), 1: yade.ConicJointMat(frictionAngle=0.0)})] + O.engines[3:]
 O.dt = potential_particles.critical_time_step()
+# The stiffness that it gives counts for contacts that are not there yet: against twice that of the bodies, which a rigid neighbour would give.
+for stiffness, ratio in ((dict(normalStiffness=1.0), 1.0), (dict(normalStiffness=8e11), 20.0), (dict(shearStiffness=8e11), 20.0)):
+    O.engines = [*O.engines[:3], rock.joint_engine(two, ids, {0: yade.ConicJointMat(**stiffness), 1: yade.ConicJointMat()}), O.engines[-1]]
+    check.close(O.dt / potential_particles.critical_time_step() / ratio, 1.0, 1e-9, f"a joint with {stiffness}")
+O.materials[0].shearStiffness = 100e9
+O.engines = [*O.engines[:3], O.engines[-1]]
+check.close(O.dt / potential_particles.critical_time_step(), 10.0, 1e-9, "a joint that is stiffer in shear")
+O.materials[0].shearStiffness = 1e9
+O.engines = [*O.engines[:3], rock.joint_engine(two, ids, {0: yade.ConicJointMat(frictionAngle=0.35, cohesion=7.0, residualCohesion=7.0), 1: yade.ConicJointMat(frictionAngle=0.0)}), O.engines[-1]]
 run(2)
 physics = [i.phys for i in O.interactions if i.isReal]
 check.true({round(p.tangensOfFrictionAngle, 9) for p in physics} == {round(math.tan(0.35), 9), 0.0} and {p.cohesion for p in physics} >= {7.0},
@@ -227,10 +236,31 @@ acceleration = 9.81 * (math.sin(math.radians(35)) - math.tan(0.35) * math.cos(ma
 way = 0.5 * acceleration * math.cos(math.radians(35)) * O.time**2
 check.true(all(abs(one / way - 1) < 0.02 for one in slides), f"they slide as their friction says: {slides}, {way}")
 check.raises(ValueError, lambda: rock.joint_engine(two, ids, {0: 3}), "no material", "give a ConicJointMat")
+degrees = yade.ConicJointMat()
+degrees.frictionAngle = 30
+for material in (degrees, yade.FrictMat(frictionAngle=30)):
+    check.raises(ValueError, lambda: rock.joint_engine(two, ids, {0: material}), "degrees", "frictionAngle of materials[0] = 30: give radians in [0, pi/2)")
+check.true(type(ids[0]) is int and all(type(one) is int for one in ids) and O.bodies[ids[0]].id == ids[0] and ids[upper].tolist() == [one for one, is_upper in zip(ids, upper) if is_upper],
+           "one id is an int, which O.bodies takes")
+check.close(np.arange(len(ids))[ids].sum(), len(ids) * (len(ids) - 1) // 2, 0, "many are an array of numbers")
+# What a script has made of the joints that there are stays, in this run and in one that loads it.
+run(1)
+for contact in O.interactions:
+    if contact.isReal:
+        contact.phys.tangensOfFrictionAngle *= 0.5
+frictions = lambda: {(i.id1, i.id2): (i.phys.tangensOfFrictionAngle, i.phys.cohesion) for i in O.interactions if i.isReal}
+reduced = frictions()
+check.true(len(reduced) >= 3, f"joints: {reduced}")
+O.save("reduced.yade.gz")
+run(1)
+check.equal(frictions(), reduced, "joints keep what a script gave them")
+O.load("reduced.yade.gz")
+run(1)
+check.equal(frictions(), reduced, "and do so after loading")
 # Saved and loaded, as in another process, the engine goes on: contacts that are made anew have the friction of their set.
 O.save("joints.yade.gz")
 O.load("joints.yade.gz")
-potential_particles.rock.scene._known.clear()
+potential_particles.joints._tables.clear()
 O.interactions.clear()
 for number in ids[upper]:
     O.bodies[int(number)].state.vel = Vector3.Zero

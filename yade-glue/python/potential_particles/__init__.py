@@ -206,6 +206,7 @@ def _prepare_before_steps(yade):
             if not self.running:
                 _prepare_ours(yade)
                 joints.require_patches(self.engines)
+                joints.require_angles(self)
                 watch.look(self)
             done = method(self, *arguments, **keywords)
             if not self.running:

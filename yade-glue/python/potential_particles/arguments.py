@@ -32,6 +32,17 @@ def within(value, low, high, name):
     return found
 
 
+def radians(value, name):
+    """An angle of friction in [0, pi/2), or ValueError."""
+    try:
+        found = float(value)
+    except (TypeError, ValueError):
+        raise ValueError(f"{name} = {value!r} is no number: give radians in [0, pi/2)") from None
+    if not 0.0 <= found < 0.5 * math.pi:
+        raise ValueError(f"{name} = {found:g}: give radians in [0, pi/2)")
+    return found
+
+
 def whole(value, least, name):
     """A whole number that is not below `least`, or ValueError."""
     found = number(value, name)

@@ -44,7 +44,7 @@ def check():
     """Looks for mistakes of which YADE says nothing; prints a line for each, and returns them as a list of (what, remedy).
 
     Shapes without a box or without a contact functor; prescribed normals (fixedNormal) beside patches; boxes without thickness;
-    compaction by growing spheres; laws with the lever arms of spheres; overlaps beyond the rounding radius; O.dt beyond critical_time_step(safety=1), or left to a stepper that knows no contact yet;
+    compaction by growing spheres; friction angles that are no radians in [0, pi/2); laws with the lever arms of spheres; overlaps beyond the rounding radius; O.dt beyond critical_time_step(safety=1), or left to a stepper that knows no contact yet;
     masses that are not volume times density (1 %); clumps that are not the union of their members; weights
     that the stiffness cannot bear within r; rotation integrated as that of spheres. The list is empty where none is found, and in
     scenes without potential particles. Call it when bodies, engines and O.dt are set, and again after some steps, when there are contacts.
@@ -69,7 +69,7 @@ def findings(scene, measured=_MEASURED_AT_FIRST):
     bounds, geometry, physics = _dispatchers(yade)
     moving = [body for body in ours if is_free(body)]
     return [*_bounds(scene, bounds), *_contacts(scene, geometry), *_flat_boxes(yade, scene), *_controllers(scene),
-            *_laws(scene, ours, physics), *_overlap(), *_time_step(scene),
+            *_angles(yade, ours), *_laws(scene, ours, physics), *_overlap(), *_time_step(scene),
             *_mass(yade, moving, measured), *_clumps(scene, measured), *_weight(scene, moving),
             *_rotation(scene, moving)]
 
@@ -163,6 +163,12 @@ def _flat_boxes(yade, scene):
 def _controllers(scene):
     if any(one.internalCompaction for one in _engines(scene, "TriaxialStressController")):
         yield Finding("TriaxialStressController(internalCompaction=True) lets spheres grow, and does nothing here", "give it internalCompaction=False")
+
+
+def _angles(yade, ours):
+    for material in {body.mat.id: body.mat for body in ours if isinstance(body.mat, yade.FrictMat)}.values():
+        if not 0.0 <= material.frictionAngle < 0.5 * math.pi:
+            yield Finding(f"material {material.id} in O.materials has frictionAngle={material.frictionAngle:g}", "give radians in [0, pi/2)")
 
 
 def _laws(scene, ours, dispatchers):

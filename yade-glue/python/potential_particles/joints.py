@@ -1,9 +1,43 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The law of joints in the place of another, bonds of joints, and what the law needs before a scene steps."""
+"""The law of joints in the place of another, bonds of joints, what the law needs before a scene steps, and what engines give to joints."""
 
+import json
+import math
 import os
 
+from .arguments import radians
+
 LAW = "Law2_ScGeomConicPP_ConicJointPhys"
+# Of engines made by rock.joint_engine, whose tables stand in the scene's tags.
+FOLLOWS = "potential_particles.rock.scene.follow"
+_tables = {}
+
+
+def table(tag, text):
+    """{(lower id, higher id): values by name} of what an engine of rock.joint_engine gives contacts, from the text of its tag."""
+    known = _tables.get(tag)
+    if known is None or known[0] != text:
+        read = json.loads(text)
+        known = _tables[tag] = text, {(a, b): read["values"][str(entry)] for a, b, entry in read["pairs"]}
+    return known[1]
+
+
+def given_by_engines(scene):
+    """The same of all such engines of the scene together."""
+    found = {}
+    for engine in scene.engines:
+        command = getattr(engine, "command", "")
+        if FOLLOWS in command and not engine.dead:
+            tag = command.partition(FOLLOWS)[2].strip("('\")") or "potential_particles.rock"
+            found.update(table(tag, scene.tags[tag]))
+    return found
+
+
+def of_engine(values):
+    """Values of table() as attributes of ConicJointPhys, by name; stiffnesses of 0 are left out, which leave a joint its own."""
+    tangents = {f"tangensOf{name[0].upper()}{name[1:]}": math.tan(values[name]) for name in ("frictionAngle", "residualFrictionAngle")}
+    others = {name: float(value) for name, value in values.items() if not name.endswith("Angle") and not (name.endswith("Stiffness") and value <= 0.0)}
+    return {**tangents, **others}
 
 
 def require_patches(engines):
@@ -17,6 +51,14 @@ def require_patches(engines):
         # Beside another law a functor may serve that one.
         if without and (len(laws) == 1 or len(without) == len(ours)):
             raise ValueError(f"{LAW} needs the contact patch: give {', '.join(without)} the keyword patch=True")
+
+
+def require_angles(scene):
+    """ValueError where a ConicJointMat has a friction angle that is none: the attribute is YADE's, which takes any number."""
+    import yade
+    for material in scene.materials:
+        if isinstance(material, yade.ConicJointMat):
+            radians(material.frictionAngle, f"frictionAngle of ConicJointMat {material.id} in O.materials")
 
 
 def chosen():

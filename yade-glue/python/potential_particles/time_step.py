@@ -26,6 +26,7 @@ import numpy as np
 from . import rolling
 from .arguments import number, positive, whole
 from .bodies import image_shift, is_free
+from .joints import given_by_engines
 
 
 _CORNERS = np.array(list(itertools.product((False, True), repeat=3)))
@@ -36,7 +37,8 @@ def critical_time_step(stiffness=None, bodies=None, contacts=3, safety=0.5):
 
     stiffness: of a contact, N/m; None: from the scene's physics functor. For KnKsPhys that is Knormal, times the area of the body's largest
     circle where the contact functor computes areas (calContactArea); for laws with springs from E and radii (FrictPhys), young times
-    the bounding radius; for ConicJointMat its stiffness per area times the area of the largest circle. bodies: ids, default all; clumps move as
+    the bounding radius; for ConicJointMat its stiffness per area, or that of rock.joint_engine where it is larger, times the area of the largest circle. Where a joint is
+    stiffer in shear, that counts. bodies: ids, default all; clumps move as
     one body, with the contacts of their members. safety: share of the proved limit that is used, 0 to 1.
     ValueError where nothing moves or no stiffness is known.
     """
@@ -47,7 +49,7 @@ def critical_time_step(stiffness=None, bodies=None, contacts=3, safety=0.5):
     movers = _movers(scene, bodies)
     if not movers:
         raise ValueError("no body with a shape and a mass is free to move: there is no time step to find")
-    rule = stiffness_rule(scene, stiffness)
+    rule = stiffness_rule(scene, stiffness, in_shear=True)
     largest, damping = max(_eigenvalues(scene, movers), default=0.0), 0.0
     for body, parts in movers:
         mass = body.state.mass
@@ -132,8 +134,8 @@ def bounding_radius(body):
     raise ValueError(f"body {body.id} is a {type(shape).__name__} of unknown extent: use ConicPotentialParticle, or name other bodies")
 
 
-def stiffness_rule(scene, stiffness=None):
-    """Stiffness of a new contact of a body, N/m, as a function of body and bounding radius."""
+def stiffness_rule(scene, stiffness=None, in_shear=False):
+    """Stiffness of a new contact of a body along its normal, N/m, as a function of body and bounding radius; in_shear: the larger one of along and across."""
     if stiffness is not None:
         return lambda body, radius: stiffness
     loop = next((one for one in scene.engines if hasattr(one, "physDispatcher")), None)
@@ -141,19 +143,34 @@ def stiffness_rule(scene, stiffness=None):
     knormal = getattr(functor, "Knormal", None)
     if knormal is not None and number(knormal, "Knormal") > 0.0:
         with_area = any(getattr(one, "calContactArea", False) for one in loop.geomDispatcher.functors)
-        return lambda body, radius: knormal * (math.pi * radius**2 if with_area else 1.0)
+        most = max(knormal, number(functor.Kshear, "Kshear")) if in_shear and hasattr(functor, "Kshear") else knormal
+        return lambda body, radius: most * (math.pi * radius**2 if with_area else 1.0)
     if type(functor).__name__ == "Ip2_ConicJointMat_ConicJointMat_ConicJointPhys":
-        return lambda body, radius: _joint_stiffness(body, radius) * math.pi * radius**2
+        given = _given_to_bodies(scene, in_shear)
+        return lambda body, radius: max(_joint_stiffness(body, radius, in_shear), given.get(body.id, 0.0)) * math.pi * radius**2
     if functor is not None and type(functor).__name__.startswith("Ip2_FrictMat_FrictMat_"):
-        return lambda body, radius: positive(body.mat.young, f"young of the material of body {body.id}") * radius
+        return lambda body, radius: (positive(body.mat.young, f"young of the material of body {body.id}") * radius
+                                     * (max(1.0, body.mat.poisson) if in_shear else 1.0))
     raise ValueError("the scene has no physics functor with a known stiffness: set O.engines first, or give stiffness in N/m")
 
 
-def _joint_stiffness(body, radius):
+def _joint_stiffness(body, radius, in_shear):
     """Per area, N/m^3, the largest that a joint of this body can have: twice its own, if its neighbour is rigid."""
     material = body.mat
-    return 2.0 * (getattr(material, "normalStiffness", 0.0)
-                  or positive(material.young, f"young of the material of body {body.id}") / (2.0 * radius))
+    normal = (getattr(material, "normalStiffness", 0.0)
+              or positive(material.young, f"young of the material of body {body.id}") / (2.0 * radius))
+    shear = getattr(material, "shearStiffness", 0.0) or material.poisson * normal
+    return 2.0 * (max(normal, shear) if in_shear else normal)
+
+
+def _given_to_bodies(scene, in_shear):
+    """Per area, N/m^3, by id: the largest stiffness that an engine of rock.joint_engine gives a joint of the body."""
+    names = ("normalStiffness", "shearStiffness") if in_shear else ("normalStiffness",)
+    most = {}
+    for pair, values in given_by_engines(scene).items():
+        for one in pair:
+            most[one] = max(most.get(one, 0.0), *(values.get(name, 0.0) for name in names))
+    return most
 
 
 def _of_contact(scene, contact):

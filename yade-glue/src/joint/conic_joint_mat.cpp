@@ -34,6 +34,8 @@ void ConicJointMat::callPostLoad()
                                        { "residualCohesion", residualCohesion } })
         if (!(std::isfinite(value) && value >= 0))
             refuse(name, value, "give a stress, Pa, or 0 for none");
+    if (!(frictionAngle >= 0 && frictionAngle < 0.5 * M_PI))
+        refuse("frictionAngle", frictionAngle, "give radians in [0, pi/2)");
     if (!(residualFrictionAngle == -1 || (residualFrictionAngle >= 0 && residualFrictionAngle < 0.5 * M_PI)))
         refuse("residualFrictionAngle", residualFrictionAngle, "give radians in [0, pi/2), or -1 for frictionAngle");
     if (!(std::isfinite(softening) && softening >= 0))

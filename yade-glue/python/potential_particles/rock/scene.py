@@ -5,10 +5,13 @@ import math
 
 import numpy as np
 
-from ..arguments import number, positive, whole, within
+from ..arguments import number, positive, radians, whole, within
+from ..joints import FOLLOWS, of_engine, table
 from ..shape import Shape
 
 TAG = "potential_particles.rock"
+# After the tag of an engine: the step in which it ran last.
+_RAN = ".ran"
 
 #: Mask of fixed blocks; with avoidSelfInteractionMask=2 a collider passes over contacts between them.
 FIXED_MASK = 3
@@ -17,8 +20,19 @@ FIXED_MASK = 3
 TOUCH, ROUNDING = 1e-10, 1e-13
 
 
+class Ids(np.ndarray):
+    """An array of ids that gives one of them as an int, which O.bodies takes, as it does no number of numpy's."""
+
+    def __getitem__(self, which):
+        found = super().__getitem__(which)
+        return int(found) if isinstance(found, np.integer) else found
+
+    def __iter__(self):
+        return iter(self.tolist())
+
+
 def bodies(mass, material=None, r=0.05, fixed=(), overlap=None, color=None, **more):
-    """Appends the blocks of a RockMass to O.bodies; an array (blocks,) of the ids of their bodies.
+    """Appends the blocks of a RockMass to O.bodies; an array (blocks,) of the ids of their bodies, which gives a single one as an int.
 
     material: a Material, or the number or label of one in O.materials (None: the last). r: rounding of edges and corners as a share of twice the distance of
     the nearest face from the centroid; faces are flat (k = 0) and stay where they are, but for `overlap`, length, by which each is moved out, so that
@@ -46,7 +60,7 @@ def bodies(mass, material=None, r=0.05, fixed=(), overlap=None, color=None, **mo
         shade = _shade(one) if color is None else color(one) if callable(color) else color
         is_held = bool(held[mass.pieces[one]])
         made.append(body(shape, material, block.centroid, orientation, fixed=is_held, color=shade, **{**({"mask": FIXED_MASK} if is_held else {}), **more}))
-    ids = np.array(yade.O.bodies.append(made), int)
+    ids = np.array(yade.O.bodies.append(made), int).view(Ids)
     counts = np.bincount(mass.pieces, minlength=len(held))
     for piece in np.flatnonzero((counts > 1) & ~held):
         clump(ids[mass.pieces == piece].tolist(), lines=400)
@@ -59,6 +73,7 @@ def joint_engine(mass, ids, materials, period=1):
     mass, ids: as of bodies(). materials: for entries of the `joints` of slice() a Material: of a ConicJointMat friction angles, cohesion, tensile
     strength, softening and, where they are above 0, both stiffnesses count, but with KnKsPhys neither softening nor stiffnesses; of another FrictMat the friction angle. Contacts between blocks that were
     neighbours on a joint of these sets take them in the first step after they are made, looked for every `period` steps; all others keep what their bodies give them.
+    What a script makes of a joint later stays, also in a run that loads the scene.
     Saved with the scene, in O.tags; a script that loads it imports potential_particles. Each rock mass has an engine of its own.
     """
     import yade
@@ -72,17 +87,18 @@ def joint_engine(mass, ids, materials, period=1):
     for entry, material in materials.items():
         if not isinstance(material, yade.FrictMat):
             raise ValueError(f"materials[{entry!r}] is {type(material).__name__}: give a ConicJointMat or another FrictMat")
-    table = {"pairs": [[*pair, entry] for pair, (_, entry) in largest.items()],
-             "values": {str(int(entry)): _values(material) for entry, material in materials.items()}}
+        radians(material.frictionAngle, f"frictionAngle of materials[{entry!r}]")
+    written = {"pairs": [[*pair, entry] for pair, (_, entry) in largest.items()],
+               "values": {str(int(entry)): _values(material) for entry, material in materials.items()}}
     # Ids tell masses apart; blocks that take the ids of others take their place here, too.
     tag = f"{TAG}.{int(min(ids, default=0))}"
-    yade.O.tags[tag] = json.dumps(table)
-    return yade.PyRunner(command=f"import potential_particles.rock.scene; potential_particles.rock.scene.follow({tag!r})", iterPeriod=period, initRun=True)
+    yade.O.tags[tag] = json.dumps(written)
+    # Joints that there are take the new values.
+    yade.O.tags[tag + _RAN] = "-1"
+    return yade.PyRunner(command=f"import potential_particles.rock.scene; {FOLLOWS}({tag!r})", iterPeriod=period, initRun=True)
 
 
 _VALUES = ("frictionAngle", "residualFrictionAngle", "cohesion", "residualCohesion", "tensileStrength", "softening", "normalStiffness", "shearStiffness")
-# By tag.
-_known = {}
 
 
 def _values(material):
@@ -95,36 +111,33 @@ def _values(material):
 def follow(tag=TAG):
     """What joint_engine() does when it runs; without a tag, in scenes of earlier versions."""
     import yade
-    text = yade.O.tags[tag]
-    known = _known.setdefault(tag, {})
-    if known.get("text") != text:
-        table = json.loads(text)
-        known.update(text=text, since=-1, pairs={(a, b): table["values"][str(entry)] for a, b, entry in table["pairs"]})
-    if known["since"] > yade.O.iter:
-        known["since"] = -1
-    since, pairs = known["since"], known["pairs"]
-    for contact in yade.O.interactions:
-        if contact.isReal and contact.iterMadeReal >= since:
+    scene = yade.O
+    pairs = table(tag, scene.tags[tag])
+    # The step in which it ran last is saved with the scene: joints that have their values keep what a script has made of them, in a loaded run, too.
+    ran = tag + _RAN
+    since = int(scene.tags[ran]) if scene.tags.has_key(ran) else -1
+    if since > scene.iter:  # O.resetTime()
+        since = 0
+    for contact in scene.interactions:
+        if contact.isReal and since <= contact.iterMadeReal <= scene.iter:
             values = pairs.get((min(contact.id1, contact.id2), max(contact.id1, contact.id2)))
             if values is not None:
                 _give(contact.phys, values)
-    known["since"] = yade.O.iter
+    scene.tags[ran] = str(scene.iter)
 
 
 def _give(physics, values):
     import yade
-    physics.tangensOfFrictionAngle = math.tan(values["frictionAngle"])
-    if isinstance(physics, yade.KnKsPhys):
-        # Its law takes angles in degrees, and strength only of contacts that say that they have some.
-        physics.phi_b, physics.phi_r = (math.degrees(values[name]) for name in ("frictionAngle", "residualFrictionAngle"))
-        physics.cohesion, physics.tension = values.get("cohesion", 0.0), values.get("tensileStrength", 0.0)
-        physics.intactRock, physics.cohesionBroken, physics.tensionBroken = physics.cohesion > 0.0, physics.cohesion <= 0.0, physics.tension <= 0.0
+    if not isinstance(physics, yade.KnKsPhys):
+        for name, value in of_engine(values).items():
+            if hasattr(physics, name):
+                setattr(physics, name, value)
         return
-    if hasattr(physics, "tangensOfResidualFrictionAngle"):
-        physics.tangensOfResidualFrictionAngle = math.tan(values["residualFrictionAngle"])
-    for name in _VALUES[2:]:
-        if name in values and hasattr(physics, name) and not (name.endswith("Stiffness") and values[name] <= 0.0):
-            setattr(physics, name, values[name])
+    physics.tangensOfFrictionAngle = math.tan(values["frictionAngle"])
+    # Its law takes angles in degrees, and strength only of contacts that say that they have some.
+    physics.phi_b, physics.phi_r = (math.degrees(values[name]) for name in ("frictionAngle", "residualFrictionAngle"))
+    physics.cohesion, physics.tension = values.get("cohesion", 0.0), values.get("tensileStrength", 0.0)
+    physics.intactRock, physics.cohesionBroken, physics.tensionBroken = physics.cohesion > 0.0, physics.cohesion <= 0.0, physics.tension <= 0.0
 
 
 def excavate(ids, settle=0, slow=1e-3, check_every=100):
