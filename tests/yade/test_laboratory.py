@@ -405,8 +405,8 @@ inner = potential_particles.stress(press.width * press.height * press.depth)
 for axis, goal in enumerate((-1e4, -1e4, -1e4)):
     check.close(press.stress(2 * axis)[axis] / goal, 1.0, 1e-3, f"stress of the walls along {axis}")
     check.close(inner[axis, axis] / goal, 1.0, 1e-3, f"stress of the contacts along {axis}")
-# YADE never writes its porosity here: it is any number, or none.
-check.true(not abs(press.porosity - potential_particles.sampled_porosity((0, 0, 0), (1.998,) * 3)[0]) < 0.1 and utils.voxelPorosityTriaxial(press, 50) > 0.3, f"its porosity, {press.porosity}, and voxelPorosityTriaxial")
+# The controller's own porosity is memory that YADE never writes: nothing can be asked of it.
+check.true(utils.voxelPorosityTriaxial(press, 50) > 0.3, "voxelPorosityTriaxial knows spheres alone")
 press = loaded(w.TriaxialStressController(internalCompaction=True, **goals))
 check.true(any("internalCompaction=False" in one for one in told(lambda: run(2000))), "internalCompaction is told")
 check.true(abs(press.stress(2)[1] / -1e4 - 1) > 0.1, "and does nothing")
