@@ -11,7 +11,7 @@ import potential_particles
 from potential_particles import shapes
 from yade import (BoundWatch, Bo1_ConicPP_Aabb, Bo1_Facet_Aabb, Bo1_Wall_Aabb, ConicInteractionLoop, ForceResetter, FrictMat, Ig2_ConicPP_ConicPP_ScGeom,
                   Ig2_Facet_ConicPP_ScGeom, Ig2_Wall_ConicPP_ScGeom, InsertionSortCollider, Ip2_FrictMat_FrictMat_FrictPhys,
-                  Law2_ScGeom_FrictPhys_CundallStrack, NewtonIntegrator, O, RotationEngine, TranslationEngine, utils)
+                  Law2_ScGeom_FrictPhys_CundallStrack, NewtonIntegrator, O, RotationEngine, TranslationEngine, Vector3, utils)
 
 DIAMETER = 0.045  # intermediate extent of a rock, m
 BOUNDARY_MASK = 3  # bit 2 is the boundaries' own: no pairs of two of them
@@ -19,7 +19,7 @@ FIELDS = ("planes", "r", "k", "R", "volume", "inertia", "error", "centroid", "or
 FLOOR_CELL, FLOOR_WAVE = 0.02, 0.004  # legs of a facet, height of the floor's waves, m
 DRUM_RADIUS, DRUM_LENGTH, DRUM_SPEED = 0.6, 0.6, 1.0  # m, rad/s
 OUTLET, MOUTH, HOPPER = 0.15, 0.75, 0.9  # radii of the hopper and its height, m
-BOX, COMPRESSION = 0.6, 0.2  # edge, m; speed of the lid, m/s
+BOX, LID, COMPRESSION = 0.6, 0.55, 0.4  # edge and first height of the lid, m; its speed, m/s
 
 
 def facets(strips):
@@ -69,8 +69,7 @@ def in_hopper(settling):
 
 
 def compressed(settling):
-    walls([(side * 0.5 * BOX, axis, -side) for axis in (0, 1) for side in (-1, 1)] + [(0, 2, 1)])
-    lid, = walls([(1.4 * BOX, 2, -1)])
+    *_, lid = walls([(side * 0.5 * BOX, axis, -side) for axis in (0, 1) for side in (-1, 1)] + [(0, 2, 1), (LID, 2, -1)])
     return [TranslationEngine(ids=[lid], translationAxis=(0, 0, -1), velocity=COMPRESSION, label="mover")]
 
 
@@ -86,15 +85,17 @@ KINDS = {
     "5,000 facets": Kind(on_floor, 256, 3000, ((0, 0, 0.03), (1, 1, 0.3))),
     "5,000 facets and 45,000 far off": Kind(on_floor_of_two, 256, 3000, ((0, 0, 0.03), (1, 1, 0.3))),
     "drum": Kind(in_drum, 2000, 8000, ((-0.42, 0, -0.42), (0.42, DRUM_LENGTH, 0.42))),
-    "hopper": Kind(in_hopper, 1000, 4000, ((-0.4, -0.4, 0.55), (0.4, 0.4, 1.3))),
-    "compression": Kind(compressed, 1000, 6000, ((-0.5 * BOX, -0.5 * BOX, 0), (0.5 * BOX, 0.5 * BOX, 1.4 * BOX))),
+    "hopper": Kind(in_hopper, 1000, 15000, ((-0.4, -0.4, 0.55), (0.4, 0.4, 1.3))),
+    "compression": Kind(compressed, 1000, 10000, ((-0.5 * BOX, -0.5 * BOX, 0), (0.5 * BOX, 0.5 * BOX, LID))),
 }
 
 
 def start(kind, rocks, settling):
-    """Boundaries, engines and the rocks: rows of the number of their shape, position, orientation (w, x, y, z), velocity, spin. Gives the rocks' ids."""
+    """Boundaries, engines and the rocks, from what states() has of them and the numbers of their shapes. Gives the rocks' ids."""
     O.materials.append(FrictMat(young=2e7, poisson=0.3, frictionAngle=np.radians(30), density=2650))
     movers = kind.boundaries(settling)
+    for body, position, orientation in zip(O.bodies, *(rocks.get("boundaries", {}).get(part, ()) for part in ("pos", "ori"))):
+        body.state.pos, body.state.ori = position, type(body.state.ori)(*orientation)
     functors = [Ig2_ConicPP_ConicPP_ScGeom(), Ig2_Facet_ConicPP_ScGeom(), Ig2_Wall_ConicPP_ScGeom()]
     O.engines = [ForceResetter(label="reset"), BoundWatch(label="watch"),
                  InsertionSortCollider([Bo1_ConicPP_Aabb(), Bo1_Facet_Aabb(), Bo1_Wall_Aabb()], verletDist=0.05 * DIAMETER, avoidSelfInteractionMask=2, label="collider"),
@@ -103,10 +104,11 @@ def start(kind, rocks, settling):
     made = [shapes.Shape(**definition) for definition in rocks["shapes"]]
     ids = []
     for which, position, orientation, velocity, spin in zip(*(rocks[part] for part in ("which", "pos", "ori", "vel", "angVel"))):
-        body = potential_particles.body(made[which])
-        state = body.state
-        state.pos, state.vel, state.angVel = position, velocity, spin
-        state.ori = type(state.ori)(*orientation)
+        body = potential_particles.body(made[which], velocity=velocity, angular_velocity=spin)
+        body.state.pos, body.state.ori = position, type(body.state.ori)(*orientation)
+        # YADE goes on from the angular momentum, which body() has for the orientation that it was given.
+        inwards = body.state.ori.conjugate()
+        body.state.angMom = body.state.ori * Vector3(*(i * w for i, w in zip(body.state.inertia, inwards * Vector3(*spin))))
         ids.append(O.bodies.append(body))
     return ids
 
@@ -125,7 +127,7 @@ def settle(kind, path):
     ids = start(kind, rocks, settling=True)
     O.dt = potential_particles.critical_time_step()
     O.run(kind.settling, True)
-    rocks |= states([O.bodies[i] for i in ids]) | {"dt": O.dt}
+    rocks |= states([O.bodies[i] for i in ids]) | {"dt": O.dt, "boundaries": states([body for body in O.bodies if body.id < ids[0]])}
     path.write_bytes(pickle.dumps(rocks))
     O.reset()
 

@@ -53,7 +53,7 @@ pub struct Contact {
     pub point_bound: f64,
     /// Overlap, length, ≥ 0 when overlapping (0 where s < 1 by rounding alone); NaN when separated.
     pub overlap: f64,
-    /// Separated: lower bound on the distance between the particles, length, with the rounding of their bounding volumes estimated; 0 when
+    /// Separated: lower bound on the distance between the particles, length, with the rounding of s and of their bounding volumes estimated; 0 when
     /// none is known, as for pairs that were solved to the end. NaN when overlapping.
     pub distance: f64,
     /// Unit normal from A to B.

@@ -97,8 +97,8 @@ pub fn detect(
     detect_as((a, pose_a), (b, pose_b), settings, state, identity)
 }
 
-/// What makes the form T of a contact that the caller asked for. Any closure does; a type may have it taken into each place where a contact comes
-/// into being, which no closure can say of itself.
+/// What makes the form T of a contact that the caller asked for. Any closure does; a type of its own may be `inline(always)`, which cannot be
+/// put on a closure.
 pub(crate) trait Form<T> {
     fn of(&self, contact: Contact) -> T;
 }

@@ -132,6 +132,7 @@ fn beyond_a_face(
 mod tests {
     use super::*;
     use crate::pair::scattered;
+    use crate::particle::plane::Plane;
     use crate::{Kind, PairState, Settings, detect};
 
     fn cube() -> Particle {
@@ -172,6 +173,12 @@ mod tests {
         assert!(seen.iter().all(|&count| count > 100), "{seen:?}");
     }
 
+    /// A ball cut by one plane, with a normal of that length.
+    fn cap(length: f64) -> Particle {
+        let plane = Plane { normal: length * Vector3::z(), offset: 0.1 * length };
+        Particle::new(&[plane], 0.05 * length, 0.01, 0.5).unwrap()
+    }
+
     /// A little further apart than where they touch, where no other proof than the solution is found.
     #[test]
     fn particles_that_are_solved_apart_do_not_meet_within_their_distance() {
@@ -180,16 +187,20 @@ mod tests {
             Particle::cube(0.5, 1e-3, 0.0, 0.0),
             Particle::cube(0.45, 0.05, 0.3, 0.8),
             cube().scaled(1e-3).unwrap(),
+            // Of a single plane nothing is lost where it faces the other.
+            cap(1.0),
+            cap(1e3),
         ];
         let mut solved = 0;
         for seed in 0..600 {
             let mut chance = scattered(500 * seed);
             let mut vector = || Vector3::from_fn(|_, _| chance());
-            let (a, b) = (&shapes[seed % 4], &shapes[seed / 4 % 4]);
+            let (a, b) = (&shapes[seed % 6], &shapes[seed / 6 % 6]);
             let (direction, turn, other) = (vector().normalize(), vector(), vector());
             let pose_a = Pose::new([0.0; 3], [0.5, turn.x, turn.y, turn.z]).unwrap();
             let at = |position: Vector3<f64>| Pose::new(position.into(), [0.5, other.x, other.y, other.z]).unwrap();
             let look = |position| detect(a, &pose_a, b, &at(position), &Settings::default(), None).unwrap();
+            let to_the_end = Settings::default().with_solve_separated(true);
             let (mut deep, mut apart) = (0.0, a.bounding_radius() + b.bounding_radius());
             for _ in 0..30 {
                 let middle = 0.5 * (deep + apart);
@@ -203,7 +214,8 @@ mod tests {
                 // No more than the way back to where they touch.
                 assert!(contact.distance <= 1.001 * ((1.0 + share) * apart - deep), "{contact:?}");
                 solved += usize::from(contact.flags == Flags::REJECTED && contact.iterations > 0);
-                for towards in [-direction, vector().normalize(), vector().normalize()] {
+                let normal = detect(a, &pose_a, b, &at(position), &to_the_end, None).unwrap().normal;
+                for towards in [-normal, -direction, vector().normalize()] {
                     let then = look(position + 0.999_999 * contact.distance * towards);
                     assert_eq!(then.kind, Kind::Separated, "{contact:?} moved along {towards:?}");
                 }

@@ -31,7 +31,7 @@ const RADIAL: f64 = 0.1;
 /// Relative distance from a straight line up to which a border counts as straight: the loads of flat cells are then polynomials.
 const STRAIGHT: f64 = 1e-7;
 
-/// Where the ray in the middle of a sector is so much longer than half the chord, the sector has a tip, and the part of its load by which
+/// Where the ray in the middle of a sector is so many times as long as the way to the middle of the chord between its ends, the sector has a tip, and the part of its load by which
 /// three rays are wrong there at most, about.
 const TIP: f64 = 2.0;
 const OF_TIP: f64 = 0.1;

@@ -64,7 +64,10 @@ fn body(faces: &[Plane], points: &[Vector3<f64>]) -> Result<Block, ShapeError> {
     });
     let planes: Vec<Plane> = sides.chain(faces.iter().copied()).collect();
     let flat = ShapeError::Flat(points.len());
-    let body = block(&planes).map_err(|_| flat.clone())?;
+    let body = block(&planes).map_err(|error| match error {
+        ShapeError::Empty | ShapeError::Open => flat.clone(),
+        other => other,
+    })?;
     let is_open = body.faces.iter().any(|face| matches!(face.of, FaceOf::Domain(side) if side < 6));
     if is_open { Err(flat) } else { Ok(body) }
 }
