@@ -421,9 +421,9 @@ typedef struct pp_contact {
     double point_on_a[3];
     // Point on the surface of B inside A, world frame; P2 of closest. NaN when separated.
     double point_on_b[3];
-    // Separated: lower bound on the distance between the two particles, length, with the rounding of s and of their
-    // bounding volumes estimated; 0 when none is known, as for pairs that were solved to the end. NaN when
-    // overlapping.
+    // Separated: lower bound on the distance between the two particles, length, with the rounding of s and
+    // of their bounding volumes estimated; 0 when none is known, as for pairs that were solved to the end.
+    // NaN when overlapping.
     double distance;
 } pp_contact;
 
@@ -763,9 +763,9 @@ typedef struct pp_contact_2d {
     double point_on_a[2];
     // Point on the boundary of B inside A, world frame; P2 of closest. NaN when separated.
     double point_on_b[2];
-    // Separated: lower bound on the distance between the two particles, length, with the rounding of s and of their
-    // bounding volumes estimated; 0 when none is known, as for pairs that were solved to the end. NaN when
-    // overlapping.
+    // Separated: lower bound on the distance between the two particles, length, with the rounding of s and
+    // of their bounding volumes estimated; 0 when none is known, as for pairs that were solved to the end.
+    // NaN when overlapping.
     double distance;
 } pp_contact_2d;
 

@@ -157,9 +157,9 @@ pub struct pp_contact {
     pub point_on_a: [f64; 3],
     /// Point on the surface of B inside A, world frame; P2 of closest. NaN when separated.
     pub point_on_b: [f64; 3],
-    /// Separated: lower bound on the distance between the two particles, length, with the rounding of s and of their
-    /// bounding volumes estimated; 0 when none is known, as for pairs that were solved to the end. NaN when
-    /// overlapping.
+    /// Separated: lower bound on the distance between the two particles, length, with the rounding of s and
+    /// of their bounding volumes estimated; 0 when none is known, as for pairs that were solved to the end.
+    /// NaN when overlapping.
     pub distance: f64,
 }
 

@@ -58,9 +58,9 @@ pub struct pp_contact_2d {
     pub point_on_a: [f64; 2],
     /// Point on the boundary of B inside A, world frame; P2 of closest. NaN when separated.
     pub point_on_b: [f64; 2],
-    /// Separated: lower bound on the distance between the two particles, length, with the rounding of s and of their
-    /// bounding volumes estimated; 0 when none is known, as for pairs that were solved to the end. NaN when
-    /// overlapping.
+    /// Separated: lower bound on the distance between the two particles, length, with the rounding of s and
+    /// of their bounding volumes estimated; 0 when none is known, as for pairs that were solved to the end.
+    /// NaN when overlapping.
     pub distance: f64,
 }
 
