@@ -62,7 +62,8 @@ def in_drum(settling):
 
 def in_hopper(settling):
     circle, levels = np.linspace(0, 2 * np.pi, 73), np.linspace(0, 1, 37)
-    facets([[(r * np.cos(a), r * np.sin(a), HOPPER * level) for a in circle] for level in levels for r in (OUTLET + (MOUTH - OUTLET) * level,)])
+    radius = lambda level: OUTLET + (MOUTH - OUTLET) * level
+    facets([[(radius(level) * np.cos(a), radius(level) * np.sin(a), HOPPER * level) for a in circle] for level in levels])
     if settling:
         walls([(0, 2, 1)])
     return []

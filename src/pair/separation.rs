@@ -27,8 +27,8 @@ impl Apart {
     }
 }
 
-/// Lower bound on the distance of two particles for which midway has s > 1: at a point between them s of either is above 1 by no more than its slope
-/// takes it to over the way there.
+/// Lower bound on the distance of two particles for which midway has s ≥ `low`. s is 1 on the surface and has the Lipschitz constant 1/ℓ, so that at
+/// the point that divides a gap d as ℓ_A : ℓ_B both s are at most 1 + d/(ℓ_A + ℓ_B).
 pub(crate) fn distance_of_scale(pair: &Pair, low: f64) -> f64 {
     larger(low - 1.0, 0.0) * (pair.a.slope_length + pair.b.slope_length) * (1.0 - MARGIN)
 }

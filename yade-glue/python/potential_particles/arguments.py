@@ -32,13 +32,18 @@ def within(value, low, high, name):
     return found
 
 
+def is_friction_angle(value):
+    """Whether it is in [0, pi/2)."""
+    return 0.0 <= value < 0.5 * math.pi
+
+
 def radians(value, name):
     """An angle of friction in [0, pi/2), or ValueError."""
     try:
         found = float(value)
     except (TypeError, ValueError):
         raise ValueError(f"{name} = {value!r} is no number: give radians in [0, pi/2)") from None
-    if not 0.0 <= found < 0.5 * math.pi:
+    if not is_friction_angle(found):
         raise ValueError(f"{name} = {found:g}: give radians in [0, pi/2)")
     return found
 

@@ -8,6 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from . import time_step, unserved
+from .arguments import is_friction_angle
 from .bodies import is_free
 from .clumps import union
 from .measures import largest_overlap
@@ -167,7 +168,7 @@ def _controllers(scene):
 
 def _angles(yade, ours):
     for material in {body.mat.id: body.mat for body in ours if isinstance(body.mat, yade.FrictMat)}.values():
-        if not 0.0 <= material.frictionAngle < 0.5 * math.pi:
+        if not is_friction_angle(material.frictionAngle):
             yield Finding(f"material {material.id} in O.materials has frictionAngle={material.frictionAngle:g}", "give radians in [0, pi/2)")
 
 
