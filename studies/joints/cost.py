@@ -19,11 +19,11 @@ def _pyramid():
 
 
 def _cubes(falling):
-    """Five layers: with a gap of 1e-3 of the size below each if they fall, else sunk in about as far as the layers above press."""
+    """Five layers: with a gap of 1e-6 of the size below each if they fall, so that all meet in the first steps, else sunk in about as far as the layers above press."""
     edge, sinking = math.ceil(math.sqrt(NUMBER / 5)), 4.5e-5 * SIZE
     drops = [0.0]
     for layer in range(5):
-        drops.append(drops[-1] + (-1e-3 * SIZE if falling else (5 - layer) * sinking))
+        drops.append(drops[-1] + (-1e-6 * SIZE if falling else (5 - layer) * sinking))
     for n in range(NUMBER):
         layer, rest = divmod(n, edge * edge)
         add(block_shape((SIZE,) * 3, r=R), (1.001 * SIZE * (rest % edge), 1.001 * SIZE * (rest // edge), (layer + 0.5) * SIZE - drops[layer + 1]),
