@@ -17,6 +17,8 @@ struct LawParameters {
     double normalStiffness = 0, shearStiffness = 0; // force/length
     double friction = 0; // coefficient
     double dampingRatio = 0; // of the dashpots to the critical ones of the two masses
+
+    double stiffest() const { return std::max(normalStiffness, shearStiffness); }
 };
 
 // What a contact carries from step to step. Vectors in world axes, forces on B.

@@ -4,9 +4,11 @@
 
 #include "atom.h"
 #include "comm.h"
+#include "error.h"
 
 #include <algorithm>
 #include <cstring>
+#include <unordered_map>
 #include <utility>
 
 using namespace LAMMPS_NS;
@@ -37,6 +39,24 @@ int ContactMemory::setmask()
     return PRE_EXCHANGE | POST_NEIGHBOR | MIN_PRE_EXCHANGE | MIN_POST_NEIGHBOR | POST_RUN;
 }
 
+// Where the atoms are that were local when the list was built; -1: deleted. A fix that deletes atoms moves others into their place.
+std::vector<int> ContactMemory::placesNow(int local) const
+{
+    std::vector<int> places(local);
+    std::unordered_map<tagint, int> byId;
+    for (int i = 0; i < local; ++i) {
+        places[i] = i;
+        if (i < atom->nlocal && atom->tag[i] == pair->tagAtBuild(i))
+            continue;
+        if (byId.empty())
+            for (int k = 0; k < atom->nlocal; ++k)
+                byId[atom->tag[k]] = k;
+        const auto found = byId.find(pair->tagAtBuild(i));
+        places[i] = found == byId.end() ? -1 : found->second;
+    }
+    return places;
+}
+
 void ContactMemory::collect()
 {
     if (!pair || !listIsNewer)
@@ -45,12 +65,13 @@ void ContactMemory::collect()
     values.clear();
     std::fill(ranges.begin(), ranges.end(), Range {});
     const int slots = pair->slotCount(), local = pair->localAtBuild();
+    const std::vector<int> places = placesNow(local);
     const auto forEachLocal = [&](int slot, auto&& doWith) {
         const auto [a, b] = pair->bodiesOf(slot);
-        if (a < local)
-            doWith(a, b);
-        if (b < local)
-            doWith(b, a);
+        if (a < local && places[a] >= 0)
+            doWith(places[a], b);
+        if (b < local && places[b] >= 0)
+            doWith(places[b], a);
     };
     for (int slot = 0; slot < slots; ++slot)
         forEachLocal(slot, [&](int i, int) { ++ranges[i].count; });
@@ -64,8 +85,19 @@ void ContactMemory::collect()
     for (int slot = 0; slot < slots; ++slot)
         forEachLocal(slot, [&](int i, int j) { partners[ranges[i].first + ranges[i].count++] = { pair->tagAtBuild(j), slot }; });
     maxexchange = 1;
-    for (int i = 0; i < local; ++i)
+    for (int i = 0; i < atom->nlocal; ++i) {
+        ranges[i].own = atom->tag[i];
         maxexchange = std::max(maxexchange, sizeOf(i));
+    }
+}
+
+// Partners are known by their IDs.
+void ContactMemory::checkIds() const
+{
+    for (int i = 0; pair && i < atom->nlocal; ++i)
+        if (ranges[i].own && ranges[i].own != atom->tag[i] && sizeOf(i) > 1)
+            error->one(FLERR, "pair_style potential/particle: the atom of ID {} has the ID {} now, and contacts know their bodies by IDs: give 'compress no' to delete_atoms, and "
+                "leave out 'reset_atoms id'", ranges[i].own, atom->tag[i]);
 }
 
 bool ContactMemory::lasts(const Partner& partner) const { return partner.where < 0 || pair->lasts(partner.where); }
@@ -118,6 +150,7 @@ void ContactMemory::attach(PairPotentialParticle* style)
 void ContactMemory::write_restart(FILE* file)
 {
     collect();
+    checkIds();
     std::array<double, 5> own {}, all {};
     if (pair)
         for (size_t n = 0; n < own.size(); ++n)

@@ -21,6 +21,7 @@ public:
     ~ContactMemory() override;
 
     int setmask() override;
+    void setup_pre_exchange() override { checkIds(); }
     void pre_exchange() override { collect(); }
     void post_neighbor() override;
     void setup_post_neighbor() override { post_neighbor(); }
@@ -66,11 +67,14 @@ private:
     };
     struct Range {
         int first = 0, count = 0;
+        LAMMPS_NS::tagint own = 0; // the atom's own ID, when the partners were written down here
     };
 
     PairPotentialParticle* pair = nullptr;
 
     void collect();
+    void checkIds() const;
+    std::vector<int> placesNow(int local) const;
     // Whether a partner is remembered, beyond this list of neighbours; how many numbers.
     bool lasts(const Partner& partner) const;
     int countOf(const Partner& partner) const;

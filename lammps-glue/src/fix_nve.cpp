@@ -6,6 +6,7 @@
 #include "atom.h"
 #include "error.h"
 #include "update.h"
+#include "utils.h"
 
 using namespace LAMMPS_NS;
 using Eigen::Map;
@@ -34,7 +35,12 @@ FixNve::FixNve(LAMMPS* lmp, int count, char** arguments)
 
 int FixNve::setmask() { return FixConst::INITIAL_INTEGRATE | FixConst::FINAL_INTEGRATE; }
 
-void FixNve::init() { shapes = FixShapes::of(lmp, style); }
+void FixNve::init()
+{
+    shapes = FixShapes::of(lmp, style);
+    if (utils::strmatch(update->integrate_style, "^respa"))
+        error->all(FLERR, "{}: it has one time step for all forces: use 'run_style verlet'", style);
+}
 
 void FixNve::push()
 {

@@ -7,6 +7,7 @@
 #include "modify.h"
 #include "utils.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <random>
@@ -148,6 +149,14 @@ void FixShapes::set_arrays(int i)
         q[n] = 0;
     if (atom->tag[i] > 0)
         orient(q, atom->tag[i]);
+}
+
+double FixShapes::largestRadius() const
+{
+    double largest = 0;
+    for (int type = 1; type <= atom->ntypes; ++type)
+        largest = std::max(largest, shape(type).radius);
+    return largest;
 }
 
 double FixShapes::memory_usage() { return static_cast<double>(shapes.size()) * sizeof(Shape); }

@@ -26,6 +26,7 @@ public:
     double memory_usage() override;
 
     const Shape& shape(int type) const { return shapes[ofType[type]]; }
+    double largestRadius() const;
     double density(int type) const { return densities[type]; }
     double** orientations() const; // of local atoms, rows w x y z
 

@@ -5,6 +5,7 @@
 
 #include "atom.h"
 #include "comm.h"
+#include "domain.h"
 #include "error.h"
 #include "neighbor.h"
 #include "update.h"
@@ -36,18 +37,53 @@ void FixWall::init() { shapes = FixShapes::of(lmp, std::string("fix ") + style);
 
 void FixWall::setup(int flags)
 {
-    const double time = timeNow();
-    if (comm->me == 0 && time < lastTime && (linear.norm() > 0 || rate != 0))
-        error->warning(FLERR, "{} {}: the time has gone back from {} to {}, and with it the wall to where it was then; 'reset_timestep {} time {}' leaves it where it is",
-                       style, id, lastTime, time, update->ntimestep, lastTime);
+    if (const double time = timeNow(); time != lastTime) {
+        start += time - lastTime;
+        lastTime = time;
+    }
+    checkTimeStep();
+    checkBorder();
     post_force(flags);
+}
+
+// As for contacts of pairs. Of a patch the area is not known before there is one.
+void FixWall::checkTimeStep() const
+{
+    for (int i = 0; !byPatch && i < atom->nlocal; ++i) {
+        const double most = 2 * std::sqrt(atom->rmass[i] / law.stiffest());
+        if ((atom->mask[i] & groupbit) && update->dt > most)
+            error->one(FLERR, "{} {}: timestep = {}: a contact of atom {} is unstable above {}, and with levers well below: take {} or less", style, id, update->dt,
+                atom->tag[i], most, 0.1 * most);
+    }
+}
+
+// A body beyond a periodic border meets the wall as it is there, not as it is at the border across.
+void FixWall::checkBorder() const
+{
+    const double reach = shapes->largestRadius();
+    for (int d = 0; comm->me == 0 && d < 3; ++d) {
+        if (!domain->periodicity[d])
+            continue;
+        bool ends = false;
+        for (const bool high : { false, true }) {
+            const double border = high ? domain->boxhi[d] : domain->boxlo[d];
+            for (const Plane& plane : planes) {
+                const double slope = std::abs(plane.normal[d]);
+                ends |= slope > 0 && (slope < 1 || std::abs(plane.point[d] - border) < reach);
+            }
+            ends |= mesh && std::abs((high ? mesh->high() : mesh->low())[d] - border) < reach;
+        }
+        if (ends)
+            error->warning(FLERR, "{} {}: the box is periodic in {}, the wall is not: bodies across the border do not meet what of it is at the other side; let the mesh go on by {} "
+                "beyond the border, or leave that border free", style, id, "xyz"[d], reach);
+    }
 }
 
 double FixWall::timeNow() const { return update->atime + static_cast<double>(update->ntimestep - update->atimestep) * update->dt; }
 
 FixWall::Frame FixWall::frameNow() const
 {
-    const double time = timeNow();
+    const double time = lastTime - start;
     return { Quaterniond(Eigen::AngleAxisd(std::fmod(rate * time, 2 * M_PI), axis)), centre + time * linear, linear, rate * axis };
 }
 
@@ -65,8 +101,8 @@ bool FixWall::shareVertex(int element, int other) const
 void FixWall::post_force(int)
 {
     own[contacts] = own[elastic] = own[forceX] = own[forceY] = own[forceZ] = 0;
-    const Frame frame = frameNow();
     lastTime = timeNow();
+    const Frame frame = frameNow();
     const bool advance = !update->setupflag;
     size_t most = 0;
     for (int i = 0; i < atom->nlocal; ++i)

@@ -4,7 +4,7 @@
 //     [plane X Y Z NX NY NZ] ... [stl FILE [scale S]] [flat EPS] [linear VX VY VZ] [rotate X Y Z AX AY AZ PERIOD]
 //     [patch TOL [cohesion C] [residual FRICTION COHESION] [whole STEP]]
 //
-// Planes and one mesh, which may move together as one rigid body: at time 0 they are where the command says. Bodies are put into the frame of the wall,
+// Planes and one mesh, which may move together as one rigid body, from where the command says, from when it is given. Bodies are put into the frame of the wall,
 // so that its triangles are sorted into cells once, and planes and triangles that are apart sleep until the body has come as far. As a vector: contacts, elastic energy, energy that friction and dashpots took,
 // the force on the wall, and with `patch` the energy that patches took as they grew and shrank and that breaking took. Triangles then add up: each has
 // the pressure that lies on it.
@@ -86,6 +86,8 @@ private:
     double numberAt(char** arguments, int i, const char* what) const;
     Frame frameNow() const;
     double timeNow() const;
+    void checkTimeStep() const;
+    void checkBorder() const;
     Eigen::Vector3d intoWall(const Frame& frame, const Eigen::Vector3d& x) const;
     void meet(int i, const Frame& frame, bool advance);
     void lookAround(Surroundings& here, double radius);
@@ -105,7 +107,8 @@ private:
     LawParameters law;
     bool byPatch = false;
     double patchTolerance = 1e-4;
-    double lastTime = 0; // at which it was where it is
+    // The simulation's time when the wall was where the command says, and when it moved last: where the time was reset in between, the first goes with it.
+    double start = 0, lastTime = 0;
     LAMMPS_NS::bigint wholeBefore = 1;
     JointParameters joint;
     pp_settings how;

@@ -20,6 +20,8 @@ public:
     size_t size() const { return corners.size(); }
     const std::array<int, 3>& triangle(int t) const { return corners[t]; } // indices of vertices, which triangles share
     const Eigen::Vector3d& vertex(int v) const { return vertices[v]; }
+    const Eigen::Vector3d& low() const { return lowest; } // of the box around all vertices
+    const Eigen::Vector3d& high() const { return highest; }
     // Nine numbers, as the library takes them.
     std::array<double, 9> points(int t) const;
 

@@ -139,7 +139,7 @@ double PairPotentialParticle::init_one(int i, int j)
     if (byPatch)
         return a.radius + b.radius;
     const double massA = shapes->density(i) * a.volume, massB = shapes->density(j) * b.volume;
-    const double most = 2 * std::sqrt(massA * massB / (massA + massB) / laws[i * (atom->ntypes + 1) + j].normalStiffness);
+    const double most = 2 * std::sqrt(massA * massB / (massA + massB) / laws[i * (atom->ntypes + 1) + j].stiffest());
     if (update->dt > most)
         error->all(FLERR, "{}: timestep = {}: a contact of types {} and {} is unstable above {}, and with levers well below: take {} or less", style,
             update->dt, i, j, most, 0.1 * most);

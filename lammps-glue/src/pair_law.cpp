@@ -64,7 +64,8 @@ void PairPotentialParticle::actInPoint(int slot)
     motion.normal = vector(found.normal);
     motion.velocity = vector(atom->v[b]) + turnB.cross(armB) - vector(atom->v[a]) - turnA.cross(armA);
     motion.spin = 0.5 * motion.normal.dot(turnA + turnB);
-    motion.mass = atom->rmass[a] * atom->rmass[b] / (atom->rmass[a] + atom->rmass[b]);
+    const double inverse = inverseMass(a) + inverseMass(b);
+    motion.mass = inverse > 0 ? 1 / inverse : 0; // two that no force moves need no dashpot
     const LawParameters& law = laws[atom->type[a] * (atom->ntypes + 1) + atom->type[b]];
     const ContactForce force = contactForce(law, motion, update->dt, advance, histories[slot]);
     push(a, -force.onB, -armA.cross(force.onB));
@@ -73,14 +74,17 @@ void PairPotentialParticle::actInPoint(int slot)
     count(a, b, force.onB, { force.elastic, force.slid, force.damped, 0, 0 });
 }
 
+bool PairPotentialParticle::isMoved(int i) const { return !moving || (atom->mask[i] & moving); }
+
+double PairPotentialParticle::inverseMass(int i) const { return isMoved(i) ? 1 / atom->rmass[i] : 0; }
+
 JointBody PairPotentialParticle::bodyOf(int i) const
 {
     const double* q = poses[i].orientation;
     const Shape& shape = shapes->shape(atom->type[i]);
     JointBody body { vector(poses[i].position), Eigen::Quaterniond(q[0], q[1], q[2], q[3]), vector(atom->v[i]), vector(atom->omega[i]), {} };
-    if (!moving || (atom->mask[i] & moving)) {
+    if (isMoved(i))
         body.mass = { Vector3d::Constant(atom->rmass[i]), atom->rmass[i] / shape.volume * shape.moments, body.centre, body.turn };
-    }
     return body;
 }
 
@@ -153,7 +157,7 @@ void PairPotentialParticle::actOnPatch(int slot)
 
 void PairPotentialParticle::checkTimeStep(int a, int b, const JointForces& forces) const
 {
-    const double square = 4 / (forces.normalStiffness * (1 / atom->rmass[a] + 1 / atom->rmass[b]));
+    const double square = 4 / (forces.normalStiffness * (inverseMass(a) + inverseMass(b)));
     if (update->dt * update->dt > square)
         error->one(FLERR, "{}: timestep = {}: the joint of atoms {} and {}, of stiffness {}, is unstable above {}, and with levers well below: take {} or less",
             style, update->dt, atom->tag[a], atom->tag[b], forces.normalStiffness, std::sqrt(square), 0.1 * std::sqrt(square));

@@ -236,6 +236,18 @@ void PairPotentialParticle::checkSkin()
     }
 }
 
+// Other fixes that turn bodies do not know of orientations.
+void PairPotentialParticle::checkTurns()
+{
+    for (int i = 0; !toldOfTurns && i < local; ++i)
+        if (!(atom->mask[i] & moving) && vector(atom->omega[i]) != Vector3d::Zero()) {
+            const auto* w = atom->omega[i];
+            error->warning(FLERR, "{}: atom {} has the angular velocity {} {} {}, and no fix nve/potential/particle moves it: its orientation stays as it is", style,
+                atom->tag[i], w[0], w[1], w[2]);
+            toldOfTurns = true;
+        }
+}
+
 bool PairPotentialParticle::sleeps(const pp_contact& found, int a, int b) const
 {
     return found.kind == PP_SEPARATED && found.distance > farShare * (radii[a] + radii[b]);
@@ -347,6 +359,7 @@ void PairPotentialParticle::compute(int eflag, int vflag)
     advance = !update->setupflag;
     pvector[contacts] = pvector[elastic] = pvector[bonds] = pvector[fallbacks] = 0;
     checkSkin();
+    checkTurns();
     gatherPoses();
     solveNear();
     lookAtFar();

@@ -73,6 +73,7 @@ private:
     void gatherPoses();
     void checkBonds(int before);
     void checkSkin();
+    void checkTurns();
     double apart(int a, int b) const; // distance of their balls
     void solveNear();
     void lookAtFar();
@@ -86,6 +87,8 @@ private:
     void actOnPatch(int slot);
     std::optional<PatchInStep> patchOf(int slot);
     JointHistory newJoint(const JointParameters& joint) const;
+    bool isMoved(int i) const; // by forces
+    double inverseMass(int i) const; // 0 of a body that no force moves
     JointBody bodyOf(int i) const;
     PosedShape posedShape(int i) const;
     void checkTimeStep(int a, int b, const JointForces& forces) const;
@@ -104,6 +107,7 @@ private:
     bool makesBonds = false; // of those
     std::vector<JointParameters> jointLaws; // as `laws`
     int moving = 0; // bits of the groups that fix nve/potential/particle moves; 0: there is none
+    bool toldOfTurns = false;
     bool advance = true; // this step goes on, and does not repeat the last one
 
     int local = 0; // atoms, when the list of neighbours was built

@@ -103,6 +103,7 @@ FixWall::FixWall(LAMMPS* lmp, int count, char** arguments)
     }
     if (planes.empty() && !mesh)
         error->all(FLERR, "{}: there is no wall: give plane or stl", style);
+    start = lastTime = timeNow();
     grow_arrays(atom->nmax);
     atom->add_callback(Atom::GROW);
     atom->add_callback(Atom::RESTART);

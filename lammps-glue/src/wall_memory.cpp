@@ -101,10 +101,13 @@ int FixWall::maxsize_restart()
 
 void FixWall::write_restart(FILE* out)
 {
-    std::array<double, std::size(ofRun)> mine, all;
+    std::array<double, std::size(ofRun)> mine;
+    std::array<double, std::size(ofRun) + 2> all;
     std::transform(std::begin(ofRun), std::end(ofRun), mine.begin(), [this](Sum sum) { return own[sum]; });
     MPI_Reduce(mine.data(), all.data(), static_cast<int>(mine.size()), MPI_DOUBLE, MPI_SUM, 0, world);
     if (comm->me == 0) {
+        all[mine.size()] = start;
+        all[mine.size() + 1] = lastTime;
         const int size = sizeof all;
         fwrite(&size, sizeof size, 1, out);
         fwrite(all.data(), sizeof all, 1, out);
@@ -113,11 +116,11 @@ void FixWall::write_restart(FILE* out)
 
 void FixWall::restart(char* saved)
 {
-    if (comm->me != 0)
-        return;
-    std::array<double, std::size(ofRun)> all;
+    std::array<double, std::size(ofRun) + 2> all;
     std::memcpy(all.data(), saved, sizeof all);
-    for (size_t n = 0; n < all.size(); ++n)
+    start = all[std::size(ofRun)];
+    lastTime = all[std::size(ofRun) + 1];
+    for (size_t n = 0; comm->me == 0 && n < std::size(ofRun); ++n)
         own[ofRun[n]] = all[n];
 }
 

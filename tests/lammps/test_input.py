@@ -31,10 +31,29 @@ def test_commands(folder):
     says(folder, "'carrry 1'", style="pair_style potential/particle carrry 1")
     says(folder, "threads = 0", style="pair_style potential/particle threads 0")
     says(folder, "timestep = 0.1", "unstable above", timestep="timestep 0.1")
+    says(folder, "a contact of atom", "unstable above", walls="fix floor all wall/potential/particle 1e11 1e5 0.5 0.5 plane 0 0 -0.9 0 0 1")
+    says(folder, "run_style verlet", before="run_style respa 2 2")
     says(folder, "there is no wall", walls="fix floor all wall/potential/particle 1e5 1e5 0.5 0.5")
     says(folder, "'plan'", walls="fix floor all wall/potential/particle 1e5 1e5 0.5 0.5 plan 0 0 0 0 0 1")
     says(folder, "normal of length 0", walls="fix floor all wall/potential/particle 1e5 1e5 0.5 0.5 plane 0 0 0 0 0 0")
     says(folder, "none.stl", "cannot be read", walls="fix floor all wall/potential/particle 1e5 1e5 0.5 0.5 stl none.stl", ranks=2)
+
+
+def test_bodies_that_others_turn(folder):
+    """A fix that turns bodies, but not their orientations, is told; one that only shifts them is not."""
+    for move, told in (("rotate 0 0 0 0 0 1 1.0", True), ("linear 0.1 0 0", False)):
+        _, said = run(folder, [(*b[:3], (0, 0, 0), b[4]) for b in BODIES], before=f"unfix move\nfix move all move {move}\nthermo_style custom step", run="run 5")
+        assert ("its orientation stays as it is" in " ".join(said.split())) == told, said[-2000:]
+
+
+def test_ids_stay(folder):
+    """Contacts know their bodies by IDs: a new numbering is refused where there are contacts."""
+    column = [(2, (0.5, 0, 0.1), (0, 0, 0), (0, 0, 0), (1, 0, 0, 0))] + [(2, (0, 0, 0.0595 * n), (0, 0, 0), (0, 0, 0), (1, 0, 0, 0)) for n in range(3)]
+    says_of = dict(run="run 10\ngroup gone id 1\ndelete_atoms group gone {}\nrun 10", gravity="")
+    refusal = refused(folder, column, **{**says_of, "run": says_of["run"].format("compress yes")})
+    assert "has the ID" in refusal and "compress no" in refusal, refusal[-1500:]
+    run(folder, column, **{**says_of, "run": says_of["run"].format("compress no")})
+    run(folder, column[:1] + [(*column[1][:1], (0, 0, 0.5 * n), *column[1][2:]) for n in range(-1, 2)], **{**says_of, "run": says_of["run"].format("compress yes")})
 
 
 def test_shape_files(folder):

@@ -131,6 +131,31 @@ def test_restitution(folder):
         assert abs((v[1] - v[0]) / 0.4 - e) < 0.01, (v, e)
 
 
+def test_restitution_against_held_bodies(folder):
+    """A body that nothing moves counts as one without end of mass: the dashpots are those of the other one."""
+    speed = 1.0
+    bodies = [(2, (0, 0, 0), (0, 0, 0), (0, 0, 0), (1, 0, 0, 0)), (2, (0, 0, 0.0601), (0, 0, -speed), (0, 0, 0), (1, 0, 0, 0))]
+    dumped, _ = run(folder, bodies, gravity="group free id 2\nunfix move\nfix move free nve/potential/particle", coefficients=f"pair_coeff * * {STIFFNESS} {SHEAR} 0 0.5",
+                    timestep="timestep 1e-5", run="dump_modify all every 1000\nrun 4000")
+    after = state(dumped[-1][1])
+    assert abs(after[1, 5] / speed - 0.5) < 0.01 and not after[0, 3:9].any(), after
+
+
+def test_deleted_atoms_take_only_their_contacts(folder):
+    """A fix that deletes atoms during a run moves others into their place: the springs of friction stay with their bodies."""
+    corner = [(2, (-0.8, -0.8, -0.8), (0, 0, 0), (0, 0, 0), (1, 0, 0, 0))]
+    slide = [(2, (0, 0, 0), (0, 0, 0), (0, 0, 0), (1, 0, 0, 0)), (2, (0, 0, 0.0595), (0.05, 0, 0), (0, 0, 0), (1, 0, 0, 0)), (2, (0, 0.4, 0), (0, 0, 0), (0, 0, 0), (1, 0, 0, 0)),
+             (2, (0, 0.4, 0.0597), (0.3, 0, 0), (0, 0, 0), (1, 0, 0, 0))]
+    ends = {}
+    for name, bodies, more in (("deleted", corner + slide, "region corner block -0.9 -0.7 -0.9 -0.7 -0.9 -0.7\nfix gone all evaporate 20 1 corner 7\nthermo_modify lost ignore"),
+                               ("never there", slide, "")):
+        dumped, _ = run(folder, bodies, gravity="", before=more, run="run 200")
+        ends[name] = state(dumped[-1][1])
+    assert len(ends["deleted"]) == 4
+    error = np.abs(ends["deleted"] - ends["never there"]).max()
+    assert error < 1e-9, error
+
+
 def test_stress_of_two(folder):
     """compute stress/atom gives the branch vector times the force."""
     bodies = [(2, (0, 0, 0), (0, 0, 0), (0, 0, 0), (1, 0, 0, 0)), (2, (0, 0, 0.0595), (0, 0, 0), (0, 0, 0), (1, 0, 0, 0))]

@@ -3,7 +3,7 @@
 import struct
 
 import numpy as np
-from scene import DENSITY, DT, FRICTION, SHEAR, STIFFNESS, TOP, random_bodies, run, shapes, state, thermo
+from scene import DENSITY, DT, FRICTION, SCRIPT, SHEAR, STIFFNESS, TOP, random_bodies, run, shapes, state, thermo
 from test_motion import compare
 
 
@@ -58,16 +58,38 @@ def test_belt(folder):
     assert abs(late[3] - 0.2) < 0.01 and abs(late[2] - (0.03 - mass * 9.81 / STIFFNESS)) < 2e-5, late
 
 
-def test_time_that_goes_back(folder):
-    """reset_timestep takes a wall that moves back to where it was, and a warning says so; with the time it stays. A wall at rest has none."""
+def test_wall_has_its_own_time(folder):
+    """A wall that moves begins where the command says, whatever the time is then, and a time that is set anew does not move it: the block on it goes as with neither."""
     block = [(2, (0, 0, 0.0295), (0, 0, 0), (0, 0, 0), (1, 0, 0, 0))]
-    wall = "fix wall all wall/potential/particle %g %g %g 0.3 plane 0 0 0 0 0 1" % (STIFFNESS, SHEAR, FRICTION)
-    moving = wall + " linear 0 0 -0.01"
-    for command, reset, told in ((moving, "reset_timestep 0", True), (moving, "reset_timestep 0 time 0.01", False), (moving, "", False), (wall, "reset_timestep 0", False)):
-        _, said = run(folder, block, walls=command, run="run 100", after=f"undump all\n{reset}\nrun 1")
-        line = " ".join(line for line in said.splitlines() if "the time has gone back" in line)
-        assert bool(line) == told, said[-2000:]
-        assert not told or "from 0.01 to 0" in line and "'reset_timestep 0 time 0.01' leaves it where it is" in line, line
+    wall = "fix wall all wall/potential/particle %g %g %g 0.3 plane 0 0 0 0 0 1 linear 0 0 0.1" % (STIFFNESS, SHEAR, FRICTION)
+    frames = {}
+    set_to = "undump all\nreset_timestep {}\n" + "\n".join(line for line in SCRIPT.splitlines() if line.startswith("dump"))
+    for name, parts in {"once": dict(run="run 200"), "set back": dict(run=f"run 100\n{set_to.format(0)}\nrun 100"), "set on": dict(run=f"run 100\n{set_to.format(700)}\nrun 100"),
+                        "later": dict(before=f"{set_to.format(300)}\n{wall}", run="run 200", walls="")}.items():
+        dumped, _ = run(folder, block, **{"walls": wall, **parts})
+        frames[name] = state(dumped[-1][1])[0]
+    for name, end in frames.items():
+        assert np.abs(end - frames["once"]).max() < 1e-12, (name, end, frames["once"])
+
+
+def test_wall_goes_on_from_a_restart(folder):
+    """A moving wall that began after some steps is, in a run from a restart file, where it was."""
+    block = [(2, (0, 0, 0.0295), (0, 0, 0), (0, 0, 0), (1, 0, 0, 0))]
+    wall = "fix wall all wall/potential/particle %g %g %g 0.3 plane 0 0 0 0 0 1 linear 0 0 0.1" % (STIFFNESS, SHEAR, FRICTION)
+    dumped, _ = run(folder, block, walls="", run=f"run 30\n{wall}\nrun 100\nwrite_restart half.restart\nrun 100")
+    again = SCRIPT.replace("read_data scene.data fix orientation NULL orientation", "read_restart half.restart").replace("fix orientation all property/atom d2_orientation 4 writedata yes\n", "")
+    later, _ = run(folder, block, script=again.replace("boundary {boundary}\n", ""), walls=wall, run="run 100")
+    assert (state(later[-1][1]) == state(dumped[-1][1])).all(), (later[-1][1], dumped[-1][1])
+
+
+def test_periodic_border_of_a_wall(folder):
+    """A floor of triangles that ends at a periodic border is told; one that goes on beyond it, or a plane across that border, is not."""
+    block = [(2, (0, 0, 0.0295), (0, 0, 0), (0, 0, 0), (1, 0, 0, 0))]
+    for size, told in ((1.0, True), (1.5, False)):
+        write_stl(folder / "floor.stl", floor(4, size))
+        _, said = run(folder, block, boundary="p f f", run="run 1", walls="fix floor all wall/potential/particle %g %g %g 0.3 stl floor.stl plane 0 0 -0.5 0 0 1" % (
+            STIFFNESS, SHEAR, FRICTION))
+        assert ("the box is periodic in x, the wall is not" in " ".join(said.split())) == told, said[-2000:]
 
 
 def test_rotating_mesh(folder):
