@@ -18,7 +18,10 @@ const MOST_CELLS: usize = 400;
 /// Shortest part of a cell that gets a rule of its own.
 const SHORTEST: f64 = 1.0 / 256.0;
 
-/// Incline from which on the axes of a walk are turned at once where the patch turns back.
+/// Incline beyond which a walk goes on with its axes turned, as it does where the patch turns back: over upright axes rules converge slowly there.
+const STEEP: f64 = 3.0;
+
+/// Incline at the start of a cell from which on they are turned at once; else after half of the bend.
 const GENTLE: f64 = 0.1;
 
 /// Part of the way to where the patch turns back from which on a rim counts as beyond: rounding places it on either side.
@@ -100,8 +103,8 @@ pub(super) struct Ray {
     pub error: f64,
     pub events: [Event; EVENTS],
     pub count: usize,
-    /// Whether the patch turns back under itself on it.
-    pub turns_back: bool,
+    /// Whether it was walked over with its axes turned: the patch turns back under itself, or is steep.
+    pub is_tilted: bool,
     /// Whether it ended before the patch does.
     pub is_folded: bool,
 }
@@ -189,7 +192,7 @@ impl<'f, 'a, 's> Walker<'f, 'a, 's> {
             error: 0.0,
             events: [nowhere; EVENTS],
             count: 0,
-            turns_back: false,
+            is_tilted: false,
             is_folded: false,
         };
         let mut half_plane = HalfPlane::upright(line.origin, line.direction);
@@ -203,8 +206,9 @@ impl<'f, 'a, 's> Walker<'f, 'a, 's> {
                 break;
             }
             let CellEnd { mut h, mut k, mut next, is_folded: mut turns } = self.end_of(&cell);
+            turns |= !cell.is_flat && self.field.b.is_some() && cell.incline(h, k).abs() > STEEP;
             if turns {
-                ray.turns_back = true;
+                ray.is_tilted = true;
                 let incline = cell.incline(0.0, 0.0);
                 if incline.abs() > GENTLE {
                     // With axes along the patch it goes on.
@@ -232,7 +236,9 @@ impl<'f, 'a, 's> Walker<'f, 'a, 's> {
             }
             (rho, zeta, way) = (rho + h, zeta + k, way + h);
             if turns {
-                ray.is_folded |= !(h > 0.0);
+                if !(h > 0.0) {
+                    break;
+                }
                 continue;
             }
             let id = next.map_or(RIM, |place| place as u32);
@@ -244,12 +250,18 @@ impl<'f, 'a, 's> Walker<'f, 'a, 's> {
                 _ => break,
             }
         }
-        if ray.count == 0 || ray.is_folded {
+        if ray.event(ray.count.wrapping_sub(1)).is_none_or(|last| !self.ends_at(last)) {
+            // Lost on the way.
             ray.is_folded = true;
             ray.push(Event { id: RIM, rho: way, zeta, before: ray.sums[2] });
         }
         ray.nodes.1 = self.nodes.len() as u32;
         Ok(ray)
+    }
+
+    /// Whether a ray may end with an event: on the rim or at an edge.
+    fn ends_at(&self, event: &Event) -> bool {
+        self.planes.get(event.id as usize).is_none_or(|plane| plane.owner == Owner::Edge)
     }
 
     /// Turns the axes of a walk in its half-plane.
@@ -462,7 +474,7 @@ impl<'f, 'a, 's> Walker<'f, 'a, 's> {
     /// The integral of a plane or of the rim (as an inverse distance from the origin) in the cell that follows the first `m` events of a
     /// ray: where it would be met if nothing else were before.
     pub fn inverse_distance(&mut self, line: &Line, ray: &Ray, m: usize, id: u32) -> Option<f64> {
-        if ray.turns_back {
+        if ray.is_tilted {
             return None;
         }
         let half_plane = HalfPlane::upright(line.origin, line.direction);
