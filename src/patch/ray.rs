@@ -467,7 +467,8 @@ impl<'f, 'a, 's> Walker<'f, 'a, 's> {
             (0..4).for_each(|j| off[j / 3] = off[j / 3].max((values[j] - end[j]).abs()));
         }
         let error = |i: usize| if off[i] > 0.0 { (to - from) * off[i] * off[i] / (largest[i] + off[i]) } else { 0.0 };
-        let of_energy = if self.with_energy { error(1) * sums[2] / sums[7] } else { 0.0 };
+        // Neither has one sign where the patch turns back.
+        let of_energy = if largest[1] > 0.0 { error(1) * largest[0] / largest[1] } else { 0.0 };
         Ok(Some((sums, error(0).max(of_energy))))
     }
 
