@@ -1,10 +1,10 @@
-//! Contact patches against closed forms, against the gradient of their energy, and tiles against a slab.
+//! Contact patches against closed forms, and tiles against a slab.
 
-use crate::bodies::{Chance, FAMILIES, Pair, contact, cuboid};
+use crate::bodies::{Pair, contact, cuboid};
 use nalgebra::{Matrix3, Rotation3, Vector3};
 use potential_particles::{
-    Kind, Particle, Patch, PatchFlags, PatchScratch, PatchSettings, Plane, Pose, Settings, Triangle, Wall,
-    contact_with_plane, contact_with_triangle, patch_of_contact, patch_on_plane, patch_on_triangle,
+    Kind, Particle, Patch, PatchScratch, PatchSettings, Plane, Pose, Settings, Triangle, Wall, contact_with_plane,
+    contact_with_triangle, patch_of_contact, patch_on_plane, patch_on_triangle,
 };
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI, TAU};
 
@@ -102,29 +102,6 @@ pub fn levers() -> [f64; 2] {
     let disc = on_plate(Particle::new(&planes, r, 0.0, 1.0).expect("a prism"));
     let of_square = (2.0_f64.sqrt() + (1.0 + 2.0_f64.sqrt()).ln()) / 6.0 * 0.6;
     [off(square, of_square), off(disc, 2.0 / 3.0 * 0.3)]
-}
-
-
-pub fn gradients(pairs: usize) -> ([f64; 2], usize) {
-    let pairs: usize = pairs * 30;
-    for dd in [0.1, 0.3, 0.6, 0.9] {
-    let mut chance = Chance::new(2024);
-    let t = std::time::Instant::now();
-    let (mut folded, mut capped, mut worse, mut rays, mut folded_k) = (0, 0, 0, 0, 0);
-    for _ in 0..pairs {
-        let families = [chance.pick(&FAMILIES), chance.pick(&FAMILIES)];
-        let k = [chance.pick(&[0.0, 1e-6, 0.02, 0.3]), chance.pick(&[0.0, 1e-6, 0.02, 0.3])];
-        let rr = chance.pick(&[0.05, 0.3, 0.9]);
-        let pair = Pair::random(families, k, rr, dd, &mut chance);
-        let here = patch(&pair, 1e-4, false);
-        if here.flags.contains(PatchFlags::FOLDED) { folded += 1; if families.contains(&"ball") { folded_k += 1; } }
-        if here.error > 1e-4 { capped += 1; }
-        if here.error > 1e-2 { worse += 1; }
-        rays += here.rays;
-    }
-    println!("depth {dd} {:?} folded {folded} (with a ball {folded_k}) error over 1e-4 {capped} over 1e-2 {worse} rays {rays}", t.elapsed());
-    }
-  std::process::exit(0);
 }
 
 fn on_plane(a: &Particle, pose: &Pose, tolerance: f64) -> Option<(Patch, Vector3<f64>)> {

@@ -4,7 +4,9 @@
 use crate::bodies::{Chance, FAMILIES, Pair, contact, cuboid};
 use crate::{difference, patch};
 use nalgebra::{Matrix3, Vector3};
-use potential_particles::{Particle, Patch, PatchFlags, PatchPoint, PatchScratch, PatchSettings, Pose, patch_of_contact};
+use potential_particles::{
+    Particle, Patch, PatchFlags, PatchPoint, PatchScratch, PatchSettings, Pose, patch_of_contact,
+};
 use std::f64::consts::TAU;
 
 fn spheres(radii: [f64; 2], distance: f64) -> Pair {
@@ -50,7 +52,11 @@ fn spheres_of_unlike_radii_at_any_overlap() {
                 assert!(!found.flags.contains(PatchFlags::FOLDED), "{what}");
                 assert!((found.force.norm() / force - 1.0).abs() < 2.0 * tolerance, "force {force}, {what}");
                 assert!((found.area / area - 1.0).abs() < 3.0 * tolerance.max(1e-6), "area {area}, {what}");
-                assert!(found.force.cross(&(pair.pose_b.position() - pair.pose_a.position())).norm() < 2.0 * tolerance * force, "{what}");
+                assert!(
+                    found.force.cross(&(pair.pose_b.position() - pair.pose_a.position())).norm()
+                        < 2.0 * tolerance * force,
+                    "{what}"
+                );
                 let about_centre = found.torque + pair.contact.branch_a.cross(&found.force);
                 assert!(about_centre.norm() < 2.0 * tolerance * force, "{what}");
             }
@@ -64,6 +70,16 @@ fn spheres_of_unlike_radii_at_any_overlap() {
         let found = patch(&spheres([1.0, 0.5], distance), 1e-6, false);
         let off = [found.force.norm() / force - 1.0, found.area / area - 1.0];
         assert!(off[0].abs() < 2e-6 && off[1].abs() < 1e-5, "distance {distance}, end {end}: {off:?}");
+        if i % 10 == 5 {
+            let slope = difference(|h| apollonius([1.0, 0.5], distance + h).0, 1e-3);
+            let Pair { a, pose_a, b, pose_b, contact } = spheres([1.0, 0.5], distance);
+            let settings = PatchSettings { tolerance: 1e-6, with_stiffness: true, ..PatchSettings::default() };
+            let found =
+                patch_of_contact(&a, &pose_a, &b, &pose_b, &contact, &settings, &mut PatchScratch::new(), |_| ());
+            let along = (pose_b.position() - pose_a.position()) / distance;
+            let stiffness = along.dot(&(found.unwrap().stiffness.fixed_view::<3, 3>(0, 0) * along));
+            assert!((stiffness + slope).abs() < 1e-4 * force, "distance {distance}: {stiffness} {slope}");
+        }
     }
 }
 
@@ -151,9 +167,8 @@ fn the_force_is_the_gradient_of_an_energy_summed_over_the_volume() {
         }
         let (centre, axis) = (pair.contact.point, pair.contact.normal);
         let reach = 1.2 * (here.area.sqrt() + pair.contact.overlap);
-        let energy = |shift: Vector3<f64>, turn: Vector3<f64>| {
-            by_volume(&pair.moved(&shift, &turn), &centre, &axis, reach, 80)
-        };
+        let energy =
+            |shift: Vector3<f64>, turn: Vector3<f64>| by_volume(&pair.moved(&shift, &turn), &centre, &axis, reach, 80);
         let force = here.force.norm();
         let along = (here.force / force + 0.7 * chance.direction()).normalize();
         let (about, arm) = (chance.direction(), pair.contact.branch_b.norm().max(0.1));
