@@ -7,6 +7,7 @@ mod accuracy;
 mod bodies;
 mod cases;
 mod gradients;
+mod planar;
 #[path = "../scene/mod.rs"]
 mod scene;
 mod speed;
@@ -64,9 +65,11 @@ fn main() {
     let many = units(&kinds, 1e-4, |kind| kind.starts_with("300"));
     targets.push(at_most("300 + 300 planes at 1e-4: evaluations of both bodies", 1500.0, many));
     targets.push(at_most("carried on by its stiffness: evaluations of both bodies", 40.0, speed::carried(unit)));
+    let in_plane = planar::measure(unit);
     let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/out/patch");
     std::fs::create_dir_all(folder).expect("out/patch");
-    let summary = json!({"targets": targets, "unit_seconds": unit, "gradients": gradients, "kinds": kinds});
+    let summary =
+        json!({"targets": targets, "unit_seconds": unit, "gradients": gradients, "in_plane": in_plane, "kinds": kinds});
     let text = serde_json::to_string_pretty(&summary).expect("plain values");
     std::fs::write(format!("{folder}/summary.json"), text).expect("out/patch/summary.json");
 }

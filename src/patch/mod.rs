@@ -37,6 +37,7 @@
 //! | `contact` | the patch of two particles, of a particle and a plane, of a particle and a triangle |
 //! | `patch_state` | what a pair keeps of its patch, and how that is carried on |
 //! | `planar` | the patch of two particles of the plane |
+//! | `planar_state` | how that is carried on |
 
 mod border;
 mod cap;
@@ -61,6 +62,7 @@ mod patch_state;
 mod piece;
 mod pieces;
 pub(crate) mod planar;
+mod planar_state;
 mod polygon;
 mod ray;
 mod rim;

@@ -4,6 +4,7 @@ use super::centre::on_patch;
 use super::contact::{NEAR, checked, least_sphericity};
 use super::field::{Field, Placed};
 use super::patch::PatchFlags;
+use super::planar_state::AXES;
 use super::ray::{Line, Node, Ray, SUMS, Walker};
 use super::rules::order_of;
 use super::scratch::PatchScratch;
@@ -173,9 +174,7 @@ pub fn patch_of_contact(
         energy: if settings.with_energy { depth_length * sums[7] } else { f64::NAN },
         stiffness: if settings.with_stiffness {
             let of_space = turned(&stiffness(walker.field, walker.nodes), &frame);
-            // Shifts along x and y, and the turn about z.
-            let axes = [0, 1, 5];
-            Matrix3::from_fn(|i, j| depth_length * of_space[(axes[i], axes[j])])
+            Matrix3::from_fn(|i, j| depth_length * of_space[(AXES[i], AXES[j])])
         } else {
             Matrix3::repeat(f64::NAN)
         },
