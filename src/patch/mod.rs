@@ -12,6 +12,7 @@
 //! | `cell` | a stretch of a ray on which they are quadratics |
 //! | `energy` | the elastic energy as an integral over the patch |
 //! | `ray` | the walk over a ray |
+//! | `ray_rule` | the quadrature along it |
 //! | `curve` | the walk over the curve where a plane goes on |
 //! | `rim` | points and arcs of the rim |
 //! | `network` | curves and rim, and where they meet |
@@ -65,6 +66,7 @@ pub(crate) mod planar;
 mod planar_state;
 mod polygon;
 mod ray;
+mod ray_rule;
 mod rim;
 mod rules;
 mod scratch;
