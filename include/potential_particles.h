@@ -216,7 +216,8 @@
 // Size of a message buffer that holds every message whole.
 #define PP_MESSAGE_SIZE 512
 
-// The patch turns back under itself (deep overlaps of round bodies): what lies beyond is left out.
+// A part of the patch is left out that no ray from the contact point reaches: the far side of a rod that goes
+// through the other body, and the like of deep overlaps.
 #define PP_PATCH_FOLDED 1
 
 // The tolerance was not reached, or is beyond what rounding allows where the bodies hardly touch; error tells
@@ -824,7 +825,7 @@ typedef struct pp_patch_2d {
     // Elastic energy over K, length^3; NaN unless asked for.
     double energy;
     // Change of force and torque on B about the contact point, over K, with a shift and a turn of A: rows and
-    // columns x, y and angle.
+    // columns x, y and angle. NaN where it is carried on.
     double stiffness[9];
 } pp_patch_2d;
 
@@ -1669,7 +1670,7 @@ pp_status pp_particle_lines_2d(const struct pp_particle_2d *particle,
                                size_t capacity,
                                size_t *count);
 
-// The patch of an overlapping contact of two particles of the plane. As pp_patch_of_contact.
+// The patch of an overlapping contact of two particles of the plane. As pp_patch_of_contact, state too.
 //
 // Errors: those of pp_patch_of_contact.
 pp_status pp_patch_of_contact_2d(const struct pp_particle_2d *a,
@@ -1679,6 +1680,7 @@ pp_status pp_patch_of_contact_2d(const struct pp_particle_2d *a,
                                  const struct pp_contact_2d *contact,
                                  double tolerance,
                                  uint32_t with_energy,
+                                 struct pp_patch_state *state,
                                  struct pp_patch_2d *patch,
                                  struct pp_patch_point_2d *points,
                                  size_t capacity,

@@ -14,6 +14,8 @@ mod closed_forms;
 mod definition;
 #[path = "patch/estimates.rs"]
 mod estimates;
+#[path = "patch/folds.rs"]
+mod folds;
 #[path = "patch/gradients.rs"]
 mod gradients;
 #[path = "patch/pieces.rs"]

@@ -1,10 +1,10 @@
-//! Contact patches against closed forms, against the gradient of their energy, and tiles against a slab.
+//! Contact patches against closed forms, and tiles against a slab.
 
-use crate::bodies::{Chance, FAMILIES, Pair, contact, cuboid};
+use crate::bodies::{Pair, contact, cuboid};
 use nalgebra::{Matrix3, Rotation3, Vector3};
 use potential_particles::{
-    Kind, Particle, Patch, PatchFlags, PatchScratch, PatchSettings, Plane, Pose, Settings, Triangle, Wall,
-    contact_with_plane, contact_with_triangle, patch_of_contact, patch_on_plane, patch_on_triangle,
+    Kind, Particle, Patch, PatchScratch, PatchSettings, Plane, Pose, Settings, Triangle, Wall, contact_with_plane,
+    contact_with_triangle, patch_of_contact, patch_on_plane, patch_on_triangle,
 };
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI, TAU};
 
@@ -102,38 +102,6 @@ pub fn levers() -> [f64; 2] {
     let disc = on_plate(Particle::new(&planes, r, 0.0, 1.0).expect("a prism"));
     let of_square = (2.0_f64.sqrt() + (1.0 + 2.0_f64.sqrt()).ln()) / 6.0 * 0.6;
     [off(square, of_square), off(disc, 2.0 / 3.0 * 0.3)]
-}
-
-/// Largest and 99th percentile of the relative error of force and torque against −∂W of so many random pairs, and how many folded.
-pub fn gradients(pairs: usize) -> ([f64; 2], usize) {
-    let mut chance = Chance::new(2024);
-    let (mut errors, mut folded) = (Vec::new(), 0);
-    while errors.len() + folded < pairs {
-        let families = [chance.pick(&FAMILIES), chance.pick(&FAMILIES)];
-        let k = [chance.pick(&[0.0, 1e-6, 0.02, 0.3]), chance.pick(&[0.0, 1e-6, 0.02, 0.3])];
-        let pair =
-            Pair::random(families, k, chance.pick(&[0.05, 0.3, 0.9]), chance.pick(&[0.01, 0.1, 0.3]), &mut chance);
-        let here = patch(&pair, 1e-8, false);
-        if here.flags.contains(PatchFlags::FOLDED) {
-            folded += 1;
-            continue;
-        }
-        let (along, about) = (chance.direction(), chance.direction());
-        let arm = pair.contact.branch_b.norm().max(0.1);
-        let h = 3e-2 * pair.contact.overlap;
-        let energy = |shift: Vector3<f64>, turn: Vector3<f64>| patch(&pair.moved(&shift, &turn), 1e-8, true).energy;
-        let slope = |energy: &dyn Fn(f64) -> f64, h: f64| {
-            let central = |h: f64| (energy(h) - energy(-h)) / (2.0 * h);
-            (4.0 * central(0.5 * h) - central(h)) / 3.0
-        };
-        let by_shift = -slope(&|h| energy(h * along, Vector3::zeros()), h);
-        let by_turn = -slope(&|h| energy(Vector3::zeros(), h * about), h / arm);
-        let torque = here.torque + pair.contact.branch_b.cross(&here.force);
-        let error = (by_shift - here.force.dot(&along)).abs().max((by_turn - torque.dot(&about)).abs() / arm);
-        errors.push(error / here.force.norm());
-    }
-    errors.sort_by(f64::total_cmp);
-    ([errors[errors.len() - 1], errors[errors.len() * 99 / 100]], folded)
 }
 
 fn on_plane(a: &Particle, pose: &Pose, tolerance: f64) -> Option<(Patch, Vector3<f64>)> {

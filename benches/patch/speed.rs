@@ -25,7 +25,7 @@ fn patch(case: &Case, tolerance: f64, scratch: &mut PatchScratch) -> Patch {
 }
 
 /// Seconds of one call.
-fn time(mut call: impl FnMut()) -> f64 {
+pub fn time(mut call: impl FnMut()) -> f64 {
     let mut count = 1;
     loop {
         let mut best = f64::INFINITY;

@@ -48,9 +48,9 @@ def everybody():
     return found
 
 
-def placed():
-    """The command that places potential particles."""
-    return _target() / "release" / "placed"
+def program(name):
+    """A command of the package `peers`: `placed`, which places potential particles, or `patches`."""
+    return _target() / "release" / name
 
 
 def packages(names):

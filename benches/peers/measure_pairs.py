@@ -48,7 +48,7 @@ class Measurement:
         self.groups = {one.name: one for one in made}
         swept, potential = install.OUT / "pairs.txt", install.OUT / "pairs_potential.txt"
         pairs.write(made, swept)
-        lines = subprocess.run([install.placed(), swept, repr(OVERLAP)], check=True, capture_output=True, text=True).stdout.splitlines()
+        lines = subprocess.run([install.program("placed"), swept, repr(OVERLAP)], check=True, capture_output=True, text=True).stdout.splitlines()
         moved = [pairs.moved(one, pairs.shifts_of(one, json.loads(line.replace("NaN", "0")))) for one, line in zip(made, lines)]
         pairs.write(moved, potential)
         self.servers = {

@@ -1,8 +1,8 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""Side by side with the codes a user would pick instead: pairs, and piles. The contestants are installed first; then no network.
+"""Side by side with the codes a user would pick instead: pairs, patches, and piles. The contestants are installed first; then no network.
 
-    benches/peers/run.py [--quick] [--only pairs|piles]
+    benches/peers/run.py [--quick] [--only pairs|patches|piles]
 
 Results go to out/peers: summary.json with targets, table.md, peers.png. Leave the machine alone meanwhile.
 """
@@ -18,6 +18,7 @@ import install
 import machine
 import measure_pairs
 import measure_piles
+import patches
 import report
 from summary import print_table, write_summary
 
@@ -25,7 +26,7 @@ from summary import print_table, write_summary
 def main():
     arguments = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     arguments.add_argument("--quick", action="store_true", help="a little of everything, in a minute")
-    arguments.add_argument("--only", choices=("pairs", "piles"), help="one of the two parts; the other is left out of the results")
+    arguments.add_argument("--only", choices=("pairs", "patches", "piles"), help="one of the parts; the others are left out of the results")
     options = arguments.parse_args()
     started = time.perf_counter()
     print("Contestants", flush=True)
@@ -34,11 +35,14 @@ def main():
     summary = {"machine": machine.machine_line(), "date": machine.now(), "command": "make peers" + (" QUICK=1" if options.quick else ""),
                "versions": found.versions, "missing": found.missing, "load_before": measure_pairs.load(), "load_after": None, "targets": []}
     parts = [f"*{line}; {summary['command']}*"]
-    if options.only != "piles":
+    if options.only in (None, "pairs"):
         parts += pairs_part(found, options.quick, line, summary)
         # What was measured stays if the piles are interrupted.
         write_results(parts, summary)
-    if options.only != "pairs":
+    if options.only in (None, "patches"):
+        parts += patches_part(found, options.quick, summary)
+        write_results(parts, summary)
+    if options.only in (None, "piles"):
         parts += piles_part(found, options.quick, summary)
     parts += ["## As others publish it", report.published_table()]
     summary["load_after"] = measure_pairs.load()
@@ -67,6 +71,14 @@ def pairs_part(found, quick, line, summary):
         "## Distance of bodies that are near, from nothing / from memory", report.distance_table(rows),
         "## Who computes what, and how exactly", report.contestant_table(rows, found),
     ]
+
+
+def patches_part(found, quick, summary):
+    print("Patches", flush=True)
+    rows = patches.rows(found, quick)
+    summary["patches"] = rows
+    summary["targets"] += patches.targets(rows)
+    return ["## A contact patch", patches.table(rows)]
 
 
 def piles_part(found, quick, summary):

@@ -11,7 +11,8 @@ use crate::{FlatContact, Patch, PatchError, PatchPoint, PatchScratch, PatchSetti
 use crate::{patch_of_contact, patch_on_plane, patch_on_triangle};
 use std::cell::RefCell;
 
-/// The patch turns back under itself (deep overlaps of round bodies): what lies beyond is left out.
+/// A part of the patch is left out that no ray from the contact point reaches: the far side of a rod that goes
+/// through the other body, and the like of deep overlaps.
 pub const PP_PATCH_FOLDED: u32 = 1;
 /// The tolerance was not reached, or is beyond what rounding allows where the bodies hardly touch; error tells
 /// how far off the answer may be.
@@ -110,7 +111,7 @@ const _: () = assert!(
 ///
 /// # Safety
 /// `state` is NULL or exclusively ours for the call.
-unsafe fn state_of<'a>(state: *mut pp_patch_state, capacity: usize) -> Option<&'a mut PatchState> {
+pub(super) unsafe fn state_of<'a>(state: *mut pp_patch_state, capacity: usize) -> Option<&'a mut PatchState> {
     // SAFETY: it holds as many bytes, all of them of numbers of which any value is one.
     unsafe { state.cast::<PatchState>().as_mut() }.filter(|_| capacity == 0)
 }

@@ -173,7 +173,8 @@ impl Spread {
             for (i, ray) in rays[..count].iter_mut().enumerate() {
                 let weight = self.size * weight(round, i);
                 if ray.is_none() {
-                    *ray = Some(walker.walk(&self.line(level, GAUSS_KRONROD[i].0))).filter(|ray| !ray.is_folded);
+                    *ray = Some(walker.walk(&self.line(level, GAUSS_KRONROD[i].0)))
+                        .filter(|ray| !(ray.is_tilted || ray.is_folded));
                 }
                 let ray = ray.as_ref()?;
                 radial += weight * ray.error;

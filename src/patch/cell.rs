@@ -154,6 +154,32 @@ impl Cell {
         -self.d.by_h(h, k) / self.d.by_k(h, k)
     }
 
+    /// Where on the way to h, on which the curve turns back or nearly, it is inclined by 45°.
+    pub fn half_turned(&self, h: f64) -> (f64, f64) {
+        let (mut gentle, mut steep) = ((0.0, 0.0), h);
+        for _ in 0..30 {
+            let middle = 0.5 * (gentle.0 + steep);
+            match self.height(middle) {
+                Some((k, _)) if self.incline(middle, k).abs() < 1.0 => gentle = (middle, k),
+                _ => steep = middle,
+            }
+        }
+        gentle
+    }
+
+    /// The first place on the way to h where a function of the place is no longer positive.
+    pub fn zero_of(&self, h: f64, value: impl Fn(f64, f64) -> f64) -> (f64, f64) {
+        let (mut before, mut behind) = ((0.0, 0.0), h);
+        for _ in 0..60 {
+            let middle = 0.5 * (before.0 + behind);
+            match self.height(middle) {
+                Some((k, _)) if value(middle, k) > 0.0 => before = (middle, k),
+                _ => behind = middle,
+            }
+        }
+        before
+    }
+
     /// The first h > −`tiny` where a plane goes on or off, and the height there.
     #[inline(always)]
     pub fn crossing(&self, plane: &RayPlane, tiny: f64) -> Option<(f64, f64)> {

@@ -36,6 +36,10 @@ const STRAIGHT: f64 = 1e-7;
 const TIP: f64 = 2.0;
 const OF_TIP: f64 = 0.1;
 
+/// Relative change of the load between two rays that counts as a jump, and the largest one over the angle between them that is none.
+const JUMP: f64 = 0.1;
+const STEEPEST: f64 = 30.0;
+
 /// Largest angle of a sector that is made of several.
 const WIDEST: f64 = 1.7;
 
@@ -80,6 +84,9 @@ pub(super) struct Fan<'w, 'f, 'a, 's> {
     cut: usize,
     /// Whether the most rays were used.
     pub is_capped: bool,
+    /// Whether two rays side by side end at different places: a part of the patch that is tilted is reached by none, as the far side of a rod that goes
+    /// through the other body.
+    pub has_jump: bool,
 }
 
 impl<'w, 'f, 'a, 's> Fan<'w, 'f, 'a, 's> {
@@ -102,6 +109,7 @@ impl<'w, 'f, 'a, 's> Fan<'w, 'f, 'a, 's> {
             extent: 0.0,
             cut: usize::MAX,
             is_capped: false,
+            has_jump: false,
         }
     }
 
@@ -110,7 +118,7 @@ impl<'w, 'f, 'a, 's> Fan<'w, 'f, 'a, 's> {
         self.rays.clear();
         self.sectors.clear();
         self.walker.nodes.clear();
-        (self.extent, self.is_capped) = (0.0, false);
+        (self.extent, self.is_capped, self.has_jump) = (0.0, false, false);
         let [e, f] = axis;
         let budget = RADIAL * self.tolerance * 0.25 * rough;
         self.walker.budget = if budget > 0.0 { budget } else { f64::INFINITY };
@@ -241,8 +249,11 @@ impl<'w, 'f, 'a, 's> Fan<'w, 'f, 'a, 's> {
                 self.emit(left, right, None);
                 continue;
             };
-            let effect = angle(&a.direction, &b.direction) * a.tail(m).max(b.tail(m));
-            if OF_EFFECT * effect <= self.negligible || depth >= DEEPEST || self.is_capped {
+            let width = angle(&a.direction, &b.direction);
+            let effect = width * a.tail(m).max(b.tail(m));
+            let is_last = OF_EFFECT * effect <= self.negligible || depth >= DEEPEST || self.is_capped;
+            self.has_jump |= is_last && jumps(a, b, width);
+            if is_last {
                 self.emit(left, right, None);
                 continue;
             }
@@ -438,6 +449,12 @@ impl<'w, 'f, 'a, 's> Fan<'w, 'f, 'a, 's> {
         let ray = &self.rays[ray];
         ray.event(place).map_or_else(|| ray.length(), |event| event.rho)
     }
+}
+
+/// Whether the loads of two tilted rays differ by far more than the angle between them explains.
+fn jumps(a: &Ray, b: &Ray, width: f64) -> bool {
+    let change = norm(&[0, 1, 2].map(|i| a.sums[i] - b.sums[i]));
+    (a.is_tilted || b.is_tilted) && change > JUMP.max(STEEPEST * width) * norm(&a.sums[..3]).max(norm(&b.sums[..3]))
 }
 
 fn unit([e, f]: [f64; 2]) -> [f64; 2] {

@@ -12,6 +12,34 @@ pub(super) struct HalfPlane {
     pub up: [f64; 3],
 }
 
+/// How far the axes of a walk are turned from upright: it follows the patch around where that turns back under itself.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Tilt {
+    pub cos: f64,
+    pub sin: f64,
+}
+
+impl Tilt {
+    pub const UPRIGHT: Self = Self { cos: 1.0, sin: 0.0 };
+
+    /// Turned on to a direction with this incline; and the cosine and sine of that turn.
+    pub fn onwards(&self, incline: f64) -> (Self, [f64; 2]) {
+        let length = incline.hypot(1.0);
+        let [c, s] = [1.0 / length, incline / length];
+        (Self { cos: c * self.cos - s * self.sin, sin: s * self.cos + c * self.sin }, [c, s])
+    }
+
+    pub fn is_upright(&self) -> bool {
+        self.sin == 0.0 && self.cos > 0.0
+    }
+
+    /// Distance of a place of the turned half-plane from the upright axis through its origin, and height above that.
+    #[inline(always)]
+    pub fn upright(&self, rho: f64, zeta: f64) -> [f64; 2] {
+        [self.cos * rho - self.sin * zeta, self.sin * rho + self.cos * zeta]
+    }
+}
+
 impl HalfPlane {
     /// Over a ray of the frame's plane; `direction`: a unit vector.
     pub fn upright(origin: [f64; 3], [e, f]: [f64; 2]) -> Self {
@@ -31,6 +59,12 @@ impl HalfPlane {
     /// The same the other way.
     pub fn backwards(&self) -> Self {
         Self { along: self.along.map(|x| -x), across: self.across.map(|x| -x), ..*self }
+    }
+
+    /// With its axes turned in it.
+    pub fn turned(&self, [c, s]: [f64; 2]) -> Self {
+        let mix = |a: f64, x: &[f64; 3], b: f64, y: &[f64; 3]| std::array::from_fn(|i| a * x[i] + b * y[i]);
+        Self { along: mix(c, &self.along, s, &self.up), up: mix(c, &self.up, -s, &self.along), ..*self }
     }
 
     /// A point of it in the frame.

@@ -219,7 +219,7 @@ fn spread(task: &Task, fan: &mut Fan, start: [f64; 3], points: &mut Vec<Node>) -
     }
     let force = norm(&integral.sums[..3]);
     points.clear();
-    let is_folded = fan.rays.iter().any(|ray| ray.is_folded);
+    let is_folded = fan.has_jump || fan.rays.iter().any(|ray| ray.is_folded);
     if !(force > 0.0) {
         return Outcome { is_folded, rays: fan.rays.len(), ..Outcome::default() };
     }
@@ -278,8 +278,8 @@ impl Summary {
     /// All that needs no axis of the wrench; `deepest`: S at the contact point.
     fn of(task: &Task, points: &[Node], deepest: f64) -> Self {
         let (mut force, mut torque, mut sums) = ([0.0; 3], [0.0; 3], Sums::default());
-        for Node { x: [x, y, z], weight, pressure, normal: [n_u, n_v] } in points {
-            let (load, share) = (weight * pressure, weight * (1.0 + (n_u * n_u + n_v * n_v)).sqrt());
+        for node @ Node { x: [x, y, z], weight, pressure, normal: [n_u, n_v] } in points {
+            let (load, share) = (weight * pressure, node.area());
             let [f, g] = [load * n_u, load * n_v];
             let at = [share * x, share * y, share * z];
             let products = [at[0] * x, at[1] * y, at[2] * z, at[0] * y, at[0] * z, at[1] * z];
@@ -348,9 +348,9 @@ impl Summary {
         let [[a, b, c], [d, e, f]]: [[f64; 3]; 2] = [across.into(), axis.cross(&across).into()];
         let [along, aside] = [a * pole.x + b * pole.y + c * pole.z, d * pole.x + e * pole.y + f * pole.z];
         let mut lever = 0.0;
-        for Node { x: [x, y, z], weight, pressure, normal: [n_u, n_v] } in points {
+        for node @ Node { x: [x, y, z], pressure, .. } in points {
             let (p, q) = (a * x + b * y + c * z - along, d * x + e * y + f * z - aside);
-            lever += weight * pressure * ((1.0 + (n_u * n_u + n_v * n_v)) * (p * p + q * q)).sqrt();
+            lever += node.area() * pressure * p.hypot(q);
         }
         let patch = &mut self.patch;
         let branch = frame * pole;
@@ -373,9 +373,9 @@ impl Summary {
         let stretch = normal.norm();
         PatchPoint {
             position: task.frame * Vector3::from(node.x),
-            area: node.weight * stretch,
+            area: node.area(),
             depth: task.length * node.pressure,
-            normal: task.frame * (normal / stretch),
+            normal: task.frame * (normal / stretch.copysign(node.weight)),
         }
     }
 }

@@ -12,6 +12,7 @@
 //! | `cell` | a stretch of a ray on which they are quadratics |
 //! | `energy` | the elastic energy as an integral over the patch |
 //! | `ray` | the walk over a ray |
+//! | `ray_rule` | the quadrature along it |
 //! | `curve` | the walk over the curve where a plane goes on |
 //! | `rim` | points and arcs of the rim |
 //! | `network` | curves and rim, and where they meet |
@@ -37,6 +38,7 @@
 //! | `contact` | the patch of two particles, of a particle and a plane, of a particle and a triangle |
 //! | `patch_state` | what a pair keeps of its patch, and how that is carried on |
 //! | `planar` | the patch of two particles of the plane |
+//! | `planar_state` | how that is carried on |
 
 mod border;
 mod cap;
@@ -61,8 +63,10 @@ mod patch_state;
 mod piece;
 mod pieces;
 pub(crate) mod planar;
+mod planar_state;
 mod polygon;
 mod ray;
+mod ray_rule;
 mod rim;
 mod rules;
 mod scratch;

@@ -119,7 +119,7 @@ impl Oval<'_, '_, '_, '_> {
         let direction = at.map(|c| c / square.sqrt());
         let weight = (a[0] * b[1] - a[1] * b[0]) / square;
         let ray = self.walker.walk(&Line { origin: self.centre, direction, is_polar: true });
-        if ray.is_folded || !weight.is_finite() {
+        if ray.is_tilted || ray.is_folded || !weight.is_finite() {
             return None;
         }
         self.sums.iter_mut().zip(ray.sums).for_each(|(sum, value)| *sum += weight * value);

@@ -67,26 +67,26 @@ pub struct PatchState {
 /// Where A is, seen from B.
 #[derive(Clone, Copy, Debug, Default)]
 #[repr(C)]
-struct Place {
+pub(super) struct Place {
     /// Local frame of A to that of B, and the centre of A there.
-    rotation: Matrix3<f64>,
-    centre: Vector3<f64>,
+    pub rotation: Matrix3<f64>,
+    pub centre: Vector3<f64>,
     /// World axes, for which those of a boundary are taken: the normal of a plane, or two edges of a triangle in an order that tells its front.
-    shape: [Vector3<f64>; 2],
+    pub shape: [Vector3<f64>; 2],
 }
 
 /// A pair as it is now.
-struct Now<'a> {
-    of: [u64; 2],
-    place: Place,
+pub(super) struct Now<'a> {
+    pub of: [u64; 2],
+    pub place: Place,
     /// Local frame of B to world axes.
-    axes: Matrix3<f64>,
+    pub axes: Matrix3<f64>,
     /// The contact point in the frame of B.
-    point: Vector3<f64>,
+    pub point: Vector3<f64>,
     /// From the centres to it, world axes, and the centre of A.
-    branches: [&'a Vector3<f64>; 2],
-    position: &'a Vector3<f64>,
-    s: f64,
+    pub branches: [&'a Vector3<f64>; 2],
+    pub position: &'a Vector3<f64>,
+    pub s: f64,
 }
 
 /// What A has done since the patch was integrated, in the frame of B.
@@ -180,7 +180,7 @@ impl PatchState {
     }
 
     /// The patch by its stiffness, or by the integral, which is kept.
-    fn carried_or(
+    pub(super) fn carried_or(
         &mut self,
         now: &Now,
         settings: &PatchSettings,

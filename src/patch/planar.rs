@@ -4,6 +4,7 @@ use super::centre::on_patch;
 use super::contact::{NEAR, checked, least_sphericity};
 use super::field::{Field, Placed};
 use super::patch::PatchFlags;
+use super::planar_state::AXES;
 use super::ray::{Line, Node, Ray, SUMS, Walker};
 use super::rules::order_of;
 use super::scratch::PatchScratch;
@@ -121,7 +122,7 @@ pub fn patch_of_contact(
     let (mut force, mut torque, mut length, mut first, mut load, mut loaded) = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
     let (mut first_up, mut loaded_up, mut force_u) = (0.0, 0.0, 0.0);
     for Node { x: [u, _, z], weight, pressure, normal: [n, _] } in walker.nodes.iter() {
-        let share = weight * n.hypot(1.0);
+        let share = weight.abs() * n.hypot(1.0);
         (force, force_u) = (force + weight * pressure, force_u + weight * pressure * n);
         torque += weight * pressure * (z * n - u);
         (length, first, first_up) = (length + share, first + share * u, first_up + share * z);
@@ -144,12 +145,12 @@ pub fn patch_of_contact(
         pole = [foot[0] + along * axis[0], foot[1] + along * axis[1]];
         centroid = [first / length, first_up / length];
         for Node { x: [u, _, z], weight, normal: [n, _], .. } in walker.nodes.iter() {
-            second += weight * n.hypot(1.0) * ((u - centroid[0]).powi(2) + (z - centroid[1]).powi(2));
+            second += weight.abs() * n.hypot(1.0) * ((u - centroid[0]).powi(2) + (z - centroid[1]).powi(2));
         }
     }
     let world = |[u, z]: [f64; 2]| (frame * Vector3::new(u, 0.0, z)).xy();
     for Node { x: [u, _, z], weight, pressure, normal: [n, _] } in walker.nodes.iter() {
-        let stretch = n.hypot(1.0);
+        let stretch = n.hypot(1.0).copysign(*weight);
         visit(PatchPoint {
             position: world([*u, *z]),
             length: weight * stretch,
@@ -173,9 +174,7 @@ pub fn patch_of_contact(
         energy: if settings.with_energy { depth_length * sums[7] } else { f64::NAN },
         stiffness: if settings.with_stiffness {
             let of_space = turned(&stiffness(walker.field, walker.nodes), &frame);
-            // Shifts along x and y, and the turn about z.
-            let axes = [0, 1, 5];
-            Matrix3::from_fn(|i, j| depth_length * of_space[(axes[i], axes[j])])
+            Matrix3::from_fn(|i, j| depth_length * of_space[(AXES[i], AXES[j])])
         } else {
             Matrix3::repeat(f64::NAN)
         },

@@ -1,10 +1,8 @@
-//! A ray over the patch: an exact walk through the cells, with Gauss points in each.
+//! A ray over the patch: an exact walk through the cells.
 
 use super::cell::{Cell, Quadratic, RayPlane};
-use super::energy;
 use super::field::{Field, Owner, dot};
-use super::half_plane::HalfPlane;
-use super::rules::gauss;
+use super::half_plane::{HalfPlane, Tilt};
 
 /// Events of a ray that are kept; of a longer one the last place holds the end.
 pub(super) const EVENTS: usize = 12;
@@ -15,8 +13,14 @@ pub(super) const RIM: u32 = u32::MAX;
 /// Most cells on a ray.
 const MOST_CELLS: usize = 400;
 
-/// Shortest part of a cell that gets a rule of its own.
-const SHORTEST: f64 = 1.0 / 256.0;
+/// Incline beyond which a walk goes on with its axes turned, as it does where the patch turns back: over upright axes rules converge slowly there.
+const STEEP: f64 = 3.0;
+
+/// Incline at the start of a cell from which on they are turned at once; else after half of the bend.
+const GENTLE: f64 = 0.1;
+
+/// Part of the way to where the patch turns back from which on a rim counts as beyond: rounding places it on either side.
+const NEAR_TURN: f64 = 0.999;
 
 /// A step back of this part of the size of the bodies is rounding.
 const TINY: f64 = 1e-13;
@@ -45,7 +49,7 @@ pub(super) struct CellEnd {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Node {
     pub x: [f64; 3],
-    /// Of the area in the plane of the frame, per angle.
+    /// Of the area in the plane of the frame, per angle; below 0 where the patch has turned back under itself, so that sums of weight · normal are right there, too.
     pub weight: f64,
     /// 1 − s.
     pub pressure: f64,
@@ -53,12 +57,21 @@ pub(super) struct Node {
     pub normal: [f64; 2],
 }
 
+impl Node {
+    /// Its share of the area of the patch, per angle.
+    #[inline(always)]
+    pub fn area(&self) -> f64 {
+        let [n_u, n_v] = self.normal;
+        self.weight.abs() * (1.0 + (n_u * n_u + n_v * n_v)).sqrt()
+    }
+}
+
 /// Where a plane goes on or off, or the ray ends.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Event {
     /// Number of the plane, or [`RIM`].
     pub id: u32,
-    /// Distance from the origin of the ray, and height above it.
+    /// Distance from the origin of the ray, and height above it; beyond a turn of the patch the way, and nothing of use.
     pub rho: f64,
     pub zeta: f64,
     /// Integral of the pressure up to here.
@@ -82,7 +95,9 @@ pub(super) struct Ray {
     pub error: f64,
     pub events: [Event; EVENTS],
     pub count: usize,
-    /// Whether it ended where the patch turns back under itself.
+    /// Whether it was walked over with its axes turned: the patch turns back under itself, or is steep.
+    pub is_tilted: bool,
+    /// Whether it ended before the patch does.
     pub is_folded: bool,
 }
 
@@ -169,30 +184,57 @@ impl<'f, 'a, 's> Walker<'f, 'a, 's> {
             error: 0.0,
             events: [nowhere; EVENTS],
             count: 0,
+            is_tilted: false,
             is_folded: false,
         };
-        let half_plane = HalfPlane::upright(line.origin, line.direction);
+        let mut half_plane = HalfPlane::upright(line.origin, line.direction);
+        let mut tilt = Tilt::UPRIGHT;
         self.set_out(&half_plane);
-        let (mut rho, mut zeta) = (0.0, 0.0);
+        let (mut rho, mut zeta, mut way) = (0.0, 0.0, 0.0);
         for _ in 0..MOST_CELLS {
             let cell = self.cell(&half_plane, rho, zeta);
             if !(cell.s.v < 1.0) {
-                ray.push(Event { id: RIM, rho, zeta, before: ray.sums[2] });
+                ray.push(Event { id: RIM, rho: way, zeta, before: ray.sums[2] });
                 break;
             }
-            let CellEnd { h, k, next, is_folded } = self.end_of(&cell);
-            ray.is_folded |= is_folded;
-            let end = [line.origin[0] + (rho + h) * line.direction[0], line.origin[1] + (rho + h) * line.direction[1]];
-            let away = end[0].hypot(end[1]).hypot(line.origin[2] + zeta + k);
+            let CellEnd { mut h, mut k, mut next, is_folded: mut turns } = self.end_of(&cell);
+            turns |= !cell.is_flat && self.field.b.is_some() && cell.incline(h, k).abs() > STEEP;
+            if turns {
+                ray.is_tilted = true;
+                let incline = cell.incline(0.0, 0.0);
+                if incline.abs() > GENTLE {
+                    // With axes along the patch it goes on.
+                    let (onwards, by) = tilt.onwards(incline);
+                    (tilt, half_plane) = (onwards, half_plane.turned(by));
+                    [rho, zeta] = [by[0] * rho + by[1] * zeta, by[0] * zeta - by[1] * rho];
+                    self.turn(by);
+                    continue;
+                }
+                (h, k) = cell.half_turned(h);
+            }
+            let axis = |h: f64, k: f64| tilt.upright(rho + h, zeta + k)[0];
+            if !tilt.is_upright() && axis(h, k) < 0.0 {
+                // The patch closes around a body.
+                (h, k) = cell.zero_of(h, axis);
+                (next, turns) = (None, false);
+            }
+            let end = half_plane.at(rho + h, zeta + k);
+            let away = end[0].hypot(end[1]).hypot(end[2]);
             if away > self.field.loaded() {
                 return Err(away);
             }
             if h > 0.0 {
-                self.integrate(line, &cell, (rho, zeta), h, &mut ray)?;
+                self.integrate(line, &tilt, &cell, (rho, zeta), h, &mut ray)?;
             }
-            (rho, zeta) = (rho + h, zeta + k);
+            (rho, zeta, way) = (rho + h, zeta + k, way + h);
+            if turns {
+                if !(h > 0.0) {
+                    break;
+                }
+                continue;
+            }
             let id = next.map_or(RIM, |place| place as u32);
-            ray.push(Event { id, rho, zeta, before: ray.sums[2] });
+            ray.push(Event { id, rho: way, zeta, before: ray.sums[2] });
             match next {
                 Some(place) if self.planes[place].owner != Owner::Edge => {
                     self.planes[place].active = !self.planes[place].active;
@@ -200,8 +242,25 @@ impl<'f, 'a, 's> Walker<'f, 'a, 's> {
                 _ => break,
             }
         }
+        if ray.event(ray.count.wrapping_sub(1)).is_none_or(|last| !self.ends_at(last)) {
+            // Lost on the way.
+            ray.is_folded = true;
+            ray.push(Event { id: RIM, rho: way, zeta, before: ray.sums[2] });
+        }
         ray.nodes.1 = self.nodes.len() as u32;
         Ok(ray)
+    }
+
+    /// Whether a ray may end with an event: on the rim or at an edge.
+    fn ends_at(&self, event: &Event) -> bool {
+        self.planes.get(event.id as usize).is_none_or(|plane| plane.owner == Owner::Edge)
+    }
+
+    /// Turns the axes of a walk in its half-plane.
+    fn turn(&mut self, [c, s]: [f64; 2]) {
+        for plane in self.planes.iter_mut() {
+            [plane.along, plane.up] = [c * plane.along + s * plane.up, c * plane.up - s * plane.along];
+        }
     }
 
     /// Where the way through a cell ends: at the nearest plane or edge, or on the rim.
@@ -213,7 +272,7 @@ impl<'f, 'a, 's> Walker<'f, 'a, 's> {
             return CellEnd { h, k, next, is_folded: false };
         }
         let (h, is_folded) = match cell.rim(h.min(turn), 0.1 * self.field.radius()) {
-            Ok(rim) => (rim, rim >= turn),
+            Ok(rim) => (rim, rim >= NEAR_TURN * turn),
             Err(turn) => (turn, true),
         };
         CellEnd { h, k: cell.height(h).map_or(0.0, |(k, _)| k), next: None, is_folded }
@@ -279,116 +338,12 @@ impl<'f, 'a, 's> Walker<'f, 'a, 's> {
         next
     }
 
-    /// Adds the cell to the integrals, in pieces where one rule does not do.
-    fn integrate(&mut self, line: &Line, cell: &Cell, start: (f64, f64), h: f64, ray: &mut Ray) -> Result<(), f64> {
-        let (mut from, mut step) = (0.0, h);
-        while from < h {
-            let to = if from + step < h * (1.0 - 1e-6) { from + step } else { h };
-            let known = self.nodes.len();
-            let Some((sums, error)) = self.piece(line, cell, start, (from, to))? else {
-                self.nodes.truncate(known);
-                ray.is_folded = true;
-                return Ok(());
-            };
-            if error > self.budget && to - from > SHORTEST * h {
-                self.nodes.truncate(known);
-                step = 0.5 * (to - from);
-                continue;
-            }
-            for (sum, term) in ray.sums.iter_mut().zip(sums) {
-                *sum += term;
-            }
-            if !cell.is_flat {
-                (0..3).for_each(|i| ray.curved[i] += sums[i]);
-            }
-            ray.error += error;
-            (from, step) = (to, 2.0 * step);
-        }
-        Ok(())
-    }
-
-    /// One rule on a part of a cell: its integrals and the estimated error of ∫ p n; `None` where the patch has turned back. As an error,
-    /// a distance beyond that within which all planes are loaded.
-    #[inline(always)]
-    fn piece(
-        &mut self,
-        line: &Line,
-        cell: &Cell,
-        (rho, zeta): (f64, f64),
-        (from, to): (f64, f64),
-    ) -> Result<Option<([f64; SUMS], f64)>, f64> {
-        let is_flat = cell.is_flat && !self.with_energy;
-        let points = if is_flat { 2 } else { self.order };
-        let rule = gauss(points);
-        let [e, f] = line.direction;
-        let by_distance = |distance: f64| if line.is_polar { distance } else { 1.0 };
-        let mut sums = [0.0; SUMS];
-        // Pressure and its product with the slope of the patch: at the ends by the polynomial through the points, and the largest.
-        let (mut ends, mut largest) = ([[0.0; 4]; 2], [0.0_f64; 2]);
-        for (i, (place, weight)) in rule.nodes[..points].iter().enumerate() {
-            let along = from + place * (to - from);
-            let Some((up, rise)) = cell.height(along) else { return Ok(None) };
-            let distance = rho + along;
-            let pressure = 1.0 - cell.s.value(along, up).max(0.0).sqrt();
-            let density = by_distance(distance);
-            let weight = weight * (to - from) * density;
-            let run = 1.0 / rise;
-            let (n_along, n_across) = (cell.d.by_h(along, up) * run, cell.d.across(along, up) * run);
-            let normal = [n_along * e - n_across * f, n_along * f + n_across * e];
-            let arm = [distance * e, distance * f, zeta + up];
-            let load = weight * pressure;
-            let x = [line.origin[0] + arm[0], line.origin[1] + arm[1], line.origin[2] + arm[2]];
-            let node = Node { x, weight, pressure, normal };
-            let energy = if self.with_energy { energy::density(self.field, &node)? } else { 0.0 };
-            self.nodes.push(node);
-            let [n_u, n_v] = normal;
-            let area = (1.0 + n_u * n_u + n_v * n_v).sqrt();
-            let torque = [arm[1] - arm[2] * n_v, arm[2] * n_u - arm[0], arm[0] * n_v - arm[1] * n_u];
-            let [of_u, of_v, of_w] = torque.map(|c| load * c);
-            let terms = [load * n_u, load * n_v, load, of_u, of_v, of_w, weight * area, weight * energy];
-            for (sum, term) in sums.iter_mut().zip(terms) {
-                *sum += term;
-            }
-            if !is_flat {
-                let values = [pressure, n_along * pressure, n_across * pressure, energy].map(|c| c * density);
-                for (j, value) in values.into_iter().enumerate() {
-                    ends[0][j] += rule.at_end[i] * value;
-                    ends[1][j] += rule.at_end[points - 1 - i] * value;
-                    largest[j / 3] = largest[j / 3].max(value.abs());
-                }
-            }
-        }
-        if !sums.iter().all(|sum| sum.is_finite()) {
-            return Ok(None);
-        }
-        if is_flat {
-            return Ok(Some((sums, 0.0)));
-        }
-        // That polynomial misses the ends by a term whose square, relative, is that of degree 2n.
-        let mut off = [0.0_f64; 2];
-        for (end, at) in ends.iter().zip([from, to]) {
-            let Some((up, rise)) = cell.height(at) else { return Ok(None) };
-            let pressure = 1.0 - cell.s.value(at, up).max(0.0).sqrt();
-            let (n_along, n_across) = (cell.d.by_h(at, up) / rise, cell.d.across(at, up) / rise);
-            let distance = rho + at;
-            let energy = if self.with_energy {
-                let x = [line.origin[0] + distance * e, line.origin[1] + distance * f, line.origin[2] + zeta + up];
-                let normal = [n_along * e - n_across * f, n_along * f + n_across * e];
-                energy::density(self.field, &Node { x, weight: 0.0, pressure, normal })?
-            } else {
-                0.0
-            };
-            let values = [pressure, n_along * pressure, n_across * pressure, energy].map(|c| c * by_distance(distance));
-            (0..4).for_each(|j| off[j / 3] = off[j / 3].max((values[j] - end[j]).abs()));
-        }
-        let error = |i: usize| if off[i] > 0.0 { (to - from) * off[i] * off[i] / (largest[i] + off[i]) } else { 0.0 };
-        let of_energy = if self.with_energy { error(1) * sums[2] / sums[7] } else { 0.0 };
-        Ok(Some((sums, error(0).max(of_energy))))
-    }
-
     /// The integral of a plane or of the rim (as an inverse distance from the origin) in the cell that follows the first `m` events of a
     /// ray: where it would be met if nothing else were before.
     pub fn inverse_distance(&mut self, line: &Line, ray: &Ray, m: usize, id: u32) -> Option<f64> {
+        if ray.is_tilted {
+            return None;
+        }
         let half_plane = HalfPlane::upright(line.origin, line.direction);
         self.set_out(&half_plane);
         for event in &ray.events[..m] {

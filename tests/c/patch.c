@@ -130,7 +130,7 @@ static void squares_of_the_plane(void) {
     pp_patch_point_2d points[64];
     size_t count = 0;
     CHECK_STATUS(pp_contact_detect_2d(square, &pose_a, square, &pose_b, NULL, NULL, &contact), PP_OK);
-    CHECK_STATUS(pp_patch_of_contact_2d(square, &pose_a, square, &pose_b, &contact, 1e-6, 1, &patch, points, 64, &count),
+    CHECK_STATUS(pp_patch_of_contact_2d(square, &pose_a, square, &pose_b, &contact, 1e-6, 1, NULL, &patch, points, 64, &count),
                  PP_OK);
     CHECK_NEAR(patch.length, 0.8, 1e-4);
     CHECK_NEAR(patch.force[1], 0.8 * overlap, 1e-4 * overlap);
@@ -141,8 +141,13 @@ static void squares_of_the_plane(void) {
     double length = 0;
     for (size_t i = 0; i < count; i++) length += points[i].length;
     CHECK_NEAR(length, patch.length, 1e-12);
+    pp_patch_state state = {0};
+    for (int i = 0; i < 3; i++)
+        CHECK_STATUS(pp_patch_of_contact_2d(square, &pose_a, square, &pose_b, &contact, 1e-6, 1, &state, &patch, NULL, 0, NULL), PP_OK);
+    CHECK(patch.flags & PP_PATCH_CARRIED);
+    CHECK_NEAR(patch.force[1], 0.8 * overlap, 1e-4 * overlap);
     FILL(patch);
-    CHECK_STATUS(pp_patch_of_contact_2d(square, &pose_a, square, &pose_b, &contact, 0.0, 0, &patch, NULL, 0, NULL),
+    CHECK_STATUS(pp_patch_of_contact_2d(square, &pose_a, square, &pose_b, &contact, 0.0, 0, NULL, &patch, NULL, 0, NULL),
                  PP_BAD_SETTING);
     CHECK_UNTOUCHED(patch);
     pp_particle_free_2d(square);

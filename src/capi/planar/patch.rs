@@ -4,7 +4,7 @@ use super::convert::pose_from;
 use super::particle::pp_particle_2d;
 use super::types::{pp_contact_2d, pp_pose_2d};
 use crate::capi::fence::{borrow, fenced, output};
-use crate::capi::patch::{kind, settings, with_points};
+use crate::capi::patch::{kind, pp_patch_state, settings, state_of, with_points};
 use crate::capi::status::*;
 use crate::contact::contact as space;
 use crate::planar::{Contact, PatchPoint, patch_of_contact};
@@ -46,7 +46,7 @@ pub struct pp_patch_2d {
     /// Elastic energy over K, length^3; NaN unless asked for.
     pub energy: f64,
     /// Change of force and torque on B about the contact point, over K, with a shift and a turn of A: rows and
-    /// columns x, y and angle.
+    /// columns x, y and angle. NaN where it is carried on.
     pub stiffness: [f64; 9],
 }
 
@@ -64,7 +64,7 @@ pub struct pp_patch_point_2d {
     pub normal: [f64; 2],
 }
 
-/// The patch of an overlapping contact of two particles of the plane. As pp_patch_of_contact.
+/// The patch of an overlapping contact of two particles of the plane. As pp_patch_of_contact, state too.
 ///
 /// Errors: those of pp_patch_of_contact.
 #[unsafe(no_mangle)]
@@ -76,6 +76,7 @@ pub unsafe extern "C" fn pp_patch_of_contact_2d(
     contact: *const pp_contact_2d,
     tolerance: f64,
     with_energy: u32,
+    state: *mut pp_patch_state,
     patch: *mut pp_patch_2d,
     points: *mut pp_patch_point_2d,
     capacity: usize,
@@ -96,8 +97,10 @@ pub unsafe extern "C" fn pp_patch_of_contact_2d(
             ..Contact::from(space::Contact::UNKNOWN)
         };
         let out = unsafe { output(patch) }?;
-        let run = |scratch: &mut PatchScratch, visit: &mut dyn FnMut(PatchPoint)| {
-            patch_of_contact(a, &pose_a, b, &pose_b, &contact, &settings, scratch, visit)
+        let state = unsafe { state_of(state, capacity) };
+        let run = |scratch: &mut PatchScratch, visit: &mut dyn FnMut(PatchPoint)| match state {
+            Some(state) => state.patch_in_plane(a, &pose_a, b, &pose_b, &contact, &settings, scratch),
+            None => patch_of_contact(a, &pose_a, b, &pose_b, &contact, &settings, scratch, visit),
         };
         let point_to = |point: PatchPoint| pp_patch_point_2d {
             position: point.position.into(),
