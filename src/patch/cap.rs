@@ -2,7 +2,7 @@
 
 use super::chart::{Chart, Place, Vector, Wave, node, turn};
 use super::ray::Node;
-use super::rules::gauss;
+use super::rules::{gauss, tapering};
 use super::strip::Strip;
 
 /// Where a single point gives the load of a quarter of a paraboloid.
@@ -102,14 +102,12 @@ impl Cap {
 
     /// Gauss' rule of so many points in both angles.
     pub fn integrate(&self, points: usize, mut visit: impl FnMut(Node)) -> Option<()> {
-        let rule = &gauss(points).nodes[..points];
-        for (xi, weight) in rule {
-            // The height ends as a root does: the square of the rest makes it smooth.
-            let rest = 1.0 - if points == 1 { SINGLE } else { *xi };
+        // The height ends as a root does, or as a line: the square of the rest makes it smooth.
+        for (rest, weight) in if points == 1 { &[(1.0 - SINGLE, 1.0)] } else { tapering(points) } {
             let theta = self.start + self.width * (1.0 - rest * rest);
             let height = self.height(theta);
             let share = weight * (2.0 * rest * self.width).abs() * height;
-            for (nu, weight) in rule {
+            for (nu, weight) in &gauss(points).nodes[..points] {
                 let (x, area, s) = self.at(theta, nu * height);
                 visit(node(x, area, s, share * weight)?);
             }

@@ -13,12 +13,16 @@ const OF_STRIPS: [[usize; 2]; 5] = [[3, 2], [3, 3], [4, 4], [5, 8], [8, 14]];
 /// Of a cap, in both angles.
 const OF_CAPS: [usize; 5] = [1, 2, 3, 5, 8];
 
-/// Of a disc, outwards and around.
-const OF_DISCS: [[usize; 2]; 4] = [[3, 7], [4, 10], [6, 14], [10, 24]];
+/// Of a disc, outwards and around, after its first rule, which coarse tolerances begin with.
+const OF_DISCS: [[usize; 2]; 3] = [[4, 10], [6, 14], [10, 24]];
 
-/// Part of a cap's load by which rules of one point and of two in each angle are wrong at most, about: the difference of the two may vanish by
-/// chance.
-const COARSE_CAP: [f64; 2] = [0.3, 0.1];
+/// Part of a cap's load by which the rule of one point is wrong at most, about; and that of two in each angle where the difference of the two
+/// vanishes by chance, and where it is the load itself.
+const SINGLE: f64 = 0.3;
+const DOUBLE: [f64; 2] = [0.003, 0.3];
+
+/// Part of a strip's load by which two points along it are wrong where it tapers, at most about.
+const TAPERED: f64 = 1e-3;
 
 /// A part of the patch.
 #[derive(Clone, Copy, Debug)]
@@ -46,11 +50,10 @@ impl Piece {
         Self { kind, rule: 0, neglected, errors: [0.0; 2], nodes: (0, 0) }
     }
 
-    /// The next finer rule: of a cap one that may bring its error, so far no more than assumed, to a share.
-    pub fn refine(&mut self, share: f64) {
-        let skips = matches!(self.kind, Kind::Cap(_))
-            && self.rule == 0
-            && self.errors[0] * COARSE_CAP[1] > share * COARSE_CAP[0];
+    /// The next finer rule: of a cap one that may bring its error, so far no more than assumed, to what it may be.
+    pub fn refine(&mut self, allowed: f64) {
+        let skips =
+            matches!(self.kind, Kind::Cap(_)) && self.rule == 0 && self.errors[0] * DOUBLE[0] > allowed * SINGLE;
         self.rule += 1 + usize::from(skips);
     }
 
@@ -61,6 +64,7 @@ impl Piece {
         let first = nodes.len();
         let mut fine = [0.0; 4];
         let mut coarse = [0.0; 4];
+        let mut tapers = false;
         let add = |sums: &mut [f64; 4], node: &Node| {
             let load = node.weight * node.pressure;
             let [u, v] = node.normal;
@@ -78,21 +82,27 @@ impl Piece {
             Kind::Strip(strip) => {
                 let [across, along] = *OF_STRIPS.get(self.rule)?;
                 strip.integrate(across, along, into)?;
-                strip.integrate(across - 1, along - 1, only)?;
+                // One point along a strip that tapers tells nothing.
+                tapers = along == 2 && strip.tapers().is_some();
+                strip.integrate(across - 1, if tapers { along } else { along - 1 }, only)?;
             }
             Kind::Cap(cap) => {
                 let points = *OF_CAPS.get(self.rule)?;
                 cap.integrate(points, into)?;
-                if let Some(part) = COARSE_CAP.get(self.rule) {
-                    let size = Vector::new(fine[0], fine[1], fine[2]).norm();
-                    self.errors = [part * size, part * fine[3]];
-                    self.nodes = (first, nodes.len());
-                    return Some(());
+                if points > 1 {
+                    cap.integrate(points - 1, only)?;
                 }
-                cap.integrate(points - 1, only)?;
             }
             Kind::Disc(disc) => {
-                let [outwards, around] = *OF_DISCS.get(self.rule)?;
+                if tolerance < FINE {
+                    self.rule = self.rule.max(1);
+                }
+                let Some(finer) = self.rule.checked_sub(1) else {
+                    self.errors = disc.first(into)?;
+                    self.nodes = (first, nodes.len());
+                    return Some(());
+                };
+                let [outwards, around] = *OF_DISCS.get(finer)?;
                 disc.integrate(outwards, around, into)?;
                 disc.integrate(outwards - 1, around - 2, only)?;
             }
@@ -100,9 +110,14 @@ impl Piece {
         let off = [0, 1, 2].map(|i| fine[i] - coarse[i]);
         let (off, size) = (Vector::from(off).norm(), Vector::new(fine[0], fine[1], fine[2]).norm());
         let least = if tolerance < FINE { 1.0 } else { (0.02 / deepest).min(1.0) };
-        // The nearer s = √S comes to the kink at its 0, the slower the rules converge.
-        let of = |off: f64, size: f64| {
-            if off > 0.0 { off * (3.0 * off / (deepest * size)).clamp(least, 1.0) } else { 0.0 }
+        let of = |off: f64, size: f64| match (&self.kind, self.rule) {
+            (Kind::Cap(_), 0) => SINGLE * size,
+            (Kind::Cap(_), 1) => DOUBLE[0] * size + if off > 0.0 { DOUBLE[1] * off * off / size } else { 0.0 },
+            // The nearer s = √S comes to the kink at its 0, the slower the rules converge.
+            _ if off > 0.0 => {
+                off * (3.0 * off / (deepest * size)).clamp(least, 1.0) + if tapers { TAPERED * size } else { 0.0 }
+            }
+            _ => 0.0,
         };
         self.errors = [of(off, size), of((fine[3] - coarse[3]).abs(), fine[3])];
         self.nodes = (first, nodes.len());

@@ -101,9 +101,10 @@ fn refine(pieces: &mut [Piece], tolerance: f64, deepest: f64, nodes: &mut Vec<No
         }
         // Below half of the worst, so that every round refines a piece and the last rule ends it.
         let worst = pieces.iter().map(|piece| piece.errors[0]).fold(0.0, f64::max);
-        let share = (0.15 * limit / pieces.len() as f64).min(0.5 * worst);
+        let allowed = limit / pieces.len() as f64;
+        let share = (0.15 * allowed).min(0.5 * worst);
         for piece in pieces.iter_mut().filter(|piece| piece.errors[0] > share) {
-            piece.refine(share);
+            piece.refine(allowed);
             piece.integrate(tolerance, deepest, nodes)?;
         }
     }

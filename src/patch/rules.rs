@@ -20,6 +20,40 @@ pub(super) fn gauss(points: usize) -> &'static Gauss {
     &RULES[points.min(MOST_POINTS) - 1]
 }
 
+/// The rule of `points` points for functions that start with x² or x³, as do area and load of a zone that tapers to its end at x = 0, where its
+/// border leaves the rim like a root or like a line: exact for x² to x^(2n + 1).
+pub(super) fn tapering(points: usize) -> &'static [(f64, f64)] {
+    static RULES: LazyLock<[[(f64, f64); MOST_POINTS]; MOST_POINTS]> =
+        LazyLock::new(|| std::array::from_fn(|i| tapered(i + 1)));
+    let points = points.min(MOST_POINTS);
+    &RULES[points - 1][..points]
+}
+
+/// Gauss' rule for the weight x², by Newton's method for the roots of Jacobi's polynomial of the orders 0 and 2; its weights over x².
+fn tapered(points: usize) -> [(f64, f64); MOST_POINTS] {
+    let n = points as f64;
+    let mut nodes = [(0.0, 0.0); MOST_POINTS];
+    for (i, node) in nodes[..points].iter_mut().enumerate() {
+        let mut x = (std::f64::consts::PI * (2.0 * i as f64 + 1.5) / (2.0 * n + 3.0)).cos();
+        let mut slope = 1.0;
+        for _ in 0..12 {
+            let (mut before, mut value) = (1.0, 2.0 * x - 1.0);
+            for j in 2..=points {
+                let j = j as f64;
+                let [a, b, c] =
+                    [2.0 * j * (j + 2.0) * (2.0 * j), 2.0 * j + 1.0, 2.0 * (j - 1.0) * (j + 1.0) * (2.0 * j + 2.0)];
+                (before, value) = (value, (b * ((2.0 * j + 2.0) * 2.0 * j * x - 4.0) * value - c * before) / a);
+            }
+            let m = 2.0 * n + 2.0;
+            slope = (n * (-2.0 - m * x) * value + 2.0 * n * (n + 2.0) * before) / (m * (1.0 - x * x));
+            x -= value / slope;
+        }
+        let place = 0.5 * (1.0 + x);
+        *node = (place, 1.0 / ((1.0 - x * x) * slope * slope * place * place));
+    }
+    nodes
+}
+
 /// The roots of Legendre's polynomial by Newton's method, from Tricomi's approximation.
 fn computed(points: usize) -> Gauss {
     let n = points as f64;
@@ -82,6 +116,16 @@ mod tests {
                 let rule = gauss(points);
                 let sum: f64 = (0..points).map(|i| rule.at_end[i] * (1.0 - rule.nodes[i].0).powi(power)).sum();
                 assert!((sum - 1.0).abs() < 1e-9, "{points} points, (1-x)^{power} at 0: {sum}");
+            }
+        }
+    }
+
+    #[test]
+    fn powers_from_the_second_on_are_exact_where_a_zone_tapers() {
+        for points in 1..=MOST_POINTS {
+            for power in 2..2 * points as i32 + 2 {
+                let sum: f64 = tapering(points).iter().map(|(x, w)| w * x.powi(power)).sum();
+                assert!((sum * f64::from(power + 1) - 1.0).abs() < 1e-12, "{points} points, x^{power}: {sum}");
             }
         }
     }

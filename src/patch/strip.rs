@@ -2,12 +2,15 @@
 //!
 //! Angles are given by the tangents of their halves.
 
-use super::chart::{Chart, Place, Vector, Wave, node, turn};
+use super::chart::{Chart, Vector, Wave, node, turn};
 use super::ray::Node;
-use super::rules::{MOST_POINTS, gauss};
+use super::rules::{MOST_POINTS, gauss, tapering};
 
 /// Most fixed-point steps towards the corner of a strip.
 const MOST_STEPS: usize = 12;
+
+/// Relative size of a step at which it has: what the corner is off then does not count, as p is 0 there and the border is computed from it on.
+const SETTLED: f64 = 1e-6;
 
 /// Relative size of the last step above which the search for a corner has not converged.
 const UNSETTLED: f64 = 1e-5;
@@ -32,6 +35,8 @@ pub(super) struct Strip {
     pub sign: f64,
     pub ends: [End; 2],
     wave: Wave,
+    /// The products of the arms across the edge with that along it, and of the second with the first.
+    crosses: [Vector; 3],
     /// The angle over which a strip extends at its ends, and the distance along the edge at its ends, there and at the start.
     corners: [(f64, f64); 2],
     starts: [f64; 2],
@@ -42,8 +47,10 @@ impl Strip {
     pub fn new(chart: Chart, radii: [f64; 2], start: Option<f64>, sign: f64, ends: [End; 2]) -> Option<Self> {
         let wave = Wave::new(-chart.slopes[0] * radii[0], -chart.slopes[1] * radii[0]);
         let start = start.unwrap_or_else(|| wave.peak());
+        let [d, e, t] = chart.arms;
         let mut strip = Self {
             chart,
+            crosses: [d.cross(&t), e.cross(&t), e.cross(&d)],
             radii: [radii[0], radii[1]],
             start,
             sign,
@@ -60,7 +67,7 @@ impl Strip {
                 let next = strip.width(along).0;
                 step = (next - width).abs();
                 width = next;
-                if step <= 1e-9 * width.abs() {
+                if step <= SETTLED * width.abs() {
                     break;
                 }
             }
@@ -137,7 +144,9 @@ impl Strip {
 
     /// 1 − s in the middle of its start.
     pub fn depth(&self) -> f64 {
-        1.0 - self.at(self.start, 0.5 * (self.starts[0] + self.starts[1])).2
+        let along = 0.5 * (self.starts[0] + self.starts[1]);
+        let (sin, cos, _) = turn(self.start);
+        1.0 - (self.chart.c + self.chart.slopes[2] * along) / self.denominator(sin, cos).0
     }
 
     pub fn place(&self, [theta, along]: [f64; 2]) -> Vector {
@@ -147,27 +156,36 @@ impl Strip {
         self.chart.origin + self.chart.combine([scale * cos, scale * sin, along])
     }
 
+    /// What depends on the angle alone: the vector of area over s, the direction outwards, and 1/F.
     #[inline(always)]
-    fn at(&self, theta: f64, along: f64) -> Place {
+    fn across(&self, theta: f64) -> (Vector, Vector, f64) {
         let (sin, cos, rate) = turn(theta);
         let (f, f1) = self.denominator(sin, cos);
         let inverse = 1.0 / f;
-        let s = (self.chart.c + self.chart.slopes[2] * along) * inverse;
-        let (by_theta, by_along) = (-s * f1 * inverse, self.chart.slopes[2] * inverse);
-        let [d, e, t] = self.chart.arms;
+        let [d, e, _] = self.chart.arms;
+        let [by_d, by_e, along] = self.crosses;
         let r = self.radii[0];
-        let outwards = r * (cos * d + sin * e);
-        let x = self.chart.origin + s * outwards + along * t;
-        let area = (by_theta * outwards + (r * s) * (cos * e - sin * d)).cross(&(t + by_along * outwards));
-        (x, rate * area, s)
+        // Of s·outwards + along·t, by the angle and along the edge.
+        let fall = r * f1 * inverse;
+        let area = (-fall * cos - r * sin) * by_d
+            + (r * cos - fall * sin) * by_e
+            + (r * r * self.chart.slopes[2] * inverse) * along;
+        (rate * area, r * (cos * d + sin * e), inverse)
     }
 
     /// Gauss' rule of points across and along.
     pub fn integrate(&self, across: usize, along: usize, mut visit: impl FnMut(Node)) -> Option<()> {
         let [(first, t0), (last, t1)] = self.corners;
         let mut stations = [(0.0, 0.0, 0.0, 0.0); MOST_POINTS];
-        for (station, (sigma, weight)) in stations.iter_mut().zip(&gauss(along).nodes[..along]) {
-            let (tau, weight) = self.along(*sigma, *weight);
+        let tapers = self.tapers();
+        let rule = if tapers.is_some() { tapering(along) } else { &gauss(along).nodes[..along] };
+        for (station, (sigma, weight)) in stations.iter_mut().zip(rule) {
+            // Towards such an end it narrows as a root does, or as a line, which the square of the distance makes smooth.
+            let (tau, weight) = match tapers {
+                None => (*sigma, *weight),
+                Some(0) => (sigma * sigma, 2.0 * sigma * weight),
+                Some(_) => (1.0 - sigma * sigma, 2.0 * sigma * weight),
+            };
             let (wide, by_along) = self.width(t0 + tau * (t1 - t0));
             *station = (tau, weight, wide, if first == last { 0.0 } else { by_along * (t1 - t0) });
         }
@@ -178,21 +196,22 @@ impl Strip {
                 let theta = self.start + lambda * width;
                 let jacobian =
                     width * (to - from) - lambda * width_by_tau * (from1 * first * (1.0 - tau) + to1 * last * tau);
-                let (x, area, s) = self.at(theta, from + tau * (to - from));
-                visit(node(x, area, s, weight * weight_along * (self.sign * jacobian).max(0.0))?);
+                let along = from + tau * (to - from);
+                let (area, outwards, inverse) = self.across(theta);
+                let s = (self.chart.c + self.chart.slopes[2] * along) * inverse;
+                let x = self.chart.origin + s * outwards + along * self.chart.arms[2];
+                visit(node(x, s * area, s, weight * weight_along * (self.sign * jacobian).max(0.0))?);
             }
         }
         Some(())
     }
 
-    /// Place and weight along the strip: towards an end where s = 1 it narrows as a root does, which the square of the rest makes smooth. A strip
-    /// with two such ends is left as it is.
-    #[inline(always)]
-    fn along(&self, sigma: f64, weight: f64) -> (f64, f64) {
+    /// Which of its ends it tapers to, as s = 1 there; none where it is both.
+    pub fn tapers(&self) -> Option<usize> {
         match self.ends {
-            [End::At(_), End::Line { .. }] => (sigma * sigma, 2.0 * sigma * weight),
-            [End::Line { .. }, End::At(_)] => (1.0 - (1.0 - sigma) * (1.0 - sigma), 2.0 * (1.0 - sigma) * weight),
-            _ => (sigma, weight),
+            [End::At(_), End::Line { .. }] => Some(0),
+            [End::Line { .. }, End::At(_)] => Some(1),
+            _ => None,
         }
     }
 }

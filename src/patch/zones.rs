@@ -215,9 +215,9 @@ impl Zones<'_, '_, '_> {
         };
         let last_flat = self.flat(last);
         let chart = Chart::corner(three.map(|k| &planes[k]), &last_flat)?;
-        let disc = Disc { chart, radii: [radius(self.field, planes[three[0]].owner), last_flat.radius], third };
+        let disc = Disc::new(chart, [radius(self.field, planes[three[0]].owner), last_flat.radius], third)?;
         // Between places on the rim it reaches out a little farther.
-        let outline = disc.outline()?;
+        let outline = disc.outline();
         let middle = outline.iter().sum::<Vector>() / outline.len() as f64;
         let wider = outline.map(|x| middle + 1.035 * (x - middle));
         let across = (wider[0] - wider[6]).norm() * (wider[3] - wider[9]).norm();
