@@ -17,7 +17,8 @@ pub const PP_BAD_POSITION: pp_status = 2;
 /// A pose holds a quaternion that is not finite, or of a length outside [1e-150, 1e150]; or, in the
 /// plane, an angle that is not finite, or beyond 2^30 radians.
 pub const PP_BAD_ORIENTATION: pp_status = 3;
-/// A point or direction is not finite, or a direction has no length.
+/// A point or direction is not finite, a direction has no length, or a contact was not filled or is not
+/// of the kind that is needed.
 pub const PP_BAD_POINT: pp_status = 4;
 /// The settings name a formulation that does not exist.
 pub const PP_UNKNOWN_FORMULATION: pp_status = 5;
@@ -75,7 +76,7 @@ const MESSAGES: &[(pp_status, &CStr)] = &[
         PP_BAD_ORIENTATION,
         c"an orientation quaternion (w, x, y, z) is not finite, or of a length outside [1e-150, 1e150]; or, in the plane, an angle is not finite or beyond 2^30 radians: take whole turns off it",
     ),
-    (PP_BAD_POINT, c"a point or direction is not finite, or a direction has no length"),
+    (PP_BAD_POINT, c"a point or direction is not finite, a direction has no length, or a contact was not filled or is not of the kind that is needed"),
     (PP_UNKNOWN_FORMULATION, c"unknown formulation: use PP_MIDWAY or PP_CLOSEST"),
     (PP_UNKNOWN_BACK_END, c"unknown back end: use PP_FAST or PP_CONE_PROGRAM"),
     (PP_BAD_SETTING, c"a setting or tolerance is outside its documented range, or a reserved field is not 0"),

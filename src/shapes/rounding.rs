@@ -60,7 +60,7 @@ impl Rounding {
 
     /// r and k as they are, and R, all lengths.
     fn lengths(&self, size: f64) -> Result<(f64, f64, Option<f64>), ShapeError> {
-        let range = "a share of the size between 0 and 0.5 (for a sphere take sphere)";
+        let range = "a share of the size between 0 and 0.5 (a sphere has k = 1 and no planes)";
         let r = within(self.r, self.r > 0.0 && self.r < 0.5, "r", range)?;
         let k = within(self.k, (0.0..=1.0).contains(&self.k), "k", "between 0 and 1")?;
         let shadow_radius = self.shadow_radius.map(|share| positive(share, "R")).transpose()?;
