@@ -213,7 +213,9 @@ impl Equations {
                 return None;
             }
             step = next;
-            if change * change <= (ENOUGH * room) * (ENOUGH * room) * last {
+            // So short, too, that what converges as it must be seen to is then known to within `room`.
+            let short = 4.0 * TOLD * TOLD * change <= room * room;
+            if short && change * change <= (ENOUGH * room) * (ENOUGH * room) * last {
                 return Some(Round { step, change, number });
             }
             last = change;
