@@ -280,7 +280,8 @@
 // Answered in extended precision (about 32 digits): doubles did not settle it, or not to the gap asked for.
 #define PP_FLAG_EXTENDED 16
 
-// Carried on from the last contact, without a solution from the planes (carry_tolerance).
+// Carried on from the last contact, without a solution from the planes (carry_tolerance); with
+// PP_FLAG_REJECTED from where the pair was last solved apart.
 #define PP_FLAG_CARRIED 32
 
 // The gap is above the tolerance asked for: rounding allows no better. It is still a bound.
