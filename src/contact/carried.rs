@@ -261,13 +261,17 @@ impl LastContact {
     /// carried on could be known as well as the settings ask for.
     pub fn of(call: &Call, Solved { solution, model }: &Solved, scale: Scale, point_bound: f64) -> Self {
         let (pair, bodies, settings) = (call.pair, call.bodies(), call.settings);
-        let exact = model.in_solver_axes() && solution.linear;
-        let pieces = [KnownPiece::of(model, bodies[0], 0), KnownPiece::of(model, bodies[1], 1)];
+        if !(model.in_solver_axes() && solution.linear) {
+            return Self::default();
+        }
         let moved = moved_by_regularisation(bodies, solution, settings);
         let radius = local_model::smallest(bodies);
-        let near =
-            moved <= MOST_MOVED * radius && INHERITED * (point_bound + moved) <= settings.carry_tolerance * radius;
-        if !(exact && near && pieces.iter().all(|piece| piece.reach > 0.0)) {
+        let known = INHERITED * (point_bound + moved) <= settings.carry_tolerance * radius;
+        if !(moved <= MOST_MOVED * radius && known) {
+            return Self::default();
+        }
+        let pieces = [KnownPiece::of(model, bodies[0], 0), KnownPiece::of(model, bodies[1], 1)];
+        if !pieces.iter().all(|piece| piece.reach > 0.0) {
             return Self::default();
         }
         Self {
