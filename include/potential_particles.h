@@ -281,7 +281,8 @@
 // Answered in extended precision (about 32 digits): doubles did not settle it, or not to the gap asked for.
 #define PP_FLAG_EXTENDED 16
 
-// Carried on from the last contact, without a solution from the planes (carry_tolerance).
+// Carried on from the last contact, without a solution from the planes (carry_tolerance); with
+// PP_FLAG_REJECTED from where the pair was last solved apart.
 #define PP_FLAG_CARRIED 32
 
 // The gap is above the tolerance asked for: rounding allows no better. It is still a bound.
@@ -992,7 +993,8 @@ typedef struct pp_joint_set {
 // plane, an angle that is not finite, or beyond 2^30 radians.
 #define PP_BAD_ORIENTATION 3
 
-// A point or direction is not finite, or a direction has no length.
+// A point or direction is not finite, a direction has no length, or a contact was not filled or is not
+// of the kind that is needed.
 #define PP_BAD_POINT 4
 
 // The settings name a formulation that does not exist.

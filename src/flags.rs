@@ -57,7 +57,8 @@ impl Flags {
     pub const WARM: Self = Self(8);
     /// Answered in extended precision (about 32 digits): doubles did not settle it, or not to the gap that was asked for.
     pub const EXTENDED: Self = Self(16);
-    /// Carried on from the last contact without a solution from its planes ([`crate::Settings::carry_tolerance`]).
+    /// Carried on without a solution from its planes ([`crate::Settings::carry_tolerance`]): from the last contact, or, with [`Self::REJECTED`],
+    /// from where the pair was last solved apart.
     pub const CARRIED: Self = Self(32);
     /// The gap exceeds the tolerance, because rounding allows no better.
     pub const ROUNDING_LIMITED: Self = Self(64);

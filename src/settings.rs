@@ -86,6 +86,7 @@ pub struct Settings {
     ///
     /// Above 0 (1e-9, say) and with a [`crate::PairState`], a contact of [`Formulation::Midway`] by [`BackEnd::Fast`] follows from the
     /// last one without a solution from its planes ([`crate::Flags::CARRIED`]) where no plane can have switched and its point is known so well.
+    /// A pair that is apart is carried on in the same way, as long as s is surely above 1.
     /// Its gap and `point_bound` hold as for any other.
     pub carry_tolerance: f64,
 }

@@ -228,6 +228,105 @@ fn only_the_pair_and_the_problem_that_it_was_made_for_are_carried_on() {
     assert!(loaded.contains(Flags::WARM) && !loaded.contains(Flags::CARRIED));
 }
 
+/// What is inherited from the solved contact counts, too.
+#[test]
+fn no_point_of_a_carried_contact_is_known_worse_than_was_asked_for() {
+    let mut counts = [0; 5];
+    for seed in 0..60_u64 {
+        let mut random = 1000 * seed + 17;
+        let (r, k) = (10_f64.powf(-1.0 - 3.0 * chance(&mut random)), 0.1 * chance(&mut random));
+        let (a, b) = (particle(8, r, k, &mut random), particle(8, r, k, &mut random));
+        let radius = a.bounding_radius().min(b.bounding_radius());
+        let pose_a = Pose::at([0.0; 3]).unwrap();
+        let towards = direction(&mut random);
+        let pose_b = touching(&a, &pose_a, &b, [1.0, 0.3, 0.2, 0.1], &towards, 0.1 * r);
+        for (count, tolerance) in counts.iter_mut().zip([1e-9, 1e-11, 1e-12, 1e-13, 1e-14]) {
+            let settings = Settings::default().with_carry_tolerance(tolerance);
+            let (mut state, mut poses) = (PairState::default(), [pose_a, pose_b]);
+            for _ in 0..20 {
+                let contact = detect(&a, &poses[0], &b, &poses[1], &settings, Some(&mut state)).unwrap();
+                if contact.flags.contains(Flags::CARRIED) {
+                    *count += 1;
+                    assert!(contact.point_bound <= tolerance * radius, "{tolerance:e}: {contact:?}");
+                }
+                poses = poses.map(|pose| moved(&pose, 1e-8, &mut random));
+            }
+        }
+    }
+    assert!(counts[0] > 800, "{counts:?}");
+}
+
+/// The face of a slab whose own sphere is next to nothing: the sphere of the body that stands on it holds the point for both.
+#[test]
+fn faces_that_rock_on_a_slab_are_carried_on() {
+    let planes = |half: f64| {
+        [[1.0, 0.0, 0.0], [-1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, -1.0, 0.0], [0.0, 0.0, 1.0], [0.0, 0.0, -1.0]]
+            .map(|[a, b, c]| Plane::from([a, b, c, half]))
+    };
+    let cube = Particle::new(&planes(0.45), 0.05, 0.02, 0.85).unwrap();
+    let slab = Particle::new(&planes(3.0), 0.5, 1e-6, 6.0).unwrap();
+    let pose_a = Pose::at([0.0; 3]).unwrap();
+    let settings = Settings::default().with_carry_tolerance(1e-9);
+    for turned in [0.0, 0.3] {
+        let (mut state, mut carried) = (PairState::default(), 0);
+        for step in 0..100 {
+            let (about_x, about_y) = (1e-5 * (0.3 * f64::from(step)).sin(), 2e-5 * (0.2 * f64::from(step)).cos());
+            let pose_b = Pose::new([0.2, 0.1, 3.999], [1.0, about_x, about_y, turned]).unwrap();
+            let contact = detect(&slab, &pose_a, &cube, &pose_b, &settings, Some(&mut state)).unwrap();
+            let solved = detect(&slab, &pose_a, &cube, &pose_b, &settings, None).unwrap();
+            assert_eq!(contact.kind, Kind::Overlapping);
+            if contact.flags.contains(Flags::CARRIED) {
+                carried += 1;
+                let fault = fault(&contact, &solved, 1e-9);
+                assert!(fault.is_none(), "{}\n{contact:?}\n{solved:?}", fault.unwrap());
+            }
+        }
+        assert!(carried >= 95, "turned {turned}: {carried} of 100 carried on");
+    }
+}
+
+/// Pairs that move as much as the gap between them: apart for sure as long as they are said to be, by no more than they are, and a contact begins by a
+/// solve.
+#[test]
+fn pairs_that_are_apart_are_carried_on() {
+    let settings = Settings::default().with_carry_tolerance(1e-9);
+    let exactly = Settings::default().with_solve_separated(true);
+    let (mut carried, mut begun) = (0, 0);
+    for seed in 0..100_u64 {
+        let mut random = 1000 * seed + 5;
+        let k = if seed % 3 == 0 { 0.0 } else { 0.05 };
+        let (a, b) = (particle(6, 0.1, k, &mut random), particle(6, 0.1, k, &mut random));
+        let (pose_a, towards) = (Pose::at([0.0; 3]).unwrap(), direction(&mut random));
+        let near = touching(&a, &pose_a, &b, [1.0, 0.3, 0.2, 0.1], &towards, 1e-5);
+        let away = (near.position() + 4e-4 * towards).into();
+        let mut poses = [pose_a, Pose::new(away, near.orientation()).unwrap()];
+        let (mut state, mut last) = (PairState::default(), Kind::Separated);
+        for _ in 0..60 {
+            let look = |pose_b: &Pose| detect(&a, &poses[0], &b, pose_b, &exactly, None).unwrap();
+            let contact = detect(&a, &poses[0], &b, &poses[1], &settings, Some(&mut state)).unwrap();
+            let exact = look(&poses[1]);
+            if contact.kind == Kind::Overlapping {
+                begun += usize::from(last == Kind::Separated);
+                assert!(last == Kind::Overlapping || !contact.flags.contains(Flags::CARRIED), "{contact:?}");
+            } else if contact.flags.contains(Flags::CARRIED) {
+                carried += 1;
+                assert!(contact.flags.contains(Flags::REJECTED) && contact.distance > 0.0, "{contact:?}");
+                assert!(contact.s > 1.0 && contact.s <= exact.s + exact.gap, "{contact:?}\n{exact:?}");
+                // As near as they are said to be at least, they do not meet.
+                let nearer = poses[1].position() - contact.distance * (1.0 - 1e-9) * exact.normal;
+                let nearer = look(&Pose::new(nearer.into(), poses[1].orientation()).unwrap());
+                assert!(nearer.s + nearer.gap >= 1.0, "{contact:?}\n{nearer:?}");
+            }
+            last = contact.kind;
+            poses = poses.map(|pose| moved(&pose, 5e-5, &mut random));
+        }
+        let (solved, pose) = (settings.with_solve_separated(true), poses[1]);
+        let contact = detect(&a, &poses[0], &b, &pose, &solved, Some(&mut state)).unwrap();
+        assert!(contact.kind == Kind::Overlapping || contact.gap.is_finite(), "{contact:?}");
+    }
+    assert!(carried > 1000 && begun > 5, "{carried} carried on, {begun} begun");
+}
+
 /// Walks of all shapes, steps and places from a seed: none is out of its bounds.
 fn wide_walks(seed: u64, walks: u64) {
     let mut tally = wide::Tally::default();
@@ -237,10 +336,14 @@ fn wide_walks(seed: u64, walks: u64) {
             &mut tally,
         );
     }
-    let wide::Tally { contacts, carried, ended, faults, most } = &tally;
-    println!("{carried} of {contacts} carried on, {ended} ended, {} faults; errors / bounds {most:.2?}", faults.len());
+    let wide::Tally { contacts, carried, apart, ended, faults, most } = &tally;
+    println!(
+        "{carried} of {contacts} carried on, {apart} apart, {ended} ended, {} faults; errors / bounds {most:.2?}",
+        faults.len()
+    );
     assert!(faults.is_empty(), "{:#?}", &faults[..faults.len().min(20)]);
-    assert!(*carried > 7 * walks && *ended > walks / 10, "{carried} carried on, {ended} ended");
+    let enough = *carried > 7 * walks && *apart > walks / 2 && *ended > walks / 10;
+    assert!(enough, "{carried} carried on, {apart} of them apart, {ended} ended");
 }
 
 #[test]

@@ -29,7 +29,8 @@ pub const PP_FLAG_NORMAL_BY_CENTRES: u32 = 4;
 pub const PP_FLAG_WARM: u32 = 8;
 /// Answered in extended precision (about 32 digits): doubles did not settle it, or not to the gap asked for.
 pub const PP_FLAG_EXTENDED: u32 = 16;
-/// Carried on from the last contact, without a solution from the planes (carry_tolerance).
+/// Carried on from the last contact, without a solution from the planes (carry_tolerance); with
+/// PP_FLAG_REJECTED from where the pair was last solved apart.
 pub const PP_FLAG_CARRIED: u32 = 32;
 /// The gap is above the tolerance asked for: rounding allows no better. It is still a bound.
 pub const PP_FLAG_ROUNDING_LIMITED: u32 = 64;

@@ -20,9 +20,10 @@ use crate::model::problem::Problem;
 use crate::pair::body::Body;
 use crate::pair::pair::Pair;
 use crate::pair::pair_state::{KnownPiece, LastContact, PairState, Remembered};
+use crate::pair::separation;
 use crate::particle::particle::Particle;
 use crate::pose::Pose;
-use crate::settings::Settings;
+use crate::settings::{Formulation, Settings};
 use crate::solver::call::{Call, Solved};
 use nalgebra::Vector3;
 
@@ -54,6 +55,12 @@ const MOST_STIFF: f64 = 1e9;
 /// Most that the regularisation may have moved the solved point, relative to the smaller bounding radius: less than a contact point has to be
 /// known to.
 const MOST_MOVED: f64 = 1e-10;
+
+/// How many times the bound of the solved point is in that of the next one at least: for the data of the quadratics, and for the place.
+const INHERITED: f64 = 2.0;
+
+/// Share of its reach after which a point is followed: there bounds have grown 42 times, and without end at 1.
+const MOST_USED: f64 = 0.75;
 
 /// Units of rounding, times the ratio of curvatures, in a slope that is carried along a distance (estimated).
 const SLOPE_ROUNDING: f64 = 16.0 * f64::EPSILON;
@@ -213,7 +220,9 @@ impl Equations {
                 return None;
             }
             step = next;
-            if change * change <= (ENOUGH * room) * (ENOUGH * room) * last {
+            // So short, too, that what converges as it must be seen to is then known to within `room`.
+            let short = 4.0 * TOLD * TOLD * change <= room * room;
+            if short && change * change <= (ENOUGH * room) * (ENOUGH * room) * last {
                 return Some(Round { step, change, number });
             }
             last = change;
@@ -248,14 +257,21 @@ fn moved_by_regularisation(bodies: [&Body; 2], solution: &Solution, settings: &S
 }
 
 impl LastContact {
-    /// Of a contact that was solved as an overlap in doubles; empty where its quadratics do not say enough.
+    /// Of a pair that was solved in doubles, as an overlap or surely apart; empty where its quadratics do not say enough, or where no contact that is
+    /// carried on could be known as well as the settings ask for.
     pub fn of(call: &Call, Solved { solution, model }: &Solved, scale: Scale, point_bound: f64) -> Self {
         let (pair, bodies, settings) = (call.pair, call.bodies(), call.settings);
-        let exact = model.in_solver_axes() && solution.linear;
-        let pieces = [KnownPiece::of(model, bodies[0], 0), KnownPiece::of(model, bodies[1], 1)];
+        if !(model.in_solver_axes() && solution.linear) {
+            return Self::default();
+        }
         let moved = moved_by_regularisation(bodies, solution, settings);
-        let near = moved <= MOST_MOVED * local_model::smallest(bodies);
-        if !(exact && near && pieces.iter().all(|piece| piece.reach > 0.0)) {
+        let radius = local_model::smallest(bodies);
+        let known = INHERITED * (point_bound + moved) <= settings.carry_tolerance * radius;
+        if !(moved <= MOST_MOVED * radius && known) {
+            return Self::default();
+        }
+        let pieces = [KnownPiece::of(model, bodies[0], 0), KnownPiece::of(model, bodies[1], 1)];
+        if !pieces.iter().all(|piece| piece.reach > 0.0) {
             return Self::default();
         }
         Self {
@@ -299,7 +315,52 @@ impl LastContact {
         Some(Optimum { x, u, here, left, rounds: number })
     }
 
-    /// Its contact, frame of B; `None` where it is not certain.
+    /// The optimum at new poses, known to within `room`, or, where its point is followed out of the reach of the pieces, to within `followed`.
+    #[inline(always)]
+    fn moved(&mut self, pair: &Pair, last: Remembered, room: f64, followed: f64) -> Option<Moved> {
+        let mut pieces = [self.pieces[0].seen_from_b(pair), self.pieces[1]];
+        let mut optimum = self.optimum(pair, &pieces, &last, room)?;
+        let mut within = Within::of(&pieces, &optimum.x);
+        // Written so that what is not a number is looked at, and fails there.
+        if !within.iter().all(|within| within.share <= MOST_USED) {
+            let Optimum { x, u, .. } = optimum;
+            self.follow(pair, &x, optimum.square())?;
+            // From there to the end: what long steps leave may be more than their changes tell.
+            pieces = [self.pieces[0].seen_from_b(pair), self.pieces[1]];
+            let near = Remembered { x, lambda: u / (1.0 - u), ..last };
+            optimum = self.optimum(pair, &pieces, &near, followed)?;
+            within = Within::of(&pieces, &optimum.x);
+        }
+        Some(Moved { pieces, optimum, within })
+    }
+
+    /// Whether the particles were apart when they were solved.
+    #[inline(always)]
+    fn is_apart(&self) -> bool {
+        self.square > 1.0
+    }
+
+    /// s there, with its bound, and by how much bounds of the solved contact have grown; `None` where its weight is none.
+    #[inline(always)]
+    fn scale(&self, optimum: &Optimum, within: &[Within; 2]) -> Option<(Scale, f64)> {
+        let s = optimum.square().sqrt();
+        let share = larger(within[0].share, within[1].share);
+        // Depths and distances from the centres change by that share at most, places are rounded as much more.
+        let grown = self.growth * (1.0 + 3.0 * share) * (1.0 + 3.0 * share) / (1.0 - share);
+        let gap = grown * self.gap + optimum.left.square / s;
+        let certain = optimum.u > 0.0 && optimum.u < 1.0 && share < 1.0;
+        certain.then_some((Scale { s, gap, low: s - gap, high: s + gap }, grown))
+    }
+
+    /// Lower bound of s, where it is above 1: weak duality, of quadratics that are S as far as their optimum.
+    #[inline(always)]
+    fn low(&self, optimum: &Optimum, within: &[Within; 2]) -> Option<f64> {
+        let (Scale { low, .. }, _) = self.scale(optimum, within)?;
+        let inside = within.iter().all(|within| within.left > optimum.left.way);
+        (inside && low > 1.0 && low < f64::INFINITY).then_some(low)
+    }
+
+    /// Its contact, frame of B; `None` where it is not certain, or its point not known to within `room`.
     #[inline(always)]
     fn local(
         &self,
@@ -307,15 +368,15 @@ impl LastContact {
         pieces: &[KnownPiece; 2],
         optimum: &Optimum,
         within: [Within; 2],
+        room: f64,
     ) -> Option<LocalContact> {
         let Optimum { x, u, here: [a, b], left, rounds } = optimum;
         let (values, gradients) = ([a.value, b.value], [a.gradient, b.gradient]);
-        let s = optimum.square().sqrt();
-        let share = larger(within[0].share, within[1].share);
-        // Depths and distances from the centres change by that share at most, places are rounded as much more.
-        let grown = self.growth * (1.0 + 3.0 * share) * (1.0 + 3.0 * share) / (1.0 - share);
-        let gap = grown * self.gap + left.square / s;
-        if !(*u > 0.0 && *u < 1.0 && share < 1.0 && s + gap < 1.0) {
+        let (scale, grown) = self.scale(optimum, &within)?;
+        let steep = SLOPE_ROUNDING * left.stiffness * (within[0].moved + within[1].moved);
+        // That of the pieces, which are turned back and forth, and that of this place.
+        let bound = (1.0 + grown) * self.point_bound + 2.0 * left.way + steep;
+        if !(scale.high < 1.0 && bound <= room) {
             return None;
         }
         let lambda = u / (1.0 - u);
@@ -324,17 +385,13 @@ impl LastContact {
         let across = Across::balanced((1.0 - u) * gradients[0] - *u * gradients[1]);
         let n = across.vector();
         let along = [within[0].along(&pieces[0], n), within[1].along(&pieces[1], n)];
-        let steep = SLOPE_ROUNDING * left.stiffness * (within[0].moved + within[1].moved);
-        // That of the pieces, which are turned back and forth, and that of this place.
-        let bound = (1.0 + grown) * self.point_bound + 2.0 * left.way + steep;
-        let scale = Scale { s, gap, low: s - gap, high: s + gap };
         LocalContact::along_normal(pair, &solution, across, scale, bound, Some(along))
     }
 }
 
 impl PairState {
-    /// `answer` of the contact at these poses, if the particles surely overlap there and the contact point is known as well as the settings
-    /// ask for.
+    /// `answer` of the contact at these poses, if the particles surely overlap there, as they did where it was solved, and the contact point is known
+    /// as well as the settings ask for; or if they were surely apart and are so still.
     #[inline(always)]
     pub(crate) fn carry_on<T>(
         &mut self,
@@ -349,22 +406,14 @@ impl PairState {
             return None;
         }
         let last = last?;
-        let pair = Pair::new(a.0, a.1, b.0, b.1);
-        let mut pieces = [known.pieces[0].seen_from_b(&pair), known.pieces[1]];
-        let radius = smaller(a.0.bounding_radius(), b.0.bounding_radius());
-        let mut optimum = known.optimum(&pair, &pieces, &last, settings.carry_tolerance * radius)?;
-        let mut within = Within::of(&pieces, &optimum.x);
-        // Written so that what is not a number is looked at, and fails there.
-        if !within.iter().all(|within| within.left > 0.0) {
-            let Optimum { x, u, .. } = optimum;
-            known.follow(&pair, &x, optimum.square())?;
-            // From there to the end: what long steps leave may be more than their changes tell.
-            pieces = [known.pieces[0].seen_from_b(&pair), known.pieces[1]];
-            let near = Remembered { x, lambda: u / (1.0 - u), ..last };
-            optimum = known.optimum(&pair, &pieces, &near, MOST_OPEN * radius)?;
-            within = Within::of(&pieces, &optimum.x);
+        if known.is_apart() {
+            return self.still_apart(a, b, settings, last, answer);
         }
-        let local = known.local(&pair, &pieces, &optimum, within)?;
+        let pair = Pair::new(a.0, a.1, b.0, b.1);
+        let radius = smaller(a.0.bounding_radius(), b.0.bounding_radius());
+        let room = settings.carry_tolerance * radius;
+        let Moved { pieces, optimum, within } = known.moved(&pair, last, room, MOST_OPEN * radius)?;
+        let local = known.local(&pair, &pieces, &optimum, within, room)?;
         let (x, lambda) = (optimum.x, optimum.u / (1.0 - optimum.u));
         self.remember(Remembered { x, lambda, ..last });
         let call = Contact { flags: Flags::WARM.with(Flags::CARRIED), iterations: optimum.rounds, ..Contact::UNKNOWN };
@@ -372,6 +421,39 @@ impl PairState {
         debug_assert!(contact.kind == Kind::Overlapping && contact.overlap >= 0.0);
         Some(answer.of(contact))
     }
+
+    /// `answer` of particles that were surely apart, if they are so still. In a frame of its own: contacts do not share it.
+    #[inline(never)]
+    fn still_apart<T>(
+        &mut self,
+        a: (&Particle, &Pose),
+        b: (&Particle, &Pose),
+        settings: &Settings,
+        last: Remembered,
+        answer: &impl Form<T>,
+    ) -> Option<T> {
+        if settings.solve_separated {
+            return None;
+        }
+        let pair = Pair::new(a.0, a.1, b.0, b.1);
+        let room = settings.carry_tolerance * smaller(a.0.bounding_radius(), b.0.bounding_radius());
+        let Moved { optimum, within, .. } = self.last_contact.moved(&pair, last, room, room)?;
+        let low = self.last_contact.low(&optimum, &within)?;
+        let (x, lambda) = (optimum.x, optimum.u / (1.0 - optimum.u));
+        self.remember(Remembered { x, lambda, overlapping: false, balanced: false, ..last });
+        let distance = separation::distance_of_scale(a.0, b.0, low);
+        let flags = Flags::REJECTED.with(Flags::WARM).with(Flags::CARRIED);
+        let apart = Contact::separated(Formulation::Midway, low);
+        Some(answer.of(Contact { flags, distance, iterations: optimum.rounds, ..apart }))
+    }
+}
+
+/// The last contact at new poses.
+struct Moved {
+    /// Frame of B.
+    pieces: [KnownPiece; 2],
+    optimum: Optimum,
+    within: [Within; 2],
 }
 
 /// Where the rounds ended, frame of B.

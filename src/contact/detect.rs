@@ -238,11 +238,16 @@ fn solved(
     let overlapping = !separated && scale.s < 1.0;
     let Solution { x, lambda, values, .. } = midway.solution;
     let mut remembered = Remembered { x, lambda, overlapping, balanced: false, closest: [1.0; 2] };
+    let carries_on = settings.carries_on() && !call.flags.contains(Flags::EXTENDED);
     if separated {
+        if let Some(state) = state.as_deref_mut().filter(|_| carries_on && scale.s - scale.gap > 1.0) {
+            // Nobody asks for its point.
+            state.last_contact = LastContact::of(&call, &midway, scale, 0.0);
+        }
         remember(state, remembered);
         let s = scale.low.max(1.0);
         let flags = call.flags.with(Flags::REJECTED);
-        let distance = separation::distance_of_scale(pair, scale.low);
+        let distance = separation::distance_of_scale(pair.a, pair.b, scale.low);
         return Ok(Contact { formulation: settings.formulation, flags, s, distance, ..summary(&call) });
     }
     let points = if settings.formulation == Formulation::Closest { call.closest(&midway)? } else { None };
@@ -255,8 +260,7 @@ fn solved(
         }
         None => {
             let local = LocalContact::midway(&call, &midway, scale, overlapping).ok_or_else(DetectError::no_surface)?;
-            let carries_on = settings.carries_on() && overlapping && !call.flags.contains(Flags::EXTENDED);
-            if let Some(state) = state.as_deref_mut().filter(|_| carries_on) {
+            if let Some(state) = state.as_deref_mut().filter(|_| carries_on && overlapping) {
                 state.last_contact = LastContact::of(&call, &midway, scale, local.point_bound());
             }
             local

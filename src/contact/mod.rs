@@ -2,7 +2,7 @@
 //!
 //! [`detect::detect`] is read first; the whole of a call stands in that file:
 //!
-//! 1. *carried on*, if the settings ask for it: both quadratics of the last contact, moved with their bodies, are solved for the new poses
+//! 1. *carried on*, if the settings ask for it: both quadratics of the last contact, or of where the pair was apart, moved with their bodies, are solved for the new poses
 //!    without evaluating any plane, or those alone that may have switched (section 7 of docs/theory.md);
 //! 2. *rejected* by a separation test ([`crate::pair::separation`]), with a lower bound on the distance;
 //! 3. *solved* for x and λ ([`crate::solver`]), from the remembered solution or a start of its own;

@@ -119,7 +119,7 @@ impl LocalModel {
         let q_a = bodies[0].at(&points[0], own.as_ref());
         let q_b = if own.is_some() { Quadratic::ZERO } else { bodies[1].at(&points[1], None) };
         let mut model = Self { x, axes: own, points, q_a, q_b };
-        if axes == Axes::Graded && model.has_soft_direction(weights) {
+        if axes == Axes::Graded && model.has_soft_direction(bodies, weights) {
             model.grade(bodies, weights);
         }
         model
@@ -134,10 +134,14 @@ impl LocalModel {
         ([gradient, Vector3::zeros()], [whole.gradient.norm() + gradient.norm(), 0.0])
     }
 
-    /// Whether the planes of the sum with these weights leave a direction without resistance, or nearly.
-    fn has_soft_direction(&self, (a, b): (f64, f64)) -> bool {
+    /// Whether the planes of the sum with these weights leave a direction without resistance, or nearly, which the spheres of the sum do not hold
+    /// either: one of them may do for both.
+    fn has_soft_direction(&self, bodies: [&Body; 2], (a, b): (f64, f64)) -> bool {
         let h = self.q_a.hessian.weighted(a, &self.q_b.hessian, b);
-        h.least_eigenvalue(h.determinant(&h.adjugate())) == 0.0
+        let soft = softest(bodies);
+        // Written so that what is not a number is graded.
+        let held = h.trace() <= GRADED_FROM * (a * soft.0 + b * soft.1);
+        !held && h.least_eigenvalue(h.determinant(&h.adjugate())) == 0.0
     }
 
     /// Takes the quadratics in axes aligned with the stiffest planes of that sum instead.

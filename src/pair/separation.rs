@@ -29,8 +29,8 @@ impl Apart {
 
 /// Lower bound on the distance of two particles for which midway has s ≥ `low`. s is 1 on the surface and has the Lipschitz constant 1/ℓ, so that at
 /// the point that divides a gap d as ℓ_A : ℓ_B both s are at most 1 + d/(ℓ_A + ℓ_B).
-pub(crate) fn distance_of_scale(pair: &Pair, low: f64) -> f64 {
-    larger(low - 1.0, 0.0) * (pair.a.slope_length + pair.b.slope_length) * (1.0 - MARGIN)
+pub(crate) fn distance_of_scale(a: &Particle, b: &Particle, low: f64) -> f64 {
+    larger(low - 1.0, 0.0) * (a.slope_length + b.slope_length) * (1.0 - MARGIN)
 }
 
 /// Two balls that hold the particles and do not meet.

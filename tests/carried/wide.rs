@@ -14,6 +14,8 @@ fn exactly() -> Settings {
 pub struct Tally {
     pub contacts: u64,
     pub carried: u64,
+    /// Pairs that do not touch and were carried on.
+    pub apart: u64,
     /// Contacts that ended while they were followed.
     pub ended: u64,
     pub faults: Vec<String>,
@@ -78,11 +80,16 @@ pub fn walk(random: &mut Random, tally: &mut Tally) {
         tally.ended += u64::from(touched && contact.kind == Kind::Separated);
         touched = contact.kind == Kind::Overlapping;
         if contact.flags.contains(Flags::CARRIED) {
-            tally.carried += 1;
+            *if touched { &mut tally.carried } else { &mut tally.apart } += 1;
             let exact = detect(&a, at_a, &b, at_b, &exactly(), None).unwrap();
             let centres = (at_a.position() - at_b.position()).norm();
             let length = centres + a.bounding_radius() + b.bounding_radius();
-            if let Some(fault) = fault(&contact, &exact, length, &mut tally.most) {
+            let known = contact.point_bound <= tolerance * small || !touched;
+            let fault = match touched {
+                true => fault(&contact, &exact, length, &mut tally.most),
+                false => (!(contact.s <= exact.s + exact.gap)).then(|| format!("apart, but exact {}", exact.s)),
+            };
+            if let Some(fault) = fault.or((!known).then(|| format!("point_bound {:e}", contact.point_bound))) {
                 let shapes =
                     [&a, &b].map(|p| (p.rounding_radius(), p.sphericity(), p.bounding_radius(), p.planes().len()));
                 tally.faults.push(format!(
