@@ -216,8 +216,9 @@
 // Size of a message buffer that holds every message whole.
 #define PP_MESSAGE_SIZE 512
 
-// A part of the patch is left out that no ray from the contact point reaches: the far side of a rod that goes
-// through the other body, and the like of deep overlaps.
+// The patch turns back under itself, as in deep overlaps of round bodies, or ends where no ray goes on. What
+// turns back is part of the answer, but a part that no ray from the contact point reaches may be missing,
+// which the estimated error does not tell: the far side of a rod that goes through the other body.
 #define PP_PATCH_FOLDED 1
 
 // The tolerance was not reached, or is beyond what rounding allows where the bodies hardly touch; error tells

@@ -343,7 +343,7 @@ fn wide_walks(seed: u64, walks: u64) {
     );
     assert!(faults.is_empty(), "{:#?}", &faults[..faults.len().min(20)]);
     let enough = *carried > 7 * walks && *apart > walks / 2 && *ended > walks / 10;
-    assert!(enough, "{carried} carried on, {apart} of them apart, {ended} ended");
+    assert!(enough, "{carried} contacts carried on, {apart} pairs apart, {ended} ended");
 }
 
 #[test]

@@ -84,7 +84,7 @@ void ContactMemory::collect()
     partners.resize(sum);
     for (int slot = 0; slot < slots; ++slot)
         forEachLocal(slot, [&](int i, int j) { partners[ranges[i].first + ranges[i].count++] = { pair->tagAtBuild(j), slot }; });
-    maxexchange = 1;
+    maxexchange = withoutPartners;
     for (int i = 0; i < atom->nlocal; ++i) {
         ranges[i].own = atom->tag[i];
         maxexchange = std::max(maxexchange, sizeOf(i));
@@ -95,7 +95,7 @@ void ContactMemory::collect()
 void ContactMemory::checkIds() const
 {
     for (int i = 0; pair && i < atom->nlocal; ++i)
-        if (ranges[i].own && ranges[i].own != atom->tag[i] && sizeOf(i) > 1)
+        if (ranges[i].own && ranges[i].own != atom->tag[i] && sizeOf(i) > withoutPartners)
             error->one(FLERR, "pair_style potential/particle: the atom of ID {} has the ID {} now, and contacts know their bodies by IDs: give 'compress no' to delete_atoms, and "
                 "leave out 'reset_atoms id'", ranges[i].own, atom->tag[i]);
 }
@@ -109,7 +109,7 @@ int ContactMemory::countOf(const Partner& partner) const
 
 int ContactMemory::sizeOf(int i) const
 {
-    int size = 1;
+    int size = withoutPartners;
     for (int n = ranges[i].first; n < ranges[i].first + ranges[i].count; ++n)
         if (lasts(partners[n]))
             size += 2 + countOf(partners[n]);
@@ -184,7 +184,7 @@ void ContactMemory::copy_arrays(int from, int to, int) { ranges[to] = ranges[fro
 // Contacts and bonds alone: pairs that are near, but apart, have no history.
 int ContactMemory::pack(int i, double* buffer) const
 {
-    int m = 1, count = 0;
+    int m = 2, count = 0;
     for (int n = ranges[i].first; n < ranges[i].first + ranges[i].count; ++n) {
         const Partner& partner = partners[n];
         if (!lasts(partner))
@@ -200,13 +200,15 @@ int ContactMemory::pack(int i, double* buffer) const
         ++count;
     }
     buffer[0] = count;
+    buffer[1] = ubuf(ranges[i].own).d;
     return m;
 }
 
 int ContactMemory::unpack(int i, const double* buffer)
 {
-    ranges[i] = { static_cast<int>(partners.size()), static_cast<int>(buffer[0]) };
-    int m = 1;
+    ubuf own(buffer[1]);
+    ranges[i] = { static_cast<int>(partners.size()), static_cast<int>(buffer[0]), static_cast<tagint>(own.i) };
+    int m = 2;
     for (int n = 0; n < ranges[i].count; ++n) {
         ubuf other(buffer[m++]);
         partners.push_back({ static_cast<tagint>(other.i), -1 - static_cast<int>(values.size()) });
@@ -240,7 +242,7 @@ int ContactMemory::size_restart(int i) { return 1 + sizeOf(i); }
 
 int ContactMemory::maxsize_restart()
 {
-    int most = 2;
+    int most = 1 + withoutPartners;
     for (int i = 0; i < atom->nlocal; ++i)
         most = std::max(most, size_restart(i));
     return most;

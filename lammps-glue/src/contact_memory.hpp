@@ -78,6 +78,7 @@ private:
     // Whether a partner is remembered, beyond this list of neighbours; how many numbers.
     bool lasts(const Partner& partner) const;
     int countOf(const Partner& partner) const;
+    static constexpr int withoutPartners = 2;
     int sizeOf(int i) const; // of all that pack() writes
     int pack(int i, double* buffer) const;
     int unpack(int i, const double* buffer);

@@ -166,6 +166,8 @@ struct Step {
     weight: f64,
     /// σ·H⁻¹σ: twice what the slope alone leaves of the weighted sum.
     open: f64,
+    /// H⁻¹σ, with the sign of a step: the way to where the slope is 0 with the weight as it is.
+    at_weight: Vector3<f64>,
 }
 
 impl Equations {
@@ -203,7 +205,7 @@ impl Equations {
         let first = self.inverse.times(slope);
         let weight = -(mismatch * self.unit + self.apart.dot(&first)) * self.inverse_rate;
         let way = -self.per_unit * (first + weight * self.along);
-        Step { way, weight, open: self.per_unit * slope.dot(&first) }
+        Step { way, weight, open: self.per_unit * slope.dot(&first), at_weight: -self.per_unit * first }
     }
 
     /// Their solution to within `room`; `None` where they do not converge.
@@ -311,7 +313,12 @@ impl LastContact {
         if !(share <= MOST_CHANGE && (converges || way <= self.point_bound)) {
             return None;
         }
-        let left = Left { square: mismatch.abs() + next.open, way: way * left_out, stiffness: equations.stiffness };
+        let left = Left {
+            square: mismatch.abs() + next.open,
+            way: way * left_out,
+            at_weight: next.at_weight.norm() * left_out,
+            stiffness: equations.stiffness,
+        };
         Some(Optimum { x, u, here, left, rounds: number })
     }
 
@@ -356,7 +363,7 @@ impl LastContact {
     #[inline(always)]
     fn low(&self, optimum: &Optimum, within: &[Within; 2]) -> Option<f64> {
         let (Scale { low, .. }, _) = self.scale(optimum, within)?;
-        let inside = within.iter().all(|within| within.left > optimum.left.way);
+        let inside = within.iter().all(|within| within.left > optimum.left.at_weight);
         (inside && low > 1.0 && low < f64::INFINITY).then_some(low)
     }
 
@@ -479,6 +486,8 @@ struct Left {
     square: f64,
     /// Bound on the length of the next step, in whatever direction the curvatures have changed.
     way: f64,
+    /// The same to the minimum of the weighted sum, with the weight as it is.
+    at_weight: f64,
     /// Ratio of the sum of the curvatures to the least one.
     stiffness: f64,
 }

@@ -219,7 +219,7 @@ fn spread(task: &Task, fan: &mut Fan, start: [f64; 3], points: &mut Vec<Node>) -
     }
     let force = norm(&integral.sums[..3]);
     points.clear();
-    let is_folded = fan.has_jump || fan.rays.iter().any(|ray| ray.is_folded);
+    let is_folded = fan.has_jump || fan.rays.iter().any(|ray| ray.is_folded || ray.turns_back);
     if !(force > 0.0) {
         return Outcome { is_folded, rays: fan.rays.len(), ..Outcome::default() };
     }

@@ -76,8 +76,8 @@ pub struct PatchPoint {
 pub struct PatchFlags(u32);
 
 impl PatchFlags {
-    /// A part of Σ is left out that no ray from the contact point reaches: the far side of a rod that goes through the other body, and the like of deep
-    /// overlaps. Where Σ only turns back under itself it is whole.
+    /// Σ turns back under itself, as in deep overlaps of round bodies, or ends where no ray goes on. What turns back is part of the answer, but a part that no
+    /// ray from the contact point reaches may be missing, which the estimated error does not tell: the far side of a rod that goes through the other body, and the like.
     pub const FOLDED: Self = Self(1);
     /// The tolerance was not reached with the most rays, or is beyond what rounding allows where bodies hardly touch (overlaps of 1e-11 of their
     /// size at 1e-4); the estimated error tells how far off the answer is.

@@ -131,7 +131,7 @@ pub fn patch_of_contact(
     }
     let size = force.hypot(force_u);
     flags.set(PatchFlags::EMPTY, !(size > 0.0));
-    flags.set(PatchFlags::FOLDED, rays.iter().any(|ray| ray.is_folded));
+    flags.set(PatchFlags::FOLDED, rays.iter().any(|ray| ray.is_folded || ray.turns_back));
     let whole = size > 0.0;
     let error = if whole { ((rays[0].error + rays[1].error) / size).max(rounding) } else { 0.0 };
     flags.set(PatchFlags::TOLERANCE_NOT_REACHED, error > settings.tolerance);

@@ -97,6 +97,8 @@ pub(super) struct Ray {
     pub count: usize,
     /// Whether it was walked over with its axes turned: the patch turns back under itself, or is steep.
     pub is_tilted: bool,
+    /// Whether it went on where the patch turns back under itself.
+    pub turns_back: bool,
     /// Whether it ended before the patch does.
     pub is_folded: bool,
 }
@@ -185,6 +187,7 @@ impl<'f, 'a, 's> Walker<'f, 'a, 's> {
             events: [nowhere; EVENTS],
             count: 0,
             is_tilted: false,
+            turns_back: false,
             is_folded: false,
         };
         let mut half_plane = HalfPlane::upright(line.origin, line.direction);

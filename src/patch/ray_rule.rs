@@ -43,6 +43,7 @@ impl Walker<'_, '_, '_> {
             if !cell.is_flat {
                 (0..3).for_each(|i| ray.curved[i] += sums[i]);
             }
+            ray.turns_back |= !tilt.is_upright() && self.nodes[known..].iter().any(|node| node.weight < 0.0);
             ray.error += error;
             (from, step) = (to, 2.0 * step);
         }

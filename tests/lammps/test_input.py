@@ -53,6 +53,11 @@ def test_ids_stay(folder):
     refusal = refused(folder, column, **{**says_of, "run": says_of["run"].format("compress yes")})
     assert "has the ID" in refusal and "compress no" in refusal, refusal[-1500:]
     run(folder, column, **{**says_of, "run": says_of["run"].format("compress no")})
+    again = SCRIPT.replace("read_data scene.data fix orientation NULL orientation", "read_restart all.restart").replace("boundary {boundary}\n", "")
+    run(folder, column, gravity="", run="run 10\nwrite_restart all.restart")
+    refusal = refused(folder, column, script=again.replace("fix orientation all property/atom d2_orientation 4 writedata yes\n", ""),
+                      **{**says_of, "run": says_of["run"].format("compress yes")})
+    assert "has the ID" in refusal, refusal[-1500:]
     run(folder, column[:1] + [(*column[1][:1], (0, 0, 0.5 * n), *column[1][2:]) for n in range(-1, 2)], **{**says_of, "run": says_of["run"].format("compress yes")})
 
 

@@ -70,6 +70,9 @@ def test_wall_has_its_own_time(folder):
         frames[name] = state(dumped[-1][1])[0]
     for name, end in frames.items():
         assert np.abs(end - frames["once"]).max() < 1e-12, (name, end, frames["once"])
+    _, said = run(folder, block, walls=wall, run="undump all\ncompute height all reduce sum z\nthermo_style custom step c_height\nthermo_modify format float %.17g\n"
+                  "run 100\nreset_timestep 0\nrun 100 pre no")
+    assert abs(thermo(said)["c_height"][-1] - frames["once"][2]) < 1e-12, said[-2000:]
 
 
 def test_wall_goes_on_from_a_restart(folder):
