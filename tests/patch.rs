@@ -37,9 +37,3 @@ fn patch(pair: &Pair, tolerance: f64, with_energy: bool) -> Patch {
     let Pair { a, pose_a, b, pose_b, contact, .. } = pair;
     patch_of_contact(a, pose_a, b, pose_b, contact, &settings, &mut PatchScratch::new(), |_| ()).unwrap()
 }
-
-/// Central differences with Richardson's extrapolation.
-fn difference(of: impl Fn(f64) -> f64, h: f64) -> f64 {
-    let central = |h: f64| (of(h) - of(-h)) / (2.0 * h);
-    (4.0 * central(0.5 * h) - central(h)) / 3.0
-}

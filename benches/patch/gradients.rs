@@ -3,7 +3,7 @@
 //! The energy is another integral over the patch, and its differences know nothing of the force. They are taken with three steps, of which the best counts: a
 //! long one meets jumps of the third derivative, where a plane goes on, and a short one divides the tolerance of the energy by little.
 
-use crate::bodies::{Chance, FAMILIES, Pair, body};
+use crate::bodies::{Chance, FAMILIES, Pair, body, difference, mesh_of_box};
 use nalgebra::{UnitQuaternion, Vector3};
 use potential_particles::{
     Kind, Particle, Patch, PatchFlags, PatchScratch, PatchSettings, Pose, Settings, Triangle, Wall, contact_with_plane,
@@ -91,12 +91,6 @@ fn of(kind: &'static str, count: usize, make: impl Fn(&mut Chance) -> (Moved, f6
     Outcome { kind, worst: at(errors.len().wrapping_sub(1)), of_99: at(errors.len() * 99 / 100), counts }
 }
 
-/// Central differences with Richardson's extrapolation.
-fn difference(of: impl Fn(f64) -> f64, h: f64) -> f64 {
-    let central = |h: f64| (of(h) - of(-h)) / (2.0 * h);
-    (4.0 * central(0.5 * h) - central(h)) / 3.0
-}
-
 fn settings(with_energy: bool) -> PatchSettings {
     PatchSettings { tolerance: TOLERANCE, with_energy, ..PatchSettings::default() }
 }
@@ -167,21 +161,4 @@ fn mesh(chance: &mut Chance) -> (Moved, f64, f64) {
         }
         wrench
     })
-}
-
-/// The triangles of a box, seen from outside.
-fn mesh_of_box(half: [f64; 3]) -> Vec<[[f64; 3]; 3]> {
-    let mut triangles = Vec::new();
-    for (axis, sign) in [0, 1, 2].into_iter().flat_map(|axis| [(axis, 1.0), (axis, -1.0)]) {
-        let corner = |i: f64, j: f64| {
-            let mut at = [0.0; 3];
-            at[axis] = sign * half[axis];
-            at[(axis + 1) % 3] = i * sign * half[(axis + 1) % 3];
-            at[(axis + 2) % 3] = j * half[(axis + 2) % 3];
-            at
-        };
-        let [a, b, c, d] = [corner(-1.0, -1.0), corner(1.0, -1.0), corner(1.0, 1.0), corner(-1.0, 1.0)];
-        triangles.extend([[a, b, c], [a, c, d]]);
-    }
-    triangles
 }

@@ -37,13 +37,13 @@ def main():
     parts = [f"*{line}; {summary['command']}*"]
     if options.only in (None, "pairs"):
         parts += pairs_part(found, options.quick, line, summary)
-        # What was measured stays if the piles are interrupted.
+        # What was measured stays if the rest is interrupted.
         write_results(parts, summary)
     if options.only in (None, "patches"):
-        parts += patches_part(found, options.quick, summary)
+        parts += table_part("patches", "A contact patch", patches, found, options.quick, summary)
         write_results(parts, summary)
     if options.only in (None, "piles"):
-        parts += piles_part(found, options.quick, summary)
+        parts += table_part("piles", "A pile", measure_piles, found, options.quick, summary)
     parts += ["## As others publish it", report.published_table()]
     summary["load_after"] = measure_pairs.load()
     write_results(parts, summary)
@@ -73,20 +73,13 @@ def pairs_part(found, quick, line, summary):
     ]
 
 
-def patches_part(found, quick, summary):
-    print("Patches", flush=True)
-    rows = patches.rows(found, quick)
-    summary["patches"] = rows
-    summary["targets"] += patches.targets(rows)
-    return ["## A contact patch", patches.table(rows)]
-
-
-def piles_part(found, quick, summary):
-    print("Piles", flush=True)
-    piles = measure_piles.rows(found, quick)
-    summary["piles"] = piles
-    summary["targets"] += measure_piles.targets(piles)
-    return ["## A pile", measure_piles.table(piles)]
+def table_part(name, heading, of, found, quick, summary):
+    """`of`: a module with the rows, the targets and the table of this part."""
+    print(name.capitalize(), flush=True)
+    rows = of.rows(found, quick)
+    summary[name] = rows
+    summary["targets"] += of.targets(rows)
+    return [f"## {heading}", of.table(rows)]
 
 
 def print_targets(targets):

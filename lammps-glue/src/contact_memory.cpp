@@ -184,7 +184,7 @@ void ContactMemory::copy_arrays(int from, int to, int) { ranges[to] = ranges[fro
 // Contacts and bonds alone: pairs that are near, but apart, have no history.
 int ContactMemory::pack(int i, double* buffer) const
 {
-    int m = 2, count = 0;
+    int m = withoutPartners, count = 0;
     for (int n = ranges[i].first; n < ranges[i].first + ranges[i].count; ++n) {
         const Partner& partner = partners[n];
         if (!lasts(partner))
@@ -208,7 +208,7 @@ int ContactMemory::unpack(int i, const double* buffer)
 {
     ubuf own(buffer[1]);
     ranges[i] = { static_cast<int>(partners.size()), static_cast<int>(buffer[0]), static_cast<tagint>(own.i) };
-    int m = 2;
+    int m = withoutPartners;
     for (int n = 0; n < ranges[i].count; ++n) {
         ubuf other(buffer[m++]);
         partners.push_back({ static_cast<tagint>(other.i), -1 - static_cast<int>(values.size()) });

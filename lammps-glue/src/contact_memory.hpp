@@ -78,7 +78,7 @@ private:
     // Whether a partner is remembered, beyond this list of neighbours; how many numbers.
     bool lasts(const Partner& partner) const;
     int countOf(const Partner& partner) const;
-    static constexpr int withoutPartners = 2;
+    static constexpr int withoutPartners = 2; // numbers that pack() writes of an atom: how many partners, and its ID
     int sizeOf(int i) const; // of all that pack() writes
     int pack(int i, double* buffer) const;
     int unpack(int i, const double* buffer);

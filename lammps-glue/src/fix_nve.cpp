@@ -5,6 +5,7 @@
 
 #include "atom.h"
 #include "error.h"
+#include "modify.h"
 #include "update.h"
 #include "utils.h"
 
@@ -31,6 +32,14 @@ FixNve::FixNve(LAMMPS* lmp, int count, char** arguments)
     dynamic_group_allow = 1;
     scalar_flag = extscalar = 1;
     global_freq = 1;
+}
+
+int FixNve::groups(LAMMPS* lmp)
+{
+    int bits = 0;
+    for (const Fix* fix : lmp->modify->get_fix_by_style("^nve/potential/particle$"))
+        bits |= fix->groupbit;
+    return bits;
 }
 
 int FixNve::setmask() { return FixConst::INITIAL_INTEGRATE | FixConst::FINAL_INTEGRATE; }

@@ -16,6 +16,9 @@ class FixNve : public LAMMPS_NS::Fix {
 public:
     FixNve(LAMMPS_NS::LAMMPS* lmp, int count, char** arguments);
 
+    // Bits of the groups that fixes of this style move; 0: there is none.
+    static int groups(LAMMPS_NS::LAMMPS* lmp);
+
     int setmask() override;
     void init() override;
     void initial_integrate(int) override;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "fix_wall.hpp"
+#include "fix_nve.hpp"
 #include "fix_shapes.hpp"
 #include "motion.hpp"
 
@@ -7,7 +8,6 @@
 #include "comm.h"
 #include "domain.h"
 #include "error.h"
-#include "modify.h"
 #include "neighbor.h"
 #include "update.h"
 
@@ -46,10 +46,10 @@ void FixWall::setup(int flags)
 // As for contacts of pairs. Of a patch the area is not known before there is one.
 void FixWall::checkTimeStep() const
 {
-    int moving = 0;
-    for (const Fix* fix : modify->get_fix_by_style("^nve/potential/particle$"))
-        moving |= fix->groupbit;
-    for (int i = 0; !byPatch && i < atom->nlocal; ++i) {
+    if (byPatch)
+        return;
+    const int moving = FixNve::groups(lmp);
+    for (int i = 0; i < atom->nlocal; ++i) {
         const double most = 2 * std::sqrt(atom->rmass[i] / law.stiffest());
         if ((atom->mask[i] & groupbit) && (atom->mask[i] & moving) && update->dt > most)
             error->one(FLERR, "{} {}: timestep = {}: a contact of atom {} is unstable above {}, and with levers well below: take {} or less", style, id, update->dt,
@@ -57,11 +57,13 @@ void FixWall::checkTimeStep() const
     }
 }
 
-// A body beyond a periodic border meets the wall as it is there, not as it is at the border across.
+// A wall has no periodic images: what of a body reaches over a border does not meet the part of the wall at the other side.
 void FixWall::checkBorder() const
 {
+    if (comm->me != 0)
+        return;
     const double reach = shapes->largestRadius();
-    for (int d = 0; comm->me == 0 && d < 3; ++d) {
+    for (int d = 0; d < 3; ++d) {
         if (!domain->periodicity[d])
             continue;
         bool ends = false;
@@ -74,7 +76,7 @@ void FixWall::checkBorder() const
             ends |= mesh && std::abs((high ? mesh->high() : mesh->low())[d] - border) < reach;
         }
         if (ends)
-            error->warning(FLERR, "{} {}: the box is periodic in {}, the wall is not: bodies across the border do not meet what of it is at the other side; let the mesh go on by {} "
+            error->warning(FLERR, "{} {}: the box is periodic in {}, the wall is not: bodies that reach over the border do not meet the part of the wall at the other side; let the mesh go on by {} "
                 "beyond the border, or leave that border free", style, id, "xyz"[d], reach);
     }
 }

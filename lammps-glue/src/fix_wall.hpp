@@ -107,7 +107,7 @@ private:
     LawParameters law;
     bool byPatch = false;
     double patchTolerance = 1e-4;
-    // The simulation's time when the wall was where the command says, and when it moved last: where the time was reset in between, the first goes with it.
+    // Simulation times at which the wall was where the command says, and at which it was last moved. `reset_timestep` shifts both.
     double start = 0, lastTime = 0;
     LAMMPS_NS::bigint wholeBefore = 1;
     JointParameters joint;

@@ -2,6 +2,7 @@
 //
 // What scripts say of the pair style, and what is needed before a run.
 #include "pair_potential_particle.hpp"
+#include "fix_nve.hpp"
 #include "fix_shapes.hpp"
 #include "joint_words.hpp"
 
@@ -124,9 +125,7 @@ void PairPotentialParticle::init_style()
     memory_ = static_cast<ContactMemory*>(
         memories.empty() ? modify->add_fix(fmt::format("{} all potential/particle/memory", memoryId)) : memories.front());
     memory_->attach(this);
-    moving = 0;
-    for (const Fix* fix : modify->get_fix_by_style("^nve/potential/particle$"))
-        moving |= fix->groupbit;
+    moving = FixNve::groups(lmp);
     neighbor->add_request(this);
 }
 

@@ -106,7 +106,7 @@ private:
     LAMMPS_NS::bigint wholeBefore = 1; // contacts made before that step are whole
     bool makesBonds = false; // of those
     std::vector<JointParameters> jointLaws; // as `laws`
-    int moving = 0; // bits of the groups that fix nve/potential/particle moves; 0: there is none
+    int moving = 0; // FixNve::groups
     bool toldOfTurns = false;
     bool advance = true; // this step goes on, and does not repeat the last one
 

@@ -56,10 +56,10 @@ const MOST_STIFF: f64 = 1e9;
 /// known to.
 const MOST_MOVED: f64 = 1e-10;
 
-/// How many times the bound of the solved point is in that of the next one at least: for the data of the quadratics, and for the place.
+/// The bound of a carried point is at least so many times that of the solved one: once for the data of the quadratics, once for the new place.
 const INHERITED: f64 = 2.0;
 
-/// Share of its reach after which a point is followed: there bounds have grown 42 times, and without end at 1.
+/// Share of its reach at which a point is followed: bounds have grown 42 times there, and would grow without limit towards 1.
 const MOST_USED: f64 = 0.75;
 
 /// Units of rounding, times the ratio of curvatures, in a slope that is carried along a distance (estimated).
@@ -429,7 +429,7 @@ impl PairState {
         Some(answer.of(contact))
     }
 
-    /// `answer` of particles that were surely apart, if they are so still. In a frame of its own: contacts do not share it.
+    /// `answer` of particles that were surely apart, if they are so still. Not inlined: contacts need none of it.
     #[inline(never)]
     fn still_apart<T>(
         &mut self,

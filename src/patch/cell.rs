@@ -154,7 +154,7 @@ impl Cell {
         -self.d.by_h(h, k) / self.d.by_k(h, k)
     }
 
-    /// Where on the way to h, on which the curve turns back or nearly, it is inclined by 45°.
+    /// The last place before h where the curve, which turns back there or nearly, is inclined by less than 45°.
     pub fn half_turned(&self, h: f64) -> (f64, f64) {
         let (mut gentle, mut steep) = ((0.0, 0.0), h);
         for _ in 0..30 {

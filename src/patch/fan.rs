@@ -36,7 +36,7 @@ const STRAIGHT: f64 = 1e-7;
 const TIP: f64 = 2.0;
 const OF_TIP: f64 = 0.1;
 
-/// Relative change of the load between two rays that counts as a jump, and the largest one over the angle between them that is none.
+/// A relative change of the load from one ray to the next is a jump above this, and above so many times the angle between the two.
 const JUMP: f64 = 0.1;
 const STEEPEST: f64 = 30.0;
 
@@ -84,8 +84,8 @@ pub(super) struct Fan<'w, 'f, 'a, 's> {
     cut: usize,
     /// Whether the most rays were used.
     pub is_capped: bool,
-    /// Whether two rays side by side end at different places: a part of the patch that is tilted is reached by none, as the far side of a rod that goes
-    /// through the other body.
+    /// Whether the loads of two neighbouring rays, one of them tilted, differ too much for the angle between them: a part of the patch lies between
+    /// that no ray reaches, as the far side of a rod that goes through the other body.
     pub has_jump: bool,
 }
 

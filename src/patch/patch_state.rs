@@ -67,26 +67,26 @@ pub struct PatchState {
 /// Where A is, seen from B.
 #[derive(Clone, Copy, Debug, Default)]
 #[repr(C)]
-pub(super) struct Place {
+struct Place {
     /// Local frame of A to that of B, and the centre of A there.
-    pub rotation: Matrix3<f64>,
-    pub centre: Vector3<f64>,
+    rotation: Matrix3<f64>,
+    centre: Vector3<f64>,
     /// World axes, for which those of a boundary are taken: the normal of a plane, or two edges of a triangle in an order that tells its front.
-    pub shape: [Vector3<f64>; 2],
+    shape: [Vector3<f64>; 2],
 }
 
 /// A pair as it is now.
 pub(super) struct Now<'a> {
-    pub of: [u64; 2],
-    pub place: Place,
+    of: [u64; 2],
+    place: Place,
     /// Local frame of B to world axes.
-    pub axes: Matrix3<f64>,
+    axes: Matrix3<f64>,
     /// The contact point in the frame of B.
-    pub point: Vector3<f64>,
+    point: Vector3<f64>,
     /// From the centres to it, world axes, and the centre of A.
-    pub branches: [&'a Vector3<f64>; 2],
-    pub position: &'a Vector3<f64>,
-    pub s: f64,
+    branches: [&'a Vector3<f64>; 2],
+    position: &'a Vector3<f64>,
+    s: f64,
 }
 
 /// What A has done since the patch was integrated, in the frame of B.
@@ -115,20 +115,7 @@ impl PatchState {
         scratch: &mut PatchScratch,
     ) -> Result<Patch, PatchError> {
         checked(contact.kind, &[contact.branch_a, contact.branch_b], &contact.normal, settings)?;
-        let axes = *pose_b.rotation();
-        let now = Now {
-            of: [a.serial(), b.serial()],
-            place: Place {
-                rotation: axes.tr_mul(pose_a.rotation()),
-                centre: axes.tr_mul(&(pose_a.position() - pose_b.position())),
-                shape: Default::default(),
-            },
-            axes,
-            point: axes.tr_mul(&contact.branch_b),
-            branches: [&contact.branch_a, &contact.branch_b],
-            position: pose_a.position(),
-            s: contact.s,
-        };
+        let now = Now::of_pair([a, b], [pose_a, pose_b], [&contact.branch_a, &contact.branch_b], contact.s);
         self.carried_or(&now, settings, |settings| {
             patch_of_contact(a, pose_a, b, pose_b, contact, settings, scratch, |_| ())
         })
@@ -278,6 +265,23 @@ impl Motion {
 }
 
 impl<'a> Now<'a> {
+    /// Two particles, and the branches from their centres to the contact point.
+    pub fn of_pair(
+        [a, b]: [&Particle; 2],
+        [pose_a, pose_b]: [&'a Pose; 2],
+        branches: [&'a Vector3<f64>; 2],
+        s: f64,
+    ) -> Self {
+        let axes = *pose_b.rotation();
+        let place = Place {
+            rotation: axes.tr_mul(pose_a.rotation()),
+            centre: axes.tr_mul(&(pose_a.position() - pose_b.position())),
+            shape: Default::default(),
+        };
+        let point = axes.tr_mul(branches[1]);
+        Self { of: [a.serial(), b.serial()], place, axes, point, branches, position: pose_a.position(), s }
+    }
+
     /// A particle and a boundary: with world axes, A's centre in its frame and what tells its shape.
     fn on_boundary(
         a: &Particle,

@@ -16,12 +16,12 @@ const OF_CAPS: [usize; 5] = [1, 2, 3, 5, 8];
 /// Of a disc, outwards and around, after its first rule, which coarse tolerances begin with.
 const OF_DISCS: [[usize; 2]; 3] = [[4, 10], [6, 14], [10, 24]];
 
-/// Part of a cap's load by which the rule of one point is wrong at most, about; and that of two in each angle where the difference of the two
-/// vanishes by chance, and where it is the load itself.
+/// Estimated error of a cap over its load: by the rule of one point; and by that of two in each angle a constant, which the difference of both rules may
+/// miss by chance, with a factor of the square of that difference.
 const SINGLE: f64 = 0.3;
 const DOUBLE: [f64; 2] = [0.003, 0.3];
 
-/// Part of a strip's load by which two points along it are wrong where it tapers, at most about.
+/// Estimated error over the load by two points along a strip that tapers: one point along it would tell nothing.
 const TAPERED: f64 = 1e-3;
 
 /// A part of the patch.

@@ -4,7 +4,6 @@ use super::centre::on_patch;
 use super::contact::{NEAR, checked, least_sphericity};
 use super::field::{Field, Placed};
 use super::patch::PatchFlags;
-use super::planar_state::AXES;
 use super::ray::{Line, Node, Ray, SUMS, Walker};
 use super::rules::order_of;
 use super::scratch::PatchScratch;
@@ -12,6 +11,9 @@ use super::settings::{PatchError, PatchSettings};
 use super::stiffness::{stiffness, turned};
 use crate::planar::{Contact, Particle, Pose};
 use nalgebra::{Matrix3, Vector2, Vector3};
+
+/// Places of shifts along x and y and of the turn about z among shifts and turns of space.
+pub(super) const AXES: [usize; 3] = [0, 1, 5];
 
 /// The contact patch of two particles of the plane: as [`crate::Patch`], with lengths in place of areas. All per unit of thickness.
 #[derive(Clone, Copy, Debug)]
@@ -93,7 +95,6 @@ pub fn patch_of_contact(
     scratch: &mut PatchScratch,
     mut visit: impl FnMut(PatchPoint),
 ) -> Result<Patch, PatchError> {
-    let raised = |v: &Vector2<f64>| Vector3::new(v.x, v.y, 0.0);
     let branches = [raised(&contact.branch_a), raised(&contact.branch_b)];
     let normal = checked(contact.kind, &branches, &raised(&contact.normal), settings)?.column(2).into_owned();
     let frame = Matrix3::from_columns(&[Vector3::z().cross(&normal), Vector3::z(), normal]);
@@ -187,4 +188,9 @@ pub fn patch_of_contact(
 fn both_sides(walker: &mut Walker, origin: [f64; 3]) -> [Ray; 2] {
     walker.nodes.clear();
     [1.0, -1.0].map(|sign| walker.walk(&Line { origin, direction: [sign, 0.0], is_polar: false }))
+}
+
+/// Into the plane z = 0 of space.
+pub(super) fn raised(v: &Vector2<f64>) -> Vector3<f64> {
+    Vector3::new(v.x, v.y, 0.0)
 }

@@ -2,15 +2,12 @@
 
 use super::contact::checked;
 use super::patch::Patch as InSpace;
-use super::patch_state::{Now, PatchState, Place};
-use super::planar::{Patch, patch_of_contact};
+use super::patch_state::{Now, PatchState};
+use super::planar::{AXES, Patch, PatchPoint, patch_of_contact, raised};
 use super::scratch::PatchScratch;
 use super::settings::{PatchError, PatchSettings};
 use crate::planar::{Contact, Particle, Pose};
-use nalgebra::{Matrix3, Matrix6, Vector2, Vector3};
-
-/// Places of shifts along x and y and of the turn about z among shifts and turns.
-pub(super) const AXES: [usize; 3] = [0, 1, 5];
+use nalgebra::{Matrix3, Matrix6, Vector3};
 
 impl PatchState {
     /// As [`crate::planar::patch_of_contact`], carried on where that is possible ([`crate::PatchFlags::CARRIED`]): a state of its own for each pair.
@@ -31,32 +28,16 @@ impl PatchState {
         let branches = [raised(&contact.branch_a), raised(&contact.branch_b)];
         checked(contact.kind, &branches, &raised(&contact.normal), settings)?;
         let (place_a, place_b) = (pose_a.in_space(), pose_b.in_space());
-        let axes = *place_b.rotation();
-        let now = Now {
-            of: [a.in_space().serial(), b.in_space().serial()],
-            place: Place {
-                rotation: axes.tr_mul(place_a.rotation()),
-                centre: axes.tr_mul(&(place_a.position() - place_b.position())),
-                shape: Default::default(),
-            },
-            axes,
-            point: axes.tr_mul(&branches[1]),
-            branches: [&branches[0], &branches[1]],
-            position: place_a.position(),
-            s: contact.s,
-        };
+        let now =
+            Now::of_pair([a.in_space(), b.in_space()], [&place_a, &place_b], [&branches[0], &branches[1]], contact.s);
         let found = self.carried_or(&now, settings, |settings| {
             let mut reach = 0.0_f64;
-            let visit = |point: super::planar::PatchPoint| reach = reach.max(point.position.norm());
+            let visit = |point: PatchPoint| reach = reach.max(point.position.norm());
             let found = patch_of_contact(a, pose_a, b, pose_b, contact, settings, scratch, visit)?;
             Ok(in_space(&found, reach))
         })?;
         Ok(in_plane(&found))
     }
-}
-
-fn raised(v: &Vector2<f64>) -> Vector3<f64> {
-    Vector3::new(v.x, v.y, 0.0)
 }
 
 fn in_space(patch: &Patch, reach: f64) -> InSpace {

@@ -66,11 +66,12 @@ impl Walker<'_, '_, '_> {
         let rule = gauss(points);
         let [e, f] = line.direction;
         let by_distance = |distance: f64| if line.is_polar { distance } else { 1.0 };
-        // The gradient of D, along the ray, across and upwards, over its slope in the direction in which the height was found.
+        // The gradient of D, along the ray, across and upwards, over its slope in the direction in which the height was found; upwards never quite 0.
         let gradient = |along: f64, up: f64, rise: f64| {
             let run = 1.0 / rise;
             let (of_along, of_across) = (cell.d.by_h(along, up) * run, cell.d.across(along, up) * run);
-            [tilt.cos * of_along - tilt.sin, of_across, tilt.sin * of_along + tilt.cos]
+            let n_up = tilt.sin * of_along + tilt.cos;
+            [tilt.cos * of_along - tilt.sin, of_across, if n_up.abs() < UPRIGHT { UPRIGHT } else { n_up }]
         };
         let turned = |n_along: f64, n_across: f64| [n_along * e - n_across * f, n_along * f + n_across * e];
         let mut sums = [0.0; SUMS];
@@ -83,7 +84,6 @@ impl Walker<'_, '_, '_> {
             let pressure = 1.0 - cell.s.value(along, up).max(0.0).sqrt();
             let density = by_distance(distance);
             let [n_along, n_across, n_up] = gradient(along, up, rise);
-            let n_up = if n_up.abs() < UPRIGHT { UPRIGHT } else { n_up };
             let weight = weight * (to - from) * density * n_up;
             let normal = turned(n_along / n_up, n_across / n_up);
             let arm = [distance * e, distance * f, height];
@@ -124,7 +124,6 @@ impl Walker<'_, '_, '_> {
             let [distance, height] = tilt.upright(rho + at, zeta + up);
             let energy = if self.with_energy {
                 let x = [line.origin[0] + distance * e, line.origin[1] + distance * f, line.origin[2] + height];
-                let n_up = if n_up.abs() < UPRIGHT { UPRIGHT } else { n_up };
                 let normal = turned(n_along / n_up, n_across / n_up);
                 n_up * energy::density(self.field, &Node { x, weight: 0.0, pressure, normal })?
             } else {

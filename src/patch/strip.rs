@@ -9,7 +9,7 @@ use super::rules::{MOST_POINTS, gauss, tapering};
 /// Most fixed-point steps towards the corner of a strip.
 const MOST_STEPS: usize = 12;
 
-/// Relative size of a step at which it has: what the corner is off then does not count, as p is 0 there and the border is computed from it on.
+/// Relative size of a step at which the search for a corner has converged: p is 0 at the corner, so that its error enters the load by a higher power.
 const SETTLED: f64 = 1e-6;
 
 /// Relative size of the last step above which the search for a corner has not converged.

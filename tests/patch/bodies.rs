@@ -1,4 +1,4 @@
-//! Random bodies of every kind, and pairs of them at a stated overlap.
+//! Random bodies of every kind, pairs of them at a stated overlap, and what else tests and benchmark of patches share.
 
 use nalgebra::{Matrix3, Quaternion, UnitQuaternion, Vector3};
 use potential_particles::{Contact, Kind, Particle, Plane, Pose, Settings, detect};
@@ -129,4 +129,27 @@ impl Pair {
         let contact = contact(&self.a, &self.pose_a, &self.b, &pose_b);
         Self { a: self.a.clone(), b: self.b.clone(), pose_a: self.pose_a, pose_b, contact }
     }
+}
+
+/// The triangles of a box, seen from outside.
+pub fn mesh_of_box(half: [f64; 3]) -> Vec<[[f64; 3]; 3]> {
+    let mut triangles = Vec::new();
+    for (axis, sign) in [0, 1, 2].into_iter().flat_map(|axis| [(axis, 1.0), (axis, -1.0)]) {
+        let corner = |i: f64, j: f64| {
+            let mut at = [0.0; 3];
+            at[axis] = sign * half[axis];
+            at[(axis + 1) % 3] = i * sign * half[(axis + 1) % 3];
+            at[(axis + 2) % 3] = j * half[(axis + 2) % 3];
+            at
+        };
+        let [a, b, c, d] = [corner(-1.0, -1.0), corner(1.0, -1.0), corner(1.0, 1.0), corner(-1.0, 1.0)];
+        triangles.extend([[a, b, c], [a, c, d]]);
+    }
+    triangles
+}
+
+/// Central differences with Richardson's extrapolation.
+pub fn difference(of: impl Fn(f64) -> f64, h: f64) -> f64 {
+    let central = |h: f64| (of(h) - of(-h)) / (2.0 * h);
+    (4.0 * central(0.5 * h) - central(h)) / 3.0
 }

@@ -1,9 +1,8 @@
 //! The stiffness against differences of force and torque, and against the symmetry of second derivatives of an energy.
 
-use crate::bodies::{Chance, FAMILIES, Pair, body, contact};
+use crate::bodies::{Chance, FAMILIES, Pair, body, contact, difference};
 use crate::boundaries::{Boundary, resting};
 use crate::carried::moved;
-use crate::difference;
 use crate::gradients::each;
 use nalgebra::{Matrix6, Vector3, Vector6};
 use potential_particles::{

@@ -1,8 +1,7 @@
 //! Patches on planes, triangles and closed meshes.
 
-use crate::bodies::{Chance, FAMILIES, body, cuboid};
+use crate::bodies::{Chance, FAMILIES, body, cuboid, difference, mesh_of_box};
 use crate::boundaries::resting;
-use crate::difference;
 use nalgebra::{UnitQuaternion, Vector3};
 use potential_particles::{
     Kind, Particle, Patch, PatchScratch, PatchSettings, Pose, Settings, Triangle, Wall, contact_with_plane,
@@ -122,25 +121,6 @@ fn coplanar_triangles_add_up_to_the_plane() {
             }
         }
     }
-}
-
-/// The triangles of a box, seen from outside.
-fn mesh_of_box(half: [f64; 3]) -> Vec<[[f64; 3]; 3]> {
-    let mut triangles = Vec::new();
-    for axis in 0..3 {
-        for sign in [1.0, -1.0] {
-            let corner = |i: f64, j: f64| {
-                let mut at = [0.0; 3];
-                at[axis] = sign * half[axis];
-                at[(axis + 1) % 3] = i * sign * half[(axis + 1) % 3];
-                at[(axis + 2) % 3] = j * half[(axis + 2) % 3];
-                at
-            };
-            let [a, b, c, d] = [corner(-1.0, -1.0), corner(1.0, -1.0), corner(1.0, 1.0), corner(-1.0, 1.0)];
-            triangles.extend([[a, b, c], [a, c, d]]);
-        }
-    }
-    triangles
 }
 
 #[test]
