@@ -4,8 +4,9 @@ define HELP
 Contact detection between potential particles.
 
   make demo     set up, build, and let 200 pyramids fall in YADE; results in out/pyramids
-  make test     set up, build, and run every test
+  make test     set up, build, and test every part: at most a quarter of an hour on two processors
   make check    before each commit: a quick build, the Rust and C tests and a scene of YADE, in a minute once built
+  make test-all make test, and what takes long: valgrind, sanitizers, all scenes of YADE with two threads, runs that are killed and loaded
 
   make wedge    a wedge on two joints: at which friction angle does it slide? results in out/wedge
   make classics ten closed forms that block codes are judged by, among them incline, arch and toppling; results in out/classics
@@ -22,20 +23,22 @@ Contact detection between potential particles.
 
   make deb        Debian packages of the library and the plugin, built in a Debian 12 and a 13 of their own; needs root; results in out/packages
   make packages-test  builds them, and installs, uses and removes them in a bare Debian 12 and 13
-  make install    the library for C and C++ programs: header, pkg-config and CMake files; PREFIX=/usr/local DESTDIR=
+  make install    the library for C and C++ programs: header, pkg-config and CMake files; PREFIX=/usr/local DESTDIR=; make uninstall removes it
 
+  make test-flaky  the scenes of YADE and LAMMPS again and again, each time in other surroundings: locale, memory, user, threads; out/flaky
   make test-debian13  set up, build and test in a Debian 13 of its own, beside this system; needs root; SUITE=sid: in unstable
 
   make setup    install what is missing from Debian (YADE, compilers, Boost, Eigen, ...)
   make build    the library and the YADE plugin
   make library  the library alone: target/release/libpotential_particles.so
   make header   write include/potential_particles.h anew from src/capi
-  make lint     formatting and warnings
-  make lint-release  before a release: licences of dependencies, changes of the Rust interface, recipes of conda and Spack; skips tools that are not there
+  make lint     formatting, warnings, and the words of the guide
+  make release-check  before a release: versions, words, links, licences, content of the crate, Rust interface, recipes; FULL=1: tests, packages, wheel
   make bench    run time, each target beside what was measured, and run time against error; results in out/bench
   make side-by-side  YADE's own contact functor and this one on the same scenes; results in out/side_by_side
   make patch    contact patches: closed forms, the gradient of their energy, time by kind; results in out/patch
   make rock     a rock mass cut into blocks: time, closure of volume, a slope as a picture, key blocks against 1,000 simulations; results in out/rock
+  make equilibrium  walls, arches, wedges as one cone program: closed forms, time and memory by size, a picture; results in out/equilibrium
   make patch-yade   joints in YADE: closed forms, energy, rest, time; results in out/patch-yade
   make time-step  where piles break, against critical_time_step() and YADE's stepper; results in out/time_step
   make peers    the codes one would pick instead, on the same pairs and piles; installs them; results in out/peers
@@ -64,6 +67,7 @@ Variables, as in "make demo STEPS=1000 BODIES=50":
   WALLS=100000      stress: number of contacts with planes and triangles; by default POSES/10
   SEAMS=50000       stress: number of meshes whose triangles share edges and vertices; by default POSES/20
   PLANAR=50000      stress: number of pairs of the plane; by default POSES/20
+  HULLS=100000      stress: number of hulls and bodies of half-spaces, against exact arithmetic; by default POSES/10
   MEMORIES=50000    stress: number of pairs solved from memories of any bytes; by default POSES/20
   SEED=N            stress: repeats the pairs of that seed; without it each run draws one, and prints it first
   SETTLE=1          stress: settle one pose in so many in 32 digits, and those in doubt; POSES=100000000 SETTLE=200 takes 45 minutes
@@ -72,18 +76,23 @@ Variables, as in "make demo STEPS=1000 BODIES=50":
   SUITE=trixie      test-debian13: which release of Debian; SUITES="bookworm trixie": deb, packages-test
   CACHE=out/debian  test-debian13: where that release and its packages stay for the next time; FRESH=1 makes it anew
   WERROR=0          build, test: 1 takes compiler warnings for errors, as this project's CI does
-  VERBOSE=1         test, test-debian13: show the output of every stage, not only of those that fail
+  STAGE=NAMES       test, test-all, test-debian13: these stages alone, with what they need, as in STAGE=yade,c
+  JOBS=N            test, test-all, check, test-flaky: so many processes at once; by default as many as there are processors
+  VERBOSE=1         test, test-all: show the whole output of every stage
+  ROUNDS=20         test-flaky: how often; STAGE there: the suites, by default yade,lammps,ranks
   BEFORE=COMMIT     scale: the commit that is built and measured beside this one
   CARGO_TARGET_DIR  where cargo builds (default: target)
 endef
 
 THREADS ?= 1
 export WERROR ?= 0
+export JOBS
+export VERBOSE
 
 MAKEFLAGS += --no-print-directory
 
 # Absolute, so that tools that run in other folders mean the same one.
-override CARGO_TARGET_DIR := $(abspath $(or $(CARGO_TARGET_DIR),target))
+override CARGO_TARGET_DIR := $(shell realpath -m -- "$(or $(CARGO_TARGET_DIR),target)")
 export CARGO_TARGET_DIR
 LIBRARY := $(CARGO_TARGET_DIR)/release/libpotential_particles.so
 GLUE_BUILD := yade-glue/build
@@ -91,9 +100,10 @@ GLUE_BUILD := yade-glue/build
 # Where rustup puts cargo, for shells that were open before.
 export PATH := $(PATH):$(HOME)/.cargo/bin
 
+COMMA := ,
 heading = @printf '== %s\n' '$(1)'
 
-.PHONY: check scenes lammps lammps-scale sanitize wheel guide deb packages-test install help demo wedge classics mpi scale mpi-scale test test-debian13 side-by-side patch rock patch-yade time-step peers roofline setup build library glue header lint lint-release bench stress fuzz long clean
+.PHONY: check scenes lammps lammps-scale sanitize wheel guide deb packages-test install uninstall help demo wedge classics mpi scale mpi-scale test test-all test-flaky test-debian13 side-by-side patch rock equilibrium patch-yade time-step peers roofline setup build library glue header lint release-check bench stress fuzz long clean
 .DEFAULT_GOAL := help
 # The steps of one goal build on each other in the order in which they are named.
 .NOTPARALLEL:
@@ -108,12 +118,12 @@ setup:
 # Needs cargo and a C compiler only: this target works on any system.
 library:
 	$(call heading,Library)
-	@cargo build --release
+	@scripts/library.sh
 
 # Compares the plugin with the installed YADE, too, whenever it was built anew.
 glue: setup library
 	$(call heading,YADE plugin)
-	@cmake -S yade-glue -B $(GLUE_BUILD) -DPP_LIBRARY=$(LIBRARY) -DPP_WERROR=$(WERROR) >/dev/null
+	@cmake -S yade-glue -B $(GLUE_BUILD) -DPP_LIBRARY="$(LIBRARY)" -DPP_WERROR=$(WERROR) >/dev/null
 	@cmake --build $(GLUE_BUILD) --parallel $$(nproc)
 
 build: glue
@@ -170,11 +180,20 @@ lammps-scale: glue
 	@scripts/lammps_setup.sh
 	@benches/lammps_scale.py
 
+# Set-up comes first: the tests are started by Python.
 test:
-	@scripts/test.sh
+	@scripts/begin.sh
+	@scripts/test.py $(subst $(COMMA), ,$(STAGE))
+
+test-all:
+	@scripts/begin.sh
+	@scripts/test.py --plan all $(subst $(COMMA), ,$(STAGE))
 
 check:
-	@scripts/check.sh
+	@scripts/test.py --plan check
+
+test-flaky: setup
+	@tests/flaky/run.py $(if $(ROUNDS),--rounds $(ROUNDS)) $(subst $(COMMA), ,$(STAGE))
 
 wheel: export OUTPUT := $(OUTPUT)
 wheel: export QUICK := $(QUICK)
@@ -191,12 +210,20 @@ deb packages-test: SUITES ?= bookworm trixie
 deb packages-test:
 	@for suite in $(SUITES); do SUITE=$$suite scripts/packages.sh || exit; done
 
+# By the environment: a path may have spaces.
+install uninstall: export PREFIX := $(PREFIX)
+install uninstall: export DESTDIR := $(DESTDIR)
+install uninstall: export LIBDIR := $(LIBDIR)
 install:
-	@PREFIX=$(or $(PREFIX),/usr/local) DESTDIR=$(DESTDIR) LIBDIR=$(LIBDIR) scripts/install.sh
+	@scripts/install.sh
+
+uninstall:
+	@scripts/install.sh uninstall
 
 test-debian13: export SUITE := $(or $(SUITE),trixie)
 test-debian13: export CACHE := $(CACHE)
 test-debian13: export FRESH := $(FRESH)
+test-debian13: export STAGE := $(STAGE)
 test-debian13:
 	@scripts/debian.sh
 
@@ -219,7 +246,7 @@ side-by-side: glue
 SANITIZERS := -fsanitize=address,undefined -fno-sanitize=vptr -fno-omit-frame-pointer -O1
 sanitize: setup library
 	$(call heading,Plugin under sanitizers)
-	@cmake -S yade-glue -B out/sanitize -DPP_LIBRARY=$(LIBRARY) -DCMAKE_CXX_FLAGS="$(SANITIZERS)" >/dev/null
+	@cmake -S yade-glue -B out/sanitize -DPP_LIBRARY="$(LIBRARY)" -DCMAKE_CXX_FLAGS="$(SANITIZERS)" >/dev/null
 	@cmake --build out/sanitize --parallel $$(nproc)
 	@LD_PRELOAD="$$(g++ -print-file-name=libasan.so) $$(g++ -print-file-name=libubsan.so)" ASAN_OPTIONS=detect_leaks=0 \
 	UBSAN_OPTIONS=print_stacktrace=1:halt_on_error=1 tests/yade/run.py --package out/sanitize/python -j1 -j2
@@ -234,6 +261,11 @@ rock: glue
 	@cargo bench --bench rock $(if $(QUICK),-- quick)
 	@/usr/bin/python3 benches/rock/plot.py
 	@CUTS=$(if $(QUICK),50,1000) scripts/yade.sh -j1 benches/rock/key_blocks.py
+
+equilibrium:
+	$(call heading,Equilibrium of blocks)
+	@cargo bench --bench equilibrium $(if $(QUICK),-- quick)
+	@/usr/bin/python3 benches/equilibrium/plot.py
 
 patch-yade: export CASES := $(CASES)
 patch-yade: export OUTPUT := $(OUTPUT)
@@ -263,10 +295,13 @@ lint:
 	$(call heading,Warnings)
 	@if cargo clippy --version >/dev/null 2>&1; then cargo clippy --all-targets -- -D warnings; \
 	else echo 'skipped: clippy is not installed (rustup component add clippy)'; fi
+	$(call heading,Words)
+	@tests/guide/words.py
+	@scripts/versions.py
 
-lint-release:
+release-check:
 	$(call heading,Before a release)
-	@scripts/lint_release.sh
+	@scripts/release_check.sh
 
 # Without YADE its functor is left out, and the table says so.
 bench:
@@ -285,7 +320,7 @@ stress: OUTPUT := $(or $(OUTPUT),out/stress)
 stress:
 	$(call heading,Stress)
 	@status=0; cargo run --quiet --release --example stress -- --poses $(POSES) $(if $(SEED),--seed $(SEED)) --settle-every $(SETTLE) \
-	$(if $(WALLS),--walls $(WALLS)) $(if $(SEAMS),--seams $(SEAMS)) $(if $(PLANAR),--planar $(PLANAR)) $(if $(MEMORIES),--memories $(MEMORIES)) --output $(OUTPUT) || status=$$?; \
+	$(if $(WALLS),--walls $(WALLS)) $(if $(SEAMS),--seams $(SEAMS)) $(if $(PLANAR),--planar $(PLANAR)) $(if $(HULLS),--hulls $(HULLS)) $(if $(MEMORIES),--memories $(MEMORIES)) --output $(OUTPUT) || status=$$?; \
 	/usr/bin/python3 tools/stress/plot.py $(OUTPUT); exit $$status
 
 fuzz: export FUZZ_SECONDS ?= 60
@@ -295,6 +330,8 @@ fuzz:
 	$(call heading,Mesh files with random damage)
 	@if [ -d $(GLUE_BUILD)/python/potential_particles ]; then PP_MESH_FILES=$(or $(MESH_FILES),1000) tests/yade/run.py -j1 mesh_file; \
 	else echo 'skipped: the plugin is not built (make build)'; fi
+	$(call heading,Inputs of LAMMPS with something changed)
+	@if [ -f out/lammps/build/potential_particles_plugin.so ]; then tests/lammps/fuzz.py $(FUZZ_SECONDS); else echo 'skipped: the plugin is not built (make lammps)'; fi
 
 clean:
 	@cargo clean

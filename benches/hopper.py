@@ -17,6 +17,7 @@ TOP = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(TOP / "studies"))
 
 import machine
+from summary import write_summary
 
 OUT = TOP / "out" / "hopper"
 STL = TOP / "examples" / "data" / "hopper.stl"
@@ -32,7 +33,7 @@ def main():
     summary["targets"] = [target(name, summary[field], most) for name, field, most in (
         ("contacts that failed", "failures", 0), ("rocks that went through the wall", "rocks_beside_the_hopper", 0))]
     summary |= {"machine": machine.machine_line(), "date": machine.now(), "command": "/usr/bin/python3 benches/hopper.py"}
-    (OUT / "summary.json").write_text(json.dumps(summary, indent=2) + "\n")
+    write_summary(OUT / "summary.json", summary)
     print(f"{summary['bodies']} rocks, {summary['facets']} facets: {1e3 * summary['seconds_a_step']:.2f} ms a step")
     sys.exit(not all(row["met"] for row in summary["targets"]))
 

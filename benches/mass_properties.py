@@ -47,12 +47,12 @@ def cases():
     volume = 4 / 3 * math.pi * radius**3
     yield "sphere", shapes.sphere(radius), (volume, [0.4 * volume * radius**2] * 3)
     for r in (1e-6, 0.01, 0.1):
-        shape = shapes.cuboid((1, 1.2, 1.4), r=r, k=0.0)
+        shape = shapes.cuboid((1, 1.2, 1.4), rounding=r, k=0.0)
         yield f"cuboid, r = {r:g}, k = 0", shape, rounded_cuboid((0.5, 0.6, 0.7), shape.r)
-    yield "cuboid, r = 1e-6, k = 1e-6", shapes.cuboid((1, 1.2, 1.4), r=1e-6, k=1e-6), None
-    yield "cuboid, r = 0.1, k = 0.3", shapes.cuboid((1, 1.2, 1.4), r=0.1, k=0.3), None
+    yield "cuboid, r = 1e-6, k = 1e-6", shapes.cuboid((1, 1.2, 1.4), rounding=1e-6, k=1e-6), None
+    yield "cuboid, r = 0.1, k = 0.3", shapes.cuboid((1, 1.2, 1.4), rounding=0.1, k=0.3), None
     for r, k in ((1e-6, 0.0), (0.05, 0.02)):
-        yield f"rock of 24 planes, r = {r:g}, k = {k:g}", shapes.random_rock(1, faces=24, r=r, k=k), None
+        yield f"rock of 24 planes, r = {r:g}, k = {k:g}", shapes.random_rock(1, faces=24, rounding=r, k=k), None
 
 
 def main():

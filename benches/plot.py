@@ -24,13 +24,13 @@ import matplotlib.pyplot as plt
 from matplotlib.lines import Line2D
 from matplotlib.ticker import LogLocator, NullFormatter
 
-GROUPS = [
-    ("rounded bodies\n(generic, far origin, scaled units, spheres)", ["generic", "far_origin", "scaled_units",
-                                                                      "sphere_mix"]),
-    ("faces, edges, plates, k = 0", ["face_face", "edge_edge", "plates", "polyhedra_k0"]),
-    ("nearly polyhedral\n(r and k down to 1e-8)", ["near_polyhedral"]),
-    ("100 and 300 planes", ["many_planes"]),
-    ("deep overlap, sizes 1 : 100,000", ["deep", "size_ratio"]),
+# Title, formulation and families of each panel.
+ROUNDED, FLAT = ["generic", "far_origin", "scaled_units", "sphere_mix"], ["face_face", "edge_edge", "plates", "polyhedra_k0"]
+PANELS = [
+    ("midway: rounded bodies", "midway", ROUNDED),
+    ("midway: faces, edges, plates, k = 0", "midway", FLAT),
+    ("midway: nearly polyhedral, r and k down to 1e-8", "midway", ["near_polyhedral"]),
+    ("closest: rounded and flat bodies", "closest", ROUNDED + FLAT),
 ]
 
 # Name in the data: colour, marker, label.
@@ -133,18 +133,15 @@ def main():
     data = read(folder / "work_precision_pairs.csv")
     machine = json.loads((folder / "summary.json").read_text())["machine"]
 
-    figure, grid = plt.subplots(2, len(GROUPS), figsize=(19, 10.5), sharex=True, sharey=True)
-    for row, formulation in zip(grid, ("midway", "closest")):
-        for axes, (title, families) in zip(row, GROUPS):
-            draw(axes, data, formulation, families)
-            if formulation == "midway":
-                axes.set_title(title, fontsize=11)
-            else:
-                axes.set_xlabel("relative error of s")
-            if not axes.lines:
-                axes.text(0.5, 0.5, "constraint slack:\nclosest is not defined", transform=axes.transAxes,
-                          ha="center", va="center", color="#666666")
-        row[0].set_ylabel(f"{formulation}: time of a call, µs")
+    figure, grid = plt.subplots(2, 2, figsize=(14, 12.5), sharex=True, sharey=True)
+    for axes, (title, formulation, families) in zip(grid.flat, PANELS):
+        draw(axes, data, formulation, families)
+        axes.set_title(title, fontsize=15)
+        axes.tick_params(labelsize=13)
+    for axes in grid[1]:
+        axes.set_xlabel("relative error of s", fontsize=14)
+    for axes in grid[:, 0]:
+        axes.set_ylabel("time of a call, µs", fontsize=14)
     grid[0][0].set_ylim(0.08, 3e5)
 
     handles = [Line2D([], [], color=colour, marker=marker, lw=2.2 if solver == "fast" else 1.3,
@@ -153,15 +150,13 @@ def main():
                if any(key[0] == solver for key in data)]
     handles += [Line2D([], [], color="#555555", marker="o", label="filled: median error over the pairs"),
                 Line2D([], [], color="#555555", marker="o", ls=":", lw=1, mfc="white", label="open: worst error")]
-    legend = figure.legend(handles=handles, loc="lower center", ncol=2, fontsize=10, frameon=False,
-                           title="solver: pairs without an answer + pairs on the wrong side of contact, "
-                                 "at its usual tolerance (in the panels: both together, in %)")
-    legend.get_title().set_fontsize(10)
-    figure.suptitle("Contact of two potential particles: run time against error, one marker a tolerance, "
-                    "against solutions known to 40 digits. Lower left is better.", fontsize=14, y=0.985)
+    legend = figure.legend(handles=handles, loc="lower center", ncol=1, fontsize=12, frameon=False,
+                           title="solver: pairs without an answer + pairs on the wrong side of contact, at its usual tolerance")
+    legend.get_title().set_fontsize(12)
+    figure.suptitle("Run time against error, one marker a tolerance; lower left is better", fontsize=17, y=0.985)
     figure.text(0.995, 0.006, f"{machine['processor']}, {machine['cores']} cores, {machine['date'][:10]}",
                 ha="right", fontsize=8, color="#666666")
-    figure.subplots_adjust(left=0.05, right=0.99, top=0.89, bottom=0.225, hspace=0.08, wspace=0.06)
+    figure.subplots_adjust(left=0.07, right=0.99, top=0.92, bottom=0.29, hspace=0.13, wspace=0.05)
     figure.savefig(folder / "work_precision.png", dpi=110)
     print(f"written: {folder / 'work_precision.png'}")
 

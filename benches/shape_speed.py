@@ -19,7 +19,7 @@ def microseconds(faces, r, k):
     """Least time of a pair over some runs, us."""
     O.reset()
     material = FrictMat(density=1000, frictionAngle=0.5)
-    rocks = [shapes.random_rock(seed, faces=faces, r=r, k=k) for seed in range(4)]
+    rocks = [shapes.random_rock(seed, faces=faces, rounding=r, k=k) for seed in range(4)]
     random = np.random.default_rng(1)
     for i in range(SIDE**3):
         place = 0.98 * np.array([i % SIDE, i // SIDE % SIDE, i // SIDE**2])

@@ -23,6 +23,7 @@ TOP = Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(TOP / "studies"))
 
 import machine
+from summary import write_summary
 
 PILES = (200, 2000)
 # Until the last ones of the tower have landed.
@@ -85,7 +86,7 @@ def main():
     out = TOP / "out" / "threads"
     out.mkdir(parents=True, exist_ok=True)
     summary = {"machine": machine.machine_line(), "date": machine.now(), "load_before": load, "piles": rows}
-    (out / "summary.json").write_text(json.dumps(summary, indent=2) + "\n")
+    write_summary(out / "summary.json", summary)
     print(f"\n  {'bodies':>7} {'pairs':>7} {'in contact':>10}   time of one thread / of two     off by, after steps")
     print(f"  {'':26}   {'functor':>8} {'loop':>7} {'step':>7}")
     for row in rows:

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT OR Apache-2.0
 # The guide: `make guide` runs Sphinx with this file, within YADE, whose classes the Python reference describes.
 import re
 

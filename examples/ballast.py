@@ -3,13 +3,12 @@
 
 Environment: BODIES (250), CYCLES (20), OUTPUT (out/ballast). Writes ballast.png, load against settlement and settlement against cycles, and summary.json. SI units; z up.
 """
-import json
 import os
 
 import numpy as np
 import potential_particles
 from matplotlib import pyplot
-from potential_particles import boundaries, packing, shapes
+from potential_particles import boundaries, files, packing, shapes
 from yade import *
 from yade import utils
 COUNT, CYCLES, OUT = int(os.environ.get("BODIES", 250)), int(os.environ.get("CYCLES", 20)), os.environ.get("OUTPUT", "out/ballast")
@@ -55,5 +54,5 @@ for place, x, y, along, up in (middle, settlement, load / 1e3, "settlement, mm",
     place.plot(x, y, lw=0.8)
     place.set(xlabel=along, ylabel=up)
 picture.savefig(os.path.join(OUT, "ballast.png"), dpi=110)
-json.dump(summary, open(os.path.join(OUT, "summary.json"), "w"), indent=2)
+files.write_summary(os.path.join(OUT, "summary.json"), summary)
 print(summary)

@@ -3,13 +3,12 @@
 
 Environment: BODIES (500), TURNS (1), OUTPUT (out/drum). Writes drum.png and summary.json. SI units; z up, the drum turns about y.
 """
-import json
 import os
 
 import numpy as np
 import potential_particles
 from matplotlib import pyplot
-from potential_particles import boundaries, packing, shapes
+from potential_particles import boundaries, files, packing, shapes
 from yade import *
 from yade import utils
 
@@ -53,5 +52,5 @@ left.axis("off")
 right.plot(turns, np.abs(angles))
 right.set(xlabel="turns of the drum", ylabel="slope of the surface, degrees", ylim=0)
 picture.savefig(os.path.join(OUT, "drum.png"), dpi=110)
-json.dump(summary, open(os.path.join(OUT, "summary.json"), "w"), indent=2)
+files.write_summary(os.path.join(OUT, "summary.json"), summary)
 print(summary)

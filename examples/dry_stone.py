@@ -5,12 +5,11 @@ The wall of random stones is tilted slowly: thickness over height is the tangent
 pull, give way. The dome is a hemisphere of 7 rings of 12 stones with an eye, 0.12 R thick:
 0.042 R is the least at which a hemisphere stands (Heyman 1995, The Stone Skeleton). Environment: OUTPUT (out/dry_stone). Writes pictures and summary.json. SI units.
 """
-import json
 import os
 
 import numpy as np
 import potential_particles
-from potential_particles import shapes
+from potential_particles import files, shapes
 from yade import *
 
 OUT = os.environ.get("OUTPUT", "out/dry_stone")
@@ -51,12 +50,12 @@ def wall(tilt):
     """Courses of stones of random length, laid in bond, on a slab."""
     start()
     rng, rise = np.random.default_rng(4), HEIGHT / COURSES
-    O.bodies.append(potential_particles.body(shapes.cuboid((LENGTH + 1, 2, 0.2), r=ROUNDING, k=0), position=(LENGTH / 2, 0, -0.1), fixed=True, mask=3, color=GROUND))
+    O.bodies.append(potential_particles.body(shapes.cuboid((LENGTH + 1, 2, 0.2), rounding=ROUNDING, k=0), position=(LENGTH / 2, 0, -0.1), fixed=True, mask=3, color=GROUND))
     for course in range(COURSES):
         ends = np.concatenate([[0.0], (np.arange(1, 6) + 0.5 * (course % 2) + rng.uniform(-0.15, 0.15, 5)) * LENGTH / 6, [LENGTH]])
         for x in zip(ends, ends[1:]):
             corners = [(a, y, z) for a in x for y in (-THICK / 2, THICK / 2) for z in (course * rise, (course + 1) * rise)]
-            O.bodies.append(potential_particles.body(shapes.from_vertices(corners, r=ROUNDING, k=0), color=np.array(STONE) * rng.uniform(0.85, 1.1)))
+            O.bodies.append(potential_particles.body(shapes.from_vertices(corners, rounding=ROUNDING, k=0), color=np.array(STONE) * rng.uniform(0.85, 1.1)))
     return run(0.5, tilt)
 
 
@@ -77,13 +76,13 @@ def dome(thickness, seconds):
     start()
     radius, rings, sectors = 2.0, 7, 12
     heights, rng = np.radians(np.linspace(90, 12, rings + 1)), np.random.default_rng(1)
-    O.bodies.append(potential_particles.body(shapes.cuboid((6, 6, 0.2), r=0.01, k=0), position=(0, 0, -0.11), fixed=True, mask=3, color=GROUND))
+    O.bodies.append(potential_particles.body(shapes.cuboid((6, 6, 0.2), rounding=0.01, k=0), position=(0, 0, -0.11), fixed=True, mask=3, color=GROUND))
     for ring, angles in enumerate(zip(heights, heights[1:])):
         for sector in range(sectors):
             turns = 2 * np.pi / sectors * np.array([sector, sector + 1])
             corners = [(r * np.sin(t) * np.cos(u), r * np.sin(t) * np.sin(u), r * np.cos(t))
                        for r in radius * np.array([1 - thickness / 2, 1 + thickness / 2]) for t in angles for u in turns]
-            O.bodies.append(potential_particles.body(shapes.from_vertices(corners, r=0.05 * radius * thickness, k=0), fixed=ring == 0, mask=3 if ring == 0 else 1,
+            O.bodies.append(potential_particles.body(shapes.from_vertices(corners, rounding=0.05 * radius * thickness, k=0), fixed=ring == 0, mask=3 if ring == 0 else 1,
                                                      color=np.array(STONE) * rng.uniform(0.85, 1.1)))
     return run(seconds)
 
@@ -99,4 +98,4 @@ for name, tilt in (("level", 0.0), ("below", 0.5 * turns_over), ("beyond", 1.1 *
 found["dome"] = {"thickness_over_radius": 0.12, **dome(0.12, 0.25)}
 print("dome", found["dome"])
 potential_particles.plot(os.path.join(OUT, "dome.png"), towards=(0.5, -0.8, 0.45), size=(900, 640))
-json.dump(found, open(os.path.join(OUT, "summary.json"), "w"), indent=2)
+files.write_summary(os.path.join(OUT, "summary.json"), found)

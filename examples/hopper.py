@@ -7,7 +7,6 @@ Environment: BODIES (500), STEPS (25000), OUTPUT (out/hopper), LAW (point, or jo
 hopper in m whose axis is z and whose outlet lies at z = 0). Writes hopper.png (rocks half way, mass and rate of flow against
 time), flow.csv and summary.json. SI units; z up.
 """
-import json
 import os
 import sys
 import time
@@ -15,7 +14,7 @@ import time
 import matplotlib
 import numpy as np
 import potential_particles
-from potential_particles import packing, shapes
+from potential_particles import files, packing, shapes
 from yade import *
 from yade import ymport
 
@@ -99,6 +98,5 @@ summary = {
     "mass_out_kg": masses[-1],
     "largest_rate_kg_per_s": rate.max(),
 }
-with open(os.path.join(OUT, "summary.json"), "w") as file:
-    json.dump(summary, file, indent=2)
+files.write_summary(os.path.join(OUT, "summary.json"), summary)
 print(f"{summary}\nResults in {OUT}")

@@ -3,13 +3,12 @@
 
 Environment: BODIES (300), STRESS (2e5), LAW (point, or joint: contact patches), OUTPUT (out/oedometer). Writes oedometer.png and summary.json. SI units; z up.
 """
-import json
 import os
 
 import numpy as np
 import potential_particles
 from matplotlib import pyplot
-from potential_particles import packing, shapes
+from potential_particles import files, packing, shapes
 from yade import *
 from yade import utils
 
@@ -62,5 +61,5 @@ right.legend()
 for place, label in (left, "stress of the lid, kPa"), (right, "J"):
     place.set(xlabel="strain, %", ylabel=label)
 picture.savefig(os.path.join(OUT, "oedometer.png"), dpi=130)
-json.dump(summary, open(os.path.join(OUT, "summary.json"), "w"), indent=2)
+files.write_summary(os.path.join(OUT, "summary.json"), summary)
 print(summary)

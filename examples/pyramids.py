@@ -19,7 +19,7 @@ EDGE = 0.1  # of the base, and height, m
 os.makedirs(OUT, exist_ok=True)
 O.materials.append(FrictMat(young=3e7, poisson=0.3, frictionAngle=0.52, density=2600))
 half = 0.5 * EDGE
-pyramid = shapes.from_vertices([(x, y, 0) for x in (-half, half) for y in (-half, half)] + [(0, 0, EDGE)], r=0.05)
+pyramid = shapes.from_vertices([(x, y, 0) for x in (-half, half) for y in (-half, half)] + [(0, 0, EDGE)], rounding=0.05)
 
 # A tower of which they fill an eighth, in a box three times as wide.
 side = 0.5 * EDGE + 1.1 * EDGE * COUNT ** (1 / 3)

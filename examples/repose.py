@@ -3,13 +3,12 @@
 
 Environment: BODIES (600), FRICTION (30 degrees), OUTPUT (out/repose). Writes repose.png and summary.json. SI units; z up.
 """
-import json
 import os
 
 import numpy as np
 import potential_particles
 from matplotlib import pyplot
-from potential_particles import boundaries, packing, shapes
+from potential_particles import boundaries, files, packing, shapes
 from yade import *
 from yade import utils
 
@@ -55,5 +54,5 @@ right.plot(rings, base + slope * rings, label=f"{summary['angle_of_repose']:.1f}
 right.set(xlabel="from the axis, m", ylabel="height, m", aspect="equal", ylim=0)
 right.legend()
 picture.savefig(os.path.join(OUT, "repose.png"), dpi=110)
-json.dump(summary, open(os.path.join(OUT, "summary.json"), "w"), indent=2)
+files.write_summary(os.path.join(OUT, "summary.json"), summary)
 print(summary)

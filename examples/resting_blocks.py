@@ -10,7 +10,7 @@ import os
 
 import numpy as np
 import potential_particles
-from potential_particles import rock, shapes
+from potential_particles import files, rock, shapes
 from yade import *
 
 OUT = os.environ.get("OUTPUT", "out/resting_blocks")
@@ -56,8 +56,8 @@ above = rock.Domain(np.vstack([domain.planes, -under.planes[-1]]))
 sets = [rock.JointSet(70, 80, 1.2), rock.joint((0, 1.5, 0), 90, 0), rock.joint((0, 0, 0.6), SLOPE, 270), rock.joint((0, 0, 1.2), SLOPE, 270)]
 start(friction=89, damping=0.8)
 wedge, under = rock.slice(above, sets, least_volume=0.3, least_thickness=0.08), rock.slice(under, [])
-ids = rock.bodies(wedge, r=0.02)
-rock.bodies(under, r=0.02, fixed=[0], color=(0.55, 0.53, 0.5))
+ids = rock.bodies(wedge, rounding=0.02)
+rock.bodies(under, rounding=0.02, fixed=[0], color=(0.55, 0.53, 0.5))
 O.dt = potential_particles.critical_time_step()
 print(f"{len(wedge)} blocks on a plane of {SLOPE} degrees")
 way, _ = run(1.0)
@@ -79,9 +79,9 @@ found["friction_20_slides_mm"] = 1e3 * slide
 for cubes in (1, 2):
     start(friction=89, damping=0.8)
     O.engines[-1].gravity = 9.81 * Vector3(np.sin(np.radians(20)), 0, -np.cos(np.radians(20)))
-    O.bodies.append(potential_particles.body(shapes.cuboid((10, 4, 1), r=0.02, k=0), position=(4, 0, -0.5), fixed=True))
+    O.bodies.append(potential_particles.body(shapes.cuboid((10, 4, 1), rounding=0.02, k=0), position=(4, 0, -0.5), fixed=True))
     for x in (1.5, 3.5)[:cubes]:
-        O.bodies.append(potential_particles.body(shapes.cuboid((1, 1, 1), r=0.02, k=0), position=(x, 0, 0.5)))
+        O.bodies.append(potential_particles.body(shapes.cuboid((1, 1, 1), rounding=0.02, k=0), position=(x, 0, 0.5)))
     O.dt = potential_particles.critical_time_step()
     run(0.5)
     O.engines[-1].damping = 0.0
@@ -92,4 +92,4 @@ for cubes in (1, 2):
     found[f"cubes_{cubes}"] = {"friction_21_way_um": 1e6 * rest, "friction_19_way_mm": 1e3 * slide,
                                "friction_19_way_by_theory_mm": 1e3 * 0.5 * 9.81 * (np.sin(np.radians(20)) - np.tan(np.radians(19)) * np.cos(np.radians(20)))}
 print(json.dumps(found, indent=2))
-json.dump(found, open(os.path.join(OUT, "summary.json"), "w"), indent=2)
+files.write_summary(os.path.join(OUT, "summary.json"), found)

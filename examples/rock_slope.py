@@ -4,12 +4,11 @@
 Environment: SECONDS (1.2), OUTPUT (out/rock_slope). Joints that dip out of the slope by 30 degrees cut columns; columns whose width over height is
 below tan(30) topple where they cannot slide (Goodman & Bray 1976). Writes a picture for each friction angle, and summary.json. SI units.
 """
-import json
 import os
 
 import numpy as np
 import potential_particles
-from potential_particles import rock
+from potential_particles import files, rock
 from yade import *
 
 SECONDS, OUT = float(os.environ.get("SECONDS", 1.2)), os.environ.get("OUTPUT", "out/rock_slope")
@@ -26,7 +25,7 @@ def slope(friction):
     """The slope after some time: how many blocks turned (brown in the picture) and slid (blue)."""
     O.reset()
     O.materials.append(ConicJointMat(normalStiffness=1e8, shearStiffness=2e7, frictionAngle=np.radians(friction), restitution=0.5, density=2600))
-    ids = rock.bodies(mass, r=0.1, fixed=mass.on_domain([rock.Domain.WEST, rock.Domain.BOTTOM]))
+    ids = rock.bodies(mass, rounding=0.1, fixed=mass.on_domain([rock.Domain.WEST, rock.Domain.BOTTOM]))
     O.engines = [
         ForceResetter(),
         InsertionSortCollider([PotentialParticle2AABB()], verletDist=0, avoidSelfInteractionMask=2),
@@ -49,4 +48,4 @@ def slope(friction):
     return numbers
 
 
-json.dump({f"friction_{one}": slope(one) for one in FRICTION}, open(os.path.join(OUT, "summary.json"), "w"), indent=2)
+files.write_summary(os.path.join(OUT, "summary.json"), {f"friction_{one}": slope(one) for one in FRICTION})

@@ -3,12 +3,11 @@
 
 Environment: SPACING (1.75 m), SECONDS (0.4), OUTPUT (out/rock_tunnel). Writes a picture of the key blocks, red for those that fall, one after they fell, and summary.json. SI units.
 """
-import json
 import os
 
 import numpy as np
 import potential_particles
-from potential_particles import rock
+from potential_particles import files, rock
 from yade import *
 
 SPACING, SECONDS, OUT = (float(os.environ.get("SPACING", 1.75)), float(os.environ.get("SECONDS", 0.4)), os.environ.get("OUTPUT", "out/rock_tunnel"))
@@ -29,7 +28,7 @@ away = np.ones(len(mass), bool)
 away[[block for one in keys if one.mode != "inner" for block in one.blocks]] = False
 colours = {block: one.color for one in keys for block in one.blocks}
 O.materials.append(ConicJointMat(normalStiffness=1e8, shearStiffness=5e7, frictionAngle=np.radians(FRICTION), restitution=0.3, density=2600))
-ids = rock.bodies(mass, r=0.05, fixed=away | mass.on_domain([rock.Domain.SOUTH, rock.Domain.NORTH]), color=lambda block: colours.get(block, rock.COLOURS["inner"]))
+ids = rock.bodies(mass, rounding=0.05, fixed=away | mass.on_domain([rock.Domain.SOUTH, rock.Domain.NORTH]), color=lambda block: colours.get(block, rock.COLOURS["inner"]))
 O.engines = [
     ForceResetter(),
     InsertionSortCollider([PotentialParticle2AABB()], verletDist=0, avoidSelfInteractionMask=2),
@@ -57,5 +56,5 @@ numbers = {"blocks": len(mass), "pieces_that_block_theory_frees": sum(one.moves 
            "others_at_the_tunnel": sum(not one.moves for one in still), "of_these_moved_behind_them": sum(way[one.blocks[0]] > 0.01 for one in still if not one.moves),
            "steps": O.iter, "overlap_over_r": potential_particles.overlap_ratio()}
 numbers = {name: float(value) if isinstance(value, float) else int(value) for name, value in numbers.items()}
-json.dump(numbers, open(os.path.join(OUT, "summary.json"), "w"), indent=2)
+files.write_summary(os.path.join(OUT, "summary.json"), numbers)
 print(numbers)

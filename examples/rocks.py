@@ -6,13 +6,12 @@
 Environment: BODIES (500), STEPS (30000), OUTPUT (out/rocks), LAW (point, or joint: contact patches). Writes rocks.png, rocks.bodies.pvd and rocks.contacts.pvd with
 their frames for ParaView, and summary.json. SI units; z up.
 """
-import json
 import os
 
 import numpy as np
 import potential_particles
 from matplotlib import colormaps
-from potential_particles import boundaries, packing, shapes
+from potential_particles import boundaries, files, packing, shapes
 from yade import *
 from yade import utils
 
@@ -63,6 +62,5 @@ summary = {
     "kinetic_energy_J": utils.kineticEnergy(),
     "mean_height_m": float(positions[:, 2].mean()),
 }
-with open(os.path.join(OUT, "summary.json"), "w") as file:
-    json.dump(summary, file, indent=2)
+files.write_summary(os.path.join(OUT, "summary.json"), summary)
 print(f"{summary}\nResults in {OUT}")

@@ -4,13 +4,12 @@
 Environment: BODIES (1000), STRAIN (0.3), OUTPUT (out/shear). The cell is pressed together without friction, then sheared along x in planes across y; y follows the stress,
 x and z stay. Writes shear.png and summary.json. SI units.
 """
-import json
 import os
 
 import numpy as np
 import potential_particles
 from matplotlib import pyplot
-from potential_particles import packing, shapes
+from potential_particles import files, packing, shapes
 from yade import *
 from yade import utils
 COUNT, STRAIN, OUT = int(os.environ.get("BODIES", 1000)), float(os.environ.get("STRAIN", 0.3)), os.environ.get("OUTPUT", "out/shear")
@@ -55,5 +54,5 @@ for place, line, label in zip(axes[1:], (np.abs(ratio), 100 * growth, fabric), (
     place.plot(100 * strain, line)
     place.set(xlabel="shear strain, %", ylabel=label)
 picture.savefig(os.path.join(OUT, "shear.png"), dpi=110)
-json.dump(summary, open(os.path.join(OUT, "summary.json"), "w"), indent=2)
+files.write_summary(os.path.join(OUT, "summary.json"), summary)
 print(summary)

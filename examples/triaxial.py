@@ -4,13 +4,12 @@
 Environment: BODIES (1000), STRAIN (0.1), OUTPUT (out/triaxial). YADE's TriaxialStressController drives the walls; porosity and the stress between
 rocks, which it cannot know, are measured by this package. Writes triaxial.png and summary.json. SI units.
 """
-import json
 import os
 
 import numpy as np
 import potential_particles
 from matplotlib import pyplot
-from potential_particles import packing, shapes
+from potential_particles import files, packing, shapes
 from yade import *
 from yade import utils
 
@@ -54,5 +53,5 @@ for place, lines, label in zip(axes, ([wall / mean, inner / mean], [compaction],
     place.plot(strain, np.transpose(lines))
     place.set(xlabel="axial strain, %", ylabel=label)
 picture.savefig(os.path.join(OUT, "triaxial.png"), dpi=130)
-json.dump(summary, open(os.path.join(OUT, "summary.json"), "w"), indent=2)
+files.write_summary(os.path.join(OUT, "summary.json"), summary)
 print(summary)

@@ -4,14 +4,13 @@
 Environment: IMAGE (a .tif of labels; without it, one of BODIES (1000) rocks is made), PLANES (30), OUTPUT (out/voxels). Writes voxels.png, with outlines of the bodies over
 a slice of the image, the bodies, and how far they are off, and summary.json. Lengths in voxels.
 """
-import json
 import os
 import time
 
 import numpy as np
 import potential_particles
 from matplotlib import pyplot
-from potential_particles import packing, shapes
+from potential_particles import files, packing, shapes
 from yade import *
 
 COUNT, PLANES, OUT = int(os.environ.get("BODIES", 1000)), int(os.environ.get("PLANES", 30)), os.environ.get("OUTPUT", "out/voxels")
@@ -76,5 +75,5 @@ picture.savefig(os.path.join(OUT, "voxels.png"), dpi=110)
 volumes = np.array([one.shape.volume / one.shape.fit.volume for one in grains])
 summary = {"grains": len(grains), "left_out": len(grains.left_out), "seconds": seconds, "processor_seconds": processor, "volume_off": float(np.abs(volumes - 1).max()),
            "mean_off": float(np.median([one.shape.fit.mean for one in grains])), "largest_off": max(one.shape.fit.largest for one in grains)}
-json.dump(summary, open(os.path.join(OUT, "summary.json"), "w"), indent=2)
+files.write_summary(os.path.join(OUT, "summary.json"), summary)
 print(summary)

@@ -36,7 +36,7 @@ closed_form = np.degrees(np.arctan(-line[2] / forces.sum()))
 
 def block(*sides):
     """The rock behind these half spaces (outward normal, offset), with edges rounded by a fiftieth of a metre."""
-    return shapes.from_planes([(*outward, offset) for outward, offset in sides], r=0.02, k=0.0)
+    return shapes.from_planes([(*outward, offset) for outward, offset in sides], rounding=0.02, k=0.0)
 
 
 rock = [(face, 0), (up, 1), (-up, 1), (-line, 3), ((1, 0, 0), 3), ((-1, 0, 0), 3), ((0, 1, 0), 3)]

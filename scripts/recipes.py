@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT OR Apache-2.0
 """Looks whether the recipes under packaging/ can be read: conda's by rattler-build's own parser, which is on PyPI (py-rattler-build), and Spack's for its
-syntax, as Spack itself is in no package registry. Versions and names of files are compared with the sources. Called by "make lint-release"."""
+syntax, as Spack itself is in no package registry. Versions and names of files are compared with the sources. Called by "make release-check"."""
 import ast
 import re
 import sys

@@ -59,7 +59,7 @@ by_cmake() {
     mkdir -p cmake && cat >cmake/CMakeLists.txt <<CMAKE
 cmake_minimum_required(VERSION 3.18)
 project(try C)
-find_package(potential-particles 0.1 REQUIRED)
+find_package(potential-particles 0.2 REQUIRED)
 add_executable(shared $C_EXAMPLES/one_pair.c)
 target_link_libraries(shared potential-particles::potential-particles)
 add_executable(static $C_EXAMPLES/one_pair.c)
@@ -69,8 +69,8 @@ CMAKE
 }
 
 newer_is_refused() {
-    mkdir -p newer && printf 'cmake_minimum_required(VERSION 3.18)\nproject(try C)\nfind_package(potential-particles 0.2 REQUIRED)\n' >newer/CMakeLists.txt
-    ! cmake -S newer -B newer/build && grep -q 'version: 0.1' "$work/log"
+    mkdir -p newer && printf 'cmake_minimum_required(VERSION 3.18)\nproject(try C)\nfind_package(potential-particles 99.0 REQUIRED)\n' >newer/CMakeLists.txt
+    ! cmake -S newer -B newer/build && grep -q 'version: 0[.]' "$work/log"
 }
 
 removed() {

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Builds the wheel, the library for Python without YADE, into out/wheel, and tries it in a virtual environment that has nothing else but numpy: its
-# tests, the blocks of docs/wheel.md, and what Python adds to the time of C (summary.json). With QUICK=1 it is built for this system alone, without
-# link-time optimisation, and no time is measured. maturin and ziglang, a linker for systems with an older C library than this one, come from PyPI
+# tests, the blocks of docs/wheel.md, and what Python adds to the time of C (summary.json). With QUICK=1 it is built for this system alone, and
+# no time is measured. maturin and ziglang, a linker for systems with an older C library than this one, come from PyPI
 # into a virtual environment of their own. Called by "make wheel" and "make test".
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -9,6 +9,8 @@ cd "$(dirname "$0")/.."
 OUT=${OUTPUT:-out/wheel}
 CARGO_TARGET_DIR=$(realpath -m "${CARGO_TARGET_DIR:-target}")
 export CARGO_TARGET_DIR
+# In a folder of its own: cargo gives the library of other features the same name.
+BUILD=$CARGO_TARGET_DIR/maturin
 TOOLS=$CARGO_TARGET_DIR/wheel-tools
 TRIED=$CARGO_TARGET_DIR/wheel-tried
 PYTHON=${PYTHON:-/usr/bin/python3}
@@ -30,6 +32,7 @@ if ! "$TOOLS/bin/maturin" --version >/dev/null 2>&1; then
     from_pypi "$TOOLS" 'maturin>=1.7,<2'
 fi
 if [ "${QUICK:-0}" = 1 ]; then
+    # To be tried, not to be fast.
     how=(--profile quick)
 else
     "$TOOLS/bin/python" -c 'import ziglang' 2>/dev/null || from_pypi "$TOOLS" ziglang
@@ -38,7 +41,7 @@ fi
 mkdir -p "$OUT"
 rm -f "$OUT"/*.whl
 PATH=$TOOLS/bin:$PATH "$TOOLS/bin/maturin" build "${how[@]}" --locked --manifest-path python/Cargo.toml \
-    --interpreter "$PYTHON" --out "$OUT"
+    --target-dir "$BUILD" --interpreter "$PYTHON" --out "$OUT"
 
 rm -rf "$TRIED"
 "$PYTHON" -m venv "$TRIED"
@@ -53,12 +56,14 @@ if command -v yade >/dev/null && [ -d "$PLUGIN/potential_particles" ]; then
     "$PYTHON" -m zipfile -e "$OUT"/*.whl "$TRIED/alone"
     for path in "$PLUGIN:$TRIED/alone" "$TRIED/alone:$PLUGIN"; do
         PYTHONPATH=$path yade -x -n -j1 python/tests/in_yade.py
+        # And in a Python without YADE.
+        PYTHONPATH=$path "$PYTHON" -c 'from potential_particles import *; from potential_particles import _core; assert Particle is _core.Particle and detect is _core.detect'
     done
 else
     echo "no YADE with a built plugin here: the wheel was not tried beside it"
 fi
 if [ "${QUICK:-0}" != 1 ]; then
-    cargo build --quiet --release
+    scripts/library.sh
     from_pypi "$TRIED" matplotlib
     "$TRIED/bin/python" benches/wheel/run.py "$OUT" "$CARGO_TARGET_DIR/release/libpotential_particles.so"
     (cd "$OUT" && "$TRIED/bin/python" -m potential_particles demo)

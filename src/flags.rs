@@ -42,6 +42,7 @@ pub(crate) use flag_set;
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(transparent))]
+#[repr(transparent)]
 pub struct Flags(u32);
 
 impl Flags {
@@ -75,8 +76,12 @@ impl Flags {
     /// The gradient vanishes on a flat boundary, as when the centre lies on it: the normal is the boundary's own.
     pub const NORMAL_BY_BOUNDARY: Self = Self(2048);
 
+    /// Closest: both points are free to move along flat faces (k = 0), so that the overlap |P1 − P2| has a part along these, up to what the faces have in
+    /// common. It is the answer by definition, yet no depth: midway's overlap is.
+    pub const FREE: Self = Self(4096);
+
     /// Every flag with its name, in the order of the bits.
-    const NAMES: [(Self, &'static str); 12] = [
+    const NAMES: [(Self, &'static str); 13] = [
         (Self::SLACK, "slack"),
         (Self::REJECTED, "rejected"),
         (Self::NORMAL_BY_CENTRES, "normal by centres"),
@@ -89,6 +94,7 @@ impl Flags {
         (Self::BY_MEMORY, "by memory"),
         (Self::DEFAULT_REGULARISATION, "default regularisation"),
         (Self::NORMAL_BY_BOUNDARY, "normal by boundary"),
+        (Self::FREE, "free"),
     ];
 
     /// From the bits of the C interface.

@@ -8,27 +8,29 @@
 //!
 //! S is convex, once continuously differentiable and piecewise quadratic. The contact of two particles is the solution
 //! of a convex program in S_A and S_B ([`Formulation`]), found here by an active-set Newton method with a bound
-//! on its error (proved in extended precision, estimated in doubles: docs/theory.md). Data flows one way, and the folders are read in that order:
+//! on its error (proved in extended precision, estimated in doubles: docs/theory.md). Data flows one way, and the folders are read in that order
+//! (`tests/folders.rs`):
 //!
 //! | folder | holds |
 //! |---|---|
 //! | `linalg` | numbers and lanes of them, symmetric 3×3 matrices and their LDLᵀ factors |
 //! | `particle` | the shape: definition, potential, bounding volumes, ray casting, mass properties |
 //! | `pair` | two particles in one frame, the active set at a point, the state of a pair, separation tests |
+//! | `reference` | the paper's second-order cone programs, as an independent back end (feature `cone-program`) |
 //! | `model` | both potentials as quadratics at a point, their exact optimum along the dual path, the KKT check |
 //! | `bounds` | what rounding does to an optimum: the gap of s and the distance of the point |
 //! | `solver` | initial guess, line search, Newton's method, and the order in which solvers are tried |
-//! | `reference` | the paper's second-order cone programs, as an independent back end (feature `cone-program`) |
 //! | `contact` | point, normal and overlap from a solution; [`detect`](detect()), the whole on one screen; many pairs at once |
 //! | `section` | the contact area |
 //! | `boundary` | the contact with a flat boundary: a plane, or a triangle of a mesh |
+//! | [`planar`] | particles of the plane and their contacts |
 //! | `patch` | the contact patch: pressure, force, torque, area, energy |
 //! | `derivative` | derivatives of a contact in poses and shapes |
 //! | `surface` | a closed mesh of triangles on the surface |
 //! | [`packing`] | bodies placed in a container without overlap, as a start for a simulation |
 //! | [`rock`] | a rock mass cut into blocks by its joints |
+//! | `equilibrium` | whether a scene of rigid bodies stands, and by how much (feature `cone-program`) |
 //! | [`shapes`] | builders: half-spaces, points, surfaces and solids with rounded edges, about their centroid |
-//! | [`planar`] | the same for particles of the plane |
 //! | `serialisation` | what can be written down and read back with serde (feature `serde`) |
 //! | `capi` | the C interface, the only place with `unsafe` (feature `capi`) |
 //!
@@ -60,12 +62,15 @@
 
 #![deny(missing_docs)]
 
+mod answer;
 mod boundary;
 mod bounds;
 #[cfg(feature = "capi")]
 pub mod capi;
 mod contact;
 mod derivative;
+#[cfg(feature = "cone-program")]
+pub mod equilibrium;
 mod flags;
 mod linalg;
 mod model;
@@ -100,7 +105,8 @@ pub use nalgebra;
 pub use contact::batch::{detect_batch, detect_batch_into};
 pub use contact::closest_point::{ClosestPoint, closest_point};
 pub use contact::contact::{Contact, Kind};
-pub use contact::detect::{DetectError, detect};
+pub use contact::detect::detect;
+pub use contact::error::DetectError;
 pub use derivative::{
     ContactDerivatives, ContactWeights, DerivativeError, DerivativeFlags, PatchDerivatives, PoseGradient, PoseRow,
     PoseRows, ShapeGradient, boundary_derivatives, boundary_gradient, contact_derivatives, contact_gradient,
@@ -127,6 +133,7 @@ pub mod internals {
     pub use crate::pair::pair::Pair;
     pub use crate::pair::separation as reject;
     pub use crate::particle::potential;
+    pub use crate::shapes::{sharp_hull, sharp_planes};
 }
 
 /// The Rust code of README.md is tested like any example.

@@ -1,11 +1,11 @@
-//! What can be written down and read back with serde: planes, poses, settings, states of pairs and contacts.
+//! What can be written down and read back with serde: particles, planes, poses, settings, states of pairs and contacts. Other answers derive it
+//! field by field.
 //!
 //! Each type passes through a plain twin of its own, and reading goes through the checks of the constructor, so that no
-//! file makes a pose or settings that the program could not. Numbers that do not apply (NaN) are written as nothing, since
+//! file makes a particle, a pose or settings that the program could not. Numbers that do not apply (NaN) are written as nothing, since
 //! JSON has no NaN; an infinite number is lost in JSON in the same way.
 
-use crate::{BackEnd, Contact, Flags, Formulation, Kind, PairState, Plane, Pose, Settings};
-use nalgebra::Vector3;
+use crate::{BackEnd, Formulation, PairState, Particle, Plane, Pose, Settings};
 use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
@@ -36,6 +36,27 @@ through!(
     PlaneTwin,
     |plane| [plane.normal.x, plane.normal.y, plane.normal.z, plane.offset],
     |row| Ok(row.into())
+);
+
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct ParticleTwin {
+    planes: Vec<Plane>,
+    r: f64,
+    k: f64,
+    shadow_radius: f64,
+}
+
+through!(
+    Particle,
+    ParticleTwin,
+    |particle| ParticleTwin {
+        planes: particle.planes().collect(),
+        r: particle.rounding_radius(),
+        k: particle.sphericity(),
+        shadow_radius: particle.shadow_radius(),
+    },
+    |twin| Particle::new(&twin.planes, twin.r, twin.k, twin.shadow_radius).map_err(|error| error.to_string())
 );
 
 #[derive(Serialize, Deserialize)]
@@ -114,7 +135,7 @@ through!(PairState, [Number; 8], |state| state.into_raw().map(Number), |raw| Ok(
 
 /// A number, or nothing for NaN.
 #[derive(Clone, Copy)]
-struct Number(f64);
+pub(crate) struct Number(f64);
 
 impl Serialize for Number {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
@@ -128,79 +149,71 @@ impl<'de> Deserialize<'de> for Number {
     }
 }
 
-type Triple = [Number; 3];
+/// How the fields of an answer are written: a number that does not apply as nothing, a vector as a row of such numbers.
+pub(crate) mod field {
+    use super::Number;
+    use crate::{BackEnd, Flags, Formulation, Kind};
+    use nalgebra::SVector;
+    use serde::de::{DeserializeOwned, Error};
+    use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-fn triple(v: &Vector3<f64>) -> Triple {
-    [v.x, v.y, v.z].map(Number)
+    /// What is written in place of a field.
+    pub(crate) trait Written: Copy {
+        type As: Serialize + DeserializeOwned;
+
+        fn to(self) -> Self::As;
+        fn back(written: Self::As) -> Option<Self>;
+    }
+
+    pub(crate) fn serialize<T: Written, S: Serializer>(field: &T, serializer: S) -> Result<S::Ok, S::Error> {
+        field.to().serialize(serializer)
+    }
+
+    pub(crate) fn deserialize<'de, T: Written, D: Deserializer<'de>>(deserializer: D) -> Result<T, D::Error> {
+        let wrong = || D::Error::custom("a vector has another number of components");
+        T::back(T::As::deserialize(deserializer)?).ok_or_else(wrong)
+    }
+
+    impl Written for f64 {
+        type As = Number;
+
+        fn to(self) -> Number {
+            Number(self)
+        }
+
+        fn back(written: Number) -> Option<Self> {
+            Some(written.0)
+        }
+    }
+
+    impl<const N: usize> Written for SVector<f64, N> {
+        type As = Vec<Number>;
+
+        fn to(self) -> Vec<Number> {
+            self.iter().map(|&number| Number(number)).collect()
+        }
+
+        fn back(written: Vec<Number>) -> Option<Self> {
+            (written.len() == N).then(|| Self::from_fn(|i, _| written[i].0))
+        }
+    }
+
+    /// What is written as it is.
+    macro_rules! as_it_is {
+        ($($field:ty),+) => {
+            $(impl Written for $field {
+                type As = Self;
+
+                fn to(self) -> Self {
+                    self
+                }
+
+                fn back(written: Self) -> Option<Self> {
+                    Some(written)
+                }
+            })+
+        };
+    }
+
+    as_it_is!(u32, Kind, Formulation, BackEnd, Flags);
 }
-
-fn vector(v: Triple) -> Vector3<f64> {
-    v.map(|number| number.0).into()
-}
-
-#[derive(Serialize, Deserialize)]
-struct ContactTwin {
-    kind: Kind,
-    formulation: Formulation,
-    back_end: BackEnd,
-    flags: Flags,
-    iterations: u32,
-    s: Number,
-    s_b: Number,
-    weight: Number,
-    gap: Number,
-    point_bound: Number,
-    overlap: Number,
-    distance: Number,
-    normal: Triple,
-    point: Triple,
-    branch_a: Triple,
-    branch_b: Triple,
-    point_on_a: Triple,
-    point_on_b: Triple,
-}
-
-through!(
-    Contact,
-    ContactTwin,
-    |contact| ContactTwin {
-        kind: contact.kind,
-        formulation: contact.formulation,
-        back_end: contact.back_end,
-        flags: contact.flags,
-        iterations: contact.iterations,
-        s: Number(contact.s),
-        s_b: Number(contact.s_b),
-        weight: Number(contact.weight),
-        gap: Number(contact.gap),
-        point_bound: Number(contact.point_bound),
-        overlap: Number(contact.overlap),
-        distance: Number(contact.distance),
-        normal: triple(&contact.normal),
-        point: triple(&contact.point),
-        branch_a: triple(&contact.branch_a),
-        branch_b: triple(&contact.branch_b),
-        point_on_a: triple(&contact.point_on_a),
-        point_on_b: triple(&contact.point_on_b),
-    },
-    |twin| Ok(Contact {
-        kind: twin.kind,
-        formulation: twin.formulation,
-        back_end: twin.back_end,
-        flags: twin.flags,
-        iterations: twin.iterations,
-        s: twin.s.0,
-        s_b: twin.s_b.0,
-        weight: twin.weight.0,
-        gap: twin.gap.0,
-        point_bound: twin.point_bound.0,
-        overlap: twin.overlap.0,
-        distance: twin.distance.0,
-        normal: vector(twin.normal),
-        point: vector(twin.point),
-        branch_a: vector(twin.branch_a),
-        branch_b: vector(twin.branch_b),
-        point_on_a: vector(twin.point_on_a),
-        point_on_b: vector(twin.point_on_b),
-    })
-);

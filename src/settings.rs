@@ -1,11 +1,13 @@
 //! Every tolerance and choice of the library, in one place.
 
+use crate::answer::words;
 use std::fmt;
 use thiserror::Error;
 
 /// Which of the paper's two problems defines the contact.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "lowercase"))]
+#[repr(u32)]
 pub enum Formulation {
     /// Minimise t with s_A ≤ t and s_B ≤ t (paper eqs 4, 44).
     #[default]
@@ -27,6 +29,7 @@ impl fmt::Display for Formulation {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "snake_case"))]
 #[non_exhaustive]
+#[repr(u32)]
 pub enum BackEnd {
     /// This library's solver: Newton's method in doubles, and in extended precision where those do not settle a pair.
     #[default]
@@ -35,6 +38,11 @@ pub enum BackEnd {
     #[cfg_attr(feature = "serde", serde(alias = "conic"))] // its name in files of earlier builds
     ConeProgram,
 }
+
+words!(
+    Formulation, "u4", |formulation| (formulation as u32);
+    BackEnd, "u4", |back_end| (back_end as u32);
+);
 
 impl fmt::Display for BackEnd {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {

@@ -104,9 +104,7 @@ class WedgeScene:
 
     def _body(self, polyhedron, material, free):
         """A block where it stands in the slope."""
-        r = self.rounding / (2.0 * polyhedron.ball_radius)
-        planes = np.column_stack([polyhedron.normals, polyhedron.offsets])
-        shape = shapes.from_planes(planes, r, self.case.sphericity)
+        shape = shapes.from_planes(polyhedron.planes, rounding=self.rounding / polyhedron.size, k=self.case.sphericity)
         return body(shape, material, fixed=not free, mask=FREE_MASK if free else FIXED_MASK)
 
     def _time_step(self, state, radii, regularisation):

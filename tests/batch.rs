@@ -118,8 +118,8 @@ fn contacts_are_written_where_they_are_wanted() {
         for threads in [1, 3, 1] {
             let expected = detect_batch(&all, &poses, &pairs, &settings, threads, &mut states).unwrap();
             let mut answers = vec![(usize::MAX, None); pairs.len()];
-            let write = |number, place: &mut (usize, Option<Contact>), answer: Result<Contact, DetectError>| {
-                *place = (number, answer.ok());
+            let write = |number, place: &mut (usize, Option<Contact>), answer: Result<&Contact, DetectError>| {
+                *place = (number, answer.ok().copied());
             };
             detect_batch_into(&all, &poses, &pairs, &settings, threads, &mut own, &mut answers, write).unwrap();
             for (n, (expected, (number, answer))) in expected.into_iter().zip(answers).enumerate() {

@@ -267,6 +267,40 @@ proptest! {
     }
 }
 
+/// Solved to the end, a pair that is just apart has a lower bound on its distance above 0, whatever it remembers: the way along which it was moved is longer.
+#[test]
+fn what_is_just_apart_knows_a_distance() {
+    let at_a = pose([0.0; 3], [1.0, 0.0, 0.0, 0.0]);
+    let turn = UnitQuaternion::from_euler_angles(0.3, -0.5, 0.8);
+    let orientation = [turn.w, turn.i, turn.j, turn.k];
+    let along = Vector3::new(0.3, -0.2, 1.0).normalize();
+    for (k, orientation) in [(0.0, [1.0, 0.0, 0.0, 0.0]), (0.0, orientation), (0.3, orientation)] {
+        let body = cuboid([0.5; 3], 0.05, k, 1.0);
+        for formulation in [Formulation::Midway, Formulation::Closest] {
+            let settings = Settings::default().with_formulation(formulation).with_solve_separated(true);
+            let found = |length: f64, state: Option<&mut PairState>| {
+                let at_b = pose((length * along).into(), orientation);
+                detect(&body, &at_a, &body, &at_b, &settings, state).expect("an answer")
+            };
+            let (mut touching, mut apart) = (0.3, 2.5);
+            for _ in 0..60 {
+                let middle = 0.5 * (touching + apart);
+                let side = if found(middle, None).kind == Kind::Overlapping { &mut touching } else { &mut apart };
+                *side = middle;
+            }
+            for before in [-1e-2, -1e-4, 1e-4] {
+                for gap in [1e-2, 1e-3, 1e-6, 1e-9] {
+                    let mut state = PairState::default();
+                    found(apart + before, Some(&mut state));
+                    let contact = found(apart + gap, Some(&mut state));
+                    assert_eq!(contact.kind, Kind::Separated);
+                    assert!(contact.distance > 0.2 * gap && contact.distance <= gap + 1e-12, "{gap}: {contact:?}");
+                }
+            }
+        }
+    }
+}
+
 #[test]
 fn raised_regularisation_loses_no_contact() {
     let cube = cuboid([0.5; 3], 0.05, 0.0, 1.0);

@@ -1,4 +1,5 @@
-//! The committed C header is the one that cbindgen makes of `src/capi`, and it names this version.
+//! The committed C header is the one that cbindgen makes of `src/capi` and of the answers of the library, and it names
+//! this version.
 
 use std::path::{Path, PathBuf};
 use std::{env, fs};
@@ -20,12 +21,49 @@ fn committed() -> String {
         .unwrap_or_else(|e| panic!("{}: {e}\nWrite it with\n    {REMEDY}", header_path().display()))
 }
 
-/// From `src/capi` alone: public items elsewhere in the crate are no part of the C interface.
+/// The answers of the library that C has as structs: file, struct, dimension, name in C.
+const ANSWERS: [(&str, &str, &str, &str); 4] = [
+    ("src/contact/contact.rs", "Contact", "3", "pp_contact"),
+    ("src/contact/closest_point.rs", "ClosestPoint", "3", "pp_closest"),
+    ("src/contact/contact.rs", "Contact", "2", "pp_contact_2d"),
+    ("src/contact/closest_point.rs", "ClosestPoint", "2", "pp_closest_2d"),
+];
+
+/// The list of an answer (`src/answer.rs`) as a plain struct under its name in C.
+fn answer_in_c((file, name, dimension, in_c): (&str, &str, &str, &str)) -> String {
+    let source = fs::read_to_string(root().join(file)).unwrap_or_else(|e| panic!("{file}: {e}"));
+    let mut struct_of_c = String::from("#[repr(C)]\n");
+    let listed = source.lines().skip_while(|line| *line != "answer! {").skip(1).take_while(|line| *line != "}");
+    for line in listed {
+        let line = line.trim_start();
+        if line.starts_with("pub struct ") {
+            assert!(line.starts_with(&format!("pub struct {name}")), "{file} lists {line}, not {name}");
+            struct_of_c += &format!("pub struct {in_c} {{");
+        } else if line.starts_with("///") {
+            let plain = if dimension == "2" { line.replace("the surface", "the boundary") } else { line.into() };
+            struct_of_c += &plain;
+        } else if let Some((field, _)) = line.split_once(" = ") {
+            struct_of_c += field;
+            struct_of_c += ",";
+        } else {
+            struct_of_c += line;
+        }
+        struct_of_c += "\n";
+    }
+    let words = [("Kind", "i32"), ("Formulation", "u32"), ("BackEnd", "u32"), ("Flags", "u32")];
+    let plain = words.iter().fold(struct_of_c, |text, (of, by)| text.replace(&format!(": {of},"), &format!(": {by},")));
+    plain.replace("SVector<f64, N>", &format!("[f64; {dimension}]"))
+}
+
+/// From `src/capi` and the answers alone: other public items of the crate are no part of the C interface.
 fn generated() -> String {
+    let answers = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("answers_{:?}.rs", std::thread::current().id()));
+    fs::write(&answers, ANSWERS.map(answer_in_c).concat()).expect("the build folder is writable");
     let config = cbindgen::Config::from_file(root().join("cbindgen.toml")).expect("cbindgen.toml is readable");
-    let builder = cbindgen::Builder::new().with_config(config).with_src(root().join("src/capi/mod.rs"));
+    let sources = cbindgen::Builder::new().with_config(config).with_src(root().join("src/capi/mod.rs"));
     let mut text = Vec::new();
-    builder.generate().expect("cbindgen reads src/capi").write(&mut text);
+    sources.with_src(&answers).generate().expect("cbindgen reads src/capi").write(&mut text);
+    fs::remove_file(&answers).expect("the build folder is writable");
     String::from_utf8(text).expect("cbindgen writes UTF-8")
 }
 

@@ -188,6 +188,8 @@ fn what_cannot_be_packed_is_refused_with_a_sentence() {
     assert!(Container::cuboid([0.0; 3], [1.0, 0.0, 1.0]).unwrap_err().to_string().contains("no volume"));
     assert!(Container::cuboid([0.0, 0.0, f64::NAN], [1.0; 3]).unwrap_err().to_string().contains("NaN"));
     assert!(Container::cylinder([0.0; 3], -1.0, 2.0).unwrap_err().to_string().contains("radius -1.0"));
+    let many = Packing { number: Some(10_000_001), ..SCATTERED };
+    assert!(fault(&box_of(400.0, 400.0), &shapes, &many).contains("10000001 bodies are more than the 10000000"));
     let none = Packing { number: Some(0), ..SETTLED };
     assert_eq!(pack(&container, &shapes, &sizes, &none, |_| true).unwrap(), []);
     // Sizes in which the weights of S leave the range of numbers.

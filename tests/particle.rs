@@ -2,7 +2,9 @@
 
 use nalgebra::Vector3;
 use potential_particles::Section;
-use potential_particles::{Particle, ParticleError, Plane, Pose, PoseError, Settings, detect};
+use potential_particles::{
+    Particle, ParticleError, PatchScratch, PatchSettings, Plane, Pose, PoseError, Settings, detect, patch_of_contact,
+};
 use std::f64::consts::PI;
 
 fn cube_planes(offset: f64) -> Vec<Plane> {
@@ -78,12 +80,59 @@ fn a_particle_too_large_to_be_squared_is_no_particle() {
     ];
     let planes = planes.map(Plane::from);
     assert_eq!(Particle::new(&planes, 0.0078, 0.0, 0.0).unwrap_err(), ParticleError::Unbounded);
-    // As long as 1e140: still one, and its box still holds its ends.
+    // As long as 1e28: still one, and its box still holds its ends.
     let mut planes = cube_planes(0.4);
     planes[0].offset = 1e140;
+    assert!(matches!(Particle::new(&planes, 0.1, 0.0, 0.0), Err(ParticleError::Size { radius }) if radius >= 1e140));
+    planes[0].offset = 1e28;
     let needle = Particle::new(&planes, 0.1, 0.0, 0.0).unwrap();
     let (low, high) = needle.bounding_box(&Pose::at([0.0; 3]).unwrap());
-    assert!(high.x >= 1e140 && low.x <= -0.5 && low.y <= -0.5 && high.y >= 0.5, "{low} {high}");
+    assert!(high.x >= 1e28 && low.x <= -0.5 && low.y <= -0.5 && high.y >= 0.5, "{low} {high}");
+}
+
+/// A cube and a ball of any size that is taken have the volume, the inertia, the overlap and the patch of those of size 1 in that unit of length; of others
+/// the error names the length. With faces or a radius out of range powers of lengths would be 0 or infinite.
+#[test]
+fn what_is_made_is_right_in_any_unit_of_length() {
+    for unit in [1e-200, 1e-110, 1e-80, 1e-31, 2e-30, 1e-20, 1.0, 1e20, 5e29, 1e31, 1e100, 1e150] {
+        let planes: Vec<Plane> = cube_planes(0.4).iter().map(|p| Plane { offset: unit * p.offset, ..*p }).collect();
+        for made in [Particle::new(&planes, 0.1 * unit, 0.0, 0.0), Particle::sphere(0.5 * unit)] {
+            let is_in_range = (2e-30..1e30).contains(&unit);
+            let particle = match made {
+                Ok(particle) if is_in_range => particle,
+                Ok(_) => panic!("{unit:e} is taken"),
+                Err(error) => {
+                    assert!(!is_in_range, "{unit:e}: {error}");
+                    let text = error.to_string();
+                    assert!(
+                        text.len() <= 200 && (text.contains("1e-30") || text.contains("r=") || text.contains("R=")),
+                        "{text}"
+                    );
+                    continue;
+                }
+            };
+            let of_unit = particle.scaled(1.0 / unit).unwrap();
+            let (mass, expected) = (particle.mass_properties(1e-6).unwrap(), of_unit.mass_properties(1e-6).unwrap());
+            assert!((mass.volume / unit.powi(3) / expected.volume - 1.0).abs() < 1e-5, "{unit:e}: {mass:?}");
+            assert!((mass.inertia.m11 / unit.powi(5) / expected.inertia.m11 - 1.0).abs() < 1e-5, "{unit:e}: {mass:?}");
+            let patch = |particle: &Particle, unit: f64| {
+                let (here, above) = (Pose::at([0.0; 3]).unwrap(), Pose::at([0.1 * unit, 0.0, 0.99 * unit]).unwrap());
+                let contact = detect(particle, &here, particle, &above, &Settings::default(), None).unwrap();
+                assert!((contact.overlap / unit - 0.01).abs() < 0.01, "{unit:e}: {contact:?}");
+                let (settings, mut scratch) = (PatchSettings::default(), PatchScratch::new());
+                patch_of_contact(particle, &here, particle, &above, &contact, &settings, &mut scratch, |_| ()).unwrap()
+            };
+            let (found, expected) = (patch(&particle, unit), patch(&of_unit, 1.0));
+            assert!(
+                (found.force / unit.powi(3) - expected.force).norm() < 1e-3 * expected.force.norm(),
+                "{unit:e}: {found:?}"
+            );
+            assert!(
+                (found.polar_moment / unit.powi(4) / expected.polar_moment - 1.0).abs() < 1e-3,
+                "{unit:e}: {found:?}"
+            );
+        }
+    }
 }
 
 /// Found by fuzzing: where all planes hide below the rounding of a point, the sphere alone put the surface at 1e29.
@@ -236,7 +285,7 @@ fn bounds_hold_every_surface_point() {
             assert!(x.norm() <= particle.bounding_radius());
             let world = pose.position() + pose.rotate(&x);
             assert!((0..3).all(|axis| lower[axis] <= world[axis] && world[axis] <= upper[axis]));
-            assert!(x.dot(&e) <= particle.support(&e));
+            assert!(x.dot(&e) <= particle.support(&e).unwrap());
             fullest = fullest.max(x.norm());
         }
         assert!(particle.bounding_radius() < 2.0 * fullest, "a ball of {} for {fullest}", particle.bounding_radius());
@@ -265,4 +314,24 @@ fn contact_area_matches_closed_forms() {
         assert!((area / 0.75 - 1.0).abs() < tolerance, "{area} at {tolerance}");
     }
     assert!(Section { normal: Vector3::zeros(), ..section }.area(&cube, &origin, &cube, &other, 1e-6).is_none());
+}
+
+#[test]
+fn directions_have_any_length() {
+    // A cube of half edge 0.5.
+    let cube = Particle::new(&cube_planes(0.45), 0.05, 0.0, 1.0).unwrap();
+    for length in [1.0, 0.1, 2.0, 1e-300, 1e300, 5e-324] {
+        let x = length * Vector3::x();
+        assert!((cube.surface_distance(&Vector3::zeros(), &x).unwrap() - 0.5).abs() < 1e-14);
+        assert!((cube.surface_distance(&Vector3::new(0.25, 0.0, 0.0), &x).unwrap() - 0.25).abs() < 1e-14);
+        assert_eq!(cube.support(&x), cube.support(&Vector3::x()));
+    }
+    for none in [Vector3::zeros(), Vector3::new(f64::NAN, 0.0, 1.0), Vector3::new(f64::INFINITY, 0.0, 0.0)] {
+        assert_eq!((cube.support(&none), cube.surface_distance(&Vector3::zeros(), &none)), (None, None));
+    }
+    let square = potential_particles::planar::Particle::rectangle(1.0, 1.0, 0.05, 0.0).unwrap();
+    for length in [0.1, 1e-300, 1e300] {
+        let distance = square.surface_distance(&nalgebra::Vector2::zeros(), &nalgebra::Vector2::new(0.0, length));
+        assert!((distance.unwrap() - 0.5).abs() < 1e-14);
+    }
 }

@@ -1,9 +1,13 @@
 //! The contact patch against closed forms, its own energy, and quadrature of the definition.
 
+#[path = "patch/aligned.rs"]
+mod aligned;
 #[path = "patch/bodies.rs"]
 mod bodies;
 #[path = "patch/boundaries.rs"]
 mod boundaries;
+#[path = "patch/brute.rs"]
+mod brute;
 #[path = "patch/carried.rs"]
 mod carried;
 #[path = "patch/cells.rs"]

@@ -1,5 +1,7 @@
 //! The feature `serde`: what is written down is read back to the last bit, and what no constructor would take is refused.
 
+use potential_particles::rock;
+use potential_particles::shapes::{self, Rounding};
 use potential_particles::{
     BackEnd, Contact, Formulation, Kind, PairState, Particle, Plane, Pose, Role, Section, Settings, closest_point,
     detect,
@@ -83,7 +85,23 @@ fn names_are_those_of_the_documentation() {
 }
 
 #[test]
+fn particles_shapes_and_rock_come_back() {
+    let particle = cube();
+    let back = there_and_back(&particle);
+    assert!(back.planes().eq(particle.planes()) && back.shadow_radius() == particle.shadow_radius());
+    let shape = shapes::prism(5, 1.0, 2.0, &Rounding::default()).unwrap();
+    let back = there_and_back(&shape);
+    assert!(back.mass == shape.mass && back.orientation == shape.orientation && back.centroid == shape.centroid);
+    let sides = particle.planes().collect::<Vec<_>>();
+    let mass = rock::slice(&sides, &[rock::Joint::new([0.0; 3], 30.0, 40.0).unwrap()], &Default::default()).unwrap();
+    assert_eq!(format!("{:?}", there_and_back(&mass)), format!("{mass:?}"));
+}
+
+#[test]
 fn what_no_constructor_takes_is_refused() {
+    let particle = r#"{"planes": [], "r": 0.1, "k": 2.0, "shadow_radius": 1.0}"#;
+    let error = serde_json::from_str::<Particle>(particle).unwrap_err().to_string();
+    assert!(error.contains("k=2"), "{error}");
     let pose = r#"{"position": [0, 0, 0], "orientation": [0, 0, 0, 0]}"#;
     let error = serde_json::from_str::<Pose>(pose).unwrap_err().to_string();
     assert!(error.contains("orientation"), "{error}");

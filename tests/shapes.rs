@@ -175,10 +175,49 @@ fn bad_input_is_told() {
     let rounding = Rounding::default();
     assert_eq!(text(shapes::cuboid([1.0, -1.0, 1.0], &rounding)), "edge y=-1.0 must be finite and above 0");
     assert_eq!(text(shapes::cuboid([1.0; 3], &Rounding::new(0.05, f64::NAN))), "k=NaN must be between 0 and 1");
-    assert!(text(shapes::cuboid([1.0; 3], &Rounding::new(0.5, 0.0))).starts_with("r=0.5 must be a share of the size"));
+    assert!(
+        text(shapes::cuboid([1.0; 3], &Rounding::new(0.5, 0.0)))
+            .starts_with("rounding=0.5 must be a share of the size")
+    );
+    for sides in [2, 65_535, 1_000_000_000_000] {
+        let told = format!("sides={sides} must lie between 3 and 65534");
+        assert_eq!(text(shapes::prism(sides, 1.0, 1.0, &rounding)), told);
+        assert_eq!(text(shapes::cylinder(1.0, 1.0, sides, &rounding)), told);
+    }
     assert!(text(shapes::regular_solid(7, 1.0, &rounding)).contains("4, 6, 8, 12 or 20"));
     let three = [[1.0, 0.0, 0.0, 1.0], [-1.0, 0.0, 0.0, 1.0], [0.0, 1.0, 0.0, 1.0]].map(Plane::from);
     assert!(text(shapes::half_spaces(&three, &rounding)).contains("enclose no volume"));
     let inverted = [[1.0, 0.0, 0.0, -1.0], [-1.0, 0.0, 0.0, -1.0]].map(Plane::from);
     assert!(text(shapes::half_spaces(&inverted, &rounding)).contains("no point lies inside"));
+}
+
+/// Corners were lost where the hull was cut in floating point.
+#[test]
+fn hulls_keep_every_corner() {
+    let grid = (0..343).map(|i| [i / 49, i / 7 % 7, i % 7].map(|c| f64::from(c) / 3.0 + 16.4)).collect::<Vec<_>>();
+    let shape = shapes::hull(&grid, &sharp()).unwrap();
+    assert_eq!(shape.particle.plane_count(), 6);
+    assert_volume(&shape, 8.0);
+    let cloud = [[0, 0, 0], [0, 0, 1], [0, 0, 3], [0, 0, 4], [0, 0, 5], [3, 6, 1], [6, 0, 6], [6, 6, 0], [6, 6, 6]];
+    let cloud = cloud.map(|point| point.map(|c| f64::from(c) / 3.0 + 133.0 * (1.0 / 3.0) * 0.37));
+    assert_volume(&shapes::hull(&cloud, &sharp()).unwrap(), 11.0 / 3.0);
+    for scale in [1.0, 1e-3, 7e5] {
+        let points = [[0.0, 1.0, 0.0], [1.0, 0.0, 0.0], [2.0, 0.0, 2.0], [2.0, 1.0, 2.0]].map(|p| p.map(|c| scale * c));
+        assert_volume(&shapes::hull(&points, &sharp()).unwrap(), f64::powi(scale, 3) / 3.0);
+        let triangles = [[0, 1, 2], [0, 2, 3], [0, 3, 1], [1, 3, 2]];
+        assert_volume(&shapes::surface(&points, &triangles, &sharp()).unwrap(), f64::powi(scale, 3) / 3.0);
+    }
+}
+
+/// A hull of more faces than a particle may have is told before any work on them.
+#[test]
+fn a_hull_of_too_many_faces_is_told() {
+    let golden = 2.399963229728653;
+    let at = |i: u32| {
+        let z = 1.0 - (2.0 * f64::from(i) + 1.0) / 40_000.0;
+        let (sin, cos) = (golden * f64::from(i)).sin_cos();
+        [(1.0 - z * z).sqrt() * cos, (1.0 - z * z).sqrt() * sin, z]
+    };
+    let error = shapes::hull(&(0..40_000).map(at).collect::<Vec<_>>(), &sharp()).unwrap_err().to_string();
+    assert!(error.contains("planes are more than the 65536"), "{error}");
 }

@@ -1,8 +1,10 @@
-//! "make stress" in small: random pairs, walks, sweeps, walls, seams, pairs of the plane, memories and mass properties in
+//! "make stress" in small: random pairs, walks, sweeps, walls, seams, pairs of the plane, memories, patches and mass properties in
 //! seconds; and every pair that once failed.
 
 #[path = "../tools/stress/boundaries.rs"]
 mod boundaries;
+#[path = "patch/brute.rs"]
+mod brute;
 #[path = "../tools/stress/cases.rs"]
 mod cases;
 #[path = "../tools/stress/clock.rs"]
@@ -13,6 +15,11 @@ mod double;
 #[path = "../benches/scene/evaluation.rs"]
 #[allow(dead_code)]
 mod evaluation;
+#[path = "../tools/stress/exact.rs"]
+mod exact;
+#[path = "../tools/stress/hulls.rs"]
+#[allow(dead_code)]
+mod hulls;
 #[path = "../tools/stress/judge.rs"]
 mod judge;
 #[path = "../tools/stress/least.rs"]
@@ -33,6 +40,9 @@ mod memories;
 mod pairs;
 #[path = "stress/parts.rs"]
 mod parts;
+#[path = "../tools/stress/patches.rs"]
+#[allow(dead_code)]
+mod patches;
 #[path = "../tools/stress/placed_boundary.rs"]
 mod placed_boundary;
 #[path = "../tools/stress/planar.rs"]
@@ -82,7 +92,7 @@ fn check(tally: &Tally) {
 
 #[test]
 fn random_pairs_of_all_families() {
-    const POSES: u64 = 16_000;
+    const POSES: u64 = 8_000;
     let range = pairs::Range { seed: 1, first: 0, count: POSES, family: None, settle_every: 1 };
     let tally = pairs::run(&range, THREADS, &AtomicBool::new(false), &ProgressBar::hidden());
     assert_eq!(tally.pairs, POSES);

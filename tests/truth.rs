@@ -224,7 +224,7 @@ fn accuracy(gap_tolerance: f64) -> BTreeMap<String, Accuracy> {
         }
     }
     println!(
-        "\ngap_tolerance = {gap_tolerance:e}: worst of each family, midway and closest; the table of docs/accuracy.md"
+        "\ngap_tolerance = {gap_tolerance:e}: worst of each family, midway and closest; the table of docs/pairs.md"
     );
     println!("| family | pairs | error of s | | gap | | point | |\n|---|---|---|---|---|---|---|---|");
     for (family, Accuracy { pairs, s, gap, point }) in &families {

@@ -15,7 +15,7 @@ use scene::{polyhedra, pyramids};
 use serde_json::{Value, json};
 use std::hint::black_box;
 use std::time::Instant;
-use target::at_most;
+use target::{at_most, write_summary};
 
 /// Pairs walked over, and rounds of which the fastest counts.
 const PAIRS: usize = 300;
@@ -110,10 +110,7 @@ fn main() {
     all.extend(targets);
     summary["targets"] = all.into();
     summary["derivatives"] = rows.into();
-    let folder = std::path::Path::new(path).parent().expect("a folder");
-    let written = std::fs::create_dir_all(folder)
-        .and_then(|()| std::fs::write(path, serde_json::to_string_pretty(&summary).expect("numbers")));
-    match written {
+    match write_summary(path, &summary) {
         Ok(()) => println!("added to {path}"),
         Err(error) => println!("{path}: {error}"),
     }

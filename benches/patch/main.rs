@@ -15,7 +15,7 @@ mod speed;
 mod target;
 
 use serde_json::{Value, json};
-use target::at_most;
+use target::{at_most, write_summary};
 
 /// The most units of a kind at a tolerance.
 fn units(kinds: &[Value], tolerance: f64, is_meant: impl Fn(&str) -> bool) -> f64 {
@@ -66,10 +66,8 @@ fn main() {
     targets.push(at_most("300 + 300 planes at 1e-4: evaluations of both bodies", 1500.0, many));
     targets.push(at_most("carried on by its stiffness: evaluations of both bodies", 40.0, speed::carried(unit)));
     let in_plane = planar::measure(unit);
-    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/out/patch");
-    std::fs::create_dir_all(folder).expect("out/patch");
     let summary =
         json!({"targets": targets, "unit_seconds": unit, "gradients": gradients, "in_plane": in_plane, "kinds": kinds});
-    let text = serde_json::to_string_pretty(&summary).expect("plain values");
-    std::fs::write(format!("{folder}/summary.json"), text).expect("out/patch/summary.json");
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/out/patch/summary.json");
+    write_summary(path, &summary).expect("out/patch/summary.json");
 }

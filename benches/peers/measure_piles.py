@@ -21,7 +21,7 @@ LABELS = {OURS: "this plugin", POTENTIAL: "YADE's PotentialParticle", POLYHEDRA:
 STAGES = (FALLING, AT_REST) = ("falling", "at rest")
 BOUNCE_STEPS = 50_000  # of a twentieth of the time step
 # Lines of a whole scene, about: examples/first_pile.py, and for the others that with what shape, mass and walls take here and in studies
-# (docs/peers.md).
+# (docs/scenes.md).
 LINES = {OURS: 18, POTENTIAL: 85, POLYHEDRA: 30, LEVEL_SET: 55, LAMMPS: 60}
 
 

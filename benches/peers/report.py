@@ -129,7 +129,7 @@ def draw(rows, curves, line, path):
     axes[0][0].set_ylabel("a call, µs")
     handles = [plt.Line2D([], [], marker="o", linestyle="", color=colours[label], label=label) for label in labels]
     figure.legend(handles=handles, loc="lower center", ncols=4, fontsize=8, frameon=False)
-    title = "Contacts of two convex bodies: filled from memory, hollow from nothing; lines: over the tolerance"
+    title = "Contacts of two convex bodies: filled: warm, hollow: cold; lines: over the tolerance"
     figure.suptitle(f"{title}\n{line}", fontsize=9)
     figure.subplots_adjust(left=0.05, right=0.99, top=0.85, bottom=0.28, wspace=0.05)
     figure.savefig(path, dpi=110)

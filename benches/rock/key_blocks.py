@@ -16,6 +16,7 @@ sys.path[:0] = [str(TOP / "tests/yade"), str(TOP / "studies")]
 
 import slope_cuts  # noqa: E402
 from progress import Progress  # noqa: E402
+from summary import write_summary  # noqa: E402
 
 CUTS, TURNS = int(os.environ.get("CUTS") or 1000), int(os.environ.get("TURNS") or 100)
 begin, rows, seed = time.monotonic(), [], 0
@@ -56,4 +57,4 @@ summary["key_blocks"] = {"cuts": len(rows), "moves": int(sum(row["moves"] for ro
                          "modes": {f"{mode}, {'moves' if moves else 'stays'}": sum(row["mode"] == mode and row["moves"] == moves for row in rows)
                                    for mode, moves in sorted({(row["mode"], row["moves"]) for row in rows})}}
 file.parent.mkdir(parents=True, exist_ok=True)
-file.write_text(json.dumps(summary))
+write_summary(file, summary)

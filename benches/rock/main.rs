@@ -8,7 +8,7 @@ use potential_particles::Plane;
 use potential_particles::rock::{FaceOf, Joint, JointSet, RockMass, SliceSettings, slice};
 use serde_json::{Value, json};
 use std::time::Instant;
-use target::at_most;
+use target::{at_most, write_summary};
 
 /// Half of the side of the domains, m.
 const HALF: f64 = 50.0;
@@ -62,11 +62,8 @@ fn main() {
         .iter()
         .map(|row| json!({"blocks": row.blocks, "processor_seconds": row.seconds, "seconds": row.one, "two_threads": row.two, "off": row.off}))
         .collect();
-    std::fs::create_dir_all("out/rock").expect("out/rock");
-    let write =
-        |name: &str, value: &Value| std::fs::write(format!("out/rock/{name}"), value.to_string()).expect("out/rock");
-    write("summary.json", &json!({"rows": listed, "targets": targets}));
-    write("slope.json", &slope());
+    write_summary("out/rock/summary.json", &json!({"rows": listed, "targets": targets})).expect("out/rock");
+    write_summary("out/rock/slope.json", &slope()).expect("out/rock");
 }
 
 /// A cube.

@@ -37,6 +37,16 @@ impl Random {
         low + (self.uniform() * (high - low) as f64) as usize
     }
 
+    /// Ten to a power between `low` and `high`.
+    pub fn power(&mut self, low: f64, high: f64) -> f64 {
+        10f64.powf(low + (high - low) * self.uniform())
+    }
+
+    /// One of several values.
+    pub fn pick<T: Copy>(&mut self, of: &[T]) -> T {
+        of[self.whole(0, of.len())]
+    }
+
     /// Standard normal (Box and Muller).
     pub fn normal(&mut self) -> f64 {
         let radius = (-2.0 * (1.0 - self.uniform()).ln()).sqrt();

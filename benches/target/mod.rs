@@ -1,5 +1,9 @@
 //! A target of a benchmark beside what was measured.
 
+mod summary;
+
+pub use summary::write_summary;
+
 use serde_json::{Value, json};
 
 /// Prints a target that is a limit from above, and returns its entry for summary.json.

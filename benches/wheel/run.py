@@ -7,7 +7,6 @@ PYTHON has the wheel; LIBRARY is libpotential_particles.so of the same sources. 
 Both ways read the same arrays and take turns; the shortest of the rounds count, since what disturbs a round only adds to it.
 """
 import ctypes
-import json
 import subprocess
 import sys
 import tempfile
@@ -17,6 +16,7 @@ from pathlib import Path
 import numpy as np
 
 import potential_particles as pp
+from potential_particles.files import write_summary
 
 TOP = Path(__file__).resolve().parents[2]
 SIDE, ROUNDS, CALLS = 33, 15, 100_000
@@ -149,7 +149,7 @@ def main():
         print(f"{row['name']}: C {1e6 * row['c']:.4f} us, Python {1e6 * row['python']:.4f} us")
     print(f"with half of the pairs new: {1e6 * changed / count:.3f} us a pair; {overlapping} of {count} pairs overlap")
     folder.mkdir(parents=True, exist_ok=True)
-    (folder / "summary.json").write_text(json.dumps({"rows": rows, "changed_list": changed / count, "targets": targets}, indent=1))
+    write_summary(folder / "summary.json", {"rows": rows, "changed_list": changed / count, "targets": targets})
     draw(folder, rows)
 
 

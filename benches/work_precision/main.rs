@@ -8,6 +8,8 @@
 mod baselines;
 #[path = "../scene/mod.rs"]
 mod scene;
+#[path = "../target/summary.rs"]
+mod summary;
 #[path = "../../tests/support/mod.rs"]
 mod support;
 

@@ -5,11 +5,11 @@ use crate::machine::Machine;
 use crate::scene::pyramids;
 use crate::solvers::{self, BUILT_IN, BUILT_IN_AREA, FAST};
 use crate::speed::{AREA, AREA_BY_QUADRATURE, AREA_TOLERANCE, BATCH, Speed, planes_name, rounded_name};
+use crate::summary::write_summary;
 use crate::sweep::{self, Record, Row};
 use potential_particles::Formulation;
 use serde::Serialize;
 use std::collections::BTreeMap;
-use std::fs;
 use std::io;
 use std::path::Path;
 
@@ -82,8 +82,7 @@ impl Report {
     }
 
     pub fn write(&self, path: &Path) -> io::Result<()> {
-        let text = serde_json::to_string_pretty(self)?;
-        fs::write(path, text + "\n")
+        write_summary(path, self)
     }
 
     pub fn print(&self) {

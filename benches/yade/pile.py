@@ -16,7 +16,7 @@ from pathlib import Path
 STUDIES = Path(sys.argv[0]).resolve().parent.parent.parent / "studies"
 sys.path.insert(0, str(STUDIES))
 
-import potential_particles  # noqa: F401 (a saved scene holds its classes)
+import potential_particles
 import yade
 from yade import O
 
@@ -45,7 +45,7 @@ def settle(count, steps, scene):
         advance(stop)
         progress.update(stop)
     progress.close()
-    O.save(scene)
+    potential_particles.save(scene)
 
 
 def measure(scene, result):

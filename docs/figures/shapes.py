@@ -43,7 +43,7 @@ def main():
     figure, axes = plt.subplots(3, 3, figsize=(7.2, 6.2), dpi=78, subplot_kw={"projection": "3d"})
     for row, r in zip(axes, ROUNDINGS):
         for axis, k in zip(row, SPHERICITIES):
-            shape = shapes.random_rock(4, elongation=0.8, flatness=0.75, faces=14, r=r, k=k)
+            shape = shapes.random_rock(4, elongation=0.8, flatness=0.75, faces=14, rounding=r, k=k)
             points, hull = surface(shape)
             bright = np.clip(normals(shape, points)[hull.simplices].mean(1) @ (LIGHT / np.linalg.norm(LIGHT)), 0, 1)
             colours = (0.25 + 0.75 * bright)[:, None] * np.array([0.80, 0.68, 0.52])

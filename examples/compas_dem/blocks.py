@@ -16,7 +16,7 @@ GAP = 1e-7  # between faces at the start, as a share of the size: no contact is 
 RISE = 0.2  # s in which weight and loads come up
 
 task = json.load(open(os.environ["TASK"]))
-size = lambda corners: 2.0 * potential_particles.polyhedron.Polyhedron.of_points(corners).ball_radius
+size = lambda corners: potential_particles.polyhedron.Polyhedron.of_points(corners).size
 materials, nodes, frames = {}, {}, {}
 for block in task["blocks"]:
     density = block["density"]
@@ -25,7 +25,7 @@ for block in task["blocks"]:
             density=density, normalStiffness=task["stiffness"], shearStiffness=0.5 * task["stiffness"], frictionAngle=math.atan(task["friction"]), restitution=0.3))
     corners = np.array(block["vertices"])
     corners = corners.mean(0) + (1.0 - GAP) * (corners - corners.mean(0))
-    shape = shapes.from_vertices(corners, r=task["rounding"] / size(corners), k=0)
+    shape = shapes.from_vertices(corners, rounding=task["rounding"] / size(corners), k=0)
     made = potential_particles.body(shape, O.materials[materials[density]], fixed=block["fixed"])
     nodes[O.bodies.append(made)] = block
     frames[made.id] = (Vector3(made.state.pos), Quaternion(made.state.ori))

@@ -4,7 +4,10 @@
 use super::bytes::Bytes;
 use super::particle;
 use super::whole::Whole;
-use potential_particles::{BackEnd, Formulation, PairState, Particle, Pose, Settings, detect};
+use potential_particles::{
+    BackEnd, Formulation, PairState, Particle, PatchFlags, PatchScratch, PatchSettings, PatchState, Pose, Settings,
+    detect,
+};
 
 pub fn run(data: &[u8]) {
     let mut bytes = Bytes(data);
@@ -53,7 +56,21 @@ pub fn run(data: &[u8]) {
     if let Ok(swapped) = detect(&b, &at_b, &a, &at_a, &settings, None) {
         swapped.assert_whole();
     }
+    patches((&a, &at_a), (&b, &at_b));
     unharmed(&a, &b);
+}
+
+/// A patch and the one that follows from a state are numbers, or say that they are none.
+fn patches(a: (&Particle, &Pose), b: (&Particle, &Pose)) {
+    let Ok(contact) = detect(a.0, a.1, b.0, b.1, &Settings::default(), None) else { return };
+    let (mut state, mut scratch, settings) = (PatchState::default(), PatchScratch::new(), PatchSettings::default());
+    for _ in 0..3 {
+        let Ok(patch) = state.patch_of_contact(a.0, a.1, b.0, b.1, &contact, &settings, &mut scratch) else { return };
+        let is_told =
+            patch.flags.contains(PatchFlags::EMPTY) || patch.flags.contains(PatchFlags::TOLERANCE_NOT_REACHED);
+        assert!(is_told || patch.force.norm() > 0.0 && patch.force.norm().is_finite() && patch.area > 0.0, "{patch:?}");
+        assert!(patch.error >= 0.0, "{patch:?}");
+    }
 }
 
 pub fn pose(bytes: &mut Bytes) -> Option<Pose> {

@@ -11,6 +11,13 @@ const MOST_LINES: u8 = 16;
 pub fn run(data: &[u8]) {
     let mut bytes = Bytes(data);
     let (Ok(a), Ok(b)) = (particle(&mut bytes), particle(&mut bytes)) else { return };
+    for particle in [&a, &b] {
+        let area = particle.area_properties(1e-2).expect("a tolerance in range");
+        let circle = std::f64::consts::PI * particle.bounding_radius().powi(2);
+        assert!(area.error >= 0.0, "{area:?}");
+        // Where the error is as large as the area nothing is said of it.
+        assert!(area.error >= 1.0 || area.area > 0.0 && area.area <= circle * (1.0 + area.error), "{area:?}, {circle}");
+    }
     let (Some(at_a), Some(at_b)) = (pose(&mut bytes), pose(&mut bytes)) else { return };
     let choices = bytes.byte();
     let mut settings = Settings::default();

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "contact_memory.hpp"
+#include "entered.hpp"
+#include "mark.hpp"
 #include "pair_potential_particle.hpp"
 
 #include "atom.h"
@@ -8,6 +10,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <numeric>
 #include <unordered_map>
 #include <utility>
 
@@ -36,7 +39,7 @@ ContactMemory::~ContactMemory()
 int ContactMemory::setmask()
 {
     using namespace FixConst;
-    return PRE_EXCHANGE | POST_NEIGHBOR | MIN_PRE_EXCHANGE | MIN_POST_NEIGHBOR | POST_RUN;
+    return PRE_EXCHANGE | POST_NEIGHBOR | POST_RUN;
 }
 
 // Where the atoms are that were local when the list was built; -1: deleted. A fix that deletes atoms moves others into their place.
@@ -83,7 +86,7 @@ void ContactMemory::collect()
     }
     partners.resize(sum);
     for (int slot = 0; slot < slots; ++slot)
-        forEachLocal(slot, [&](int i, int j) { partners[ranges[i].first + ranges[i].count++] = { pair->tagAtBuild(j), slot }; });
+        forEachLocal(slot, [&](int i, int j) { partners[ranges[i].first + ranges[i].count++] = { pair->tagAtBuild(j), slot, pair->markAtBuild(slot) }; });
     maxexchange = withoutPartners;
     for (int i = 0; i < atom->nlocal; ++i) {
         ranges[i].own = atom->tag[i];
@@ -91,13 +94,47 @@ void ContactMemory::collect()
     }
 }
 
+void ContactMemory::setup_pre_exchange()
+{
+    forgetThoseBefore();
+    checkIds();
+}
+
+// An atom that is new may have the ID of one that was deleted: what contacts remember is of that one.
+void ContactMemory::forgetThoseBefore()
+{
+    const int own = !partners.empty();
+    int any = 0;
+    MPI_Allreduce(&own, &any, 1, MPI_INT, MPI_MAX, world);
+    if (!any)
+        return;
+    std::vector<tagint> mine, all;
+    for (int i = 0; i < atom->nlocal; ++i)
+        if (!ranges[i].own)
+            mine.push_back(atom->tag[i]);
+    const int count = static_cast<int>(mine.size());
+    std::vector<int> counts(comm->nprocs), offsets(comm->nprocs, 0);
+    MPI_Allgather(&count, 1, MPI_INT, counts.data(), 1, MPI_INT, world);
+    std::partial_sum(counts.begin(), counts.end() - 1, offsets.begin() + 1);
+    all.resize(offsets.back() + counts.back());
+    MPI_Allgatherv(mine.data(), count, MPI_LMP_TAGINT, all.data(), counts.data(), offsets.data(), MPI_LMP_TAGINT, world);
+    std::sort(all.begin(), all.end());
+    for (int i = 0; i < atom->nlocal; ++i) {
+        const auto first = partners.begin() + ranges[i].first;
+        const auto isNew = [&](const Partner& partner) { return std::binary_search(all.begin(), all.end(), partner.other); };
+        ranges[i].count = static_cast<int>(std::remove_if(first, first + ranges[i].count, isNew) - first);
+    }
+}
+
 // Partners are known by their IDs.
 void ContactMemory::checkIds() const
 {
-    for (int i = 0; pair && i < atom->nlocal; ++i)
+    std::string why;
+    for (int i = 0; pair && i < atom->nlocal && why.empty(); ++i)
         if (ranges[i].own && ranges[i].own != atom->tag[i] && sizeOf(i) > withoutPartners)
-            error->one(FLERR, "pair_style potential/particle: the atom of ID {} has the ID {} now, and contacts know their bodies by IDs: give 'compress no' to delete_atoms, and "
+            why = fmt::format("pair_style potential/particle: the atom of ID {} has the ID {} now, and contacts know their bodies by IDs: give 'compress no' to delete_atoms, and "
                 "leave out 'reset_atoms id'", ranges[i].own, atom->tag[i]);
+    endWhereAny(lmp, why);
 }
 
 bool ContactMemory::lasts(const Partner& partner) const { return partner.where < 0 || pair->lasts(partner.where); }
@@ -112,7 +149,7 @@ int ContactMemory::sizeOf(int i) const
     int size = withoutPartners;
     for (int n = ranges[i].first; n < ranges[i].first + ranges[i].count; ++n)
         if (lasts(partners[n]))
-            size += 2 + countOf(partners[n]);
+            size += ofPartner + countOf(partners[n]);
     return size;
 }
 
@@ -120,11 +157,8 @@ int ContactMemory::bonds() const
 {
     int count = 0;
     for (int i = 0; i < atom->nlocal; ++i)
-        for (int n = ranges[i].first; n < ranges[i].first + ranges[i].count; ++n) {
-            const int where = partners[n].where;
-            const Arrived came = where < 0 ? arrived(where) : Arrived {};
-            count += where >= 0 ? pair->isBond(where) : pair->isBond(came.values, came.count);
-        }
+        for (int n = ranges[i].first; n < ranges[i].first + ranges[i].count; ++n)
+            count += pair->isBond(partners[n]);
     return count;
 }
 
@@ -141,9 +175,13 @@ void ContactMemory::attach(PairPotentialParticle* style)
     if (pair == style)
         return;
     pair = style;
+    if (fromFile.sums.back() > 0 && fromFile.byPatch != pair->actsOnPatches())
+        error->all(FLERR, "pair_style potential/particle: the contacts of the restart file act {}: give the pair_style {} 'patch TOL' as when it was written",
+            pair->actsOnPatches() ? "in a point" : "on patches", pair->actsOnPatches() ? "without" : "with");
     const auto sums = pair->sumsOfRun();
-    for (size_t n = 0; n < sums.size(); ++n)
-        *sums[n] += std::exchange(savedSums[n], 0.0);
+    for (size_t n = 0; comm->me == 0 && n < sums.size(); ++n)
+        *sums[n] += fromFile.sums[n];
+    fromFile = {};
 }
 
 // Called before the atoms are packed.
@@ -151,30 +189,38 @@ void ContactMemory::write_restart(FILE* file)
 {
     collect();
     checkIds();
-    std::array<double, 5> own {}, all {};
+    Saved all { savedFormat, pair ? static_cast<double>(pair->actsOnPatches()) : fromFile.byPatch, {} };
+    std::array<double, 6> own {};
     if (pair)
-        for (size_t n = 0; n < own.size(); ++n)
+        for (size_t n = 0; n < pair->sumsOfRun().size(); ++n)
             own[n] = *pair->sumsOfRun()[n];
-    MPI_Reduce(own.data(), all.data(), static_cast<int>(own.size()), MPI_DOUBLE, MPI_SUM, 0, world);
+    else if (comm->me == 0)
+        own = fromFile.sums;
+    own.back() = 0;
+    for (int i = 0; i < atom->nlocal; ++i)
+        own.back() += sizeOf(i) > withoutPartners;
+    MPI_Reduce(own.data(), all.sums.data(), static_cast<int>(own.size()), MPI_DOUBLE, MPI_SUM, 0, world);
     if (comm->me == 0) {
         const int size = sizeof all;
         fwrite(&size, sizeof size, 1, file);
-        fwrite(all.data(), sizeof all, 1, file);
+        fwrite(&all, sizeof all, 1, file);
     }
 }
 
 void ContactMemory::restart(char* saved)
 {
-    if (comm->me == 0)
-        std::memcpy(savedSums.data(), saved, sizeof savedSums);
+    std::memcpy(&fromFile.format, saved, sizeof fromFile.format);
+    if (fromFile.format != savedFormat)
+        error->all(FLERR, "pair_style potential/particle: the contacts of the restart file are of another version of the plugin: read the file with that one");
+    std::memcpy(&fromFile, saved, sizeof fromFile);
 }
 
-int ContactMemory::find(int i, tagint other) const
+const ContactMemory::Partner* ContactMemory::find(int i, tagint other) const
 {
     for (int n = ranges[i].first; n < ranges[i].first + ranges[i].count; ++n)
         if (partners[n].other == other)
-            return partners[n].where;
-    return nowhere;
+            return &partners[n];
+    return nullptr;
 }
 
 void ContactMemory::grow_arrays(int most) { ranges.resize(most); }
@@ -190,6 +236,7 @@ int ContactMemory::pack(int i, double* buffer) const
         if (!lasts(partner))
             continue;
         buffer[m++] = ubuf(partner.other).d;
+        buffer[m++] = partner.mark;
         const int numbers = countOf(partner);
         buffer[m++] = numbers;
         if (partner.where >= 0)
@@ -211,7 +258,7 @@ int ContactMemory::unpack(int i, const double* buffer)
     int m = withoutPartners;
     for (int n = 0; n < ranges[i].count; ++n) {
         ubuf other(buffer[m++]);
-        partners.push_back({ static_cast<tagint>(other.i), -1 - static_cast<int>(values.size()) });
+        partners.push_back({ static_cast<tagint>(other.i), -1 - static_cast<int>(values.size()), buffer[m++] });
         const int numbers = 1 + static_cast<int>(buffer[m]);
         values.insert(values.end(), buffer + m, buffer + m + numbers);
         m += numbers;

@@ -21,12 +21,10 @@ public:
     ~ContactMemory() override;
 
     int setmask() override;
-    void setup_pre_exchange() override { checkIds(); }
+    void setup_pre_exchange() override;
     void pre_exchange() override { collect(); }
     void post_neighbor() override;
     void setup_post_neighbor() override { post_neighbor(); }
-    void min_pre_exchange() override { collect(); }
-    void min_post_neighbor() override { post_neighbor(); }
     void post_run() override { collect(); }
     void write_restart(FILE* file) override;
     void restart(char* saved) override;
@@ -42,10 +40,13 @@ public:
     int maxsize_restart() override;
     double memory_usage() override;
 
-    // Where the contact of local atom i with the atom of this ID is remembered: a slot of the pair style (>= 0), or
-    // one of an arrived() contact (< 0), or nowhere.
-    static constexpr int nowhere = -2147483647;
-    int find(int i, LAMMPS_NS::tagint other) const;
+    // The other body of a contact of a local atom, and where the contact is remembered: a slot of the pair style (>= 0), or one of an arrived() contact (< 0).
+    struct Partner {
+        LAMMPS_NS::tagint other;
+        int where;
+        double mark; // of both shapes
+    };
+    const Partner* find(int i, LAMMPS_NS::tagint other) const; // or none
     // What the pair style has written of the contact, on another rank or into a file.
     struct Arrived {
         const double* values;
@@ -61,23 +62,27 @@ public:
     bool listIsNewer = false; // than what is remembered here
 
 private:
-    struct Partner {
-        LAMMPS_NS::tagint other;
-        int where;
-    };
     struct Range {
         int first = 0, count = 0;
         LAMMPS_NS::tagint own = 0; // the atom's own ID, when the partners were written down here
     };
 
+    // What a restart file has of all contacts.
+    struct Saved {
+        double format, byPatch;
+        std::array<double, 6> sums; // of the run, and how many contacts
+    };
+
     PairPotentialParticle* pair = nullptr;
 
     void collect();
-    void checkIds() const;
+    void forgetThoseBefore();
+    void checkIds() const; // called by all ranks
     std::vector<int> placesNow(int local) const;
     // Whether a partner is remembered, beyond this list of neighbours; how many numbers.
     bool lasts(const Partner& partner) const;
     int countOf(const Partner& partner) const;
+    static constexpr int ofPartner = 3; // numbers of each, before those that the pair style writes
     static constexpr int withoutPartners = 2; // numbers that pack() writes of an atom: how many partners, and its ID
     int sizeOf(int i) const; // of all that pack() writes
     int pack(int i, double* buffer) const;
@@ -85,7 +90,7 @@ private:
 
     std::vector<Range> ranges; // of atoms
     std::vector<Partner> partners;
-    std::array<double, 5> savedSums {}; // from a restart, until a pair style takes them
+    Saved fromFile {}; // until a pair style takes it
     std::vector<double> values; // of contacts that came from other ranks or a file: their count before them
 };
 

@@ -7,7 +7,6 @@
 #include "error.h"
 #include "modify.h"
 #include "update.h"
-#include "utils.h"
 
 using namespace LAMMPS_NS;
 using Eigen::Map;
@@ -47,8 +46,6 @@ int FixNve::setmask() { return FixConst::INITIAL_INTEGRATE | FixConst::FINAL_INT
 void FixNve::init()
 {
     shapes = FixShapes::of(lmp, style);
-    if (utils::strmatch(update->integrate_style, "^respa"))
-        error->all(FLERR, "{}: it has one time step for all forces: use 'run_style verlet'", style);
 }
 
 void FixNve::push()

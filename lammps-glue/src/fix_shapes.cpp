@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "fix_shapes.hpp"
-#include "text_file.hpp"
+#include "entered.hpp"
 
 #include "atom.h"
+#include "error.h"
 #include "force.h"
+#include "input.h"
 #include "modify.h"
+#include "update.h"
 #include "utils.h"
 
 #include <algorithm>
@@ -53,9 +56,7 @@ FixShapes::FixShapes(LAMMPS* lmp, int count, char** arguments)
             }
             if (found < 0)
                 error->all(FLERR, "fix {}: {} has no shape {}: it has{}", styleName, path, arguments[i + 2], names);
-            const double density = utils::numeric(FLERR, arguments[i + 3], false, lmp);
-            if (!(density > 0 && std::isfinite(density)))
-                error->all(FLERR, "fix {}: density = {}: it must be above 0", styleName, arguments[i + 3]);
+            const double density = numberIn(lmp, std::string("fix ") + styleName, "density", arguments[i + 3], 1 / bearable);
             for (int type = low; type <= high; ++type) {
                 ofType[type] = found;
                 densities[type] = density;
@@ -68,15 +69,24 @@ FixShapes::FixShapes(LAMMPS* lmp, int count, char** arguments)
         } else
             error->all(FLERR, "fix {}: '{}': expected type T NAME DENSITY, or orient random SEED", styleName, arguments[i]);
     }
-    for (int type = 1; type <= atom->ntypes; ++type)
+    for (int type = 1; type <= atom->ntypes; ++type) {
         if (ofType[type] < 0)
             error->all(FLERR, "fix {}: type {} has no shape: add 'type {} NAME DENSITY'", styleName, type, type);
+        if (!(massOf(type) >= 1 / bearable && massOf(type) * shape(type).radius * shape(type).radius <= bearable))
+            error->all(FLERR, "fix {}: type {} has the mass {} and the radius {}: masses must be above 1e-100, and moments of inertia below 1e100", styleName, type, massOf(type),
+                shape(type).radius);
+    }
     atom->add_callback(Atom::GROW);
 }
 
-FixShapes::~FixShapes() { atom->delete_callback(id, Atom::GROW); }
+FixShapes::~FixShapes()
+{
+    atom->delete_callback(id, Atom::GROW);
+    if (update) // else LAMMPS ends
+        update->first_update = 0;
+}
 
-int FixShapes::setmask() { return FixConst::PRE_NEIGHBOR; }
+int FixShapes::setmask() { return FixConst::PRE_NEIGHBOR | FixConst::PRE_FORCE; }
 
 // Not in the constructor: LAMMPS enters one fix at a time.
 void FixShapes::post_constructor()
@@ -98,7 +108,7 @@ double** FixShapes::orientations() const
     return atom->darray[index];
 }
 
-void FixShapes::orient(double* quaternion, tagint tag) const
+std::string FixShapes::whyNotOriented(double* quaternion, tagint tag) const
 {
     Eigen::Map<Eigen::Vector4d> q(quaternion);
     if (q.isZero(0)) {
@@ -112,9 +122,10 @@ void FixShapes::orient(double* quaternion, tagint tag) const
         }
     }
     if (!(q.norm() > 1e-150 && q.norm() < 1e150))
-        error->one(FLERR, "fix {}: atom {} has the orientation {} {} {} {}: it must be a quaternion w x y z", styleName, tag, q[0], q[1], q[2], q[3]);
+        return fmt::format("fix {}: atom {} has the orientation {} {} {} {}: it must be a quaternion w x y z", styleName, tag, q[0], q[1], q[2], q[3]);
     if (std::abs(q.squaredNorm() - 1) > 1e-14) // an orientation that was restarted keeps its bits
         q.normalize();
+    return "";
 }
 
 void FixShapes::init()
@@ -123,12 +134,52 @@ void FixShapes::init()
         error->all(FLERR, "fix {}: there are two of them: give all types in one", styleName);
     if (ofType.size() != static_cast<size_t>(atom->ntypes) + 1)
         error->all(FLERR, "fix {}: the number of atom types has changed: give the fix after the box is made", styleName);
+    checkRun();
     double** q = orientations();
-    for (int i = 0; i < atom->nlocal; ++i) {
-        atom->radius[i] = shape(atom->type[i]).radius;
-        atom->rmass[i] = density(atom->type[i]) * shape(atom->type[i]).volume;
-        orient(q[i], atom->tag[i]);
+    std::string why;
+    for (int i = 0; i < atom->nlocal && why.empty(); ++i) {
+        give(i);
+        why = whyNotOriented(q[i], atom->tag[i]);
     }
+    endWhereAny(lmp, why);
+}
+
+void FixShapes::checkRun() const
+{
+    if (update->whichflag == 2)
+        error->all(FLERR, "fix {}: minimize does not turn bodies: let them come to rest in a run, with a restitution below 1 or fix viscous", styleName);
+    if (lmp->input->command && !strcmp(lmp->input->command, "rerun"))
+        error->all(FLERR, "fix {}: rerun reads no orientations: run again from a restart file", styleName);
+    if (utils::strmatch(update->integrate_style, "^respa"))
+        error->all(FLERR, "fix {}: run_style respa has several time steps for the forces of one contact: use 'run_style verlet'", styleName);
+    if (!(update->dt >= 0 && update->dt <= bearable))
+        error->all(FLERR, "fix {}: timestep = {}: it must lie in [0, 1e100]", styleName, update->dt);
+}
+
+void FixShapes::give(int i)
+{
+    atom->radius[i] = shape(atom->type[i]).radius;
+    atom->rmass[i] = massOf(atom->type[i]);
+}
+
+// What init() gave by the type holds for the whole run.
+void FixShapes::setup_pre_force(int) { endWhereAny(lmp, whyNotOfItsType()); }
+
+void FixShapes::pre_force(int)
+{
+    if (const std::string why = whyNotOfItsType(); !why.empty())
+        error->one(FLERR, why);
+}
+
+std::string FixShapes::whyNotOfItsType() const
+{
+    for (int i = 0; i < atom->nlocal; ++i) {
+        const int type = atom->type[i];
+        if (atom->radius[i] != shape(type).radius || atom->rmass[i] != massOf(type))
+            return fmt::format("fix {}: atom {} of type {} has the radius {} and the mass {}, its shape {} has {} and {}: change types between runs, and leave out 'pre no'",
+                styleName, atom->tag[i], type, atom->radius[i], atom->rmass[i], shape(type).name, shape(type).radius, massOf(type));
+    }
+    return "";
 }
 
 // Atoms that came during a run and had no ID when they were made.
@@ -136,19 +187,19 @@ void FixShapes::pre_neighbor()
 {
     double** q = orientations();
     for (int i = 0; i < atom->nlocal; ++i)
-        orient(q[i], atom->tag[i]);
+        if (const std::string why = whyNotOriented(q[i], atom->tag[i]); !why.empty())
+            error->one(FLERR, why);
 }
 
 void FixShapes::set_arrays(int i)
 {
-    atom->radius[i] = shape(atom->type[i]).radius;
-    atom->rmass[i] = density(atom->type[i]) * shape(atom->type[i]).volume;
+    give(i);
     // The property may not have been cleared yet: fixes are called in their order.
     double* q = orientations()[i];
     for (int n = 0; n < 4; ++n)
         q[n] = 0;
     if (atom->tag[i] > 0)
-        orient(q, atom->tag[i]);
+        whyNotOriented(q, atom->tag[i]);
 }
 
 double FixShapes::largestRadius() const
@@ -157,6 +208,14 @@ double FixShapes::largestRadius() const
     for (int type = 1; type <= atom->ntypes; ++type)
         largest = std::max(largest, shape(type).radius);
     return largest;
+}
+
+double FixShapes::smallestRadius() const
+{
+    double smallest = largestRadius();
+    for (int type = 1; type <= atom->ntypes; ++type)
+        smallest = std::min(smallest, shape(type).radius);
+    return smallest;
 }
 
 double FixShapes::memory_usage() { return static_cast<double>(shapes.size()) * sizeof(Shape); }

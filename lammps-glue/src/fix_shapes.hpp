@@ -13,6 +13,7 @@
 
 namespace potential_particles {
 
+// Without it there are no potential particles: what runs they can be in is judged here.
 class FixShapes : public LAMMPS_NS::Fix {
 public:
     FixShapes(LAMMPS_NS::LAMMPS* lmp, int count, char** arguments);
@@ -21,20 +22,26 @@ public:
     int setmask() override;
     void post_constructor() override;
     void init() override;
+    void setup_pre_force(int) override;
     void pre_neighbor() override;
+    void pre_force(int) override;
     void set_arrays(int i) override;
     double memory_usage() override;
 
     const Shape& shape(int type) const { return shapes[ofType[type]]; }
     double largestRadius() const;
-    double density(int type) const { return densities[type]; }
+    double smallestRadius() const;
+    double massOf(int type) const { return densities[type] * shape(type).volume; }
     double** orientations() const; // of local atoms, rows w x y z
 
     // The only one of a simulation; ends LAMMPS, in the name of `asker`, where there is none.
     static FixShapes* of(LAMMPS_NS::LAMMPS* lmp, const std::string& asker);
 
 private:
-    void orient(double* quaternion, LAMMPS_NS::tagint tag) const;
+    void checkRun() const;
+    std::string whyNotOfItsType() const; // of an atom that is not, or empty
+    void give(int i); // radius and mass by its type
+    std::string whyNotOriented(double* quaternion, LAMMPS_NS::tagint tag) const; // or it is now
 
     std::vector<Shape> shapes;
     std::vector<int> ofType; // by atom type, from 1

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "fix_wall.hpp"
+#include "entered.hpp"
 #include "fix_nve.hpp"
 #include "fix_shapes.hpp"
-#include "motion.hpp"
+
+#include "plugin-common/motion_bound.hpp"
+#include "plugin-common/new_contact.hpp"
 
 #include "atom.h"
 #include "comm.h"
@@ -22,7 +25,7 @@ using Eigen::Vector3d;
 namespace potential_particles {
 namespace {
 
-constexpr double areaTolerance = 1e-6; // of a disc in the place of a patch
+constexpr double mostRadii = 1e9; // coordinates are then rounded by 1e-7 of a body
 
 } // namespace
 
@@ -34,27 +37,47 @@ FixWall::~FixWall()
 
 int FixWall::setmask() { return FixConst::POST_FORCE; }
 
-void FixWall::init() { shapes = FixShapes::of(lmp, std::string("fix ") + style); }
+void FixWall::init()
+{
+    shapes = FixShapes::of(lmp, std::string("fix ") + style);
+    checkPlace();
+    checkedStep = -1;
+}
+
+// Coordinates are rounded: where they are too large beside a body, its contacts would be rounding.
+void FixWall::checkPlace() const
+{
+    double farthest = centre.lpNorm<Eigen::Infinity>();
+    for (const Plane& plane : planes)
+        farthest = std::max(farthest, plane.point.lpNorm<Eigen::Infinity>());
+    if (mesh)
+        farthest = std::max({ farthest, mesh->low().lpNorm<Eigen::Infinity>(), mesh->high().lpNorm<Eigen::Infinity>() });
+    if (farthest > mostRadii * shapes->smallestRadius())
+        error->all(FLERR, "fix {} {}: it has a coordinate of {}, beyond {} radii of the smallest body, {}: put it nearer to the origin", id, style, farthest, mostRadii,
+            shapes->smallestRadius());
+}
 
 void FixWall::setup(int flags)
 {
-    checkTimeStep();
     checkBorder();
     post_force(flags);
 }
 
 // As for contacts of pairs. Of a patch the area is not known before there is one.
-void FixWall::checkTimeStep() const
+void FixWall::checkTimeStep()
 {
-    if (byPatch)
+    if (byPatch || checkedStep == update->dt)
         return;
+    checkedStep = update->dt;
     const int moving = FixNve::groups(lmp);
-    for (int i = 0; i < atom->nlocal; ++i) {
+    std::string why;
+    for (int i = 0; i < atom->nlocal && why.empty(); ++i) {
         const double most = 2 * std::sqrt(atom->rmass[i] / law.stiffest());
         if ((atom->mask[i] & groupbit) && (atom->mask[i] & moving) && update->dt > most)
-            error->one(FLERR, "{} {}: timestep = {}: a contact of atom {} is unstable above {}, and with levers well below: take {} or less", style, id, update->dt,
+            why = fmt::format("{} {}: timestep = {}: a contact of atom {} is unstable above {}, and with levers well below: take {} or less", style, id, update->dt,
                 atom->tag[i], most, 0.1 * most);
     }
+    endWhereAny(lmp, why);
 }
 
 // A wall has no periodic images: what of a body reaches over a border does not meet the part of the wall at the other side.
@@ -91,17 +114,21 @@ FixWall::Frame FixWall::frameNow() const
 
 Vector3d FixWall::intoWall(const Frame& frame, const Vector3d& x) const { return centre + frame.turn.conjugate() * (x - frame.origin); }
 
-bool FixWall::shareVertex(int element, int other) const
+const Triangle* FixWall::triangleOf(int element) const
 {
-    const int first = static_cast<int>(planes.size());
-    if (element < first || other < first)
-        return false;
-    const auto &mine = mesh->triangle(element - first), &its = mesh->triangle(other - first);
-    return std::any_of(mine.begin(), mine.end(), [&](int v) { return std::find(its.begin(), its.end(), v) != its.end(); });
+    const int triangle = element - static_cast<int>(planes.size());
+    return triangle < 0 ? nullptr : &mesh->triangle(triangle);
+}
+
+bool FixWall::shareCorner(int element, int other) const
+{
+    const Triangle *mine = triangleOf(element), *its = triangleOf(other);
+    return mine && its && SharedCorners::of(*mine, *its);
 }
 
 void FixWall::post_force(int)
 {
+    checkTimeStep();
     own[contacts] = own[elastic] = own[forceX] = own[forceY] = own[forceZ] = 0;
     // Where the time was set anew since, the wall stays where it is.
     const double time = timeNow(), jump = time - lastTime - (update->setupflag ? 0 : update->dt);
@@ -115,17 +142,18 @@ void FixWall::post_force(int)
         if (atom->mask[i] & groupbit) {
             meet(i, frame, advance);
             most = std::max(most, around[i].known.size());
-        }
-    maxexchange = 2 + static_cast<int>(most) * savedSize();
+        } else if (around[i].limit >= 0 || !around[i].known.empty()) // it has left the group
+            forget(around[i]);
+    maxexchange = withoutContacts + static_cast<int>(most) * savedSize();
 }
 
 double FixWall::ballDistance(int element, const Vector3d& position, double radius) const
 {
-    const int triangle = element - static_cast<int>(planes.size());
-    if (triangle < 0)
+    const Triangle* const triangle = triangleOf(element);
+    if (!triangle)
         return std::abs(planes[element].normal.dot(position - planes[element].point)) - radius;
-    const auto& corners = mesh->triangle(triangle);
-    const Vector3d &a = mesh->vertex(corners[0]), normal = (mesh->vertex(corners[1]) - a).cross(mesh->vertex(corners[2]) - a);
+    const auto& [a, b, c] = *triangle;
+    const Vector3d normal = (b - a).cross(c - a);
     return std::abs(normal.dot(position - a)) / normal.norm() - radius;
 }
 
@@ -150,6 +178,13 @@ void FixWall::lookAround(Surroundings& here, double radius)
     }
 }
 
+void FixWall::forget(Surroundings& here)
+{
+    for (const Known& one : here.known)
+        own[changed] += one.joint.memory.energyAlong;
+    here = {};
+}
+
 // All contacts of an atom with the wall.
 void FixWall::meet(int i, const Frame& frame, bool advance)
 {
@@ -159,7 +194,11 @@ void FixWall::meet(int i, const Frame& frame, bool advance)
     const double* q = shapes->orientations()[i];
     const Quaterniond turned = frame.turn.conjugate() * Quaterniond(q[0], q[1], q[2], q[3]);
     const pp_pose pose { { position[0], position[1], position[2] }, { turned.w(), turned.x(), turned.y(), turned.z() } };
-    here.way += wayBetween(here.last, pose, shape.radius);
+    if (here.mark != shape.mark) {
+        forget(here);
+        here.mark = shape.mark;
+    }
+    here.way = travelled(here.way, wayBetween(here.last, pose, shape.radius));
     here.last = pose;
     if (!std::isfinite(here.way))
         error->one(FLERR, "{}: atom {} has the position {} {} {}, orientation {} {} {} {}: they must be finite; a smaller timestep or softer contacts may help",
@@ -172,7 +211,7 @@ void FixWall::meet(int i, const Frame& frame, bool advance)
     }
     solve(i, shape, here);
     for (size_t n = 0; n < touched.size(); ++n)
-        now[slotOf[n]].touches = byPatch || !yields(touched[n]);
+        now[slotOf[n]].touches = byPatch || !leavesToAnother(touched[n], shape.radius);
     for (size_t n = 0; n < touched.size(); ++n)
         if (byPatch)
             applyPatchLaw(i, shape, frame, advance, touched[n], now[slotOf[n]], here.last);
@@ -193,7 +232,6 @@ void FixWall::meet(int i, const Frame& frame, bool advance)
 // Fills `now`, with a memory for each element that touches or nearly does, and `touched`.
 void FixWall::solve(int i, const Shape& shape, Surroundings& here)
 {
-    const int firstTriangle = static_cast<int>(planes.size());
     now.clear();
     touched.clear();
     slotOf.clear();
@@ -201,6 +239,7 @@ void FixWall::solve(int i, const Shape& shape, Surroundings& here)
         if (here.way < one.wake)
             continue;
         const int element = one.element;
+        const Triangle* const triangle = triangleOf(element);
         const auto old = std::find_if(here.known.begin(), here.known.end(), [&](const Known& k) { return k.element == element; });
         Known next = old != here.known.end() ? *old : Known { element };
         const bool touchedBefore = next.touches;
@@ -211,38 +250,41 @@ void FixWall::solve(int i, const Shape& shape, Surroundings& here)
         }
         pp_flat_contact found;
         const auto detect = [&] {
-            return element < firstTriangle
-                ? pp_contact_plane(shape.particle.get(), &here.last, planes[element].point.data(), planes[element].normal.data(), &how, &next.state, &found)
-                : pp_contact_triangle(shape.particle.get(), &here.last, mesh->points(element - firstTriangle).data(), &how, &next.state, &found);
+            if (triangle)
+                return pp_contact_triangle(shape.particle.get(), &here.last, numbersOf(*triangle), &how, &next.state, &found);
+            const Plane& plane = planes[element];
+            return pp_contact_plane(shape.particle.get(), &here.last, plane.point.data(), plane.normal.data(), &how, &next.state, &found);
         };
-        pp_status status = detect();
-        // A new contact is solved from nothing: an element that is not touched is no part of what migrates or is in files.
-        if (status == PP_OK && found.kind == PP_OVERLAPPING && !touchedBefore) {
-            next.state = {};
-            status = detect();
-        }
+        const pp_status status = fromNothingIfNew(detect(), found, touchedBefore, &next.state, detect);
         if (status != PP_OK) {
             const double *x = here.last.position, *q = here.last.orientation;
             error->one(FLERR, "{}: the contact of atom {} with {} {} failed: {}. Shape {}; pose in the wall's frame {:.17g} {:.17g} {:.17g}, {:.17g} {:.17g} {:.17g} {:.17g}",
-                style, atom->tag[i], element < firstTriangle ? "plane" : "triangle", element < firstTriangle ? element + 1 : element - firstTriangle + 1,
+                style, atom->tag[i], triangle ? "triangle" : "plane",
+                1 + element - (triangle ? static_cast<int>(planes.size()) : 0),
                 pp_status_message(status), shape.name, x[0], x[1], x[2], q[0], q[1], q[2], q[3]);
         }
         if (found.kind == PP_SEPARATED && found.distance > farShare * shape.radius) {
-            one.wake = here.way + found.distance;
+            one.wake = wakesAt(here.way, found.distance);
             continue;
         }
         if (found.kind == PP_OVERLAPPING) {
             slotOf.push_back(static_cast<int>(now.size()));
-            touched.push_back({ element - firstTriangle, found, uncertaintyOf(found, shape.radius) });
+            touched.push_back({ element, found });
         }
         now.push_back(next);
     }
 }
 
-bool FixWall::yields(const TriangleContact& one) const
+bool FixWall::leavesToAnother(const Touched& one, double radius) const
 {
-    return one.triangle >= 0 && std::any_of(touched.begin(), touched.end(), [&](const TriangleContact& other) {
-        return other.triangle >= 0 && other.triangle != one.triangle && yieldsTo(*mesh, other, one);
+    const auto contactOf = [&](const Touched& touch) {
+        return TriangleContact { *triangleOf(touch.element), touch.found, touch.element, onSeam * radius };
+    };
+    constexpr unsigned all = 7; // its corners
+    if (!triangleOf(one.element) || !liesOn(contactOf(one), all))
+        return false;
+    return std::any_of(touched.begin(), touched.end(), [&](const Touched& other) {
+        return triangleOf(other.element) && other.element != one.element && leavesTo(contactOf(one), contactOf(other));
     });
 }
 
@@ -251,7 +293,7 @@ void FixWall::applyLaw(int i, const Frame& frame, bool advance, const pp_flat_co
     // A contact that comes over a seam takes its history along.
     if (!contact.history.touching)
         for (Known& left : here.known)
-            if (left.history.touching && shareVertex(left.element, contact.element)
+            if (left.history.touching && shareCorner(left.element, contact.element)
                 && std::none_of(now.begin(), now.end(), [&](const Known& k) { return k.touches && k.element == left.element; })) {
                 contact.history = left.history;
                 left.history.touching = false;
@@ -284,7 +326,7 @@ void FixWall::push(int i, const Vector3d& onWall, const Vector3d& torque, const 
 }
 
 // In world axes.
-std::optional<PatchInStep> FixWall::patchOn(int i, const Shape& shape, const Frame& frame, const TriangleContact& touch, Known& contact, const pp_pose& pose) const
+std::optional<PatchInStep> FixWall::patchOn(int i, const Shape& shape, const Frame& frame, const Touched& touch, Known& contact, const pp_pose& pose) const
 {
     const pp_flat_contact& found = touch.found;
     const pp_particle* particle = shape.particle.get();
@@ -292,19 +334,20 @@ std::optional<PatchInStep> FixWall::patchOn(int i, const Shape& shape, const Fra
         contact.patch = std::make_shared<pp_patch_state>();
     pp_patch patch;
     pp_status status;
-    if (touch.triangle < 0)
+    const Triangle* const triangle = triangleOf(touch.element);
+    if (!triangle)
         status = pp_patch_on_plane(particle, &pose, &found, patchTolerance, 1, contact.patch.get(), &patch, nullptr, 0, nullptr);
     else {
         // The body stays on the side on which the contact began.
-        const std::array<double, 9> points = mesh->points(touch.triangle);
-        const Vector3d a(&points[0]), front = (Vector3d(&points[3]) - a).cross(Vector3d(&points[6]) - a);
+        const auto& [a, b, c] = *triangle;
+        const Vector3d front = (b - a).cross(c - a);
         const Vector3d towardsWall = contact.joint.touching ? frame.turn.conjugate() * contact.joint.normal : Vector3d(found.normal);
-        status = pp_patch_on_triangle(particle, &pose, points.data(), towardsWall.dot(front) < 0, &found, patchTolerance, 1, contact.patch.get(), &patch, nullptr,
+        status = pp_patch_on_triangle(particle, &pose, numbersOf(*triangle), towardsWall.dot(front) < 0, &found, patchTolerance, 1, contact.patch.get(), &patch, nullptr,
             0, nullptr);
     }
     const Vector3d x(atom->x[i]);
     const Eigen::Matrix3d turn = frame.turn.toRotationMatrix();
-    if (auto here = patchInStep(status, patch)) {
+    if (auto here = PatchInStep::of(status, patch)) {
         here->point = x + turn * Vector3d(patch.branch_a);
         here->normal = turn * here->normal;
         here->patch.centroid = turn * here->patch.centroid;
@@ -317,7 +360,7 @@ std::optional<PatchInStep> FixWall::patchOn(int i, const Shape& shape, const Fra
     return PatchInStep { ContactPatch::disc(area, found.overlap, normal), x + turn * Vector3d(found.branch), normal };
 }
 
-void FixWall::applyPatchLaw(int i, const Shape& shape, const Frame& frame, bool advance, const TriangleContact& touch, Known& contact, const pp_pose& pose)
+void FixWall::applyPatchLaw(int i, const Shape& shape, const Frame& frame, bool advance, const Touched& touch, Known& contact, const pp_pose& pose)
 {
     const double mass = atom->rmass[i];
     const double* q = shapes->orientations()[i];

@@ -10,13 +10,16 @@
 // the pressure that lies on it.
 #pragma once
 
-#include "contact_law.hpp"
+#include "plugin-common/point_law.hpp"
 #include "joint_step.hpp"
 #include "mesh.hpp"
-#include "seam.hpp"
+
+#include "plugin-common/seam.hpp"
 
 #include "fix.h"
 
+#include <array>
+#include <iterator>
 #include <memory>
 #include <vector>
 
@@ -43,7 +46,7 @@ public:
     int unpack_exchange(int i, double* buffer) override;
     int pack_restart(int i, double* buffer) override;
     void unpack_restart(int i, int nth) override;
-    int size_restart(int i) override { return 3 + touching(i) * savedSize(); }
+    int size_restart(int i) override { return 1 + withoutContacts + touching(i) * savedSize(); }
     int maxsize_restart() override;
     void write_restart(FILE* file) override;
     void restart(char* saved) override;
@@ -53,7 +56,7 @@ private:
     // An element: a plane, or, from planes.size() on, a triangle.
     struct Known {
         int element = 0;
-        bool touches = false; // has the contact here, and does not yield at a seam
+        bool touches = false; // has the contact here, and does not leave it to another at a seam
         ContactHistory history = {};
         pp_pair_state state = {}; // since the last list of neighbours, so that all ranks and restarts have the same
         // Of contacts by patch.
@@ -66,10 +69,15 @@ private:
     };
     // Of an atom: in the wall's frame.
     struct Surroundings {
+        double mark = 0; // of the shape for which all this holds
         pp_pose last = {};
         double way = 0, limit = -1; // come since the elements were looked for; how far they reach
         std::vector<Asleep> elements;
         std::vector<Known> known; // those that touch, or nearly do
+    };
+    struct Touched {
+        int element;
+        pp_flat_contact found;
     };
     struct Plane {
         Eigen::Vector3d point, normal;
@@ -80,31 +88,41 @@ private:
     };
     enum Sum { contacts, elastic, slid, damped, forceX, forceY, forceZ, changed, broke, sums };
     static constexpr Sum ofRun[] = { slid, damped, changed, broke }; // since the first step
+    // What a restart file has of the wall as a whole.
+    struct Saved {
+        double format, mark, byPatch, motion[10], start, lastTime, contacts, sums[std::size(ofRun)];
+    };
 
+    static constexpr int withoutContacts = 2; // numbers that pack() writes of an atom: how many contacts, and the mark of its shape
     int savedSize() const { return 1 + (byPatch ? countOfNumbers(JointHistory {}) : 9); } // of a contact
 
-    double numberAt(char** arguments, int i, const char* what) const;
     Frame frameNow() const;
     double timeNow() const;
-    void checkTimeStep() const;
+    void checkPlace() const;
+    void checkTimeStep();
     void checkBorder() const;
     Eigen::Vector3d intoWall(const Frame& frame, const Eigen::Vector3d& x) const;
     void meet(int i, const Frame& frame, bool advance);
     void lookAround(Surroundings& here, double radius);
     double ballDistance(int element, const Eigen::Vector3d& position, double radius) const; // of a body's ball to the plane of an element
     void solve(int i, const Shape& shape, Surroundings& here);
-    bool yields(const TriangleContact& one) const;
+    bool leavesToAnother(const Touched& one, double radius) const; // at a seam
     void applyLaw(int i, const Frame& frame, bool advance, const pp_flat_contact& found, Known& contact, Surroundings& here);
-    void applyPatchLaw(int i, const Shape& shape, const Frame& frame, bool advance, const TriangleContact& touch, Known& contact, const pp_pose& pose);
-    std::optional<PatchInStep> patchOn(int i, const Shape& shape, const Frame& frame, const TriangleContact& touch, Known& contact, const pp_pose& pose) const;
+    void applyPatchLaw(int i, const Shape& shape, const Frame& frame, bool advance, const Touched& touch, Known& contact, const pp_pose& pose);
+    std::optional<PatchInStep> patchOn(int i, const Shape& shape, const Frame& frame, const Touched& touch, Known& contact, const pp_pose& pose) const;
     void push(int i, const Eigen::Vector3d& onWall, const Eigen::Vector3d& torque, const JointEnergies& energies);
+    double mark() const; // of planes and triangles
+    std::array<double, 10> motion() const;
+    void forget(Surroundings& here); // and count what springs hold
     int touching(int i) const;
     int pack(int i, double* buffer) const;
     int unpack(int i, const double* buffer);
-    bool shareVertex(int element, int other) const;
+    bool shareCorner(int element, int other) const;
+    const Triangle* triangleOf(int element) const; // none of a plane
 
     FixShapes* shapes = nullptr;
     LawParameters law;
+    double checkedStep = -1; // time step that was found stable
     bool byPatch = false;
     double patchTolerance = 1e-4;
     // Simulation times at which the wall was where the command says, and at which it was last moved. `reset_timestep` shifts both.
@@ -114,14 +132,13 @@ private:
     pp_settings how;
     std::vector<Plane> planes;
     std::unique_ptr<Mesh> mesh;
-    std::string file;
     Eigen::Vector3d centre = Eigen::Vector3d::Zero(), linear = Eigen::Vector3d::Zero(), axis = Eigen::Vector3d::UnitZ();
     double rate = 0; // of rotation
     std::vector<Surroundings> around; // of atoms
     // Of the atom at work.
     std::vector<int> candidates;
     std::vector<Known> now;
-    std::vector<TriangleContact> touched;
+    std::vector<Touched> touched;
     std::vector<int> slotOf; // in `now`, of each that touches
     double own[sums] = {};
 };

@@ -3,7 +3,7 @@
 // What a contact by its patch carries from step to step, and as numbers that migrate and restart.
 #pragma once
 
-#include "joint-law/joint.hpp"
+#include "plugin-common/joint.hpp"
 
 namespace potential_particles {
 

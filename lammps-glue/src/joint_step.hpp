@@ -4,26 +4,13 @@
 #pragma once
 
 #include "joint_history.hpp"
-#include "joint-law/joint_law.hpp"
+#include "plugin-common/joint_law.hpp"
 
 #include <optional>
 
 namespace potential_particles {
 
-// Where two bodies overlap.
-struct PatchInStep {
-    ContactPatch patch; // area 0: an overlap of nothing but rounding
-    Eigen::Vector3d point, normal;
-};
-
-// What the library answers: of body 2 on body 1, if `reversed`.
-inline std::optional<PatchInStep> patchInStep(pp_status status, const pp_patch& found)
-{
-    if (!ContactPatch::isIn(status, found))
-        return {};
-    const Eigen::Vector3d force(found.force);
-    return PatchInStep { ContactPatch::of(found), Eigen::Vector3d(found.pressure_centre), force / force.norm() };
-}
+constexpr double areaTolerance = 1e-6; // of a disc in the place of a patch
 
 // here: none, where the bodies are apart. Where the step only repeats the last one (`advance` false, at the start of a run), the history
 // stays as it is. posed(1), posed(2): the shapes, for a patch that becomes a bond.
@@ -40,14 +27,7 @@ JointForces jointForces(const JointParameters& joint, JointHistory& history, con
             law.repeatAsPatch(here->patch, motionAt(*here), history.damping);
         return law.forces();
     }
-    const bool holds = history.isBond() && law.holdAsBond(true);
-    if (!holds && here && here->patch.area > 0) {
-        const JointMotion motion = motionAt(*here);
-        law.holdAsPatch(here->patch, motion);
-        if (law.shallBond())
-            law.bond(here->patch, motion, posed(1), posed(2));
-    } else if (!holds)
-        law.open();
+    law.step(here && here->patch.area > 0 ? &here->patch : nullptr, true, [&] { return motionAt(*here); }, posed);
     history.touching = here.has_value();
     if (here)
         history.normal = here->normal;

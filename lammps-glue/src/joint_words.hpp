@@ -3,8 +3,8 @@
 // What a command says of a contact: KN KS FRICTION RESTITUTION, and of contacts by patch their strength.
 #pragma once
 
-#include "contact_law.hpp"
-#include "joint-law/joint.hpp"
+#include "plugin-common/point_law.hpp"
+#include "plugin-common/joint.hpp"
 
 #include "pointers.h"
 
@@ -18,6 +18,9 @@ LawParameters readLaw(LAMMPS_NS::LAMMPS* lmp, const char* command, char** argume
 
 // The same numbers, with stiffnesses per area, and no strength.
 JointParameters jointOf(const LawParameters& law);
+
+// `patch TOL`.
+double readPatchTolerance(LAMMPS_NS::LAMMPS* lmp, const char* command, const char* text);
 
 // Takes a word of strength with its numbers, if there is one at `at`: how many arguments it was, or 0.
 int readStrength(LAMMPS_NS::LAMMPS* lmp, const char* command, char** arguments, int at, int count, JointParameters& joint);

@@ -1,18 +1,25 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "mesh.hpp"
+#include "entered.hpp"
+#include "mark.hpp"
+
+#include <potential_particles.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
-#include <map>
+#include <memory>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 
 namespace potential_particles {
 namespace {
 
 using Corner = std::array<float, 3>;
+
+constexpr double mostCells = 64; // for a triangle, on the average
 
 std::vector<Corner> binaryCorners(const std::string& bytes, uint32_t count)
 {
@@ -26,15 +33,45 @@ std::vector<Corner> textCorners(const std::string& bytes, const std::string& pat
 {
     std::vector<Corner> read;
     std::istringstream words(bytes);
-    for (std::string word; words >> word;)
+    bool ends = false;
+    for (std::string word; words >> word; ends |= word == "endsolid")
         if (word == "vertex") {
             Corner corner;
-            if (!(words >> corner[0] >> corner[1] >> corner[2]))
-                throw std::runtime_error(path + ": vertex " + std::to_string(read.size() + 1) + " is not three numbers");
+            for (float& x : corner) {
+                const double number = words >> word ? numberOf(word) : NAN;
+                if (std::isnan(number))
+                    throw std::runtime_error(path + ": vertex " + std::to_string(read.size() + 1) + " is not three numbers");
+                x = static_cast<float>(number);
+            }
             read.push_back(corner);
         }
+    if (!ends)
+        throw std::runtime_error(path + ": it is no whole STL file: a text ends with endsolid, a binary file has 84 bytes and 50 for each triangle");
     return read;
 }
+
+// Whether the library takes a triangle: it is asked with a ball, before any body comes.
+class TriangleCheck {
+public:
+    TriangleCheck()
+    {
+        pp_particle* made = nullptr;
+        if (pp_particle_new(nullptr, 0, 1, 1, 1, &made, nullptr, 0) == PP_OK)
+            ball.reset(made, pp_particle_free);
+    }
+
+    bool takes(const Triangle& triangle) const
+    {
+        const Eigen::Vector3d& at = triangle[0];
+        const pp_pose pose { { at[0], at[1], at[2] }, { 1, 0, 0, 0 } };
+        pp_flat_contact found;
+        const pp_status status = pp_contact_triangle(ball.get(), &pose, numbersOf(triangle), nullptr, nullptr, &found);
+        return status != PP_BAD_POINT && status != PP_DEGENERATE_TRIANGLE;
+    }
+
+private:
+    std::shared_ptr<const pp_particle> ball;
+};
 
 } // namespace
 
@@ -48,27 +85,17 @@ Mesh::Mesh(const std::string& bytes, const std::string& path, double scale)
         = bytes.size() == 84 + 50 * static_cast<size_t>(count) ? binaryCorners(bytes, count) : textCorners(bytes, path);
     if (read.empty() || read.size() % 3)
         throw std::runtime_error(path + ": " + std::to_string(read.size()) + " vertices: an STL file has three for each triangle, and one triangle at least");
-    std::map<Corner, int> known;
+    triangles.resize(read.size() / 3);
+    const TriangleCheck check;
     for (size_t n = 0; n < read.size(); ++n) {
         for (float x : read[n])
-            if (!std::isfinite(x))
-                throw std::runtime_error(path + ": triangle " + std::to_string(n / 3 + 1) + " has a vertex that is not finite");
-        const auto [at, isNew] = known.emplace(read[n], static_cast<int>(vertices.size()));
-        if (isNew)
-            vertices.push_back(scale * Eigen::Vector3d(read[n][0], read[n][1], read[n][2]));
-        if (n % 3 == 0)
-            corners.emplace_back();
-        corners.back()[n % 3] = at->second;
+            if (!(std::abs(scale * x) <= bearable))
+                throw std::runtime_error(path + ": triangle " + std::to_string(n / 3 + 1) + " has a vertex that is not finite, or beyond 1e100 when scaled: mend the file, or give a smaller scale");
+        triangles[n / 3][n % 3] = scale * Eigen::Vector3d(read[n][0], read[n][1], read[n][2]);
+        if (n % 3 == 2 && !check.takes(triangles[n / 3]))
+            throw std::runtime_error(path + ": triangle " + std::to_string(n / 3 + 1) + " has no area to rounding: remove it from the mesh");
     }
     sortIntoCells();
-}
-
-std::array<double, 9> Mesh::points(int t) const
-{
-    std::array<double, 9> nine;
-    for (int i = 0; i < 3; ++i)
-        std::copy_n(vertices[corners[t][i]].data(), 3, &nine[3 * i]);
-    return nine;
 }
 
 Eigen::Array3i Mesh::cellOf(const Eigen::Vector3d& x) const
@@ -77,24 +104,42 @@ Eigen::Array3i Mesh::cellOf(const Eigen::Vector3d& x) const
     return at.max(0).min((cells - 1).cast<double>()).cast<int>();
 }
 
+void Mesh::addTo(Mark& mark) const
+{
+    for (const Triangle& triangle : triangles)
+        mark.add(numbersOf(triangle), 9);
+}
+
 void Mesh::sortIntoCells()
 {
-    lowest = highest = vertices[0];
-    for (const Eigen::Vector3d& x : vertices) {
-        lowest = lowest.cwiseMin(x);
-        highest = highest.cwiseMax(x);
-    }
+    lowest = highest = triangles[0][0];
+    for (const Triangle& triangle : triangles)
+        for (const Eigen::Vector3d& x : triangle) {
+            lowest = lowest.cwiseMin(x);
+            highest = highest.cwiseMax(x);
+        }
     // As large as a triangle on the average, and not many more cells than triangles.
     double sides = 0;
-    for (const auto& t : corners)
-        sides += (vertices[t[0]] - vertices[t[1]]).norm() + (vertices[t[1]] - vertices[t[2]]).norm();
+    for (const auto& [a, b, c] : triangles)
+        sides += (a - b).norm() + (b - c).norm();
     const Eigen::Array3d extent = (highest - lowest).array();
-    cellSize = std::max(0.5 * sides / corners.size(), extent.maxCoeff() / std::cbrt(8.0 * corners.size()));
-    cells = (extent / cellSize).floor().cast<int>() + 1;
+    cellSize = std::max(0.5 * sides / triangles.size(), extent.maxCoeff() / std::cbrt(8.0 * triangles.size()));
+    const auto cellsOf = [this](const Triangle& triangle) {
+        const auto& [a, b, c] = triangle;
+        return std::pair(cellOf(a.cwiseMin(b).cwiseMin(c)), cellOf(a.cwiseMax(b).cwiseMax(c)));
+    };
+    // Few large triangles among many small ones would lie in too many cells.
+    for (double entries = INFINITY; entries > mostCells * triangles.size(); cellSize *= entries > mostCells * triangles.size() ? 2 : 1) {
+        cells = (extent / cellSize).floor().cast<int>() + 1;
+        entries = 0;
+        for (const Triangle& t : triangles) {
+            const auto [low, high] = cellsOf(t);
+            entries += (high - low + 1).cast<double>().prod();
+        }
+    }
     inCell.resize(static_cast<size_t>(cells.prod()));
-    for (size_t t = 0; t < corners.size(); ++t) {
-        const Eigen::Vector3d &a = vertices[corners[t][0]], &b = vertices[corners[t][1]], &c = vertices[corners[t][2]];
-        const Eigen::Array3i low = cellOf(a.cwiseMin(b).cwiseMin(c)), high = cellOf(a.cwiseMax(b).cwiseMax(c));
+    for (size_t t = 0; t < triangles.size(); ++t) {
+        const auto [low, high] = cellsOf(triangles[t]);
         for (int x = low[0]; x <= high[0]; ++x)
             for (int y = low[1]; y <= high[1]; ++y)
                 for (int z = low[2]; z <= high[2]; ++z)

@@ -3,13 +3,14 @@
 // Triangles of an STL file, and which of them are near a place.
 #pragma once
 
-#include <Eigen/Core>
+#include "plugin-common/triangle.hpp"
 
-#include <array>
 #include <string>
 #include <vector>
 
 namespace potential_particles {
+
+class Mark;
 
 class Mesh {
 public:
@@ -17,13 +18,11 @@ public:
     // Throws std::runtime_error.
     Mesh(const std::string& bytes, const std::string& path, double scale);
 
-    size_t size() const { return corners.size(); }
-    const std::array<int, 3>& triangle(int t) const { return corners[t]; } // indices of vertices, which triangles share
-    const Eigen::Vector3d& vertex(int v) const { return vertices[v]; }
+    const Triangle& triangle(int t) const { return triangles[t]; }
     const Eigen::Vector3d& low() const { return lowest; } // of the box around all vertices
     const Eigen::Vector3d& high() const { return highest; }
-    // Nine numbers, as the library takes them.
-    std::array<double, 9> points(int t) const;
+
+    void addTo(Mark& mark) const;
 
     // Triangles whose boxes may meet the box about a centre; each once, in ascending order.
     void near(const Eigen::Vector3d& centre, double radius, std::vector<int>& found) const;
@@ -32,8 +31,7 @@ private:
     void sortIntoCells();
     Eigen::Array3i cellOf(const Eigen::Vector3d& x) const;
 
-    std::vector<Eigen::Vector3d> vertices;
-    std::vector<std::array<int, 3>> corners;
+    std::vector<Triangle> triangles;
     Eigen::Vector3d lowest, highest;
     Eigen::Array3i cells;
     double cellSize = 1;

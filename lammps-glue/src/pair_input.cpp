@@ -2,6 +2,7 @@
 //
 // What scripts say of the pair style, and what is needed before a run.
 #include "pair_potential_particle.hpp"
+#include "entered.hpp"
 #include "fix_nve.hpp"
 #include "fix_shapes.hpp"
 #include "joint_words.hpp"
@@ -49,12 +50,7 @@ void PairPotentialParticle::settings(int count, char** arguments)
         }
         if (++i == count)
             error->all(FLERR, "{}: '{}' is no option, or its value is missing: {}", style, word, options);
-        const auto tolerance = [&] {
-            const double value = utils::numeric(FLERR, arguments[i], false, lmp);
-            if (!(value >= 0 && value <= 0.1))
-                error->all(FLERR, "{}: {} = {}: it must lie in [0, 0.1]", style, word, arguments[i]);
-            return value;
-        };
+        const auto tolerance = [&] { return numberIn(lmp, style, word, arguments[i], 0, 0.1); };
         if (word == "carry")
             how.carry_tolerance = tolerance();
         else if (word == "flat")
@@ -67,9 +63,7 @@ void PairPotentialParticle::settings(int count, char** arguments)
         } else if (word == "failures" && (!strcmp(arguments[i], "stop") || !strcmp(arguments[i], "count")))
             stopAtFailure = !strcmp(arguments[i], "stop");
         else if (word == "patch") {
-            patchTolerance = utils::numeric(FLERR, arguments[i], false, lmp);
-            if (!(patchTolerance >= 1e-12 && patchTolerance <= 0.1))
-                error->all(FLERR, "{}: patch = {}: the relative error of a patch must lie in [1e-12, 0.1]; 1e-4 is a good choice", style, arguments[i]);
+            patchTolerance = readPatchTolerance(lmp, style, arguments[i]);
             byPatch = true;
         } else if (word == "whole") {
             wholeBefore = utils::bnumeric(FLERR, arguments[i], false, lmp);
@@ -110,6 +104,7 @@ void PairPotentialParticle::coeff(int count, char** arguments)
             jointLaws[i * (atom->ntypes + 1) + j] = jointLaws[j * (atom->ntypes + 1) + i] = joint;
             setflag[i][j] = 1;
         }
+    checkedStep = -1;
 }
 
 void PairPotentialParticle::init_style()
@@ -126,6 +121,7 @@ void PairPotentialParticle::init_style()
         memories.empty() ? modify->add_fix(fmt::format("{} all potential/particle/memory", memoryId)) : memories.front());
     memory_->attach(this);
     moving = FixNve::groups(lmp);
+    checkedStep = -1;
     neighbor->add_request(this);
 }
 
@@ -133,16 +129,23 @@ double PairPotentialParticle::init_one(int i, int j)
 {
     if (!setflag[i][j])
         error->all(FLERR, "{}: types {} and {} have no coefficients: give 'pair_coeff {} {} KN KS FRICTION RESTITUTION'", style, i, j, i, j);
-    const Shape &a = shapes->shape(i), &b = shapes->shape(j);
-    // Two bodies on one spring are no slower than this, whatever the levers. Of a patch the area is not known before there is one.
-    if (byPatch)
-        return a.radius + b.radius;
-    const double massA = shapes->density(i) * a.volume, massB = shapes->density(j) * b.volume;
-    const double most = 2 * std::sqrt(massA * massB / (massA + massB) / laws[i * (atom->ntypes + 1) + j].stiffest());
-    if (update->dt > most)
-        error->all(FLERR, "{}: timestep = {}: a contact of types {} and {} is unstable above {}, and with levers well below: take {} or less", style,
-            update->dt, i, j, most, 0.1 * most);
-    return a.radius + b.radius;
+    return shapes->shape(i).radius + shapes->shape(j).radius;
+}
+
+// Two bodies on one spring are no slower than this, whatever the levers. Of a patch the area is not known before there is one.
+void PairPotentialParticle::checkTimeSteps()
+{
+    if (checkedStep == update->dt)
+        return;
+    checkedStep = update->dt;
+    for (int i = 1; !byPatch && i <= atom->ntypes; ++i)
+        for (int j = i; j <= atom->ntypes; ++j) {
+            const double massA = shapes->massOf(i), massB = shapes->massOf(j);
+            const double most = 2 * std::sqrt(massA * massB / (massA + massB) / laws[i * (atom->ntypes + 1) + j].stiffest());
+            if (update->dt > most)
+                error->all(FLERR, "{}: timestep = {}: a contact of types {} and {} is unstable above {}, and with levers well below: take {} or less", style,
+                    update->dt, i, j, most, 0.1 * most);
+        }
 }
 
 } // namespace potential_particles

@@ -15,11 +15,6 @@ using namespace LAMMPS_NS;
 using Eigen::Vector3d;
 
 namespace potential_particles {
-namespace {
-
-constexpr double areaTolerance = 1e-6; // of a disc in the place of a patch
-
-} // namespace
 
 void PairPotentialParticle::applyLaw(int slot)
 {
@@ -118,7 +113,7 @@ std::optional<PatchInStep> PairPotentialParticle::patchOf(int slot)
         state = std::make_unique<pp_patch_state>();
     pp_patch patch;
     const pp_status status = pp_patch_of_contact(particles[a], &poses[a], particles[b], &poses[b], &found, patchTolerance, 1, state.get(), &patch, nullptr, 0, nullptr);
-    if (auto here = patchInStep(status, patch))
+    if (auto here = PatchInStep::of(status, patch))
         return here;
     pvector[fallbacks] += static_cast<int>(a) < local && static_cast<int>(b) < local ? 1.0 : 0.5;
     double area = 0; // stays 0 for bodies that overlap by nothing but rounding: no point lies in both

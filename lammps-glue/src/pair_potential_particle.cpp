@@ -2,7 +2,9 @@
 #include "pair_potential_particle.hpp"
 #include "arrays.hpp"
 #include "fix_shapes.hpp"
-#include "motion.hpp"
+
+#include "plugin-common/motion_bound.hpp"
+#include "plugin-common/new_contact.hpp"
 
 #include "atom.h"
 #include "comm.h"
@@ -63,6 +65,8 @@ PairPotentialParticle::~PairPotentialParticle()
         memory_->detach();
         modify->delete_fix(memoryId);
     }
+    if (update) // computes know the style: they look for it anew even where the next run says 'pre no'
+        update->first_update = 0;
 }
 
 void PairPotentialParticle::allocate()
@@ -91,18 +95,32 @@ void PairPotentialParticle::writeValues(int slot, double* to) const
         to = std::copy(part->data(), part->data() + 3, to);
 }
 
-bool PairPotentialParticle::isBond(const double* values, int count) const
+bool PairPotentialParticle::isBond(const ContactMemory::Partner& partner) const
 {
+    if (partner.where >= 0)
+        return isBond(partner.where);
+    const auto [values, count] = memory_->arrived(partner.where);
     return byPatch && count > pointValues && readNumbers(values).isBond();
+}
+
+// Whether a contact that is remembered is one of these shapes.
+bool PairPotentialParticle::fits(const ContactMemory::Partner& partner, int a, int b)
+{
+    if (partner.mark == markOfBoth(marks[a], marks[b]))
+        return true;
+    if (isBond(partner))
+        error->one(FLERR, "{}: atoms {} and {} are bonded, and one has another shape than its bond: leave the shapes as they are, or begin without bonds: 'pair_style none' and the style again",
+            style, tags[a], tags[b]);
+    if (!toldOfShapes)
+        error->warning(FLERR, "{}: the contact of atoms {} and {}, and maybe others, begins anew, since a shape has changed", style, tags[a], tags[b]);
+    toldOfShapes = true;
+    return false;
 }
 
 // What another rank or a file has of a contact, into the last slot.
 void PairPotentialParticle::takeArrived(int where, int slot)
 {
-    const auto [values, count] = memory_->arrived(where);
-    if (byPatch == (count == pointValues))
-        error->one(FLERR, "{}: the contacts of the restart file act {}: give the pair_style {} 'patch TOL' as when it was written", style,
-            byPatch ? "in a point" : "on patches", byPatch ? "without" : "with");
+    const double* values = memory_->arrived(where).values;
     if (byPatch)
         joints[slot] = readNumbers(values);
     else
@@ -120,10 +138,12 @@ void PairPotentialParticle::rebuild()
     const int all = local + atom->nghost;
     tags.assign(atom->tag, atom->tag + all);
     particles.resize(all);
+    marks.resize(all);
     radii.resize(all);
     for (int i = 0; i < all; ++i) {
         const Shape& shape = shapes->shape(atom->type[i]);
         particles[i] = shape.particle.get();
+        marks[i] = shape.mark;
         radii[i] = shape.radius;
     }
     poses.clear(); // gathered anew, with no way between
@@ -143,11 +163,11 @@ void PairPotentialParticle::rebuild()
             const int j = list->firstneigh[i][jj] & NEIGHMASK;
             const bool inOrder = atom->tag[i] <= atom->tag[j];
             const int a = inOrder ? i : j, b = inOrder ? j : i;
-            const int where = memory_->find(i, atom->tag[j]);
-            if (where == ContactMemory::nowhere)
+            const ContactMemory::Partner* known = memory_->find(i, atom->tag[j]);
+            if (!known || !fits(*known, a, b))
                 far.push_back({ a, b, -1.0 });
             else {
-                from.push_back(where);
+                from.push_back(known->where);
                 newBodies.push_back({ static_cast<uint32_t>(a), static_cast<uint32_t>(b) });
             }
         }
@@ -216,7 +236,7 @@ void PairPotentialParticle::gatherPoses()
     comm->forward_comm(this);
     for (size_t i = 0; i < all; ++i) {
         std::copy_n(atom->x[i], 3, poses[i].position);
-        ways[i] += wayBetween(first ? pp_pose {} : last[i], poses[i], radii[i]);
+        ways[i] = travelled(ways[i], wayBetween(first ? pp_pose {} : last[i], poses[i], radii[i]));
         if (!std::isfinite(ways[i]))
             error->one(FLERR, "{}: atom {} has the pose {}: it must be finite; a smaller timestep or softer contacts may help", style, atom->tag[i],
                 described(poses[i]));
@@ -305,15 +325,13 @@ void PairPotentialParticle::solveNear()
         error->one(FLERR, "{}: {}", style, pp_status_message(status));
     for (int slot = 0; slot < slotCount();) {
         const int a = static_cast<int>(bodies[slot].a), b = static_cast<int>(bodies[slot].b);
-        // A new contact is solved from nothing: a pair that does not touch is no part of what migrates or is in files.
-        if (statuses[slot] == PP_OK && answers[slot].kind == PP_OVERLAPPING && !lasts(slot)) {
-            states[slot] = {};
-            statuses[slot] = pp_contact_detect(particles[a], &poses[a], particles[b], &poses[b], &how, &states[slot], &answers[slot]);
-        }
+        statuses[slot] = fromNothingIfNew(statuses[slot], answers[slot], lasts(slot), &states[slot], [&] {
+            return pp_contact_detect(particles[a], &poses[a], particles[b], &poses[b], &how, &states[slot], &answers[slot]);
+        });
         if (statuses[slot] != PP_OK)
             fail(a, b, statuses[slot]);
         else if (sleeps(answers[slot], a, b) && !isBond(slot)) {
-            far.push_back({ a, b, ways[a] + ways[b] + answers[slot].distance });
+            far.push_back({ a, b, wakesAt(ways[a] + ways[b], answers[slot].distance) });
             removeSlot(slot);
             continue;
         }
@@ -332,7 +350,7 @@ void PairPotentialParticle::lookAtFar()
         }
         const double distance = apart(pair.a, pair.b);
         if (distance > 0) {
-            pair.wake = both + distance;
+            pair.wake = wakesAt(both, distance);
             ++n;
             continue;
         }
@@ -342,7 +360,7 @@ void PairPotentialParticle::lookAtFar()
         if (status != PP_OK)
             fail(pair.a, pair.b, status);
         else if (sleeps(found, pair.a, pair.b)) {
-            pair.wake = both + found.distance;
+            pair.wake = wakesAt(both, found.distance);
             ++n;
             continue;
         }
@@ -358,6 +376,7 @@ void PairPotentialParticle::compute(int eflag, int vflag)
     ev_init(eflag, vflag);
     advance = !update->setupflag;
     pvector[contacts] = pvector[elastic] = pvector[bonds] = pvector[fallbacks] = 0;
+    checkTimeSteps();
     checkSkin();
     checkTurns();
     gatherPoses();

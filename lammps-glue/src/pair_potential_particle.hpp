@@ -3,15 +3,16 @@
 // pair_style potential/particle [carry TOL] [flat EPS] [closest] [threads N] [failures stop|count] [patch TOL] [whole STEP] [bonds yes|no]
 // pair_coeff I J KN KS FRICTION RESTITUTION [cohesion C] [tension T] [residual FRICTION COHESION] [softening W]
 //
-// Contacts act in a point (contact_law), or, with `patch`, on the patch by the law of joints (joint-law), stiffnesses being per area.
+// Contacts act in a point (point_law), or, with `patch`, on the patch by the law of joints (plugin-common), stiffnesses being per area.
 // A step: poses of all atoms are gathered. Pairs of the list of neighbours are *far* or *near*. A far pair sleeps until both bodies together have
 // come as far as they were apart when they were last looked at; it has no memory. Near pairs have a slot each, with the library's state
 // and the history of the contact, and are solved in one call of the library.
 #pragma once
 
-#include "contact_law.hpp"
+#include "plugin-common/point_law.hpp"
 #include "contact_memory.hpp"
 #include "joint_step.hpp"
+#include "mark.hpp"
 
 #include "pair.h"
 
@@ -43,13 +44,15 @@ public:
 
     // For the fix that carries memories (ContactMemory).
     void rebuild(); // from the new list of neighbours
+    bool actsOnPatches() const { return byPatch; }
     int slotCount() const { return static_cast<int>(bodies.size()); }
     int localAtBuild() const { return local; }
     LAMMPS_NS::tagint tagAtBuild(int atom) const { return tags[atom]; } // a fix may have put new atoms in the place of ghosts since
+    double markAtBuild(int slot) const { return markOfBoth(marks[bodies[slot].a], marks[bodies[slot].b]); }
     std::pair<int, int> bodiesOf(int slot) const { return { bodies[slot].a, bodies[slot].b }; }
     bool lasts(int slot) const { return byPatch ? joints[slot].lasts() : histories[slot].touching; }
+    bool isBond(const ContactMemory::Partner& partner) const;
     bool isBond(int slot) const { return byPatch && joints[slot].isBond(); }
-    bool isBond(const double* values, int count) const;
     int valueCount(int slot) const;
     void writeValues(int slot, double* to) const;
     // Sums since the first step, of this rank: failures, energy that friction and dashpots took, that patches and bonds did.
@@ -71,6 +74,7 @@ private:
 
     void allocate();
     void gatherPoses();
+    bool fits(const ContactMemory::Partner& partner, int a, int b);
     void checkBonds(int before);
     void checkSkin();
     void checkTurns();
@@ -91,6 +95,7 @@ private:
     double inverseMass(int i) const; // 0 of a body that no force moves
     JointBody bodyOf(int i) const;
     PosedShape posedShape(int i) const;
+    void checkTimeSteps();
     void checkTimeStep(int a, int b, const JointForces& forces) const;
     void push(int i, const Eigen::Vector3d& force, const Eigen::Vector3d& torque);
     void count(int a, int b, const Eigen::Vector3d& onB, const JointEnergies& energies);
@@ -107,13 +112,14 @@ private:
     bool makesBonds = false; // of those
     std::vector<JointParameters> jointLaws; // as `laws`
     int moving = 0; // FixNve::groups
-    bool toldOfTurns = false;
+    double checkedStep = -1; // time step that was found stable
+    bool toldOfTurns = false, toldOfShapes = false;
     bool advance = true; // this step goes on, and does not repeat the last one
 
     int local = 0; // atoms, when the list of neighbours was built
     std::vector<LAMMPS_NS::tagint> tags;
     std::vector<const pp_particle*> particles; // of all atoms, ghosts too
-    std::vector<double> radii, ways; // ways: come since the list was built
+    std::vector<double> marks, radii, ways; // marks: of shapes; ways: come since the list was built
     std::vector<pp_pose> poses, last; // of this step and the last one
     std::vector<std::array<double, 3>> held; // positions when the list was built, where LAMMPS may let it grow old
     std::vector<Far> far;

@@ -9,7 +9,9 @@
 #include "abi/plugin.hpp"
 
 #include "error.h"
+#include "exceptions.h"
 #include "lammps.h"
+#include "update.h"
 
 #include <potential_particles.h>
 
@@ -21,7 +23,17 @@ template <class Style> void* makePair(void* lammps) { return new Style(static_ca
 
 template <class Style> void* makeFix(void* lammps, int count, char** arguments)
 {
-    return new Style(static_cast<LAMMPS_NS::LAMMPS*>(lammps), count, arguments);
+    auto* lmp = static_cast<LAMMPS_NS::LAMMPS*>(lammps);
+    // Between runs: what is new, or knows what is gone, is made ready even where the next run says 'pre no'.
+    if (!lmp->update->whichflag)
+        lmp->update->first_update = 0;
+    try {
+        return new Style(lmp, count, arguments);
+    } catch (const LAMMPS_NS::LAMMPSException&) {
+        throw;
+    } catch (const std::exception&) { // of one rank alone, maybe
+        lmp->error->one(FLERR, "fix {} {}: there is no memory for what it shall read: give smaller files", arguments[0], arguments[2]);
+    }
 }
 
 } // namespace

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "shape.hpp"
+#include "entered.hpp"
+#include "mark.hpp"
 
 #include <cmath>
 #include <sstream>
@@ -51,6 +53,11 @@ Shape finished(const std::string& name, const std::vector<double>& planes, doubl
             + "): turn its planes into principal axes (potential_particles.to_lammps does)");
     shape.volume = mass.volume;
     shape.moments = Eigen::Vector3d(inertia);
+    Mark mark;
+    mark.add(planes.data(), planes.size());
+    for (const double number : { r, k, shadowRadius })
+        mark.add(&number, 1);
+    shape.mark = mark.value();
     return shape;
 }
 
@@ -75,13 +82,8 @@ std::vector<Shape> readShapes(const std::string& text, const std::string& path)
             std::string word;
             if (!(words >> word))
                 place.refuse(std::string(what) + ": a number is missing");
-            size_t used = 0;
-            double read = 0;
-            try {
-                read = std::stod(word, &used);
-            } catch (const std::exception&) {
-            }
-            if (used != word.size())
+            const double read = numberOf(word);
+            if (std::isnan(read))
                 place.refuse(std::string(what) + " = " + word + ": it must be a number");
             return read;
         };

@@ -18,8 +18,12 @@ struct Shape {
     std::shared_ptr<const pp_particle> particle;
     double radius; // of a ball about the centre that holds it
     double volume;
+    double mark; // of what the file says of it
     Eigen::Vector3d moments; // of inertia for density 1, about the axes of the local frame, which are principal
 };
+
+// What is further apart than this share of a size sleeps until it can have met; what is nearer would wake too often.
+constexpr double farShare = 1e-3;
 
 // Text of a file of shapes; `path` is for messages alone. A shape is
 //     shape NAME

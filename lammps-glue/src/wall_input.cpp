@@ -2,8 +2,8 @@
 //
 // What a script says of a wall.
 #include "fix_wall.hpp"
+#include "entered.hpp"
 #include "joint_words.hpp"
-#include "text_file.hpp"
 
 #include "atom.h"
 #include "error.h"
@@ -11,6 +11,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <set>
 
 using namespace LAMMPS_NS;
 using Eigen::Vector3d;
@@ -38,46 +39,46 @@ FixWall::FixWall(LAMMPS* lmp, int count, char** arguments)
     joint = jointOf(law);
     bool hasStrength = false;
     double scale = 1;
+    std::string file;
+    std::set<std::string> given;
     for (int i = 7; i < count;) {
         const auto threeAt = [&](int at, const char* what) {
-            return Vector3d(numberAt(arguments, at, what), numberAt(arguments, at + 1, what), numberAt(arguments, at + 2, what));
+            return Vector3d(numberIn(lmp, style, what, arguments[at]), numberIn(lmp, style, what, arguments[at + 1]), numberIn(lmp, style, what, arguments[at + 2]));
+        };
+        const auto directionAt = [&](int at, const char* what) {
+            const Vector3d direction = threeAt(at, what);
+            if (direction.isZero(0))
+                error->all(FLERR, "{}: {} has a direction of length 0: give a vector of any other length", style, what);
+            return Vector3d(direction.stableNormalized());
         };
         const auto is = [&](const char* word, int values) { return !strcmp(arguments[i], word) && i + values < count; };
+        if (const std::string word = arguments[i]; word != "plane" && !given.insert(word).second)
+            error->all(FLERR, "{}: '{}' is given twice: a wall has one of each, and any number of planes", style, word);
         if (is("plane", 6)) {
-            planes.push_back({ threeAt(i + 1, "plane"), threeAt(i + 4, "plane") });
-            if (!(planes.back().normal.norm() > 0))
-                error->all(FLERR, "{}: plane {} has a normal of length 0", style, planes.size());
-            planes.back().normal.normalize();
+            planes.push_back({ threeAt(i + 1, "plane"), directionAt(i + 4, "plane") });
             i += 7;
         } else if (is("stl", 1)) {
             file = arguments[i + 1];
             i += 2;
         } else if (is("scale", 1)) {
-            scale = numberAt(arguments, i + 1, "scale");
-            if (!(scale > 0))
-                error->all(FLERR, "{}: scale = {}: it must be above 0", style, scale);
+            scale = numberIn(lmp, style, "scale", arguments[i + 1], 1 / bearable);
             i += 2;
         } else if (is("flat", 1)) {
-            how.flat_regularisation = numberAt(arguments, i + 1, "flat");
-            if (!(how.flat_regularisation >= 0 && how.flat_regularisation <= 0.1))
-                error->all(FLERR, "{}: flat = {}: it must lie in [0, 0.1]", style, arguments[i + 1]);
+            how.flat_regularisation = numberIn(lmp, style, "flat", arguments[i + 1], 0, 0.1);
             i += 2;
         } else if (is("linear", 3)) {
             linear = threeAt(i + 1, "linear");
             i += 4;
         } else if (is("rotate", 7)) {
             centre = threeAt(i + 1, "rotate");
-            axis = threeAt(i + 4, "rotate");
-            const double period = numberAt(arguments, i + 7, "period");
-            if (!(axis.norm() > 0) || period == 0)
-                error->all(FLERR, "{}: rotate needs an axis of some length and a period other than 0", style);
-            axis.normalize();
+            axis = directionAt(i + 4, "rotate");
+            const double period = numberIn(lmp, style, "period", arguments[i + 7]);
+            if (std::abs(period) < 1 / bearable)
+                error->all(FLERR, "{}: period = {}: it must not lie in (-1e-100, 1e-100)", style, arguments[i + 7]);
             rate = 2 * M_PI / period;
             i += 8;
         } else if (is("patch", 1)) {
-            patchTolerance = numberAt(arguments, i + 1, "patch");
-            if (!(patchTolerance >= 1e-12 && patchTolerance <= 0.1))
-                error->all(FLERR, "{}: patch = {}: the relative error of a patch must lie in [1e-12, 0.1]; 1e-4 is a good choice", style, arguments[i + 1]);
+            patchTolerance = readPatchTolerance(lmp, style, arguments[i + 1]);
             byPatch = true;
             i += 2;
         } else if (is("whole", 1)) {
@@ -94,7 +95,9 @@ FixWall::FixWall(LAMMPS* lmp, int count, char** arguments)
     }
     if (hasStrength && !byPatch)
         error->all(FLERR, "{}: strength is for contacts by patch: add 'patch 1e-4'", style);
-    if (!file.empty()) {
+    if (given.count("scale") && !given.count("stl"))
+        error->all(FLERR, "{}: scale is for a mesh: add 'stl FILE', or leave it out", style);
+    if (given.count("stl")) {
         try {
             mesh = std::make_unique<Mesh>(fileForAll(lmp, file), file, scale);
         } catch (const std::runtime_error& refused) {
@@ -107,14 +110,6 @@ FixWall::FixWall(LAMMPS* lmp, int count, char** arguments)
     grow_arrays(atom->nmax);
     atom->add_callback(Atom::GROW);
     atom->add_callback(Atom::RESTART);
-}
-
-double FixWall::numberAt(char** arguments, int i, const char* what) const
-{
-    const double value = utils::numeric(FLERR, arguments[i], false, lmp);
-    if (!std::isfinite(value))
-        error->all(FLERR, "{}: {} = {}: it must be finite", style, what, arguments[i]);
-    return value;
 }
 
 } // namespace potential_particles

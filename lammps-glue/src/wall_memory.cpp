@@ -2,6 +2,7 @@
 //
 // What contacts with a wall remember, as atoms migrate and restart.
 #include "fix_wall.hpp"
+#include "mark.hpp"
 
 #include "atom.h"
 #include "comm.h"
@@ -16,6 +17,11 @@ using namespace LAMMPS_NS;
 using Eigen::Vector3d;
 
 namespace potential_particles {
+namespace {
+
+constexpr const char* otherwise = "another ID, for a wall whose contacts begin anew";
+
+} // namespace
 
 int FixWall::touching(int i) const
 {
@@ -33,7 +39,7 @@ int FixWall::pack(int i, double* buffer) const
 {
     double* to = buffer;
     *to++ = touching(i);
-    *to++ = savedSize();
+    *to++ = around[i].mark;
     for (const Known& one : around[i].known) {
         if (!one.touches)
             continue;
@@ -52,9 +58,7 @@ int FixWall::unpack(int i, const double* buffer)
     const double* from = buffer;
     around[i] = {};
     around[i].known.resize(static_cast<size_t>(*from++));
-    if (const int size = static_cast<int>(*from++); size != savedSize() && !around[i].known.empty())
-        error->one(FLERR, "{}: the contacts of the restart file act {}: give the fix {} 'patch TOL' as when it was written", style,
-            byPatch ? "in a point" : "on patches", byPatch ? "without" : "with");
+    around[i].mark = *from++;
     for (Known& one : around[i].known) {
         one.element = static_cast<int>(*from++);
         one.touches = true;
@@ -93,35 +97,72 @@ void FixWall::unpack_restart(int i, int nth)
 
 int FixWall::maxsize_restart()
 {
-    int most = 3;
+    int most = 1 + withoutContacts;
     for (int i = 0; i < atom->nlocal; ++i)
         most = std::max(most, size_restart(i));
     return most;
 }
 
+double FixWall::mark() const
+{
+    Mark mark;
+    for (const Plane& plane : planes) {
+        mark.add(plane.point.data(), 3);
+        mark.add(plane.normal.data(), 3);
+    }
+    if (mesh)
+        mesh->addTo(mark);
+    return mark.value();
+}
+
+std::array<double, 10> FixWall::motion() const
+{
+    std::array<double, 10> numbers;
+    double* to = numbers.data();
+    for (const Vector3d* part : { &linear, &centre, &axis })
+        to = std::copy(part->data(), part->data() + 3, to);
+    *to = rate;
+    return numbers;
+}
+
 void FixWall::write_restart(FILE* out)
 {
-    std::array<double, std::size(ofRun)> mine;
-    std::array<double, std::size(ofRun) + 2> all;
-    std::transform(std::begin(ofRun), std::end(ofRun), mine.begin(), [this](Sum sum) { return own[sum]; });
-    MPI_Reduce(mine.data(), all.data(), static_cast<int>(mine.size()), MPI_DOUBLE, MPI_SUM, 0, world);
+    Saved all { savedFormat, mark(), static_cast<double>(byPatch), {}, start, lastTime, 0, {} };
+    const auto now = motion();
+    std::copy(now.begin(), now.end(), all.motion);
+    std::array<double, 1 + std::size(ofRun)> mine {};
+    for (int i = 0; i < atom->nlocal; ++i)
+        mine[0] += touching(i);
+    std::transform(std::begin(ofRun), std::end(ofRun), mine.begin() + 1, [this](Sum sum) { return own[sum]; });
+    MPI_Reduce(mine.data(), &all.contacts, static_cast<int>(mine.size()), MPI_DOUBLE, MPI_SUM, 0, world);
     if (comm->me == 0) {
-        all[mine.size()] = start;
-        all[mine.size() + 1] = lastTime;
         const int size = sizeof all;
         fwrite(&size, sizeof size, 1, out);
-        fwrite(all.data(), sizeof all, 1, out);
+        fwrite(&all, sizeof all, 1, out);
     }
 }
 
 void FixWall::restart(char* saved)
 {
-    std::array<double, std::size(ofRun) + 2> all;
-    std::memcpy(all.data(), saved, sizeof all);
-    start = all[std::size(ofRun)];
-    lastTime = all[std::size(ofRun) + 1];
+    Saved all;
+    std::memcpy(&all.format, saved, sizeof all.format);
+    if (all.format != savedFormat)
+        error->all(FLERR, "fix {} {}: the restart file is of another version of the plugin: {}", id, style, otherwise);
+    std::memcpy(&all, saved, sizeof all);
+    if (all.mark != mark())
+        error->all(FLERR, "fix {} {}: the restart file has a fix of this ID with other planes or triangles, or in another order: give those, or {}", id, style, otherwise);
+    if (all.contacts > 0 && all.byPatch != byPatch)
+        error->all(FLERR, "fix {} {}: the contacts of the restart file act {}: give the fix {} 'patch TOL' as when it was written", id, style, byPatch ? "in a point" : "on patches",
+            byPatch ? "without" : "with");
+    const auto isAtRest = [](const double* motion) { return motion[9] == 0 && std::all_of(motion, motion + 3, [](double x) { return x == 0; }); };
+    const auto now = motion();
+    if (std::equal(now.begin(), now.end(), all.motion)) {
+        start = all.start;
+        lastTime = all.lastTime;
+    } else if (!isAtRest(all.motion))
+        error->all(FLERR, "fix {} {}: the restart file has a fix of this ID with another linear or rotate, by which it has moved: give those, or {}", id, style, otherwise);
     for (size_t n = 0; comm->me == 0 && n < std::size(ofRun); ++n)
-        own[ofRun[n]] = all[n];
+        own[ofRun[n]] = all.sums[n];
 }
 
 } // namespace potential_particles

@@ -17,7 +17,7 @@ from ._api import *  # noqa: F401, F403
 from ._api import __all__
 
 __all__ = list(__all__)
-__version__ = "0.1.0"
+__version__ = "0.2.0"
 
 
 def _plugin():

@@ -43,8 +43,17 @@ fn two_dimensional<'py, T: Element>(
     options.set_item("copy", false)?;
     // Whole numbers of any kind will do for indices and for doubles; an empty list is of doubles.
     let size: usize = found.getattr("size")?.extract()?;
-    let is_whole: bool = found.getattr("dtype")?.getattr("kind")?.eq("i")?;
-    if size == 0 || (is_whole && kind == "uint32" && found.call_method0("min")?.ge(0)?) {
+    let is_whole = ["i", "u"].contains(&found.getattr("dtype")?.getattr("kind")?.extract::<String>()?.as_str());
+    if size > 0 && is_whole && kind == "uint32" {
+        // numpy drops the upper digits of what is beyond 32 bits.
+        let (least, largest) = (found.call_method0("min")?, found.call_method0("max")?);
+        if let Some(index) =
+            [least.lt(0)?.then_some(least), largest.gt(u32::MAX)?.then_some(largest)].into_iter().flatten().next()
+        {
+            return Err(wrong(format!("{index} is no index: they lie between 0 and {}", u32::MAX)));
+        }
+    }
+    if size == 0 || (is_whole && kind == "uint32") {
         options.set_item("casting", "unsafe")?;
     }
     let found =

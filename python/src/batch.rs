@@ -3,8 +3,9 @@
 use crate::arrays::{in_place, in_place_mut, read, to_rows};
 use crate::errors::{ContactError, of_contact, refused};
 use crate::particle::PyParticle;
-use crate::records::{self, ContactRecord, PoseRecord, contact_type};
+use crate::records::{self, PoseRecord, contact_type};
 use crate::settings::{PySettings, or_default};
+use bytemuck::{Pod, Zeroable};
 use numpy::{PyArray2, PyReadonlyArray2, PyUntypedArrayMethods};
 use potential_particles::{Contact, DetectError, PairState, Particle, Pose, Settings, detect_batch_into};
 use pyo3::exceptions::PyIndexError;
@@ -26,6 +27,11 @@ pub struct PyBatch {
     /// `None` with remember=False.
     memory: Option<Mutex<Memory>>,
 }
+
+/// A contact in the array of the caller.
+#[derive(Clone, Copy, Pod, Zeroable)]
+#[repr(C)]
+struct Record([u64; size_of::<Contact>() / 8]);
 
 /// Pairs of the last call, and the state of each.
 #[derive(Default)]
@@ -66,7 +72,7 @@ impl PyBatch {
             None => py.import("numpy")?.call_method1("empty", (pairs.len(), contact_type(py)?))?,
         };
         let mut bytes = records::contacts(&out)?;
-        let contacts: &mut [ContactRecord] = in_place_mut(bytes.as_slice_mut()?, "out")?;
+        let contacts: &mut [Record] = in_place_mut(bytes.as_slice_mut()?, "out")?;
         if contacts.len() != pairs.len() {
             let (given, needed) = (contacts.len(), pairs.len());
             return Err(refused(format!("out has {given} records where {needed} are needed: one for each pair")));
@@ -133,13 +139,12 @@ impl PyBatch {
         poses: &[PoseRecord],
         pairs: &[[u32; 2]],
         states: &mut [PairState],
-        contacts: &mut [ContactRecord],
+        contacts: &mut [Record],
     ) -> PyResult<Failures> {
         let failures: Mutex<Failures> = Mutex::default();
-        let write = |number: usize, place: &mut ContactRecord, answer: Result<Contact, DetectError>| match answer {
-            Ok(contact) => *place = ContactRecord::of(&contact),
-            Err(error) => {
-                *place = ContactRecord::failed();
+        let write = |number: usize, Record(place): &mut Record, answer: Result<&Contact, DetectError>| {
+            records::put(answer.as_ref().ok().copied(), bytemuck::bytes_of_mut(place));
+            if let Err(error) = answer {
                 failures.lock().unwrap_or_else(PoisonError::into_inner).push((number, error));
             }
         };

@@ -4,6 +4,7 @@ use crate::arrays::{to_vector, vector};
 use crate::contact::{PyPairState, getters, getters_of_contact, names};
 use crate::errors::{of_contact, refused};
 use crate::particle::PyParticle;
+use crate::pickles::pickled;
 use crate::pose::PyPose;
 use crate::settings::{PySettings, or_default};
 use numpy::PyArray1;
@@ -58,7 +59,12 @@ impl PyTriangle {
     }
 }
 
-/// The answer for a particle and a plane or triangle.
+/// The answer for a particle A and a plane or triangle T, world frame, lengths in the caller's unit. What does not apply is NaN.
+///
+/// s: the least s_A = sqrt(S_A) on T, at on_boundary; overlapping if it is below 1. gap, flags, iterations, kind: as of Contact. feature: where on T that is:
+/// ("interior", 0), ("edge", i) or ("vertex", i). overlap: from on_boundary along the normal to the surface of A, at on_particle, length. distance: of
+/// separated ones a lower bound, length. normal: unit, from A to T. point: halfway between both points; separated: on_boundary. point_bound: estimated distance of
+/// on_boundary to the exact one, length. branch: point minus the position of A.
 #[pyclass(name = "FlatContact", module = "potential_particles", frozen)]
 pub struct PyFlatContact(pub FlatContact);
 
@@ -83,6 +89,8 @@ impl PyFlatContact {
         }
     }
 }
+
+pickled!(PyFlatContact: FlatContact);
 
 /// The contact of particle A with a plane, which it may touch from either side, as a FlatContact: the least S_A on it.
 ///

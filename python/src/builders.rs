@@ -3,13 +3,16 @@
 use crate::arrays::{index_rows, rows, to_vector, vector};
 use crate::errors::refused;
 use crate::particle::{PyMassProperties, PyParticle, planes};
+use crate::pickles::pickled;
 use crate::pose::PyPose;
 use numpy::PyArray1;
 use potential_particles::shapes::{self, Rounding, Shape, ShapeError};
+use pyo3::exceptions::PyFutureWarning;
 use pyo3::prelude::*;
 use std::collections::HashMap;
-use std::fs::File;
-use std::io::BufReader;
+use std::ffi::CStr;
+use std::fs;
+use std::io::Cursor;
 use std::path::{Path, PathBuf};
 
 /// A particle about its centroid along its principal axes, and where that frame lies in the builder's.
@@ -17,6 +20,13 @@ use std::path::{Path, PathBuf};
 pub struct PyShape {
     shape: Shape,
     particle: Py<PyParticle>,
+}
+
+impl PyShape {
+    fn of(py: Python<'_>, shape: Shape) -> PyResult<Self> {
+        let particle = Py::new(py, PyParticle(shape.particle.clone()))?;
+        Ok(Self { shape, particle })
+    }
 }
 
 #[pymethods]
@@ -56,73 +66,108 @@ impl PyShape {
     }
 }
 
-/// What all builders are told of rounding: r, k and R.
-type Shares = (f64, f64, Option<f64>);
+pickled!(PyShape: Shape, |object| object.shape, |py, shape| PyShape::of(py, shape)?);
+
+/// The keywords of rounding: the share of the size, k, and r and R, lengths.
+type Keywords = (f64, f64, Option<f64>, Option<f64>);
+
+/// For scripts written for version 0.1, until December 2027.
+const LENGTHS: &CStr =
+    c"r and R of builders are lengths; until version 0.1 they were shares of the size: r=0.05 of then is \
+      rounding=0.05 (docs/wheel.md)";
 
 fn built(
     py: Python<'_>,
-    (r, k, shadow): Shares,
+    (share, k, r, shadow_radius): Keywords,
     make: impl FnOnce(&Rounding) -> Result<Shape, ShapeError> + Send,
 ) -> PyResult<PyShape> {
-    let rounding = Rounding::new(r, k);
-    let rounding = shadow.map_or(rounding, |share| rounding.with_shadow_radius(share));
+    if r.is_some() || shadow_radius.is_some() {
+        PyErr::warn(py, &py.get_type::<PyFutureWarning>(), LENGTHS, 1)?;
+    }
+    let rounding = r.map_or_else(|| Rounding::new(share, k), |r| Rounding::of_radius(r, k));
+    let rounding = shadow_radius.map_or(rounding, |length| rounding.with_shadow_radius(length));
     let shape = py.detach(|| make(&rounding)).map_err(refused)?;
-    let particle = Py::new(py, PyParticle(shape.particle.clone()))?;
-    Ok(PyShape { shape, particle })
+    PyShape::of(py, shape)
 }
 
 /// Of half-spaces, rows (a, b, c, h) with a x + b y + c z <= h inside, or (normals, offsets): the faces of the particle are where these planes are.
 ///
-/// Planes that make no face are left out. r and R: shares of the size, the diameter of the largest ball that fits in the sharp shape; k: sphericity.
+/// Planes that make no face are left out. rounding: r as a share of the size, the diameter of the largest ball that fits in the
+/// sharp shape, or in its place r, a length; k: sphericity; R: a length.
 /// ValueError: no volume, or no point inside.
 #[pyfunction]
-#[pyo3(signature = (planes, *, r=0.05, k=0.02, R=None))]
+#[pyo3(signature = (planes, *, rounding=0.05, k=0.02, r=None, R=None))]
 #[allow(non_snake_case)]
-fn half_spaces(py: Python<'_>, planes: &Bound<'_, PyAny>, r: f64, k: f64, R: Option<f64>) -> PyResult<PyShape> {
+fn half_spaces(
+    py: Python<'_>,
+    planes: &Bound<'_, PyAny>,
+    rounding: f64,
+    k: f64,
+    r: Option<f64>,
+    R: Option<f64>,
+) -> PyResult<PyShape> {
     let planes = self::planes(planes)?;
-    built(py, (r, k, R), |rounding| shapes::half_spaces(&planes, rounding))
+    built(py, (rounding, k, r, R), |rounding| shapes::half_spaces(&planes, rounding))
 }
 
 /// Of the convex hull of points (n, 3), rounded inwards: no part lies outside the hull.
 ///
-/// Triangles that are coplanar to 1e-6 of the extent are one face. r and R: shares of the size, the diameter of the largest ball that fits in the
-/// sharp shape; k: sphericity. ValueError: flat points.
+/// Triangles that are coplanar to 1e-6 of the extent are one face. rounding: r as a share of the size, the diameter of the largest ball that fits in the
+/// sharp shape, or in its place r, a length; k: sphericity; R: a length. ValueError: flat points.
 #[pyfunction]
-#[pyo3(signature = (points, *, r=0.05, k=0.02, R=None))]
+#[pyo3(signature = (points, *, rounding=0.05, k=0.02, r=None, R=None))]
 #[allow(non_snake_case)]
-fn hull(py: Python<'_>, points: &Bound<'_, PyAny>, r: f64, k: f64, R: Option<f64>) -> PyResult<PyShape> {
+fn hull(
+    py: Python<'_>,
+    points: &Bound<'_, PyAny>,
+    rounding: f64,
+    k: f64,
+    r: Option<f64>,
+    R: Option<f64>,
+) -> PyResult<PyShape> {
     let points = rows::<3>(points, "points", "three numbers x, y, z")?;
-    built(py, (r, k, R), |rounding| shapes::hull(&points, rounding))
+    built(py, (rounding, k, r, R), |rounding| shapes::hull(&points, rounding))
 }
 
 /// Of a closed convex surface: points (n, 3) and triangles (m, 3), numbers of points.
 ///
-/// r and R: shares of the size, the diameter of the largest ball that fits in the sharp shape; k: sphericity. ValueError: a surface that is open,
+/// rounding: r as a share of the size, the diameter of the largest ball that fits in the
+/// sharp shape, or in its place r, a length; k: sphericity; R: a length. ValueError: a surface that is open,
 /// not convex or crosses itself; hull makes its convex hull.
 #[pyfunction]
-#[pyo3(signature = (points, triangles, *, r=0.05, k=0.02, R=None))]
+#[pyo3(signature = (points, triangles, *, rounding=0.05, k=0.02, r=None, R=None))]
 #[allow(non_snake_case)]
 fn surface(
     py: Python<'_>,
     points: &Bound<'_, PyAny>,
     triangles: &Bound<'_, PyAny>,
-    r: f64,
+    rounding: f64,
     k: f64,
+    r: Option<f64>,
     R: Option<f64>,
 ) -> PyResult<PyShape> {
     let points = rows::<3>(points, "points", "three numbers x, y, z")?;
     let triangles = index_rows::<3>(triangles, "triangles", "three indices of points")?;
-    built(py, (r, k, R), |rounding| shapes::surface(&points, &triangles, rounding))
+    built(py, (rounding, k, r, R), |rounding| shapes::surface(&points, &triangles, rounding))
 }
 
 /// Of a closed convex surface in a file, .stl (binary or text) or .obj, all lengths multiplied by scale.
 ///
-/// hull=True takes the convex hull of its points. r and R: shares of the size, the diameter of the largest ball that fits in the sharp shape; k:
-/// sphericity. ValueError: as of surface, and files that cannot be read.
+/// hull=True takes the convex hull of its points. rounding: r as a share of the size, the diameter of the largest ball that fits in the
+/// sharp shape, or in its place r, a length; k: sphericity; R: a length. ValueError: as of surface, and files that cannot be read.
 #[pyfunction]
-#[pyo3(signature = (file, *, hull=false, scale=1.0, r=0.05, k=0.02, R=None))]
-#[allow(non_snake_case)]
-fn mesh(py: Python<'_>, file: PathBuf, hull: bool, scale: f64, r: f64, k: f64, R: Option<f64>) -> PyResult<PyShape> {
+#[pyo3(signature = (file, *, hull=false, scale=1.0, rounding=0.05, k=0.02, r=None, R=None))]
+#[allow(non_snake_case, clippy::too_many_arguments)]
+fn mesh(
+    py: Python<'_>,
+    file: PathBuf,
+    hull: bool,
+    scale: f64,
+    rounding: f64,
+    k: f64,
+    r: Option<f64>,
+    R: Option<f64>,
+) -> PyResult<PyShape> {
     if !(scale > 0.0 && scale.is_finite()) {
         return Err(refused(format!("scale={scale:?} must be finite and above 0")));
     }
@@ -132,7 +177,10 @@ fn mesh(py: Python<'_>, file: PathBuf, hull: bool, scale: f64, r: f64, k: f64, R
         return Err(refused(format!("{name} holds no triangles: it is empty, or not what its ending says")));
     }
     let points: Vec<[f64; 3]> = points.into_iter().map(|point| point.map(|c| scale * c)).collect();
-    built(py, (r, k, R), |rounding| {
+    if !points.iter().flatten().all(|c| c.is_finite()) {
+        return Err(refused(format!("{name}: times scale={scale:?} its points are not finite")));
+    }
+    built(py, (rounding, k, r, R), |rounding| {
         if hull { shapes::hull(&points, rounding) } else { shapes::surface(&points, &triangles, rounding) }
     })
     .map_err(|error| refused(format!("{name}: {}", error.value(py))))
@@ -142,12 +190,17 @@ type Surface = (Vec<[f64; 3]>, Vec<[u32; 3]>);
 
 /// Points, of which equal ones are one, and triangles without those that have lost a corner by that.
 fn read(file: &Path) -> Result<Surface, String> {
-    let opened = || File::open(file).map(BufReader::new).map_err(|error| error.to_string());
+    let bytes = fs::read(file).map_err(|error| error.to_string())?;
+    if bytes.starts_with(b"\xff\xfe") || bytes.starts_with(b"\xfe\xff") {
+        return Err("it is text in UTF-16: save it as UTF-8".into());
+    }
+    // Without the mark of UTF-8.
+    let opened = || Cursor::new(bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(&bytes));
     let ending = file.extension().and_then(|ending| ending.to_str()).unwrap_or_default().to_lowercase();
     let (points, triangles): (Vec<[f64; 3]>, Vec<[u32; 3]>) = match ending.as_str() {
         "stl" => {
             let found =
-                stl_io::read_stl(&mut opened()?).map_err(|error| format!("it cannot be read as .stl: {error}"))?;
+                stl_io::read_stl(&mut opened()).map_err(|error| format!("it cannot be read as .stl: {error}"))?;
             let points = found.vertices.iter().map(|vertex| [0, 1, 2].map(|i| f64::from(vertex[i]))).collect();
             (points, found.faces.iter().map(|face| face.vertices.map(|i| i as u32)).collect())
         }
@@ -155,7 +208,7 @@ fn read(file: &Path) -> Result<Surface, String> {
             let options =
                 tobj::LoadOptions { triangulate: true, ignore_points: true, ignore_lines: true, ..Default::default() };
             let none = |_: &Path| Ok(Default::default());
-            let (models, _) = tobj::load_obj_buf(&mut opened()?, &options, none)
+            let (models, _) = tobj::load_obj_buf(&mut opened(), &options, none)
                 .map_err(|error| format!("it cannot be read as .obj: {error}"))?;
             let (mut points, mut triangles) = (Vec::new(), Vec::new());
             for model in models {
@@ -188,26 +241,34 @@ fn read(file: &Path) -> Result<Surface, String> {
 /// A sphere about the origin: k = 1.
 #[pyfunction]
 fn sphere(py: Python<'_>, radius: f64) -> PyResult<PyShape> {
-    built(py, (0.0, 1.0, None), |_| shapes::sphere(radius))
+    built(py, (0.0, 1.0, None, None), |_| shapes::sphere(radius))
 }
 
 /// A cuboid about the origin with these edges along x, y, z, length.
 ///
-/// r and R: shares of the size, the diameter of the largest ball that fits in the sharp shape; k: sphericity.
+/// rounding: r as a share of the size, the diameter of the largest ball that fits in the
+/// sharp shape, or in its place r, a length; k: sphericity; R: a length.
 #[pyfunction]
-#[pyo3(signature = (edges, *, r=0.05, k=0.02, R=None))]
+#[pyo3(signature = (edges, *, rounding=0.05, k=0.02, r=None, R=None))]
 #[allow(non_snake_case)]
-fn cuboid(py: Python<'_>, edges: &Bound<'_, PyAny>, r: f64, k: f64, R: Option<f64>) -> PyResult<PyShape> {
+fn cuboid(
+    py: Python<'_>,
+    edges: &Bound<'_, PyAny>,
+    rounding: f64,
+    k: f64,
+    r: Option<f64>,
+    R: Option<f64>,
+) -> PyResult<PyShape> {
     let edges = vector(edges, "edges")?;
-    built(py, (r, k, R), |rounding| shapes::cuboid(edges, rounding))
+    built(py, (rounding, k, r, R), |rounding| shapes::cuboid(edges, rounding))
 }
 
 /// A regular prism along z from -height/2 to height/2; radius: of the circle within its section; the first side faces x.
 ///
-/// top_radius: that at the upper end, a frustum; 0 makes a pyramid. r and R: shares of the size, the diameter of the largest ball that fits in the
-/// sharp shape; k: sphericity.
+/// top_radius: that at the upper end, a frustum; 0 makes a pyramid. rounding: r as a share of the size, the diameter of the largest ball that fits in the
+/// sharp shape, or in its place r, a length; k: sphericity; R: a length.
 #[pyfunction]
-#[pyo3(signature = (sides=6, radius=0.5, height=1.0, top_radius=None, *, r=0.05, k=0.02, R=None))]
+#[pyo3(signature = (sides=6, radius=0.5, height=1.0, top_radius=None, *, rounding=0.05, k=0.02, r=None, R=None))]
 #[allow(non_snake_case, clippy::too_many_arguments)]
 fn prism(
     py: Python<'_>,
@@ -215,39 +276,53 @@ fn prism(
     radius: f64,
     height: f64,
     top_radius: Option<f64>,
-    r: f64,
+    rounding: f64,
     k: f64,
+    r: Option<f64>,
     R: Option<f64>,
 ) -> PyResult<PyShape> {
-    built(py, (r, k, R), |rounding| shapes::frustum(sides, radius, top_radius.unwrap_or(radius), height, rounding))
+    built(py, (rounding, k, r, R), |rounding| {
+        shapes::frustum(sides, radius, top_radius.unwrap_or(radius), height, rounding)
+    })
 }
 
 /// A cylinder along z as a prism of as many sides, whose section has the area pi radius^2.
 ///
-/// r and R: shares of the size, the diameter of the largest ball that fits in the sharp shape; k: sphericity.
+/// rounding: r as a share of the size, the diameter of the largest ball that fits in the
+/// sharp shape, or in its place r, a length; k: sphericity; R: a length.
 #[pyfunction]
-#[pyo3(signature = (radius=0.5, height=1.0, sides=32, *, r=0.05, k=0.02, R=None))]
-#[allow(non_snake_case)]
+#[pyo3(signature = (radius=0.5, height=1.0, sides=32, *, rounding=0.05, k=0.02, r=None, R=None))]
+#[allow(non_snake_case, clippy::too_many_arguments)]
 fn cylinder(
     py: Python<'_>,
     radius: f64,
     height: f64,
     sides: usize,
-    r: f64,
+    rounding: f64,
     k: f64,
+    r: Option<f64>,
     R: Option<f64>,
 ) -> PyResult<PyShape> {
-    built(py, (r, k, R), |rounding| shapes::cylinder(radius, height, sides, rounding))
+    built(py, (rounding, k, r, R), |rounding| shapes::cylinder(radius, height, sides, rounding))
 }
 
 /// The regular solid of 4, 6, 8, 12 or 20 faces with this length of edges, about the origin.
 ///
-/// r and R: shares of the size, the diameter of the largest ball that fits in the sharp shape; k: sphericity.
+/// rounding: r as a share of the size, the diameter of the largest ball that fits in the
+/// sharp shape, or in its place r, a length; k: sphericity; R: a length.
 #[pyfunction]
-#[pyo3(signature = (faces, edge=1.0, *, r=0.05, k=0.02, R=None))]
+#[pyo3(signature = (faces, edge=1.0, *, rounding=0.05, k=0.02, r=None, R=None))]
 #[allow(non_snake_case)]
-fn regular_solid(py: Python<'_>, faces: usize, edge: f64, r: f64, k: f64, R: Option<f64>) -> PyResult<PyShape> {
-    built(py, (r, k, R), |rounding| shapes::regular_solid(faces, edge, rounding))
+fn regular_solid(
+    py: Python<'_>,
+    faces: usize,
+    edge: f64,
+    rounding: f64,
+    k: f64,
+    r: Option<f64>,
+    R: Option<f64>,
+) -> PyResult<PyShape> {
+    built(py, (rounding, k, r, R), |rounding| shapes::regular_solid(faces, edge, rounding))
 }
 
 pub fn add(parent: &Bound<'_, PyModule>) -> PyResult<()> {

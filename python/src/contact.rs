@@ -3,13 +3,16 @@
 use crate::arrays::to_vector;
 use crate::errors::{of_contact, refused};
 use crate::particle::PyParticle;
+use crate::pickles::pickled;
 use crate::pose::PyPose;
-use crate::records::{ContactRecord, contact_type};
+use crate::records::contact_type;
 use crate::settings::{PySettings, or_default};
 use numpy::PyArray1;
 use potential_particles::{ClosestPoint, Contact, Kind, PairState, Role, Section};
 use pyo3::prelude::*;
-use pyo3::types::PyBytes;
+use pyo3::PyClass;
+use pyo3::pyclass::boolean_struct::True;
+use pyo3::types::{PyBytes, PyCFunction, PyDict, PyTuple};
 
 /// What an ordered pair keeps from call to call. Copied and pickled, it keeps the solution, from which the next call starts.
 #[pyclass(name = "PairState", module = "potential_particles")]
@@ -38,7 +41,14 @@ impl PyPairState {
     }
 }
 
-/// The answer for one pair, world axes, lengths in the caller's unit. What does not apply is NaN.
+/// The answer for one pair, world frame, lengths in the caller's unit. What does not apply is NaN.
+///
+/// kind: "separated" (s >= 1) or "overlapping", which `overlapping` tells, too. s: midway: the least t with s_A <= t and s_B <= t at one point, s = sqrt(S);
+/// closest: s_A at point_on_b, and s_b: s_B at point_on_a; of a pair that was rejected a proved lower bound, >= 1. gap: |s - s*| <= gap.
+/// weight: u in (1-u) grad S_A + u grad S_B = 0 at the solution. overlap: length, along the normal between the surfaces; closest: |point_on_a - point_on_b|.
+/// distance: of separated bodies a lower bound, length, 0 where none is known. normal: unit, from A to B. point: contact point; point_bound: estimated
+/// distance to the exact one, length. branch_a, branch_b: point minus the position of A, of B. point_on_a, point_on_b: on the surfaces, where they overlap.
+/// flags: names of what else is to be known. formulation: that which was answered. iterations: quadratics solved. record(): as a record of contact_type.
 #[pyclass(name = "Contact", module = "potential_particles", frozen)]
 pub struct PyContact(pub Contact);
 
@@ -59,6 +69,33 @@ macro_rules! getters {
     };
 }
 pub(crate) use getters;
+
+/// Attributes of an answer of the library: the numbers and vectors that its layout lists.
+macro_rules! attributes {
+    ($py:expr, $class:ident: $answer:ty) => {
+        for (name, ..) in <$answer>::LAYOUT.iter().filter(|(_, format, ..)| *format == "f8") {
+            $crate::contact::attribute::<$class>($py, name, |object| object.0.numbers(name))?;
+        }
+    };
+}
+pub(crate) use attributes;
+
+/// Adds one attribute to a class: a double, or an array of doubles.
+pub fn attribute<T: PyClass<Frozen = True> + Sync>(
+    py: Python<'_>,
+    name: &'static str,
+    numbers: impl Fn(&T) -> &[f64] + Send + Sync + 'static,
+) -> PyResult<()> {
+    let get = move |args: &Bound<'_, PyTuple>, _: Option<&Bound<'_, PyDict>>| {
+        let object = args.get_item(0)?.cast_into::<T>()?;
+        match *numbers(object.get()) {
+            [number] => Ok(number.into_pyobject(args.py())?.into_any().unbind()),
+            ref vector => Ok(to_vector(args.py(), vector).into_any().unbind()),
+        }
+    };
+    let get = PyCFunction::new_closure(py, None, None, move |args, named| -> PyResult<Py<PyAny>> { get(args, named) })?;
+    py.get_type::<T>().setattr(name, py.import("builtins")?.call_method1("property", (get,))?)
+}
 
 /// Getters that the contacts of two particles, with a boundary and in the plane have in common.
 macro_rules! getters_of_contact {
@@ -89,7 +126,6 @@ macro_rules! getters_of_contact {
 }
 pub(crate) use getters_of_contact;
 
-getters!(PyContact: s, s_b, weight, gap, point_bound, overlap, distance; normal, point, branch_a, branch_b, point_on_a, point_on_b);
 getters_of_contact!(PyContact);
 
 #[pymethods]
@@ -100,8 +136,10 @@ impl PyContact {
     }
 
     fn record<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        let record = ContactRecord::of(&self.0);
-        let bytes = PyBytes::new(py, bytemuck::bytes_of(&record));
+        let bytes = PyBytes::new_with(py, size_of::<Contact>(), |bytes| {
+            self.0.put(bytes);
+            Ok(())
+        })?;
         let array = py.import("numpy")?.call_method1("frombuffer", (bytes, contact_type(py)?))?;
         array.call_method0("copy")?.get_item(0)
     }
@@ -119,6 +157,8 @@ impl PyContact {
         }
     }
 }
+
+pickled!(PyContact: Contact);
 
 /// The names of the flags that are set.
 pub fn names(bits: u32, flags: impl std::fmt::Display) -> Vec<String> {
@@ -150,7 +190,7 @@ fn detect(
 #[pyclass(name = "ClosestPoint", module = "potential_particles", frozen)]
 pub struct PyClosestPoint(ClosestPoint);
 
-getters!(PyClosestPoint: s, gap, point_bound; point, branch_a, branch_b);
+pickled!(PyClosestPoint: ClosestPoint);
 
 /// The point on one particle, on="a" or "b", where the scale of the other is least (eqs 3, 9), as a ClosestPoint.
 ///
@@ -203,6 +243,8 @@ pub fn add(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<PyPairState>()?;
     module.add_class::<PyContact>()?;
     module.add_class::<PyClosestPoint>()?;
+    attributes!(module.py(), PyContact: Contact);
+    attributes!(module.py(), PyClosestPoint: ClosestPoint);
     module.add_function(wrap_pyfunction!(detect, module)?)?;
     module.add_function(wrap_pyfunction!(closest_point, module)?)?;
     module.add_function(wrap_pyfunction!(contact_area, module)?)

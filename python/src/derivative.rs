@@ -6,6 +6,7 @@ use crate::contact::{PyContact, names};
 use crate::errors::{of_contact, refused};
 use crate::particle::PyParticle;
 use crate::patch::PyPatch;
+use crate::pickles::pickled;
 use crate::pose::PyPose;
 use crate::settings::{PySettings, or_default};
 use numpy::{PyArray1, PyArray2};
@@ -68,11 +69,15 @@ impl PyContactDerivatives {
     }
 }
 
+pickled!(PyContactDerivatives: ContactDerivatives);
+
 /// Derivatives of a patch in the poses of A and B over K, as of ContactDerivatives: minus the second derivative of its energy.
 #[pyclass(name = "PatchDerivatives", module = "potential_particles", frozen)]
 pub struct PyPatchDerivatives(PatchDerivatives);
 
 row_getters!(PyPatchDerivatives: ; force, torque_on_a, torque_on_b);
+
+pickled!(PyPatchDerivatives: PatchDerivatives);
 
 /// Derivatives of a cost in the poses and shapes of a contact.
 #[pyclass(name = "ContactGradient", module = "potential_particles", frozen)]
@@ -136,6 +141,10 @@ impl PyContactGradient {
         format!("<ContactGradient: flags {}>", self.flags)
     }
 }
+
+type GradientState = ([PoseGradient; 2], [Option<ShapeGradient>; 2], DerivativeFlags);
+pickled!(PyContactGradient: GradientState, |object| (object.poses, &object.shapes, object.flags),
+    |_py, (poses, shapes, flags)| Self { poses, shapes, flags });
 
 fn weights(numbers: [f64; 3], vectors: [(Option<&Bound<'_, PyAny>>, &str); 4]) -> PyResult<ContactWeights> {
     let [s, s_b, overlap] = numbers;

@@ -7,6 +7,7 @@
 //! | `errors` | the library's errors as exceptions, in its own sentences |
 //! | `arrays` | numbers and rows from Python, vectors and matrices to it |
 //! | `records` | contacts and poses as records of structured arrays |
+//! | `pickles` | pickles and copies of answers |
 //! | `settings` | `Settings` |
 //! | `particle` | `Particle`, `MassProperties`, `SurfaceMesh` |
 //! | `pose` | `Pose` |
@@ -17,6 +18,7 @@
 //! | `batch` | the pairs of a step |
 //! | `builders` | shapes |
 //! | `slicing` | rock masses |
+//! | `equilibrium` | whether a scene of blocks stands |
 //! | `planar` | particles of the plane |
 
 mod arrays;
@@ -25,9 +27,11 @@ mod boundary;
 mod builders;
 mod contact;
 mod derivative;
+mod equilibrium;
 mod errors;
 mod particle;
 mod patch;
+mod pickles;
 mod planar;
 mod pose;
 mod records;
@@ -39,6 +43,7 @@ use pyo3::prelude::*;
 #[pymodule(gil_used = true)]
 fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     errors::add(module)?;
+    pickles::add(module)?;
     records::add(module)?;
     settings::add(module)?;
     particle::add(module)?;
@@ -50,5 +55,6 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     batch::add(module)?;
     builders::add(module)?;
     slicing::add(module)?;
+    equilibrium::add(module)?;
     planar::add(module)
 }

@@ -2,6 +2,7 @@
 
 use crate::arrays::{rows, to_rows, to_vector, vector};
 use crate::errors::refused;
+use crate::pickles::pickled;
 use crate::pose::PyPose;
 use numpy::{PyArray1, PyArray2};
 use potential_particles::{MassProperties, Particle, Plane, SurfaceMesh};
@@ -35,6 +36,10 @@ pub fn planes(given: &Bound<'_, PyAny>) -> PyResult<Vec<Plane>> {
         .into_iter()
         .map(Plane::from)
         .collect())
+}
+
+fn undirected(direction: [f64; 3]) -> PyErr {
+    refused(format!("direction = {direction:?}: it must be finite and not zero"))
 }
 
 #[pymethods]
@@ -115,11 +120,19 @@ impl PyParticle {
     }
 
     fn support(&self, direction: &Bound<'_, PyAny>) -> PyResult<f64> {
-        Ok(self.0.support(&vector::<3>(direction, "direction")?.into()))
+        let direction = vector::<3>(direction, "direction")?;
+        self.0.support(&direction.into()).ok_or_else(|| undirected(direction))
     }
 
     fn surface_distance(&self, start: &Bound<'_, PyAny>, direction: &Bound<'_, PyAny>) -> PyResult<Option<f64>> {
-        Ok(self.0.surface_distance(&vector::<3>(start, "start")?.into(), &vector::<3>(direction, "direction")?.into()))
+        let (start, direction) = (vector::<3>(start, "start")?, vector::<3>(direction, "direction")?);
+        if self.0.support(&direction.into()).is_none() {
+            return Err(undirected(direction));
+        }
+        if !start.iter().all(|x| x.is_finite()) {
+            return Err(refused(format!("start = {start:?}: each number must be finite")));
+        }
+        Ok(self.0.surface_distance(&start.into(), &direction.into()))
     }
 
     #[pyo3(signature = (tolerance=1e-6))]
@@ -185,6 +198,8 @@ impl PyMassProperties {
     }
 }
 
+pickled!(PyMassProperties: MassProperties);
+
 /// A closed mesh of triangles inside a particle with its corners on the surface, local frame.
 #[pyclass(name = "SurfaceMesh", module = "potential_particles", frozen)]
 pub struct PyMesh(pub SurfaceMesh);
@@ -215,6 +230,8 @@ impl PyMesh {
         format!("<SurfaceMesh of {} triangles, {:.1e} from the surface>", self.0.triangles.len(), self.0.error)
     }
 }
+
+pickled!(PyMesh: SurfaceMesh);
 
 pub fn add(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<PyParticle>()?;

@@ -5,6 +5,7 @@ use crate::boundary::{PyFlatContact, PyTriangle};
 use crate::contact::{PyContact, getters, names};
 use crate::errors::refused;
 use crate::particle::PyParticle;
+use crate::pickles::pickled;
 use crate::pose::PyPose;
 use numpy::{PyArray1, PyArray2};
 use potential_particles::{
@@ -13,7 +14,16 @@ use potential_particles::{
 use pyo3::prelude::*;
 use std::cell::RefCell;
 
-/// The surface on which two bodies press on each other; what is proportional to the stiffness K per area is given over K.
+/// The surface {s_A = s_B <= 1} on which two bodies press on each other with p = K l (1 - s), world axes, on B; what is proportional to the stiffness K per
+/// area (force/length^3) is given over K. c: the contact point of two bodies; on_boundary of a contact with a plane or triangle, which stands for B.
+///
+/// length: l, the sum of both depth_length (of A alone on a boundary). force: integral of p n, length^3. torque: integral of (x - c) x p n, length^4.
+/// pressure_centre: of the axis of the wrench the point in the plane of the patch, world frame; branch_a, branch_b: it minus the position of A, of B (on a boundary:
+/// of A again). couple: along that axis, length^4. area: length^2. centroid: minus pressure_centre. second_moment: integral of y y^T about the centroid; polar_moment: of
+/// |y|^2 about the axis, length^4. twist_lever: integral of p |y| over that of p, length. mean_depth, largest_depth: of l (1 - s), length. energy: length^4,
+/// NaN unless asked for. stiffness (6, 6): change of force and torque (rows) with a shift and a turn of A about c (columns), NaN unless asked for.
+/// error, area_error: estimated, relative. points: rows of x - c (3), area, depth l (1 - s) and normal (3) of the points of quadrature. flags: names of
+/// what else is to be known.
 #[pyclass(name = "Patch", module = "potential_particles", frozen)]
 pub struct PyPatch(pub Patch, Vec<PatchPoint>);
 
@@ -37,7 +47,7 @@ impl PyPatch {
         to_rows(py, (0..6).map(|i| [0, 1, 2, 3, 4, 5].map(|j| self.0.stiffness[(i, j)])))
     }
 
-    /// Rows of position (3, from the contact point), area, depth and normal (3) of each point of quadrature.
+    /// Rows of position (3, from the contact point; on a boundary from on_boundary), area, depth and normal (3) of each point of quadrature.
     #[getter]
     fn points<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<f64>> {
         let row = |point: &PatchPoint| {
@@ -52,6 +62,8 @@ impl PyPatch {
         format!("<Patch: area {area:.6e}, force/K ({:.4e}, {:.4e}, {:.4e})>", f.x, f.y, f.z)
     }
 }
+
+pickled!(PyPatch: (Patch, Vec<PatchPoint>), |object| (object.0, &object.1), |_py, (patch, points)| Self(patch, points));
 
 thread_local! {
     pub static SCRATCH: RefCell<PatchScratch> = RefCell::new(PatchScratch::new());

@@ -1,9 +1,10 @@
 //! Particles of the plane.
 
 use crate::arrays::{rows, to_rows, to_vector, vector};
-use crate::contact::{PyPairState, getters, getters_of_contact, names};
+use crate::contact::{PyPairState, attributes, getters, getters_of_contact, names};
 use crate::errors::{of_contact, refused};
 use crate::patch::SCRATCH;
+use crate::pickles::pickled;
 use crate::settings::{PySettings, or_default};
 use numpy::{PyArray1, PyArray2};
 use potential_particles::Kind;
@@ -115,6 +116,8 @@ impl PyAreaProperties {
     }
 }
 
+pickled!(PyAreaProperties: AreaProperties);
+
 /// Where a body of the plane is.
 #[pyclass(name = "Pose", module = "potential_particles.planar", frozen)]
 pub struct PyPlanarPose {
@@ -155,7 +158,6 @@ impl PyPlanarPose {
 #[pyclass(name = "Contact", module = "potential_particles.planar", frozen)]
 pub struct PyPlanarContact(Contact);
 
-getters!(PyPlanarContact: s, s_b, weight, gap, point_bound, overlap, distance; normal, point, branch_a, branch_b, point_on_a, point_on_b);
 getters_of_contact!(PyPlanarContact);
 
 #[pymethods]
@@ -167,6 +169,8 @@ impl PyPlanarContact {
         }
     }
 }
+
+pickled!(PyPlanarContact: Contact);
 
 /// The contact of particle A at pose_a with particle B at pose_b, as a planar.Contact; settings, state and errors as of detect in space.
 #[pyfunction]
@@ -234,6 +238,8 @@ impl PyPlanarPatch {
     }
 }
 
+pickled!(PyPlanarPatch: (Patch, Vec<PatchPoint>), |object| (object.0, &object.1), |_py, (patch, points)| Self(patch, points));
+
 /// The patch {s_A = s_B <= 1} of an overlapping contact of the plane, as a planar.Patch; otherwise as patch_of_contact in space.
 #[pyfunction(name = "patch_of_contact")]
 #[pyo3(signature = (a, pose_a, b, pose_b, contact, *, tolerance=1e-4, energy=false))]
@@ -261,6 +267,7 @@ pub fn add(parent: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<PyAreaProperties>()?;
     module.add_class::<PyPlanarPose>()?;
     module.add_class::<PyPlanarContact>()?;
+    attributes!(module.py(), PyPlanarContact: Contact);
     module.add_class::<PyPlanarPatch>()?;
     module.add_function(wrap_pyfunction!(detect, &module)?)?;
     module.add_function(wrap_pyfunction!(contact_length, &module)?)?;

@@ -1,8 +1,9 @@
-//! Contacts and poses as records of structured arrays: the numpy types `contact_type` and `pose_type`, laid out as the structs of the C interface.
+//! Contacts and poses as records of structured arrays: the numpy types `contact_type` and `pose_type`, laid out as
+//! the library has them.
 
 use bytemuck::{Pod, Zeroable};
 use numpy::{PyArray1, PyArrayMethods, PyReadonlyArray1, PyReadwriteArray1};
-use potential_particles::{BackEnd, Contact, Formulation, Kind};
+use potential_particles::Contact;
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
 use pyo3::types::{PyDict, PyList};
@@ -19,101 +20,29 @@ pub struct PoseRecord {
     pub orientation: [f64; 4],
 }
 
-/// A contact.
-#[derive(Clone, Copy, Debug, Pod, Zeroable)]
-#[repr(C)]
-pub struct ContactRecord {
-    pub kind: i32,
-    pub formulation: u32,
-    pub back_end: u32,
-    pub flags: u32,
-    pub iterations: u32,
-    pub reserved: u32,
-    pub s: f64,
-    pub s_b: f64,
-    pub weight: f64,
-    pub gap: f64,
-    pub point_bound: f64,
-    pub overlap: f64,
-    pub normal: [f64; 3],
-    pub point: [f64; 3],
-    pub branch_a: [f64; 3],
-    pub branch_b: [f64; 3],
-    pub point_on_a: [f64; 3],
-    pub point_on_b: [f64; 3],
-    pub distance: f64,
-}
-
 /// Kinds of records: no answer, separated, overlapping.
 pub const FAILED: i32 = 0;
 pub const SEPARATED: i32 = 1;
 pub const OVERLAPPING: i32 = 2;
 
-impl ContactRecord {
-    pub fn of(contact: &Contact) -> Self {
-        Self {
-            kind: match contact.kind {
-                Kind::Separated => SEPARATED,
-                Kind::Overlapping => OVERLAPPING,
-            },
-            formulation: (contact.formulation == Formulation::Closest).into(),
-            back_end: (contact.back_end == BackEnd::ConeProgram).into(),
-            flags: contact.flags.bits(),
-            iterations: contact.iterations,
-            reserved: 0,
-            s: contact.s,
-            s_b: contact.s_b,
-            weight: contact.weight,
-            gap: contact.gap,
-            point_bound: contact.point_bound,
-            overlap: contact.overlap,
-            normal: contact.normal.into(),
-            point: contact.point.into(),
-            branch_a: contact.branch_a.into(),
-            branch_b: contact.branch_b.into(),
-            point_on_a: contact.point_on_a.into(),
-            point_on_b: contact.point_on_b.into(),
-            distance: contact.distance,
-        }
+/// Writes a contact as a record; of a pair without an answer, nothing that applies.
+pub fn put(answer: Option<&Contact>, record: &mut [u8]) {
+    if let Some(contact) = answer {
+        return contact.put(record);
     }
-
-    /// Of a pair that has no answer.
-    pub fn failed() -> Self {
-        let (none, nan) = (f64::NAN, [f64::NAN; 3]);
-        Self {
-            kind: FAILED,
-            s: none,
-            s_b: none,
-            weight: none,
-            gap: none,
-            point_bound: none,
-            overlap: none,
-            normal: nan,
-            point: nan,
-            branch_a: nan,
-            branch_b: nan,
-            point_on_a: nan,
-            point_on_b: nan,
-            distance: none,
-            ..Self::zeroed()
-        }
-    }
+    let mut none: Contact = Contact::UNKNOWN;
+    none.distance = f64::NAN;
+    none.put(record);
+    record[offset_of!(Contact, kind)..][..4].copy_from_slice(&FAILED.to_ne_bytes());
 }
 
-/// Name, numpy's format and place of each field of a record.
-macro_rules! fields {
-    ($record:ty: $($name:ident $format:literal),+ $(,)?) => {
-        &[$((stringify!($name), $format, offset_of!($record, $name))),+]
-    };
-}
+/// Name, numpy's format, how many, and place of each field.
+type Field = (&'static str, &'static str, usize, usize);
 
-type Field = (&'static str, &'static str, usize);
-
-const OF_POSE: &[Field] = fields!(PoseRecord: position "3f8", orientation "4f8");
-
-const OF_CONTACT: &[Field] = fields!(ContactRecord: kind "i4", formulation "u4", back_end "u4", flags "u4", iterations "u4", reserved "u4", s "f8",
-    s_b "f8", weight "f8", gap "f8", point_bound "f8", overlap "f8", normal "3f8", point "3f8", branch_a "3f8", branch_b "3f8",
-    point_on_a "3f8", point_on_b "3f8", distance "f8");
+const OF_POSE: &[Field] = &[
+    ("position", "f8", 3, offset_of!(PoseRecord, position)),
+    ("orientation", "f8", 4, offset_of!(PoseRecord, orientation)),
+];
 
 static POSE_TYPE: PyOnceLock<Py<PyAny>> = PyOnceLock::new();
 static CONTACT_TYPE: PyOnceLock<Py<PyAny>> = PyOnceLock::new();
@@ -121,8 +50,9 @@ static CONTACT_TYPE: PyOnceLock<Py<PyAny>> = PyOnceLock::new();
 fn record_type(py: Python<'_>, fields: &[Field], size: usize) -> PyResult<Py<PyAny>> {
     let layout = PyDict::new(py);
     layout.set_item("names", PyList::new(py, fields.iter().map(|field| field.0))?)?;
-    layout.set_item("formats", PyList::new(py, fields.iter().map(|field| field.1))?)?;
-    layout.set_item("offsets", PyList::new(py, fields.iter().map(|field| field.2))?)?;
+    let format = |&(_, format, count, _): &Field| if count == 1 { format.into() } else { format!("{count}{format}") };
+    layout.set_item("formats", PyList::new(py, fields.iter().map(format))?)?;
+    layout.set_item("offsets", PyList::new(py, fields.iter().map(|field| field.3))?)?;
     layout.set_item("itemsize", size)?;
     Ok(py.import("numpy")?.call_method1("dtype", (layout,))?.unbind())
 }
@@ -133,7 +63,7 @@ pub fn pose_type(py: Python<'_>) -> PyResult<&Bound<'_, PyAny>> {
 }
 
 pub fn contact_type(py: Python<'_>) -> PyResult<&Bound<'_, PyAny>> {
-    let made = CONTACT_TYPE.get_or_try_init(py, || record_type(py, OF_CONTACT, size_of::<ContactRecord>()))?;
+    let made = CONTACT_TYPE.get_or_try_init(py, || record_type(py, Contact::<3>::LAYOUT, size_of::<Contact>()))?;
     Ok(made.bind(py))
 }
 

@@ -3,6 +3,7 @@
 use crate::arrays::{to_rows, to_vector, vector};
 use crate::errors::refused;
 use crate::particle::{PyParticle, planes};
+use crate::pickles::pickled;
 use numpy::{PyArray1, PyArray2};
 use potential_particles::rock::{Block, FaceOf, Joint, JointSet, RockMass, SliceSettings, slice_with_regions};
 use pyo3::prelude::*;
@@ -43,6 +44,8 @@ impl PyJoint {
     }
 }
 
+pickled!(PyJoint: Joint);
+
 /// The joints of a set, as a list of Joint: those that cross the line through centre along their mean normal within reach of it.
 ///
 /// dip, dip_direction: degrees, from horizontal and clockwise from north. spacing: mean, length; exponential: drawn from that distribution. fisher:
@@ -76,6 +79,11 @@ pub struct PyBlock {
 impl PyBlock {
     fn block(&self) -> &Block {
         &self.mass.blocks[self.place]
+    }
+
+    fn alone(block: Block) -> Self {
+        let mass = RockMass { blocks: vec![block], missing: Vec::new(), too_small: 0, unclosed: 0, joints: 0 };
+        Self { mass: Arc::new(mass), place: 0 }
     }
 }
 
@@ -150,9 +158,18 @@ impl PyBlock {
     }
 }
 
+// With a mass of its own.
+pickled!(PyBlock: Block, |object| object.block(), |_py, block| PyBlock::alone(block));
+
 /// What a domain was cut into.
 #[pyclass(name = "RockMass", module = "potential_particles.slicing", frozen)]
 pub struct PyRockMass(Arc<RockMass>);
+
+impl PyRockMass {
+    pub fn mass(&self) -> &RockMass {
+        &self.0
+    }
+}
 
 #[pymethods]
 impl PyRockMass {
@@ -185,6 +202,8 @@ impl PyRockMass {
         format!("<RockMass of {} blocks>", self.0.blocks.len())
     }
 }
+
+pickled!(PyRockMass: RockMass, |object| *object.0, |_py, mass| Self(Arc::new(mass)));
 
 /// A convex domain {a x + b y + c z <= d}, planes (n, 4), cut by joints in their order, as a RockMass.
 ///

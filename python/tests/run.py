@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""Runs the tests of the wheel, and the Python blocks of docs/wheel.md and docs/derivatives.md one after the other, in the Python that has the wheel.
+"""Runs the tests of the wheel, and the Python blocks of docs/wheel.md, docs/derivatives.md and docs/equilibrium.md one after the other, in the Python that has the wheel.
 
     PYTHON python/tests/run.py
 
@@ -14,7 +14,7 @@ import unittest
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
-PAGES = [HERE.parents[1] / "docs" / name for name in ("wheel.md", "derivatives.md")]
+PAGES = [HERE.parents[1] / "docs" / name for name in ("wheel.md", "derivatives.md", "equilibrium.md")]
 
 
 def run_page(page):

@@ -2,11 +2,15 @@
 """Contacts of one pair and of many, against definitions and closed forms."""
 import copy
 import pickle
+import re
 import threading
 import unittest
 
 import numpy as np
 import potential_particles as pp
+from potential_particles import builders, planar, slicing
+
+BOX = [(1, 0, 0, 5), (-1, 0, 0, 5), (0, 1, 0, 5), (0, -1, 0, 5), (0, 0, 1, 5), (0, 0, -1, 5)]
 
 CUBE = np.array([(1, 0, 0, 0.9), (-1, 0, 0, 0.9), (0, 1, 0, 0.9), (0, -1, 0, 0.9), (0, 0, 1, 0.9), (0, 0, -1, 0.9)])
 
@@ -278,6 +282,80 @@ class Kept(unittest.TestCase):
         state = pp.PairState()
         pp.detect(particle, pp.Pose((0, 0, 0)), particle, pp.Pose((0, 0, 1.9)), None, state)
         np.testing.assert_array_equal(pickle.loads(pickle.dumps(state)).solution, state.solution)
+
+    def test_answers_are_pickled_and_copied(self):
+        body, poses, floor = cube(0.3), [pp.Pose((0, 0, 0)), pp.Pose((0.1, 0.2, 1.9))], pp.Wall((0, 0, -0.97), (0, 0, 3))
+        contact, apart = pp.detect(body, poses[0], body, poses[1]), pp.detect(body, poses[0], body, pp.Pose((0, 0, 9)))
+        flat = pp.contact_with_plane(body, poses[0], floor)
+        patch = pp.patch_of_contact(body, poses[0], body, poses[1], contact)
+        square = planar.Particle.rectangle(2, 1, r=0.05)
+        places = planar.Pose((0, 0)), planar.Pose((1.9, 0.2))
+        in_plane = planar.detect(square, places[0], square, places[1])
+        shape = builders.hull(np.random.default_rng(3).normal(size=(20, 3)))
+        joints = slicing.joint_set(30, 90, 1.5, centre=(0, 0, 0), reach=9, fisher=40) + [slicing.Joint((0, 1, 2), 50, 60, radius=2.0)]
+        mass = slicing.slice(BOX, joints)
+        for one in [contact, apart, flat, patch, pp.closest_point(body, poses[0], body, poses[1], "a"), body.mass_properties(), body.mesh(0.01), in_plane,
+                    planar.patch_of_contact(square, places[0], square, places[1], in_plane), square.area_properties(), shape, *joints, mass, *mass.blocks[:3],
+                    pp.contact_derivatives(body, poses[0], body, poses[1], contact), pp.contact_gradient(body, poses[0], body, poses[1], contact, overlap=1.0),
+                    pp.boundary_gradient(body, poses[0], flat, overlap=1.0)]:
+            for again in (pickle.loads(pickle.dumps(one)), copy.copy(one), copy.deepcopy(one)):
+                self.assertIs(type(again), type(one))
+                self.same(again, one)
+        self.assertEqual(len(pickle.loads(pickle.dumps(mass)).blocks), len(mass.blocks))
+        make, (kind, version, state) = contact.__reduce__()
+        for wrong in [(version, state[:9]), ("0.0.0", state)]:
+            with self.assertRaisesRegex(ValueError, "pickle"):
+                make(kind, *wrong)
+
+    def same(self, found, expected):
+        """All that can be read of both."""
+        for name in (name for name in dir(type(expected)) if not name.startswith("_")):
+            value, other = getattr(expected, name), getattr(found, name)
+            if name in ("particle", "pose") and not callable(value):
+                self.assertEqual(other, value)
+            elif isinstance(value, pp.MassProperties):
+                self.same(other, value)
+            elif isinstance(value, list) and value and isinstance(value[0], np.ndarray):
+                self.assertEqual([one.tolist() for one in other], [one.tolist() for one in value])
+            elif not callable(value) and name != "blocks":
+                np.testing.assert_array_equal(other, value, f"{type(expected)}.{name}")
+
+    def test_directions_have_any_length(self):
+        """Of a cube of half edge 0.5: closed forms."""
+        body = pp.Particle((CUBE[:, :3], np.full(6, 0.5 - 1e-9)), 1e-9)
+        for length in (1, 0.1, 2, 1e-300, 1e300, 5e-324):
+            self.assertAlmostEqual(body.surface_distance((0, 0, 0), (length, 0, 0)), 0.5, 12)
+            self.assertAlmostEqual(body.surface_distance((0.25, 0, 0), (length, 0, 0)), 0.25, 12)
+            self.assertAlmostEqual(body.support((0, -length, 0)), 0.5, delta=2e-5)
+        self.assertAlmostEqual(body.surface_distance((0, 0, 0), (1e-200, 1e-200, 0)), 0.5 * 2**0.5, 8)
+        for none in [(0, 0, 0), (float("nan"), 0, 1), (float("inf"), 0, 0)]:
+            for ask in (body.support, lambda direction: body.surface_distance((0, 0, 0), direction)):
+                with self.assertRaisesRegex(ValueError, "direction = .*finite and not zero"):
+                    ask(none)
+        with self.assertRaisesRegex(ValueError, "start = .*finite"):
+            body.surface_distance((0, float("nan"), 0), (1, 0, 0))
+
+    def test_indices_beyond_32_bits_are_none(self):
+        bodies, poses = [cube(), cube()], np.array([[0, 0, 0, 1, 0, 0, 0], [0, 0, 1.9, 1, 0, 0, 0]], float)
+        for wrong in (2**32 + 1, -1, 2**63 - 1):
+            for kind in (np.int64, object):
+                with self.assertRaisesRegex(ValueError, str(wrong) if kind is np.int64 else "pairs"):
+                    pp.detect_batch(bodies, poses, np.array([[0, wrong]], kind))
+        with self.assertRaisesRegex(ValueError, str(2**32 + 1)):
+            pp.detect_batch(bodies, poses, np.array([[0, 2**32 + 1]], np.uint64))
+        self.assertEqual(pp.detect_batch(bodies, poses, np.array([[0, 1]], np.uint64))["kind"][0], pp.OVERLAPPING)
+
+    def test_what_is_solved_to_the_end_knows_a_distance(self):
+        body = cube()
+        contact = pp.detect(body, pp.Pose((0, 0, 0)), body, pp.Pose((0, 0, 2.001)), pp.Settings(solve_separated=True))
+        self.assertFalse(contact.overlapping)
+        self.assertTrue(0.0 < contact.distance <= 1e-3, contact.distance)
+
+    def test_classes_say_what_their_numbers_are(self):
+        """Each attribute of an answer stands in the docstring of its class."""
+        for one in (pp.Contact, pp.FlatContact, pp.Patch):
+            names = [name for name in dir(one) if not name.startswith("_")]
+            self.assertEqual([name for name in names if re.search(rf"\b{name}\b", one.__doc__) is None], [])
 
     def test_bad_input_is_told_in_the_librarys_sentences(self):
         cases = [

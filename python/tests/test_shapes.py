@@ -12,7 +12,7 @@ from pathlib import Path
 
 import numpy as np
 import potential_particles as pp
-from potential_particles import builders, planar, slicing
+from potential_particles import builders, equilibrium, planar, slicing
 
 BOX = [(1, 0, 0, 5), (-1, 0, 0, 5), (0, 1, 0, 5), (0, -1, 0, 5), (0, 0, 1, 5), (0, 0, -1, 5)]
 
@@ -27,19 +27,25 @@ def write_stl(file, points, triangles):
 
 class Builders(unittest.TestCase):
     def test_volumes(self):
-        cases = [(builders.cuboid((2, 1, 0.5), r=1e-4, k=0), 1.0), (builders.prism(4, 0.5, 3, 0, r=1e-4, k=0), 1.0),
-                 (builders.cylinder(1, 2, 64, r=1e-4, k=0), 2 * math.pi), (builders.regular_solid(8, r=1e-4, k=0), math.sqrt(2) / 3),
+        cases = [(builders.cuboid((2, 1, 0.5), rounding=1e-4, k=0), 1.0), (builders.prism(4, 0.5, 3, 0, rounding=1e-4, k=0), 1.0),
+                 (builders.cylinder(1, 2, 64, rounding=1e-4, k=0), 2 * math.pi), (builders.regular_solid(8, rounding=1e-4, k=0), math.sqrt(2) / 3),
                  (builders.sphere(2), 32 / 3 * math.pi),
-                 (builders.half_spaces([(1, 1, 1, 1), (-1, 0, 0, 0), (0, -1, 0, 0), (0, 0, -1, 0)], r=1e-4, k=0), 1 / 6)]
+                 (builders.half_spaces([(1, 1, 1, 1), (-1, 0, 0, 0), (0, -1, 0, 0), (0, 0, -1, 0)], rounding=1e-4, k=0), 1 / 6)]
         for shape, volume in cases:
             self.assertAlmostEqual(shape.volume / volume, 1, delta=2e-5)
             mass = shape.mass
             self.assertLess(np.abs(mass.centroid).max(), 1e-5)
             self.assertLess(np.abs(mass.inertia - np.diag(np.diag(mass.inertia))).max(), 1e-4 * mass.inertia.max())
 
+    def test_r_is_a_length(self):
+        with self.assertWarnsRegex(FutureWarning, "r=0.05 of then is rounding=0.05"):
+            shape = builders.cuboid((4, 2, 3), r=0.1, k=0, R=3)
+        self.assertEqual((shape.particle.r, shape.particle.R), (0.1, 3))
+        self.assertAlmostEqual(builders.cuboid((4, 2, 3), rounding=0.05, k=0).volume, shape.volume, delta=1e-9)
+
     def test_a_hull_stands_where_its_points_are(self):
         points = np.random.default_rng(5).normal(size=(60, 3)) + 10
-        shape = builders.hull(points, r=1e-3, k=0)
+        shape = builders.hull(points, rounding=1e-3, k=0)
         local = np.array([shape.pose.to_local(point) for point in points])
         heights = local @ shape.particle.planes[:, :3].T - shape.particle.planes[:, 3]
         # No point lies above a face, and each face has a corner.
@@ -49,10 +55,10 @@ class Builders(unittest.TestCase):
     def test_flat_and_far_hulls(self):
         square = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (1, 1, 0)]
         for height in (0.02, 1e-4):
-            self.assertAlmostEqual(builders.hull(square + [(0.5, 0.5, height)], k=0, r=1e-4).volume * 3 / height, 1, delta=2e-5)
-            self.assertAlmostEqual(builders.hull(square[:3] + [(0, 0, height)], k=0, r=1e-4).volume * 6 / height, 1, delta=2e-5)
+            self.assertAlmostEqual(builders.hull(square + [(0.5, 0.5, height)], k=0, rounding=1e-4).volume * 3 / height, 1, delta=2e-5)
+            self.assertAlmostEqual(builders.hull(square[:3] + [(0, 0, height)], k=0, rounding=1e-4).volume * 6 / height, 1, delta=2e-5)
         cube = np.array([(x, y, z) for x in (0, 1) for y in (0, 1) for z in (0, 1)], float)
-        shape = builders.hull(cube + 1e10, k=0, r=1e-4)
+        shape = builders.hull(cube + 1e10, k=0, rounding=1e-4)
         self.assertAlmostEqual(shape.volume, 1, delta=2e-5)
         np.testing.assert_allclose(shape.centroid, 1e10 + 0.5, rtol=1e-15)
         with self.assertRaisesRegex(ValueError, "8 points are flat.*nearer to the origin"):
@@ -87,7 +93,7 @@ class Builders(unittest.TestCase):
             write_stl(stl, points, triangles)
             obj.write_text("".join("v %r %r %r\n" % tuple(map(float, p)) for p in points)
                            + "".join("f %d %d %d\n" % tuple(t + 1) for t in triangles))
-            read = [builders.mesh(file, scale=2.0, r=1e-4, k=0) for file in (stl, str(obj))]
+            read = [builders.mesh(file, scale=2.0, rounding=1e-4, k=0) for file in (stl, str(obj))]
             a, b, c = (points[triangles[:, i]] for i in range(3))
             volume = 8 * np.einsum("ij,ij->", a, np.cross(b, c)) / 6
             for shape in read:
@@ -95,7 +101,7 @@ class Builders(unittest.TestCase):
             write_stl(stl, points, triangles[1:])
             with self.assertRaisesRegex(ValueError, "ball.stl: the surface is open"):
                 builders.mesh(stl)
-            self.assertAlmostEqual(builders.mesh(stl, hull=True, r=1e-4, k=0).volume * 8 / volume, 1, delta=5e-4)
+            self.assertAlmostEqual(builders.mesh(stl, hull=True, rounding=1e-4, k=0).volume * 8 / volume, 1, delta=5e-4)
             for name, text in (("none.stl", None), ("empty.obj", ""), ("bad.stl", "no mesh"), ("wrong.ply", "ply")):
                 if text is not None:
                     Path(folder, name).write_text(text)
@@ -105,16 +111,18 @@ class Builders(unittest.TestCase):
     def test_bad_input_is_told(self):
         for make, sentence in [
                 (lambda: builders.cuboid((1, -1, 1)), "edge y=-1.0 must be finite and above 0"),
-                (lambda: builders.cuboid((1, 1, 1), r=0.6), "r=0.6 must be a share of the size"),
+                (lambda: builders.cuboid((1, 1, 1), rounding=0.6), "rounding=0.6 must be a share of the size"),
+                (lambda: builders.cuboid((1, 1, 1), r=0.6), "r=0.6 is a length and must lie between 0 and 0.5"),
                 (lambda: builders.regular_solid(7), "4, 6, 8, 12 or 20"),
-                (lambda: builders.prism(2), "sides=2 must be at least 3"),
+                (lambda: builders.prism(2), "sides=2 must lie between 3 and 65534"),
+                (lambda: builders.cylinder(sides=10**12), "sides=1000000000000 must lie"),
                 (lambda: builders.hull([(0, 0, 0), (1, 0, 0), (0, 1, 0), (1, 1, 0)]), "flat"),
                 (lambda: builders.half_spaces(BOX[:5]), "enclose no volume")]:
             with self.assertRaisesRegex(ValueError, sentence):
                 make()
 
     def test_a_mesh_is_closed_and_near_the_surface(self):
-        particle = builders.cuboid((2, 1, 0.5), r=0.1).particle
+        particle = builders.cuboid((2, 1, 0.5), rounding=0.1).particle
         mesh = particle.mesh(1e-3)
         edges = np.sort(mesh.triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
         self.assertTrue((np.unique(edges, axis=0, return_counts=True)[1] == 2).all())
@@ -169,7 +177,7 @@ class Package(unittest.TestCase):
     def test_stubs_name_what_is_there(self):
         folder = Path(pp.__file__).parent
         self.assertTrue((folder / "py.typed").is_file())
-        for name, module in (("_core", pp._core), ("builders", builders), ("slicing", slicing), ("planar", planar)):
+        for name, module in (("_core", pp._core), ("builders", builders), ("slicing", slicing), ("planar", planar), ("equilibrium", equilibrium)):
             tree = ast.parse((folder / f"{name}.pyi").read_text())
             told = {}
             for node in tree.body:
@@ -187,7 +195,7 @@ class Package(unittest.TestCase):
                     self.assertEqual({member for member in members if not member.startswith("_")}, found, f"{name}.{one}")
 
     def test_what_is_public_says_what_it_does(self):
-        for module in (pp, builders, slicing, planar):
+        for module in (pp, builders, slicing, planar, equilibrium):
             for name in module.__all__:
                 thing = getattr(module, name)
                 if callable(thing):

@@ -1,6 +1,6 @@
 //! Planes and triangles as given, checked.
 
-use crate::contact::geometry::direction;
+use crate::linalg::number::direction;
 use crate::linalg::wide::{difference, rounded};
 use crate::pair::boundary_part::BoundaryPart;
 use nalgebra::Vector3;
@@ -23,6 +23,7 @@ pub enum BoundaryError {
 
 /// The part of a boundary on which a point lies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Feature {
     /// The plane, or the inside of the triangle.
     Interior,

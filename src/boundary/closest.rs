@@ -5,7 +5,7 @@ use super::triangle::PlacedTriangle;
 use crate::bounds::point_bound::farthest_apart;
 use crate::bounds::scale::Scale;
 use crate::bounds::solution::Solution;
-use crate::contact::detect::DetectError;
+use crate::contact::error::DetectError;
 use crate::flags::Flags;
 use crate::linalg::number::{larger, smaller};
 use crate::model::local_model::Start;
@@ -358,8 +358,10 @@ impl Closest {
     /// Bound on the distance of the point to the minimum: that of its part, or since S rises from the minimum at least as the square of the
     /// way times the least curvature, or from where it can be at all.
     pub fn point_bound(&self, body: &Body) -> f64 {
-        let above = self.duality_gap + 2.0 * self.least.solution.rounding;
-        let by_convexity = farthest_apart(above, body.sphere_curvature());
+        // Of the particle without its regularisation.
+        let surplus = body.most_surplus(larger(self.least.solution.upper, 1.0));
+        let above = self.duality_gap + 2.0 * self.least.solution.rounding + surplus;
+        let by_convexity = farthest_apart(above, 2.0 * body.particle.sphere_weight);
         smaller(smaller(self.least.point_bound, by_convexity), self.least.within(body, self.extent))
     }
 }

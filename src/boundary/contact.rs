@@ -6,9 +6,9 @@ use super::separation;
 use super::triangle::PlacedTriangle;
 use crate::bounds::scale::Scale;
 use crate::contact::contact::Kind;
-use crate::contact::detect::DetectError;
-use crate::contact::geometry::direction;
+use crate::contact::error::DetectError;
 use crate::flags::Flags;
+use crate::linalg::number::direction;
 use crate::linalg::number::{UNKNOWN_VECTOR, equality, larger};
 use crate::pair::body::{Body, shift_in_a};
 use crate::pair::boundary_part::PlacedPart;
@@ -25,6 +25,7 @@ use nalgebra::Vector3;
 
 /// The answer for a particle A and a boundary T, world axes, lengths in the caller's unit. What does not apply is NaN.
 #[derive(Clone, Copy, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct FlatContact {
     /// Separated or overlapping.

@@ -27,7 +27,7 @@ pub(super) fn proof_of_separation(
     let slack = shift_in_a(nearest.norm(), lengths);
     let by_ball = nearest.norm() * (1.0 - MARGIN) - slack - particle.bounding_radius();
     let towards = height.signum() * pose.rotation().tr_mul(normal);
-    let by_plane = height.abs() * (1.0 - MARGIN) - slack - particle.support(&towards);
+    let by_plane = height.abs() * (1.0 - MARGIN) - slack - particle.bounds.support(&towards);
     let distance = larger(by_ball, by_plane);
     if distance > 0.0 {
         let by = if by_ball > 0.0 { Flags::BY_SPHERES } else { Flags::BY_FACE };

@@ -1,7 +1,7 @@
 //! A triangle in the frame of its plane, whose origin is the point nearest to the centre of a particle.
 
 use super::boundary::Triangle;
-use crate::contact::geometry::direction;
+use crate::linalg::number::direction;
 use crate::pair::pair::Pair;
 use crate::pose::Pose;
 use nalgebra::{Vector2, Vector3};

@@ -1,10 +1,17 @@
 //! How far the point of a solution can be from the optimum.
 
+use crate::bounds::sensitivity::Sensitivity;
 use crate::bounds::solution::Solution;
-use crate::linalg::number::larger;
+use crate::linalg::number::{larger, smaller};
 use crate::model::local_model::{self, LocalModel};
 use crate::model::problem::{Problem, TURN};
 use crate::pair::body::Body;
+use nalgebra::Vector3;
+
+/// Factor on the move by the regularisation of first order. Where both S are 0 without it, as of a ball whose centre lies in a core, the point goes with its root: first order
+/// tells half of a small move, and a third of one of a third of the way to the centre of the regularised body; of longer ones nothing is told.
+const OF_ROOT: f64 = 3.0;
+const LONGEST: f64 = 0.5;
 
 /// Units in the last place by which two sides that meet may still differ (estimated).
 const SIDES: f64 = 8.0;
@@ -15,8 +22,17 @@ const SIDES: f64 = 8.0;
 /// by its rounding, each body's force a·∇S_A by the rounding of its direction. The answer of the optimum to each is
 /// a linear problem that is solved already, and the lengths are added: an estimate of first order, with bounds on all data.
 /// Elsewhere strong convexity bounds it: ½·curvature·(½·distance)² ≤ upper − lower.
+///
+/// Of particles that are regularised the optimum is that without the regularisation, the nearest one where it is no single point.
 #[inline(always)]
 pub(crate) fn point_bound(solution: &Solution, model: &LocalModel, bodies: [&Body; 2], problem: Problem) -> f64 {
+    let bound = of_solved(solution, model, bodies, problem);
+    if bodies[0].is_plain() && bodies[1].is_plain() { bound } else { of_given(bound, solution, model, bodies, problem) }
+}
+
+/// The same to the optimum that was solved for.
+#[inline(always)]
+fn of_solved(solution: &Solution, model: &LocalModel, bodies: [&Body; 2], problem: Problem) -> f64 {
     if let Some(bound) = solution.point_bound {
         return bound;
     }
@@ -49,6 +65,96 @@ pub(crate) fn point_bound(solution: &Solution, model: &LocalModel, bodies: [&Bod
     let longest_normals = bodies.map(|body| body.particle.bounds.longest_normal);
     let holds = sum.is_finite() && sensitivity.holds_within(sum, longest_normals);
     if holds { sum + carried } else { by_convexity(solution, bodies, problem) + carried }
+}
+
+/// From the bound to the optimum that was solved for, with what the regularisation has moved that by.
+#[inline(never)]
+fn of_given(bound: f64, solution: &Solution, model: &LocalModel, bodies: [&Body; 2], problem: Problem) -> f64 {
+    if solution.point_bound.is_some() {
+        // Extended precision has counted it.
+        return smaller(bound, farthest(solution, bodies, problem));
+    }
+    let Some(sensitivity) = solution.sensitivity.as_ref() else { return farthest(solution, bodies, problem) };
+    let to_axes = |v: &Vector3<f64>| model.to_axes(v);
+    let moved = Added::at(&solution.x, solution.lambda, bodies, problem, to_axes).moves(sensitivity, bound);
+    if moved <= bound {
+        return bound + moved;
+    }
+    let lengths = bodies.map(|body| body.particle.bounds.longest_normal);
+    let way = moved + (solution.x - model.x).norm();
+    let is_clear = [&model.q_a, &model.q_b].into_iter().zip(lengths).all(|(q, length)| way * length <= q.clear);
+    let holds = is_clear && sensitivity.holds_within(moved, lengths);
+    let farthest = farthest(solution, bodies, problem);
+    if holds { smaller(bound + moved, farthest) } else { farthest }
+}
+
+/// What the regularisation adds to the conditions of the optimum: to the slope, to its curvature in all directions, and to the mismatch.
+pub(crate) struct Added {
+    slope: Vector3<f64>,
+    curvature: f64,
+    value: f64,
+    /// Square of the way to the nearer centre of the regularised bodies.
+    square: f64,
+}
+
+impl Added {
+    /// At a point, with the slope in the axes of the sensitivity.
+    pub fn at(
+        x: &Vector3<f64>,
+        lambda: f64,
+        bodies: [&Body; 2],
+        problem: Problem,
+        to_axes: impl Fn(&Vector3<f64>) -> Vector3<f64>,
+    ) -> Self {
+        let ((a, b), [of_a, of_b]) = (problem.weights(lambda), bodies);
+        let (alpha, beta): (f64, f64) = problem.weight_rates();
+        Self {
+            slope: to_axes(&(a * of_a.surplus_gradient(x) + b * of_b.surplus_gradient(x))),
+            curvature: a * of_a.surplus_curvature() + b * of_b.surplus_curvature(),
+            value: (alpha * of_a.surplus(x) + beta * of_b.surplus(x)).abs(),
+            square: smaller(of_a.regularised_square(x), of_b.regularised_square(x)),
+        }
+    }
+
+    /// How far it moves the optimum, which is known to `bound`.
+    ///
+    /// With a share of the curvature its own, the move without that curvature is as the geometric series of the share. Along flat faces it is all
+    /// of the curvature, and the slope is 0 where the point that it selects is an optimum without it, too.
+    pub fn moves(&self, sensitivity: &Sensitivity, bound: f64) -> f64 {
+        let first = sensitivity.to_slope(&self.slope);
+        let (by_slope, by_value) = (first.norm(), sensitivity.to_value(self.value));
+        if by_slope + by_value <= bound {
+            return by_slope + by_value;
+        }
+        let again = self.curvature * sensitivity.to_slope(&first).norm();
+        let share = if by_slope > 0.0 { again / by_slope } else { 0.0 };
+        // Infinite, or not a number, where there is no other curvature.
+        let moved = OF_ROOT * (by_slope + by_value) / (1.0 - share);
+        if moved >= 0.0 && moved <= LONGEST * self.square.sqrt() { moved } else { f64::INFINITY }
+    }
+}
+
+/// Bound on the distance to an optimum without regularisation, from where that can be: at the level of what was found both in the ball of each shadow
+/// sphere and within its reach, and, by the curvature of the spheres, no farther than the gap allows.
+pub(crate) fn farthest(solution: &Solution, bodies: [&Body; 2], problem: Problem) -> f64 {
+    let upper = larger(solution.upper, 0.0) + solution.rounding;
+    let levels = match problem {
+        Problem::OnB => [upper, 1.0],
+        Problem::OnA => [1.0, upper],
+        Problem::Midway | Problem::OnBoundary => [upper; 2],
+    };
+    let of_body = |i: usize| {
+        let particle = bodies[i].particle;
+        let of_sphere = (levels[i] / particle.sphere_weight).sqrt();
+        let reach = particle.reach(larger(levels[i], 1.0));
+        (solution.x - bodies[i].centre()).norm() + if of_sphere < reach { of_sphere } else { reach }
+    };
+    let (a, b) = problem.weights(solution.lambda);
+    let [level_a, level_b] = problem.levels(solution.upper);
+    let most = a * bodies[0].most_surplus(level_a) + b * bodies[1].most_surplus(level_b);
+    let own = 2.0 * (a * bodies[0].particle.sphere_weight + b * bodies[1].particle.sphere_weight);
+    let by_convexity = farthest_apart(solution.duality_gap + 2.0 * solution.rounding + most, own);
+    smaller(smaller(of_body(0), of_body(1)), by_convexity)
 }
 
 /// By strong convexity: what the bounds of the value leave.

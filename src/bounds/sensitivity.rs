@@ -69,6 +69,11 @@ impl Sensitivity {
         })
     }
 
+    /// The answer to a slope.
+    pub fn to_slope(&self, slope: &Vector3<f64>) -> Vector3<f64> {
+        self.to_slope.times(slope)
+    }
+
     /// The move that would take away what is left of the slope.
     pub fn unsolved(&self) -> f64 {
         self.to_slope.times(&self.slope).norm()

@@ -6,17 +6,19 @@ use super::flat::pp_flat_contact;
 use super::packing::{pp_packing, pp_placement};
 use super::patch::{pp_patch, pp_patch_point, pp_patch_state};
 use super::patch_derivatives::pp_patch_derivatives;
-use super::planar::{pp_area_properties, pp_closest_2d, pp_contact_2d, pp_patch_2d, pp_patch_point_2d, pp_pose_2d};
+use super::planar::{pp_area_properties, pp_patch_2d, pp_patch_point_2d, pp_pose_2d};
 use super::rock::pp_slice_settings;
 use super::rock_arrays::{pp_block, pp_block_face, pp_face_partners, pp_rock_summary};
 use super::rock_joints::{pp_joint, pp_joint_set};
-use super::types::{pp_closest, pp_contact, pp_mass_properties, pp_pair_state, pp_pose, pp_settings};
+use super::types::{
+    pp_closest, pp_closest_2d, pp_contact, pp_contact_2d, pp_mass_properties, pp_pair_state, pp_pose, pp_settings,
+};
 use std::ffi::{CStr, c_char};
 
 /// Version of this header; compare with pp_version of the library that was loaded.
 pub const PP_VERSION_MAJOR: u32 = 0;
 /// Grows with additions (or, while the major version is 0, with any change of the interface).
-pub const PP_VERSION_MINOR: u32 = 1;
+pub const PP_VERSION_MINOR: u32 = 2;
 /// Grows with corrections that leave the interface as it is.
 pub const PP_VERSION_PATCH: u32 = 0;
 

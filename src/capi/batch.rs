@@ -2,12 +2,13 @@
 
 use super::contact::contact;
 use super::convert::{pose_from, settings_from, settings_status, state_of};
-use super::fence::{Output, array, array_mut, borrow, fenced, outputs};
+use super::fence::{array, array_mut, borrow, fenced, outputs};
 use super::particle::pp_particle;
 use super::status::*;
 use super::types::*;
 use crate::contact::batch::{CHUNK, in_parallel, optional_chunks};
 use crate::{PairState, Particle, Pose, Settings};
+use std::mem::MaybeUninit;
 
 /// Finds the contacts of many pairs of bodies: the way for a DEM program to hand over a whole step.
 ///
@@ -44,9 +45,10 @@ pub unsafe extern "C" fn pp_contact_detect_batch(
     statuses: *mut pp_status,
 ) -> pp_status {
     let (bodies, pairs, outputs) = ((particles, poses, body_count), (pairs, pair_count), (contacts, statuses));
-    let one = |a: &Body, b: &Body, settings: &Settings, state: Option<&mut PairState>, out| {
-        contact((a.0, &a.1), (b.0, &b.1), settings, state, out)
-    };
+    let one =
+        |a: &Body, b: &Body, settings: &Settings, state: Option<&mut PairState>, out: &mut MaybeUninit<pp_contact>| {
+            contact((a.0, &a.1), (b.0, &b.1), settings, state, out)
+        };
     // SAFETY: as the caller promised.
     unsafe { detect_batch(bodies, pairs, settings, threads, states, outputs, (body, one)) }
 }
@@ -71,7 +73,7 @@ pub(super) unsafe fn detect_batch<'a, P: 'a, Q: 'a, B: Sync, C: Send>(
     (contacts, statuses): (*mut C, *mut pp_status),
     (body, contact): (
         impl Fn(&'a P, &'a Q) -> Result<B, pp_status>,
-        impl Fn(&B, &B, &Settings, Option<&mut PairState>, Output<C>) -> Result<(), pp_status> + Sync,
+        impl Fn(&B, &B, &Settings, Option<&mut PairState>, &mut MaybeUninit<C>) -> Result<(), pp_status> + Sync,
     ),
 ) -> pp_status {
     fenced(|| {
@@ -94,7 +96,7 @@ pub(super) unsafe fn detect_batch<'a, P: 'a, Q: 'a, B: Sync, C: Send>(
             let mut states = states.iter_mut();
             for ((&[i, j], out), status) in pairs.iter().zip(contacts).zip(statuses) {
                 let state = states.next().map(state_of);
-                status.write(fenced(|| contact(find(i)?, find(j)?, &settings, state, out.into())));
+                status.write(fenced(|| contact(find(i)?, find(j)?, &settings, state, out)));
             }
         });
         Ok(())

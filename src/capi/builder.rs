@@ -1,10 +1,11 @@
 //! Builders of particles over the C boundary: from half-spaces or points to a particle about its centroid.
 
-use super::fence::{array, fenced, output};
-use super::particle::{explain_status, particle_status, pp_particle, write_message};
+use super::convert::planes_from;
+use super::fence::{array, output};
+use super::message::{Refusal, create};
+use super::particle::pp_particle;
 use super::status::*;
 use super::types::pp_mass_properties;
-use crate::Plane;
 use crate::shapes::{self, Rounding, Shape, ShapeError};
 use std::ffi::c_char;
 
@@ -27,9 +28,9 @@ pub struct pp_built {
 /// planes: count rows of a, b, c, h; inside is a x + b y + c z <= h. (a, b, c) may have any length. These
 /// are the faces themselves; the planes of pp_particle_new lie deeper, by about r. Planes that make no face
 /// are left out.
-/// r: rounding radius over the size, in (0, 0.5). The size is the diameter of the largest ball between the
-/// planes. k: sphericity, in [0, 1]. shadow_radius: R over the size, or 0 for the distance from the centroid to
-/// the farthest corner.
+/// rounding: the rounding radius r over the size, in (0, 0.5). The size is the diameter of the largest ball
+/// between the planes. k: sphericity, in [0, 1]. shadow: R over the size, or 0 for the distance from the
+/// centroid to the farthest corner. pp_particle_from_polyhedron takes lengths.
 /// out: receives the particle; release it with pp_particle_free.
 /// built: receives how it stands in the given frame, and its mass properties (may be NULL).
 /// message: receives, on failure, a sentence that names the plane or value (may be NULL).
@@ -41,9 +42,9 @@ pub struct pp_built {
 pub unsafe extern "C" fn pp_particle_from_faces(
     planes: *const f64,
     count: usize,
-    r: f64,
+    rounding: f64,
     k: f64,
-    shadow_radius: f64,
+    shadow: f64,
     out: *mut *mut pp_particle,
     built: *mut pp_built,
     message: *mut c_char,
@@ -51,12 +52,11 @@ pub unsafe extern "C" fn pp_particle_from_faces(
 ) -> pp_status {
     let make = || {
         // SAFETY: the caller promised 4*count doubles.
-        let rows = unsafe { array(planes.cast::<[f64; 4]>(), count) }?;
-        let planes: Vec<Plane> = rows.iter().map(|&row| Plane::from(row)).collect();
-        Ok(shapes::half_spaces(&planes, &rounding(r, k, shadow_radius)))
+        let planes = unsafe { planes_from(planes, count) }?;
+        Ok(shapes::half_spaces(&planes, &shares(rounding, k, shadow)))
     };
     // SAFETY: out, built and message are the caller's, as promised.
-    unsafe { build(make, "planes and out must not be NULL", out, built, message, message_size) }
+    unsafe { create_shape(make, "planes and out must not be NULL", out, built, message, message_size) }
 }
 
 /// Builds a particle from the convex hull of points, about its centroid and along its principal axes.
@@ -72,9 +72,9 @@ pub unsafe extern "C" fn pp_particle_from_faces(
 pub unsafe extern "C" fn pp_particle_from_points(
     points: *const f64,
     count: usize,
-    r: f64,
+    rounding: f64,
     k: f64,
-    shadow_radius: f64,
+    shadow: f64,
     out: *mut *mut pp_particle,
     built: *mut pp_built,
     message: *mut c_char,
@@ -83,20 +83,20 @@ pub unsafe extern "C" fn pp_particle_from_points(
     let make = || {
         // SAFETY: the caller promised 3*count doubles.
         let points = unsafe { array(points.cast::<[f64; 3]>(), count) }?;
-        Ok(shapes::hull(points, &rounding(r, k, shadow_radius)))
+        Ok(shapes::hull(points, &shares(rounding, k, shadow)))
     };
     // SAFETY: out, built and message are the caller's, as promised.
-    unsafe { build(make, "points and out must not be NULL", out, built, message, message_size) }
+    unsafe { create_shape(make, "points and out must not be NULL", out, built, message, message_size) }
 }
 
-fn rounding(r: f64, k: f64, shadow_radius: f64) -> Rounding {
-    let rounding = Rounding::new(r, k);
-    if shadow_radius == 0.0 { rounding } else { rounding.with_shadow_radius(shadow_radius) }
+fn shares(rounding: f64, k: f64, shadow: f64) -> Rounding {
+    let rounding = Rounding::new(rounding, k);
+    if shadow == 0.0 { rounding } else { rounding.with_shadow_share(shadow) }
 }
 
-/// Hands a shape to the caller, or the reason why there is none.
+/// [`create`] of the particle of a shape, with how that stands.
 /// Pointers: out and built are NULL or valid for writing, message is NULL or valid for writing size bytes.
-unsafe fn build(
+pub(super) unsafe fn create_shape(
     make: impl FnOnce() -> Result<Result<Shape, ShapeError>, pp_status>,
     null: &str,
     out: *mut *mut pp_particle,
@@ -104,35 +104,30 @@ unsafe fn build(
     message: *mut c_char,
     message_size: usize,
 ) -> pp_status {
-    let status = fenced(|| {
-        // SAFETY: by contract.
-        let out = unsafe { output(out) }?;
-        let shape = make()?.map_err(|error| {
+    let particle = || {
+        Ok(make()?.map(|shape| {
             // SAFETY: by contract.
-            unsafe { write_message(&error.to_string(), message, message_size) };
-            status_of(&error)
-        })?;
-        // SAFETY: by contract.
-        if let Ok(built) = unsafe { output(built) } {
-            let (centroid, orientation) = (shape.centroid.into(), shape.orientation);
-            built.write(pp_built { centroid, orientation, mass: (&shape.mass).into() });
-        }
-        out.write(Box::into_raw(Box::new(pp_particle(shape.particle))));
-        Ok(())
-    });
+            if let Ok(built) = unsafe { output(built) } {
+                let (centroid, orientation) = (shape.centroid.into(), shape.orientation);
+                built.write(pp_built { centroid, orientation, mass: (&shape.mass).into() });
+            }
+            pp_particle(shape.particle)
+        }))
+    };
     // SAFETY: by contract.
-    unsafe { explain_status(status, null, message, message_size) };
-    status
+    unsafe { create(particle, null, out, message, message_size) }
 }
 
-fn status_of(error: &ShapeError) -> pp_status {
-    match error {
-        ShapeError::OutOfRange { name: "r", .. } => PP_BAD_ROUNDING_RADIUS,
-        ShapeError::OutOfRange { name: "k", .. } => PP_BAD_SPHERICITY,
-        ShapeError::OutOfRange { .. } | ShapeError::NoCentre { .. } => PP_BAD_SHADOW_RADIUS,
-        ShapeError::PointNotFinite(_) => PP_BAD_POINT,
-        ShapeError::NoPlane(_) => PP_PLANE_ZERO_NORMAL,
-        ShapeError::Particle(error) => particle_status(error),
-        _ => PP_UNBOUNDED,
+impl Refusal for ShapeError {
+    fn status(&self) -> pp_status {
+        match self {
+            Self::OutOfRange { name: "r" | "rounding", .. } | Self::RadiusTooLarge { .. } => PP_BAD_ROUNDING_RADIUS,
+            Self::OutOfRange { name: "k", .. } => PP_BAD_SPHERICITY,
+            Self::OutOfRange { name: "R", .. } | Self::NoCentre { .. } => PP_BAD_SHADOW_RADIUS,
+            Self::PointNotFinite(_) | Self::NoSuchPoint { .. } => PP_BAD_POINT,
+            Self::NoPlane(_) => PP_PLANE_ZERO_NORMAL,
+            Self::Particle(error) => error.status(),
+            _ => PP_UNBOUNDED,
+        }
     }
 }

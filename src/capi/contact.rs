@@ -1,13 +1,14 @@
 //! The contact of one pair, its area, and one closest point alone.
 
 use super::convert::*;
-use super::fence::{Output, borrow, fenced, output};
+use super::fence::{borrow, fenced, output, place};
 use super::particle::pp_particle;
 use super::status::*;
 use super::types::*;
 use crate::contact::closest_point::closest_point;
-use crate::contact::detect::{Form, detect_as};
-use crate::{Contact, PairState, Particle, Pose, Section, Settings};
+use crate::contact::detect::detect_into;
+use crate::{ClosestPoint, Contact, Kind, PairState, Particle, Pose, Section, Settings};
+use std::mem::MaybeUninit;
 
 /// Fills settings with the defaults.
 ///
@@ -46,19 +47,12 @@ pub unsafe extern "C" fn pp_contact_detect(
         // One body after the other, as of a batch.
         let (a, pose_a) = unsafe { (&borrow(a)?.0, pose_from(borrow(pose_a)?)?) };
         let (b, pose_b) = unsafe { (&borrow(b)?.0, pose_from(borrow(pose_b)?)?) };
-        let out = unsafe { output(out) }?;
+        let out = unsafe { place(out) }?;
         let settings = settings_from(unsafe { settings.as_ref() })?;
         // SAFETY: NULL or exclusively ours for the call.
         let state = unsafe { state.as_mut() }.map(state_of);
         contact((a, &pose_a), (b, &pose_b), &settings, state, out)
     })
-}
-
-impl Form<()> for Output<pp_contact> {
-    #[inline(always)]
-    fn of(&self, contact: Contact) {
-        self.write(contact_to(&contact));
-    }
 }
 
 /// Finds one contact and writes it.
@@ -68,9 +62,9 @@ pub(super) fn contact(
     b: (&Particle, &Pose),
     settings: &Settings,
     state: Option<&mut PairState>,
-    out: Output<pp_contact>,
+    out: &mut MaybeUninit<Contact>,
 ) -> Result<(), pp_status> {
-    detect_as(a, b, settings, state, out).map_err(|error| detect_status(&error))
+    detect_into(a, b, settings, state, out).map(|_| ()).map_err(|error| detect_status(&error))
 }
 
 /// The point on one of the particles where the scale of the other is least: P1 on A, P2 on B (paper eqs
@@ -98,7 +92,7 @@ pub unsafe extern "C" fn pp_closest_point(
         let on = role_from(on)?;
         let settings = settings_from(unsafe { settings.as_ref() })?;
         let found = closest_point(a, &pose_a, b, &pose_b, on, &settings).map_err(|error| detect_status(&error))?;
-        out.write(closest_to(found));
+        out.write(found.unwrap_or(ClosestPoint::UNKNOWN));
         Ok(())
     })
 }
@@ -126,20 +120,16 @@ pub unsafe extern "C" fn pp_contact_area(
     fenced(|| {
         let (a, b) = unsafe { (&borrow(a)?.0, &borrow(b)?.0) };
         let (pose_a, pose_b) = unsafe { (pose_from(borrow(pose_a)?)?, pose_from(borrow(pose_b)?)?) };
-        let contact = unsafe { borrow(contact) }?;
+        let contact = unsafe { contact_of(contact) }?;
         let out = unsafe { output(area) }?;
         if !(1e-12..=0.1).contains(&relative_tolerance) {
             return Err(PP_BAD_SETTING);
         }
-        let section = Section {
-            branch_a: contact.branch_a.into(),
-            branch_b: contact.branch_b.into(),
-            normal: contact.normal.into(),
-        };
         out.write(match contact.kind {
-            PP_OVERLAPPING => section.area(a, &pose_a, b, &pose_b, relative_tolerance).ok_or(PP_BAD_POINT)?,
-            PP_SEPARATED => 0.0,
-            _ => return Err(PP_BAD_POINT),
+            Kind::Overlapping => {
+                Section::from(contact).area(a, &pose_a, b, &pose_b, relative_tolerance).ok_or(PP_BAD_POINT)?
+            }
+            Kind::Separated => 0.0,
         });
         Ok(())
     })

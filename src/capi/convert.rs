@@ -1,12 +1,20 @@
 //! The one conversion of each plain struct of the C interface to the Rust type, or back.
 
+use super::fence::{array, borrow};
 use super::status::*;
 use super::types::*;
 use crate::{
-    BackEnd, ClosestPoint, Contact, DetectError, Formulation, Kind, MassProperties, PairState, Pose, PoseError, Role,
+    BackEnd, Contact, DetectError, Formulation, Kind, MassProperties, PairState, Plane, Pose, PoseError, Role,
     Settings, SettingsError,
 };
 use nalgebra::Vector3;
+
+/// Rows of a, b, c, d.
+/// Pointers: planes is NULL or points to 4*count doubles.
+pub(super) unsafe fn planes_from(planes: *const f64, count: usize) -> Result<Vec<Plane>, pp_status> {
+    let rows = unsafe { array(planes.cast::<[f64; 4]>(), count) }?;
+    Ok(rows.iter().map(|row| Plane::from(*row)).collect())
+}
 
 #[inline]
 pub(super) fn pose_from(pose: &pp_pose) -> Result<Pose, pp_status> {
@@ -81,28 +89,18 @@ pub(super) fn settings_from(settings: Option<&pp_settings>) -> Result<Settings, 
     })
 }
 
-#[inline(always)]
-pub(super) fn contact_to(contact: &Contact) -> pp_contact {
-    pp_contact {
-        kind: kind_code(contact.kind),
-        formulation: formulation_code(contact.formulation),
-        back_end: back_end_code(contact.back_end),
-        flags: contact.flags.bits(),
-        iterations: contact.iterations,
-        reserved: 0,
-        s: contact.s,
-        s_b: contact.s_b,
-        weight: contact.weight,
-        gap: contact.gap,
-        point_bound: contact.point_bound,
-        overlap: contact.overlap,
-        normal: contact.normal.into(),
-        point: contact.point.into(),
-        branch_a: contact.branch_a.into(),
-        branch_b: contact.branch_b.into(),
-        point_on_a: contact.point_on_a.into(),
-        point_on_b: contact.point_on_b.into(),
-        distance: contact.distance,
+/// A contact that a caller hands back: what is no enum in Rust was not written by this library.
+///
+/// # Safety
+/// `contact` is NULL or points to a contact.
+pub(super) unsafe fn contact_of<'a, const N: usize>(contact: *const Contact<N>) -> Result<&'a Contact<N>, pp_status> {
+    // SAFETY: its first three fields are words; they are looked at before they count as enums.
+    let [kind, formulation, back_end] = *unsafe { borrow(contact.cast::<[u32; 3]>()) }?;
+    match (kind, formulation, back_end) {
+        (1..=2, PP_MIDWAY | PP_CLOSEST, PP_FAST | PP_CONE_PROGRAM) => unsafe { borrow(contact) },
+        (1..=2, PP_MIDWAY | PP_CLOSEST, _) => Err(PP_UNKNOWN_BACK_END),
+        (1..=2, ..) => Err(PP_UNKNOWN_FORMULATION),
+        _ => Err(PP_BAD_POINT),
     }
 }
 
@@ -112,26 +110,6 @@ pub(super) fn role_from(on: u32) -> Result<Role, pp_status> {
         PP_ON_A => Ok(Role::A),
         PP_ON_B => Ok(Role::B),
         _ => Err(PP_BAD_INDEX),
-    }
-}
-
-pub(super) fn closest_to(closest: Option<ClosestPoint>) -> pp_closest {
-    match closest {
-        Some(ClosestPoint { s, gap, point, branch_a, branch_b, point_bound }) => pp_closest {
-            slack: 0,
-            reserved: 0,
-            s,
-            gap,
-            point_bound,
-            point: point.into(),
-            branch_a: branch_a.into(),
-            branch_b: branch_b.into(),
-        },
-        None => {
-            let nan = [f64::NAN; 3];
-            let [s, gap, point_bound] = nan;
-            pp_closest { slack: 1, reserved: 0, s, gap, point_bound, point: nan, branch_a: nan, branch_b: nan }
-        }
     }
 }
 

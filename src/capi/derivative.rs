@@ -1,16 +1,16 @@
 //! Derivatives of contacts in poses and shapes.
 
-use super::convert::{detect_status, pose_from, settings_from, settings_status};
+use super::convert::{contact_of, detect_status, pose_from, settings_from, settings_status};
 use super::fence::{Output, array_mut, borrow, fenced, output};
 use super::flat::{boundary_status, pp_flat_contact};
 use super::particle::pp_particle;
 use super::status::*;
 use super::types::*;
 use crate::boundary::{Feature, FlatContact, Triangle};
-use crate::contact::contact::{Contact, Kind};
+use crate::contact::contact::Kind;
 use crate::particle::particle::{Particle, Plane};
 use crate::{
-    ContactDerivatives, ContactWeights, DerivativeError, DerivativeFlags, Formulation, PoseGradient, PoseRow, PoseRows,
+    ContactDerivatives, ContactWeights, DerivativeError, DerivativeFlags, PoseGradient, PoseRow, PoseRows,
     ShapeGradient, boundary_derivatives, boundary_gradient, contact_derivatives, contact_gradient,
 };
 use nalgebra::Vector3;
@@ -122,9 +122,9 @@ pub unsafe extern "C" fn pp_contact_derivatives(
         let (a, b) = unsafe { (&borrow(a)?.0, &borrow(b)?.0) };
         let (pose_a, pose_b) = unsafe { (pose_from(borrow(pose_a)?)?, pose_from(borrow(pose_b)?)?) };
         let settings = settings_from(unsafe { settings.as_ref() })?;
-        let contact = contact_from(unsafe { borrow(contact) }?)?;
+        let contact = unsafe { contact_of(contact) }?;
         let out = unsafe { output(out) }?;
-        let found = contact_derivatives(a, &pose_a, b, &pose_b, &contact, &settings).map_err(status_of)?;
+        let found = contact_derivatives(a, &pose_a, b, &pose_b, contact, &settings).map_err(status_of)?;
         out.write(derivatives_to(&found));
         Ok(())
     })
@@ -156,13 +156,13 @@ pub unsafe extern "C" fn pp_contact_gradient(
         let (a, b) = unsafe { (&borrow(a)?.0, &borrow(b)?.0) };
         let (pose_a, pose_b) = unsafe { (pose_from(borrow(pose_a)?)?, pose_from(borrow(pose_b)?)?) };
         let settings = settings_from(unsafe { settings.as_ref() })?;
-        let contact = contact_from(unsafe { borrow(contact) }?)?;
+        let contact = unsafe { contact_of(contact) }?;
         let weights = weights_from(unsafe { borrow(weights) }?)?;
         let (poses, flags) = unsafe { (output(poses.cast::<[pp_pose_gradient; 2]>())?, output(flags)?) };
         let mut shapes = [unsafe { Shape::of(shape_a, a) }?, unsafe { Shape::of(shape_b, b) }?];
         let [of_a, of_b] = &mut shapes;
         let (of_a, of_b) = (of_a.as_mut().map(|s| &mut s.sum), of_b.as_mut().map(|s| &mut s.sum));
-        let found = contact_gradient(a, &pose_a, b, &pose_b, &contact, &settings, &weights, of_a, of_b);
+        let found = contact_gradient(a, &pose_a, b, &pose_b, contact, &settings, &weights, of_a, of_b);
         write(found, shapes, &poses, &flags)
     })
 }
@@ -275,7 +275,7 @@ fn write(
 fn status_of(error: DerivativeError) -> pp_status {
     match error {
         DerivativeError::Settings(error) => settings_status(&error),
-        DerivativeError::NoPoint | DerivativeError::NoTriangle => PP_BAD_POINT,
+        DerivativeError::NoPoint | DerivativeError::NotFinite | DerivativeError::NoTriangle => PP_BAD_POINT,
         DerivativeError::NoGradient | DerivativeError::NoCurvature => PP_NO_DERIVATIVE,
         DerivativeError::Detect(error) => detect_status(&error),
         DerivativeError::Planes { .. } => PP_BAD_INDEX,
@@ -288,31 +288,6 @@ fn kind_from(kind: i32) -> Result<Kind, pp_status> {
         PP_SEPARATED => Ok(Kind::Separated),
         _ => Err(PP_BAD_POINT),
     }
-}
-
-fn contact_from(contact: &pp_contact) -> Result<Contact, pp_status> {
-    let formulation = match contact.formulation {
-        PP_MIDWAY => Formulation::Midway,
-        PP_CLOSEST => Formulation::Closest,
-        _ => return Err(PP_UNKNOWN_FORMULATION),
-    };
-    Ok(Contact {
-        kind: kind_from(contact.kind)?,
-        formulation,
-        flags: crate::Flags::from_bits(contact.flags),
-        s: contact.s,
-        s_b: contact.s_b,
-        gap: contact.gap,
-        point_bound: contact.point_bound,
-        overlap: contact.overlap,
-        normal: contact.normal.into(),
-        point: contact.point.into(),
-        branch_a: contact.branch_a.into(),
-        branch_b: contact.branch_b.into(),
-        point_on_a: contact.point_on_a.into(),
-        point_on_b: contact.point_on_b.into(),
-        ..Contact::UNKNOWN
-    })
 }
 
 fn flat_contact_from(contact: &pp_flat_contact) -> Result<FlatContact, pp_status> {

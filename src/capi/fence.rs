@@ -110,6 +110,14 @@ pub(super) unsafe fn output<T>(pointer: *mut T) -> Result<Output<T>, pp_status> 
     if pointer.is_null() { Err(PP_NULL_POINTER) } else { Ok(Output(pointer)) }
 }
 
+/// The same as memory that the library itself writes.
+///
+/// # Safety
+/// `pointer` is NULL or valid for writing one aligned `T`, which nobody else uses while `'a` lasts.
+pub(super) unsafe fn place<'a, T>(pointer: *mut T) -> Result<&'a mut MaybeUninit<T>, pp_status> {
+    unsafe { pointer.cast::<MaybeUninit<T>>().as_mut() }.ok_or(PP_NULL_POINTER)
+}
+
 /// A checked place for one result. It may be uninitialised memory, so it is never read.
 pub(super) struct Output<T>(*mut T);
 
@@ -118,12 +126,6 @@ impl<T> Output<T> {
     pub(super) fn write(&self, value: T) {
         // SAFETY: `output` was promised a pointer valid for writing one `T`; an output in an array is one.
         unsafe { self.0.write_unaligned(value) }
-    }
-}
-
-impl<T> From<&mut MaybeUninit<T>> for Output<T> {
-    fn from(place: &mut MaybeUninit<T>) -> Self {
-        Self(place.as_mut_ptr())
     }
 }
 

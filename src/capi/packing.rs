@@ -1,12 +1,14 @@
 //! Packings over the C boundary: bodies are handed over as they find their places.
 
-use super::fence::{array, borrow, fenced};
-use super::particle::{explain_status, pp_particle, write_message};
+use super::fence::{array, borrow};
+use super::message::{Refusal, explained};
+use super::particle::pp_particle;
 use super::status::*;
 use super::types::pp_pose;
 use crate::Particle;
 use crate::packing::{Arrangement, Container, PackError, Packing, Placement, Sizes, pack};
 use std::ffi::{c_char, c_void};
+use thiserror::Error;
 
 /// A box, sides along the axes.
 pub const PP_BOX: u32 = 0;
@@ -101,7 +103,7 @@ pub unsafe extern "C" fn pp_pack(
     message: *mut c_char,
     message_size: usize,
 ) -> pp_status {
-    let status = fenced(|| {
+    let make = || {
         let handles = unsafe { array(shapes, shape_count) }?;
         // SAFETY: each is NULL or a particle.
         let shapes = handles.iter().map(|&shape| unsafe { borrow(shape) }.map(|particle| particle.0.clone()));
@@ -117,15 +119,21 @@ pub unsafe extern "C" fn pp_pack(
             // SAFETY: the caller's function, with what it asks for.
             unsafe { placed(context, new.as_ptr(), new.len()) == 0 }
         };
-        filled(&shapes, rows, how, hand_over).map_err(|why| {
-            // SAFETY: the caller promised message_size bytes.
-            unsafe { write_message(&why, message, message_size) };
-            PP_BAD_PACKING
-        })
-    });
+        Ok(filled(&shapes, rows, how, hand_over).map_err(NotPacked))
+    };
     // SAFETY: the caller promised message_size bytes.
-    unsafe { explain_status(status, NOT_NULL, message, message_size) };
-    status
+    unsafe { explained(make, NOT_NULL, message, message_size) }
+}
+
+/// Why nothing was packed, as a sentence.
+#[derive(Debug, Error)]
+#[error("{0}")]
+struct NotPacked(String);
+
+impl Refusal for NotPacked {
+    fn status(&self) -> pp_status {
+        PP_BAD_PACKING
+    }
 }
 
 /// Packs; an error is its sentence.

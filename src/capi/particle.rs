@@ -1,6 +1,8 @@
 //! Particles over the C boundary: creation, release, and the definition that they were created from.
 
-use super::fence::{array, borrow, fenced, output, write_rows};
+use super::convert::planes_from;
+use super::fence::{borrow, fenced, output, write_rows};
+use super::message::{Refusal, create};
 use super::status::*;
 use crate::{Particle, ParticleError, Plane};
 use std::ffi::c_char;
@@ -28,7 +30,7 @@ pub const PP_MESSAGE_SIZE: usize = 512;
 /// message: receives, on failure, a sentence that names the plane or value (may be NULL).
 /// Errors: PP_NULL_POINTER, PP_PLANE_NOT_FINITE, PP_PLANE_ZERO_NORMAL, PP_BAD_SPHERICITY,
 /// PP_BAD_ROUNDING_RADIUS, PP_BAD_SHADOW_RADIUS, PP_CENTRE_OUTSIDE, PP_UNBOUNDED,
-/// PP_TOO_MANY_PLANES.
+/// PP_TOO_MANY_PLANES, PP_BAD_SIZE.
 /// Pointers: planes points to 4*count doubles, out to one pointer, message to message_size bytes.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pp_particle_new(
@@ -46,8 +48,7 @@ pub unsafe extern "C" fn pp_particle_new(
             return Ok(Err(ParticleError::TooManyPlanes(count)));
         }
         // SAFETY: the caller promised 4*count doubles.
-        let rows = unsafe { array(planes.cast::<[f64; 4]>(), count) }?;
-        let planes: Vec<Plane> = rows.iter().map(|&row| Plane::from(row)).collect();
+        let planes = unsafe { planes_from(planes, count) }?;
         Ok(Particle::new(&planes, r, k, shadow_radius).map(pp_particle))
     };
     // SAFETY: out and message are the caller's, as promised.
@@ -123,7 +124,8 @@ pub unsafe extern "C" fn pp_particle_shadow_radius(particle: *const pp_particle,
     })
 }
 
-/// Planes as given to pp_particle_new: rows of a, b, c, d, local frame.
+/// Planes as given to pp_particle_new, without those that are one with an earlier one: rows of a, b, c, d,
+/// local frame.
 ///
 /// planes: room for capacity rows; may be NULL when capacity is 0. count: receives the number of
 /// planes, also when the buffer is too small (PP_BUFFER_TOO_SMALL), so that one call asks the size.
@@ -144,73 +146,23 @@ pub unsafe extern "C" fn pp_particle_planes(
     })
 }
 
-/// Hands what `make` makes to the caller. Why it could not is written to the message: the error's own sentence, `null` for a
-/// pointer that is NULL, else that of the status.
-/// Pointers: out is NULL or valid for writing, message is NULL or valid for writing size bytes.
-pub(super) unsafe fn create<T>(
-    make: impl FnOnce() -> Result<Result<T, ParticleError>, pp_status>,
-    null: &str,
-    out: *mut *mut T,
-    message: *mut c_char,
-    message_size: usize,
-) -> pp_status {
-    // SAFETY: by contract.
-    let explain = |text: &str| unsafe { write_message(text, message, message_size) };
-    let status = fenced(|| {
-        let out = unsafe { output(out) }?;
-        let made = make()?.map_err(|error| {
-            explain(&error.to_string());
-            particle_status(&error)
-        })?;
-        out.write(Box::into_raw(Box::new(made)));
-        Ok(())
-    });
-    // SAFETY: by contract.
-    unsafe { explain_status(status, null, message, message_size) };
-    status
-}
-
-/// Writes the message of a status whose cause is no value: `null` for a pointer that is NULL, else the status's own sentence.
-/// Pointers: message is NULL or valid for writing size bytes.
-pub(super) unsafe fn explain_status(status: pp_status, null: &str, message: *mut c_char, size: usize) {
-    let text = match status {
-        PP_NULL_POINTER => null,
-        PP_BAD_INDEX | PP_INTERNAL_ERROR => sentence(status),
-        _ => return,
-    };
-    // SAFETY: by contract.
-    unsafe { write_message(text, message, size) };
-}
-
-pub(super) fn particle_status(error: &ParticleError) -> pp_status {
-    match error {
-        ParticleError::PlaneNotFinite { .. }
-        | ParticleError::LineNotFinite { .. }
-        | ParticleError::VertexNotFinite { .. } => PP_PLANE_NOT_FINITE,
-        ParticleError::ZeroNormal { .. } | ParticleError::ZeroLineNormal { .. } => PP_PLANE_ZERO_NORMAL,
-        ParticleError::NormalLength { .. } | ParticleError::LineNormalLength { .. } => PP_PLANE_ZERO_NORMAL,
-        ParticleError::Sphericity(_) => PP_BAD_SPHERICITY,
-        ParticleError::RoundingRadius(_)
-        | ParticleError::RoundingTooLarge { .. }
-        | ParticleError::RoundingTooSmall { .. } => PP_BAD_ROUNDING_RADIUS,
-        ParticleError::ShadowRadius(_) => PP_BAD_SHADOW_RADIUS,
-        ParticleError::CentreOutside { .. } | ParticleError::CentreOutsideLines { .. } => PP_CENTRE_OUTSIDE,
-        ParticleError::Unbounded | ParticleError::OpenLines | ParticleError::FlatVertices(_) => PP_UNBOUNDED,
-        ParticleError::TooManyPlanes(_) | ParticleError::TooManyLines(_) => PP_TOO_MANY_PLANES,
-    }
-}
-
-/// Copies as much of text as fits, always zero-terminated.
-/// Pointers: message is NULL or valid for writing size bytes.
-pub(super) unsafe fn write_message(text: &str, message: *mut c_char, size: usize) {
-    if message.is_null() || size == 0 {
-        return;
-    }
-    let room = text.len().min(size - 1);
-    let length = (0..=room).rev().find(|&at| text.is_char_boundary(at)).unwrap_or(0);
-    // SAFETY: length < size, and the caller promised `size` bytes.
-    unsafe {
-        std::ptr::copy_nonoverlapping(text.as_ptr().cast(), message, length);
-        message.add(length).write(0);
+impl Refusal for ParticleError {
+    fn status(&self) -> pp_status {
+        match self {
+            Self::PlaneNotFinite { .. } | Self::LineNotFinite { .. } | Self::VertexNotFinite { .. } => {
+                PP_PLANE_NOT_FINITE
+            }
+            Self::ZeroNormal { .. } | Self::ZeroLineNormal { .. } => PP_PLANE_ZERO_NORMAL,
+            Self::NormalLength { .. } | Self::LineNormalLength { .. } => PP_PLANE_ZERO_NORMAL,
+            Self::Sphericity(_) => PP_BAD_SPHERICITY,
+            Self::RoundingRadius(_) | Self::RoundingTooLarge { .. } | Self::RoundingTooSmall { .. } => {
+                PP_BAD_ROUNDING_RADIUS
+            }
+            Self::ShadowRadius(_) => PP_BAD_SHADOW_RADIUS,
+            Self::CentreOutside { .. } | Self::CentreOutsideLines { .. } => PP_CENTRE_OUTSIDE,
+            Self::Size { .. } => PP_BAD_SIZE,
+            Self::Unbounded | Self::OpenLines | Self::FlatVertices(_) => PP_UNBOUNDED,
+            Self::TooManyPlanes(_) | Self::TooManyLines(_) => PP_TOO_MANY_PLANES,
+        }
     }
 }

@@ -1,12 +1,12 @@
 //! The contact patch.
 
-use super::convert::pose_from;
+use super::convert::{contact_of, pose_from};
 use super::fence::{Output, borrow, check_room, fenced, output, outputs};
 use super::flat::{boundary_status, pp_flat_contact};
 use super::particle::pp_particle;
 use super::status::*;
 use super::types::*;
-use crate::contact::contact::{Contact, Kind};
+use crate::contact::contact::Kind;
 use crate::{FlatContact, Patch, PatchError, PatchPoint, PatchScratch, PatchSettings, PatchState, Triangle};
 use crate::{patch_of_contact, patch_on_plane, patch_on_triangle};
 use std::cell::RefCell;
@@ -163,13 +163,13 @@ pub unsafe extern "C" fn pp_patch_of_contact(
     fenced(|| {
         let (a, b) = unsafe { (&borrow(a)?.0, &borrow(b)?.0) };
         let (pose_a, pose_b) = unsafe { (pose_from(borrow(pose_a)?)?, pose_from(borrow(pose_b)?)?) };
-        let contact = contact_for_patch(unsafe { borrow(contact) }?)?;
+        let contact = unsafe { contact_of(contact) }?;
         let settings = settings(tolerance, with_energy)?;
         let out = unsafe { output(patch) }?;
         let state = unsafe { state_of(state, capacity) };
         let run = |scratch: &mut PatchScratch, visit: &mut dyn FnMut(PatchPoint)| match state {
-            Some(state) => state.patch_of_contact(a, &pose_a, b, &pose_b, &contact, &settings, scratch),
-            None => patch_of_contact(a, &pose_a, b, &pose_b, &contact, &settings, scratch, visit),
+            Some(state) => state.patch_of_contact(a, &pose_a, b, &pose_b, contact, &settings, scratch),
+            None => patch_of_contact(a, &pose_a, b, &pose_b, contact, &settings, scratch, visit),
         };
         unsafe { answer(run, &out, points, capacity, count) }
     })
@@ -324,19 +324,6 @@ fn patch_to(patch: &Patch) -> pp_patch {
         largest_depth: patch.largest_depth,
         energy: patch.energy,
     }
-}
-
-/// What the patch of a contact is computed from.
-pub(super) fn contact_for_patch(contact: &pp_contact) -> Result<Contact, pp_status> {
-    Ok(Contact {
-        kind: kind(contact.kind)?,
-        s: contact.s,
-        overlap: contact.overlap,
-        normal: contact.normal.into(),
-        branch_a: contact.branch_a.into(),
-        branch_b: contact.branch_b.into(),
-        ..Contact::UNKNOWN
-    })
 }
 
 pub(super) fn flat(contact: &pp_flat_contact) -> Result<FlatContact, pp_status> {

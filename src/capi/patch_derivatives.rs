@@ -1,11 +1,11 @@
 //! Derivatives of the force and the torques of a contact patch.
 
-use super::convert::pose_from;
+use super::convert::{contact_of, pose_from};
 use super::derivative::{rows, triangle_from};
 use super::fence::{Output, borrow, fenced, output};
 use super::flat::pp_flat_contact;
 use super::particle::pp_particle;
-use super::patch::{contact_for_patch, flat, is_on, settings, with_points};
+use super::patch::{flat, is_on, settings, with_points};
 use super::status::*;
 use super::types::*;
 use crate::{
@@ -46,11 +46,11 @@ pub unsafe extern "C" fn pp_patch_derivatives_of_contact(
     fenced(|| {
         let (a, b) = unsafe { (&borrow(a)?.0, &borrow(b)?.0) };
         let (pose_a, pose_b) = unsafe { (pose_from(borrow(pose_a)?)?, pose_from(borrow(pose_b)?)?) };
-        let contact = contact_for_patch(unsafe { borrow(contact) }?)?;
+        let contact = unsafe { contact_of(contact) }?;
         let settings = PatchSettings { with_stiffness: true, ..settings(tolerance, 0)? };
         let out = unsafe { output(out) }?;
         write([contact.branch_a, contact.branch_b], &out, |scratch, visit| {
-            patch_of_contact(a, &pose_a, b, &pose_b, &contact, &settings, scratch, visit)
+            patch_of_contact(a, &pose_a, b, &pose_b, contact, &settings, scratch, visit)
         })
     })
 }

@@ -1,7 +1,9 @@
 //! Rock masses over the C boundary: cut once, then read by the functions of `rock_arrays`.
 
-use super::fence::{array, output};
-use super::rock_joints::{joints_from, pp_joint, told};
+use super::convert::planes_from;
+use super::fence::array;
+use super::message::create;
+use super::rock_joints::{joints_from, pp_joint};
 use super::status::*;
 use crate::Plane;
 use crate::rock::{Partners, RockError, RockMass, SliceSettings, slice_with_regions};
@@ -91,7 +93,6 @@ pub unsafe extern "C" fn pp_rock_new(
     message_size: usize,
 ) -> pp_status {
     let make = || {
-        let out = unsafe { output(out) }?;
         let domain = unsafe { planes_from(planes, plane_count) }?;
         let joints = unsafe { joints_from(joints, joint_count, outlines, outline_counts) }?;
         let counts = unsafe { array(region_counts, region_count) }?;
@@ -100,7 +101,7 @@ pub unsafe extern "C" fn pp_rock_new(
         let regions: Vec<Vec<Plane>> = counts.iter().map(|count| left.by_ref().take(*count).collect()).collect();
         // SAFETY: NULL or the caller's.
         let settings = settings_from(unsafe { settings.as_ref() });
-        let told = |joints: usize, blocks: usize| match progress {
+        let goes_on = |joints: usize, blocks: usize| match progress {
             // SAFETY: the caller's function, with what it asks for.
             Some(progress) => unsafe { progress(context, joints as u64, blocks as u64) == 0 },
             None => true,
@@ -109,10 +110,9 @@ pub unsafe extern "C" fn pp_rock_new(
             (Ok(joints), Ok(settings)) => (joints, settings),
             (Err(error), _) | (_, Err(error)) => return Ok(Err(error)),
         };
-        let mass = slice_with_regions(&domain, &joints, &regions, &settings, told);
-        Ok(mass.map(|mass| out.write(Box::into_raw(Box::new(pp_rock::of(mass))))))
+        Ok(slice_with_regions(&domain, &joints, &regions, &settings, goes_on).map(pp_rock::of))
     };
-    unsafe { told(make, "planes, joints, regions and out must not be NULL", message, message_size) }
+    unsafe { create(make, "planes, joints, regions and out must not be NULL", out, message, message_size) }
 }
 
 /// Releases a rock mass; NULL is allowed and does nothing.
@@ -123,13 +123,6 @@ pub unsafe extern "C" fn pp_rock_free(rock: *mut pp_rock) {
         // SAFETY: by contract this came from Box::into_raw and is freed once.
         drop(unsafe { Box::from_raw(rock) });
     }
-}
-
-/// Rows of a, b, c, d.
-/// Pointers: planes is NULL or points to 4*count doubles.
-unsafe fn planes_from(planes: *const f64, count: usize) -> Result<Vec<Plane>, pp_status> {
-    let rows = unsafe { array(planes.cast::<[f64; 4]>(), count) }?;
-    Ok(rows.iter().map(|row| Plane::from(*row)).collect())
 }
 
 fn settings_from(settings: Option<&pp_slice_settings>) -> Result<SliceSettings, RockError> {

@@ -1,7 +1,7 @@
 //! Joints over the C boundary.
 
-use super::fence::{array, borrow, fenced, output, write_all};
-use super::particle::{explain_status, write_message};
+use super::fence::{array, borrow, output, write_all};
+use super::message::{Refusal, explained};
 use super::status::*;
 use crate::rock::{Joint, JointSet, RockError};
 use std::ffi::c_char;
@@ -67,7 +67,7 @@ pub unsafe extern "C" fn pp_joint_from_dip(
         let joint = if radius == f64::INFINITY { joint } else { joint.and_then(|joint| joint.with_radius(radius)) };
         Ok(joint.map(|joint| out.write(joint_to(&joint))))
     };
-    unsafe { told(make, "point and joint must not be NULL", message, message_size) }
+    unsafe { explained(make, "point and joint must not be NULL", message, message_size) }
 }
 
 /// The joint that is a convex polygon, by its corners in their order; pp_rock_new is given the corners again.
@@ -89,7 +89,7 @@ pub unsafe extern "C" fn pp_joint_from_corners(
         let out = unsafe { output(out) }?;
         Ok(Joint::polygon(corners).map(|joint| out.write(joint_to(&joint))))
     };
-    unsafe { told(make, "corners and joint must not be NULL", message, message_size) }
+    unsafe { explained(make, "corners and joint must not be NULL", message, message_size) }
 }
 
 /// The joints of a set within reach of a point, both lengths: those that cross the line through it along
@@ -125,29 +125,19 @@ pub unsafe extern "C" fn pp_joint_set_joints(
         unsafe { write_all(made.iter().map(joint_to), joints, capacity, count) }.map(Ok)
     };
     unsafe {
-        told(make, "set, centre and count, and joints of a capacity above 0, must not be NULL", message, message_size)
+        explained(
+            make,
+            "set, centre and count, and joints of a capacity above 0, must not be NULL",
+            message,
+            message_size,
+        )
     }
 }
 
-/// Runs `make`; an error of the rock is PP_BAD_ROCK with its own sentence as the message, `null` the one
-/// for a pointer that is NULL.
-/// Pointers: message is NULL or valid for writing size bytes.
-pub(super) unsafe fn told(
-    make: impl FnOnce() -> Result<Result<(), RockError>, pp_status>,
-    null: &str,
-    message: *mut c_char,
-    size: usize,
-) -> pp_status {
-    let status = fenced(|| {
-        make()?.map_err(|error| {
-            // SAFETY: by contract.
-            unsafe { write_message(&error.to_string(), message, size) };
-            PP_BAD_ROCK
-        })
-    });
-    // SAFETY: by contract.
-    unsafe { explain_status(status, null, message, size) };
-    status
+impl Refusal for RockError {
+    fn status(&self) -> pp_status {
+        PP_BAD_ROCK
+    }
 }
 
 /// Joints with their outlines.

@@ -120,12 +120,9 @@ pub unsafe extern "C" fn pp_particle_support(
 ) -> pp_status {
     fenced(|| {
         let particle = &unsafe { borrow(particle) }?.0;
-        let direction = finite(unsafe { borrow(direction.cast::<[f64; 3]>()) }?)?;
+        let direction = unsafe { borrow(direction.cast::<[f64; 3]>()) }?;
         let support = unsafe { output(support) }?;
-        // Scaled first, so that the squares stay in range.
-        let scaled = direction / direction.amax();
-        let unit = scaled.try_normalize(0.5).filter(|e| e.norm_squared().is_finite()).ok_or(PP_BAD_POINT)?;
-        support.write(particle.support(&unit));
+        support.write(particle.support(&(*direction).into()).ok_or(PP_BAD_POINT)?);
         Ok(())
     })
 }
@@ -143,12 +140,9 @@ pub unsafe extern "C" fn pp_particle_surface_distance(
 ) -> pp_status {
     fenced(|| {
         let particle = &unsafe { borrow(particle) }?.0;
-        let direction = finite(unsafe { borrow(direction.cast::<[f64; 3]>()) }?)?;
+        let direction = unsafe { borrow(direction.cast::<[f64; 3]>()) }?;
         let distance = unsafe { output(distance) }?;
-        // Scaled first, so that the squares stay in range.
-        let scaled = direction / direction.amax();
-        let unit = scaled.try_normalize(0.5).ok_or(PP_BAD_POINT)?;
-        distance.write(crate::particle::ray_cast::distance(particle, &Vector3::zeros(), &unit).ok_or(PP_BAD_POINT)?);
+        distance.write(particle.surface_distance(&Vector3::zeros(), &(*direction).into()).ok_or(PP_BAD_POINT)?);
         Ok(())
     })
 }

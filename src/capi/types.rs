@@ -46,6 +46,10 @@ pub const PP_FLAG_DEFAULT_REGULARISATION: u32 = 1024;
 /// The gradient vanishes on a flat boundary, as when the centre of the particle lies on it: the normal is the
 /// boundary's own.
 pub const PP_FLAG_NORMAL_BY_BOUNDARY: u32 = 2048;
+/// Closest: both points are free to move along flat faces (k = 0), so that the overlap, their distance, has a
+/// part along these, up to what the faces have in common. It is the answer by definition, but not a depth:
+/// midway's overlap is.
+pub const PP_FLAG_FREE: u32 = 4096;
 
 /// pp_closest_point: the point P1 on A, where s_B is least.
 pub const PP_ON_A: u32 = 0;
@@ -109,83 +113,15 @@ pub struct pp_pair_state {
     pub last_contact: [f64; 40],
 }
 
-/// The answer for one pair. Frames: world axes unless said otherwise; lengths in the caller's
-/// unit; s, weight and gap have no unit. Fields that do not apply are NaN.
-#[repr(C)]
-#[derive(Clone, Copy, Debug)]
-pub struct pp_contact {
-    /// PP_SEPARATED or PP_OVERLAPPING. A failed solve has no kind: it returns a status.
-    pub kind: i32,
-    /// The formulation that the geometry below answers (PP_MIDWAY if PP_FLAG_SLACK is set).
-    pub formulation: u32,
-    /// The back end that answered: PP_FAST or PP_CONE_PROGRAM.
-    pub back_end: u32,
-    /// Sum of PP_FLAG_... bits.
-    pub flags: u32,
-    /// Pairs of quadratics solved; rounds of a contact carried on; interior-point iterations of the cone-program
-    /// back end.
-    pub iterations: u32,
-    /// Always 0.
-    pub reserved: u32,
-    /// Midway: t, the common scale at which the two particles touch at one point; t < 1 overlap.
-    /// Closest: s_A at P2. Rejected pairs: a lower bound, >= 1. No unit.
-    pub s: f64,
-    /// Closest: s_B at P1; NaN for midway.
-    pub s_b: f64,
-    /// Weight u of B, in [0, 1]: (1-u) grad S_A + u grad S_B = 0 at the solution (closest: at P2).
-    pub weight: f64,
-    /// Bound on the error of s, and of s_b: |s - s*| <= gap. Proved for answers in extended precision
-    /// (PP_FLAG_EXTENDED); in doubles rounding is counted to first order, so that it is an estimate
-    /// (docs/theory.md).
-    pub gap: f64,
-    /// Estimated bound on the distance of the point (closest: of each of P1 and P2) to the exact optimum,
-    /// length: of first order in the rounding of the data.
-    pub point_bound: f64,
-    /// Overlap (YADE: penetrationDepth), length, >= 0 when overlapping (0 where s < 1 by rounding alone); NaN
-    /// when separated.
-    pub overlap: f64,
-    /// Unit contact normal, from A to B (positive force on B pushes it along +normal), from the gradients
-    /// of S_A and S_B; for k below flat_regularisation from those of the regularised shapes, so that it is
-    /// defined even where flat-faced cores overlap.
-    pub normal: [f64; 3],
-    /// Contact point, world frame: P3 of midway, or the weighted mean of P1 and P2 of closest.
-    pub point: [f64; 3],
-    /// Contact point minus position of A: exact lever arm even far from the world origin.
-    pub branch_a: [f64; 3],
-    /// Contact point minus position of B.
-    pub branch_b: [f64; 3],
-    /// Point on the surface of A inside B, world frame; P1 of closest. NaN when separated.
-    pub point_on_a: [f64; 3],
-    /// Point on the surface of B inside A, world frame; P2 of closest. NaN when separated.
-    pub point_on_b: [f64; 3],
-    /// Separated: lower bound on the distance between the two particles, length, with the rounding of s and
-    /// of their bounding volumes estimated; 0 when none is known, as for pairs that were solved to the end.
-    /// NaN when overlapping.
-    pub distance: f64,
-}
-
-/// One closest point alone; frames and units as in struct pp_contact.
-#[repr(C)]
-#[derive(Clone, Copy, Debug)]
-pub struct pp_closest {
-    /// 1 when there is no such point: for PP_ON_A because the centre of B (for k = 0, its core) lies inside A,
-    /// for PP_ON_B the reverse. The numbers below are NaN then. Else 0.
-    pub slack: u32,
-    /// Always 0.
-    pub reserved: u32,
-    /// Scale of the other particle at the point: s_B at P1, s_A at P2. No unit.
-    pub s: f64,
-    /// Bound on the error of s: |s - s*| <= gap (as in struct pp_contact).
-    pub gap: f64,
-    /// Estimated bound on the distance of the point to the exact optimum, length.
-    pub point_bound: f64,
-    /// P1 or P2, world frame.
-    pub point: [f64; 3],
-    /// The point minus position of A: exact lever arm even far from the world origin.
-    pub branch_a: [f64; 3],
-    /// The point minus position of B.
-    pub branch_b: [f64; 3],
-}
+/// The answers of the library itself, of which tests/header.rs writes the structs of the header.
+/// cbindgen:ignore
+pub type pp_contact = crate::Contact;
+/// cbindgen:ignore
+pub type pp_closest = crate::ClosestPoint;
+/// cbindgen:ignore
+pub type pp_contact_2d = crate::planar::Contact;
+/// cbindgen:ignore
+pub type pp_closest_2d = crate::planar::ClosestPoint;
 
 /// Volume and inertia of a particle of unit density, in its local frame.
 #[repr(C)]

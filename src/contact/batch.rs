@@ -1,13 +1,13 @@
 //! Many pairs in one call: the contacts of a whole step.
 
 use crate::contact::contact::Contact;
-use crate::contact::detect::{DetectError, detect, detect_as, not_carried_on};
+use crate::contact::detect::detect_into;
+use crate::contact::error::DetectError;
 use crate::pair::pair_state::PairState;
 use crate::particle::particle::Particle;
 use crate::pose::Pose;
 use crate::settings::Settings;
-use std::cell::Cell;
-use std::convert::identity;
+use std::mem::MaybeUninit;
 use std::panic::resume_unwind;
 use std::sync::{Mutex, PoisonError};
 use std::thread;
@@ -22,7 +22,7 @@ pub(crate) const MOST_THREADS: usize = 256;
 /// Contacts of many pairs of bodies: body i is `particles[i]` at `poses[i]`, pair n is that of the bodies `pairs[n]`, first A,
 /// then B.
 ///
-/// The answers come in the order of the pairs, and each is, to the last bit, what [`detect()`] gives for that pair alone,
+/// The answers come in the order of the pairs, and each is, to the last bit, what [`crate::detect()`] gives for that pair alone,
 /// whatever the number of threads: 1 is the calling thread alone (as is 0), n starts n − 1 more and ends them again before
 /// the call returns. `states` holds one state for each pair, or nothing.
 ///
@@ -51,9 +51,9 @@ pub fn detect_batch(
     states: &mut [PairState],
 ) -> Result<Vec<Result<Contact, DetectError>>, DetectError> {
     settings.validate()?;
-    let one = |_, a: Placed, b: Placed, state: Option<&mut PairState>, answer: &mut Answer| match state {
-        Some(state) if settings.carries_on() => carry_on(a, b, settings, state, answer),
-        state => *answer = detect(a.0, a.1, b.0, b.1, settings, state),
+    let one = |_, a: Placed, b: Placed, state: Option<&mut PairState>, answer: &mut Answer| {
+        let mut place = MaybeUninit::uninit();
+        *answer = detect_into(a, b, settings, state, &mut place).map(|contact| *contact);
     };
     let mut answers = unanswered(pairs.len());
     detect_batch_by((one, refuse), (particles, poses), pairs, threads, states, &mut answers)?;
@@ -68,7 +68,7 @@ pub fn detect_batch(
 /// let ball = Particle::sphere(1.0)?;
 /// let poses = [Pose::at([0.0, 0.0, 0.0])?, Pose::at([1.5, 0.0, 0.0])?];
 /// let mut overlaps = [f64::NAN];
-/// let write = |_, place: &mut f64, answer: Result<potential_particles::Contact, _>| {
+/// let write = |_, place: &mut f64, answer: Result<&potential_particles::Contact, _>| {
 ///     if let Ok(contact) = answer {
 ///         *place = contact.overlap;
 ///     }
@@ -89,36 +89,15 @@ pub fn detect_batch_into<T: Send>(
     threads: usize,
     states: &mut [PairState],
     answers: &mut [T],
-    write: impl Fn(usize, &mut T, Result<Contact, DetectError>) + Sync,
+    write: impl Fn(usize, &mut T, Result<&Contact, DetectError>) + Sync,
 ) -> Result<(), DetectError> {
     settings.validate()?;
     let one = |number, a: Placed, b: Placed, state: Option<&mut PairState>, place: &mut T| {
-        let place = Cell::new(Some(place));
-        let write = |answer| {
-            if let Some(place) = place.take() {
-                write(number, place, answer);
-            }
-        };
-        if let Err(error) = detect_as(a, b, settings, state, |contact| write(Ok(contact))) {
-            write(Err(error));
-        }
+        let mut contact = MaybeUninit::uninit();
+        write(number, place, detect_into(a, b, settings, state, &mut contact).map(|contact| &*contact));
     };
     let refuse = |number, place: &mut T, error| write(number, place, Err(error));
     detect_batch_by((one, refuse), (particles, poses), pairs, threads, states, answers)
-}
-
-/// One contact, carried on where it can be. It is written where it comes into being: copying it takes a twentieth of the time.
-#[inline(never)]
-fn carry_on(a: Placed, b: Placed, settings: &Settings, state: &mut PairState, answer: &mut Answer) {
-    let place = Cell::new(Some(&mut *answer));
-    let write = |contact| {
-        if let Some(place) = place.take() {
-            *place = Ok(contact);
-        }
-    };
-    if state.carry_on(a, b, settings, &write).is_none() {
-        *answer = not_carried_on(a, b, settings, state, identity);
-    }
 }
 
 /// A particle P at a pose Q.

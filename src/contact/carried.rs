@@ -9,7 +9,6 @@
 use crate::bounds::scale::Scale;
 use crate::bounds::solution::Solution;
 use crate::contact::contact::{Contact, Kind};
-use crate::contact::detect::Form;
 use crate::contact::followed::{MORE_ROUNDING, MOST_OPEN};
 use crate::contact::geometry::{Across, LocalContact};
 use crate::flags::Flags;
@@ -397,16 +396,15 @@ impl LastContact {
 }
 
 impl PairState {
-    /// `answer` of the contact at these poses, if the particles surely overlap there, as they did where it was solved, and the contact point is known
-    /// as well as the settings ask for; or if they were surely apart and are so still.
+    /// The contact at these poses, if the particles surely overlap there, as they did where it was solved, and the
+    /// contact point is known as well as the settings ask for; or if they were surely apart and are so still.
     #[inline(always)]
-    pub(crate) fn carry_on<T>(
+    pub(crate) fn carry_on(
         &mut self,
         a: (&Particle, &Pose),
         b: (&Particle, &Pose),
         settings: &Settings,
-        answer: &impl Form<T>,
-    ) -> Option<T> {
+    ) -> Option<Contact> {
         let last = self.remembered(a, b);
         let known = &mut self.last_contact;
         if !(known.is_of(a.0, b.0) && known.precision == precision_of(settings)) {
@@ -414,7 +412,7 @@ impl PairState {
         }
         let last = last?;
         if known.is_apart() {
-            return self.still_apart(a, b, settings, last, answer);
+            return self.still_apart(a, b, settings, last);
         }
         let pair = Pair::new(a.0, a.1, b.0, b.1);
         let radius = smaller(a.0.bounding_radius(), b.0.bounding_radius());
@@ -426,19 +424,18 @@ impl PairState {
         let call = Contact { flags: Flags::WARM.with(Flags::CARRIED), iterations: optimum.rounds, ..Contact::UNKNOWN };
         let contact = local.placed(&pair, b.1, call);
         debug_assert!(contact.kind == Kind::Overlapping && contact.overlap >= 0.0);
-        Some(answer.of(contact))
+        Some(contact)
     }
 
-    /// `answer` of particles that were surely apart, if they are so still. Not inlined: contacts need none of it.
+    /// The answer of particles that were surely apart, if they are so still. Not inlined: contacts need none of it.
     #[inline(never)]
-    fn still_apart<T>(
+    fn still_apart(
         &mut self,
         a: (&Particle, &Pose),
         b: (&Particle, &Pose),
         settings: &Settings,
         last: Remembered,
-        answer: &impl Form<T>,
-    ) -> Option<T> {
+    ) -> Option<Contact> {
         if settings.solve_separated {
             return None;
         }
@@ -451,7 +448,7 @@ impl PairState {
         let distance = separation::distance_of_scale(a.0, b.0, low);
         let flags = Flags::REJECTED.with(Flags::WARM).with(Flags::CARRIED);
         let apart = Contact::separated(Formulation::Midway, low);
-        Some(answer.of(Contact { flags, distance, iterations: optimum.rounds, ..apart }))
+        Some(Contact { flags, distance, iterations: optimum.rounds, ..apart })
     }
 }
 

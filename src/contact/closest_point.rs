@@ -1,6 +1,8 @@
 //! One of the two closest points alone, for pairs of which the other has none.
 
-use crate::contact::detect::DetectError;
+use crate::answer::answer;
+use crate::contact::error::DetectError;
+use crate::linalg::number::unknown_vector;
 use crate::model::problem::Problem;
 use crate::pair::pair::Pair;
 use crate::pair::role::Role;
@@ -8,24 +10,29 @@ use crate::particle::particle::Particle;
 use crate::pose::Pose;
 use crate::settings::Settings;
 use crate::solver::call::Call;
-use nalgebra::Vector3;
+use nalgebra::SVector;
 
-/// The closest point on one particle, world axes, lengths in the caller's unit.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[non_exhaustive]
-pub struct ClosestPoint {
-    /// Scale of the other particle at the point: s_A at P2, s_B at P1.
-    pub s: f64,
-    /// |s − s*| ≤ gap, as in [`crate::Contact`].
-    pub gap: f64,
-    /// P1 on A or P2 on B, world frame.
-    pub point: Vector3<f64>,
-    /// The point minus the position of A: free of the rounding of positions far from the origin.
-    pub branch_a: Vector3<f64>,
-    /// The point minus the position of B.
-    pub branch_b: Vector3<f64>,
-    /// Estimated bound on the distance of the point to the optimum, length.
-    pub point_bound: f64,
+answer! {
+    /// One closest point alone; frames and units as in struct pp_contact.
+    pub struct ClosestPoint<const N: usize = 3> {
+        /// 1 when there is no such point: for PP_ON_A because the centre of B (for k = 0, its core) lies inside A,
+        /// for PP_ON_B the reverse. The numbers below are NaN then. Else 0.
+        pub(crate) slack: u32 = 1,
+        /// Always 0.
+        pub(crate) reserved: u32 = 0,
+        /// Scale of the other particle at the point: s_B at P1, s_A at P2. No unit.
+        pub s: f64 = f64::NAN,
+        /// Bound on the error of s: |s - s*| <= gap (as in struct pp_contact).
+        pub gap: f64 = f64::NAN,
+        /// Estimated bound on the distance of the point to the exact optimum, length.
+        pub point_bound: f64 = f64::NAN,
+        /// P1 or P2, world frame.
+        pub point: SVector<f64, N> = unknown_vector(),
+        /// The point minus position of A: exact lever arm even far from the world origin.
+        pub branch_a: SVector<f64, N> = unknown_vector(),
+        /// The point minus position of B.
+        pub branch_b: SVector<f64, N> = unknown_vector(),
+    }
 }
 
 /// The point on the particle `on` where the other one's scale is least (paper eqs 3, 9): minimise s_A with s_B ≤ 1 for
@@ -68,6 +75,6 @@ pub fn closest_point(
         let branch_b = pose_b.rotate(&found.x);
         let (s, gap, point) = (found.scale.s, found.scale.gap, pose_b.position() + branch_b);
         let branch_a = pair.branch_a(&branch_b);
-        ClosestPoint { s, gap, point, branch_a, branch_b, point_bound: found.bound }
+        ClosestPoint { s, gap, point, branch_a, branch_b, point_bound: found.bound, slack: 0, reserved: 0 }
     }))
 }

@@ -2,8 +2,10 @@
 
 use crate::bounds::solution::{Ending, Solution};
 use crate::contact::contact::Contact;
+use crate::contact::error::DetectError;
 use crate::contact::geometry::LocalContact;
 use crate::flags::Flags;
+use crate::linalg::number::larger;
 use crate::model::local_model::Start;
 use crate::model::problem::Problem;
 use crate::pair::hull;
@@ -12,56 +14,10 @@ use crate::pair::pair_state::{LastContact, PairState, Remembered, from_memory_or
 use crate::pair::separation::{self, Apart};
 use crate::particle::particle::Particle;
 use crate::pose::Pose;
-use crate::settings::{BackEnd, Formulation, Settings, SettingsError};
+use crate::settings::{BackEnd, Formulation, Settings};
 use crate::solver::call::{Call, SolveError};
 use crate::solver::closest;
-use std::convert::identity;
-use thiserror::Error;
-
-/// Why there is no answer.
-#[derive(Clone, Debug, Error)]
-#[non_exhaustive]
-pub enum DetectError {
-    /// A setting is out of range.
-    #[error(transparent)]
-    Settings(#[from] SettingsError),
-    /// No solver reached an answer. The contact is unknown; this does not mean separated.
-    #[error("no solver reached an answer ({reason}); the contact is unknown")]
-    Failed {
-        /// What stopped the last solver.
-        reason: String,
-    },
-    /// A pair of a batch names a body that is not there.
-    #[error("body {index} does not exist: there are {bodies}, counted from 0")]
-    NoSuchBody {
-        /// As given.
-        index: u32,
-        /// How many there are.
-        bodies: usize,
-    },
-    /// The arguments of a batch do not fit together.
-    #[error("{given} {what} given where {expected} are needed")]
-    Length {
-        /// Of what.
-        what: &'static str,
-        /// How many were given.
-        given: usize,
-        /// How many are needed.
-        expected: usize,
-    },
-}
-
-impl DetectError {
-    pub(crate) fn no_surface() -> Self {
-        Self::Failed { reason: "the surface was not found along the normal".into() }
-    }
-}
-
-impl From<SolveError> for DetectError {
-    fn from(error: SolveError) -> Self {
-        Self::Failed { reason: error.to_string() }
-    }
-}
+use std::mem::MaybeUninit;
 
 /// Contact of A at `pose_a` with B at `pose_b`.
 ///
@@ -94,92 +50,100 @@ pub fn detect(
     settings: &Settings,
     state: Option<&mut PairState>,
 ) -> Result<Contact, DetectError> {
-    detect_as((a, pose_a), (b, pose_b), settings, state, identity)
+    let mut place = MaybeUninit::uninit();
+    detect_into((a, pose_a), (b, pose_b), settings, state, &mut place).map(|contact| *contact)
 }
 
-/// What makes the form T of a contact that the caller asked for. Any closure does; a type of its own may be `inline(always)`, which cannot be
-/// put on a closure.
-pub(crate) trait Form<T> {
-    fn of(&self, contact: Contact) -> T;
-}
-
-impl<T, F: Fn(Contact) -> T> Form<T> for F {
-    #[inline(always)]
-    fn of(&self, contact: Contact) -> T {
-        self(contact)
-    }
-}
-
-/// The whole of [`detect()`], for every entry that gives a contact another form. `answer` makes that form where the contact
-/// comes into being: a contact is large, and most pairs of a scene are rejected by a separation test, where copying it would take longer
-/// than finding it.
+/// [`detect()`] into a place of the caller's, which is written where there is an answer: reuse, reject, solve, describe.
+///
+/// A contact is large, and most pairs of a scene are rejected, where copying it would take longer than finding it.
 #[inline(always)]
-pub(crate) fn detect_as<T>(
+pub(crate) fn detect_into<'o>(
     a: (&Particle, &Pose),
     b: (&Particle, &Pose),
     settings: &Settings,
-    state: Option<&mut PairState>,
-    answer: impl Form<T>,
-) -> Result<T, DetectError> {
+    mut state: Option<&mut PairState>,
+    out: &'o mut MaybeUninit<Contact>,
+) -> Result<&'o mut Contact, DetectError> {
     settings.validate()?;
-    match state {
-        Some(state) if settings.carries_on() => carried_on_or_anew(a, b, settings, state, answer),
-        state => anew(a, b, settings, state, answer),
+    let mut out = out;
+    if let Some(state) = state.as_deref_mut().filter(|_| settings.carries_on()) {
+        match reused(a, b, settings, state, out) {
+            Ok(contact) => return Ok(contact),
+            Err(place) => out = place,
+        }
     }
+    anew(a, b, settings, state, out)
 }
 
-/// `answer` of the contact that is carried on, if it can be. In a frame of its own, as every part below that not all pairs need.
+/// The last contact at these poses, if it is accurate enough; else `out` is returned, and the last contact is dropped.
+/// Not inlined, as every function below that few pairs need: each has a stack frame of its own.
 #[inline(never)]
-fn carried_on_or_anew<T>(
+fn reused<'o>(
     a: (&Particle, &Pose),
     b: (&Particle, &Pose),
     settings: &Settings,
     state: &mut PairState,
-    answer: impl Form<T>,
-) -> Result<T, DetectError> {
-    match state.carry_on(a, b, settings, &answer) {
-        Some(answer) => Ok(answer),
-        None => not_carried_on(a, b, settings, state, answer),
+    out: &'o mut MaybeUninit<Contact>,
+) -> Result<&'o mut Contact, &'o mut MaybeUninit<Contact>> {
+    match state.carry_on(a, b, settings) {
+        Some(contact) => Ok(out.write(contact)),
+        None => {
+            state.last_contact.of = [0; 2];
+            Err(out)
+        }
     }
 }
 
-/// `answer` of the contact from the planes, to be carried on from here.
-pub(crate) fn not_carried_on<T>(
-    a: (&Particle, &Pose),
-    b: (&Particle, &Pose),
-    settings: &Settings,
-    state: &mut PairState,
-    answer: impl Form<T>,
-) -> Result<T, DetectError> {
-    state.last_contact.of = [0; 2];
-    anew(a, b, settings, Some(state), answer)
-}
-
-/// `answer` of the contact from the planes, with settings that were checked. One function for all who call it: in each of them the compiler
-/// would take less of it into one frame.
+/// The contact from the planes, with settings that were validated. Not inlined: compiled once, more of what it calls
+/// is inlined into it.
 #[inline(never)]
-fn anew<T>(
+fn anew<'o>(
     a: (&Particle, &Pose),
     b: (&Particle, &Pose),
     settings: &Settings,
-    state: Option<&mut PairState>,
-    answer: impl Form<T>,
-) -> Result<T, DetectError> {
+    mut state: Option<&mut PairState>,
+    out: &'o mut MaybeUninit<Contact>,
+) -> Result<&'o mut Contact, DetectError> {
     let last = state.as_deref().and_then(|state| state.remembered(a, b));
-    let rejected = |Apart { by, distance }: Apart| {
-        let flags = by.with(Flags::REJECTED);
-        Ok(answer.of(Contact { flags, distance, ..Contact::separated(settings.formulation, 1.0) }))
-    };
-    begin(a, b, settings, last, rejected, |pair| {
-        let mut state = state;
-        from_memory_or_anew(last.is_some(), |remembers| {
-            solved(pair, b.1, settings, state.as_deref_mut(), remembers).map(|contact| answer.of(contact))
-        })
-    })
+    let known = last.filter(|last| !last.overlapping && !settings.solve_separated);
+    if let Some(proof) = known.and_then(|last| still_apart(a, b, &last)) {
+        return Ok(out.write(rejected(settings, proof)));
+    }
+    let pair = Pair::new(a.0, a.1, b.0, b.1);
+    if let Some(proof) = separated(&pair, settings, last.is_some_and(|last| last.overlapping)) {
+        return Ok(out.write(rejected(settings, proof)));
+    }
+    let solve = |remembers| solved(&pair, b.1, settings, state.as_deref_mut(), remembers);
+    from_memory_or_anew(last.is_some(), solve).map(|contact| out.write(contact))
 }
 
-/// The contact of a pair that is not rejected by a separation test. In a frame of its own: it is large, and most pairs of a scene
-/// need none.
+/// The proof that kept the pair apart, if it does so still.
+#[inline(always)]
+fn still_apart(a: (&Particle, &Pose), b: (&Particle, &Pose), last: &Remembered) -> Option<Apart> {
+    match last.balanced {
+        true => hull::still_balanced(a, b, &last.x, &last.closest),
+        false => separation::still_apart(a, b, &last.x),
+    }
+}
+
+/// A proof of separation, if one is wanted; of a pair that overlapped, only the cheapest test is tried.
+#[inline(always)]
+fn separated(pair: &Pair, settings: &Settings, overlapped: bool) -> Option<Apart> {
+    match overlapped {
+        _ if settings.solve_separated => None,
+        true => separation::balls_apart(pair),
+        false => separation::proof_of_separation(pair),
+    }
+}
+
+#[inline(always)]
+fn rejected(settings: &Settings, Apart { by, distance }: Apart) -> Contact {
+    Contact { flags: by.with(Flags::REJECTED), distance, ..Contact::separated(settings.formulation, 1.0) }
+}
+
+/// The contact of a pair that no separation test rejects. Not inlined: its stack frame is large, and most pairs of a
+/// scene are rejected.
 #[inline(never)]
 fn solved(
     pair: &Pair,
@@ -189,7 +153,7 @@ fn solved(
     remembers: bool,
 ) -> Result<Contact, DetectError> {
     let mut call = Call::new(pair, settings);
-    // Unpacked once more: handed on through memory it would hold up the proofs of separation.
+    // Unpacked again: a copy through memory would stall the proofs of separation.
     let last = state.as_deref().filter(|_| remembers).map(|state| state.unpacked());
     // Where planes in balance kept sharp bodies apart, such planes are looked for again. Where none did, they are closer than planes can tell.
     let last = last.filter(|last| !last.balanced || settings.solve_separated || !call.is_sharp());
@@ -217,6 +181,7 @@ fn solved(
     let overlapped = last.filter(|last| last.overlapping && settings.formulation == Formulation::Closest);
     if let Some(points) = overlapped.and_then(|last| call.closest_from_memory(&last, &model)) {
         remember(state, closest::midway_between(&points));
+        call.flag_free(&points);
         let local = LocalContact::closest(pair, &points, settings.weight_on_a, true);
         return Ok(local.placed(pair, pose_b, summary(&call)));
     }
@@ -256,6 +221,7 @@ fn solved(
             // By rounding, midway and closest may lie on different sides of 1. Where midway does not tell, the scales that are answered do.
             remembered.overlapping = if scale.tells_the_side() { overlapping } else { closest::is_overlap(points) };
             remembered = closest::seen_from(remembered, values, points);
+            call.flag_free(points);
             LocalContact::closest(pair, points, settings.weight_on_a, remembered.overlapping)
         }
         None => {
@@ -267,7 +233,16 @@ fn solved(
         }
     };
     remember(state, remembered);
-    Ok(local.placed(pair, pose_b, summary(&call)))
+    let answer = summary(&call);
+    let distance = if remembered.overlapping { answer.distance } else { known_distance(pair, scale.low) };
+    Ok(local.placed(pair, pose_b, Contact { distance, ..answer }))
+}
+
+/// Lower bound on the distance of a pair that was solved to the end: by its s, by balls or by faces.
+#[cold]
+fn known_distance(pair: &Pair, low: f64) -> f64 {
+    let by_scale = separation::distance_of_scale(pair.a, pair.b, low);
+    separation::proof_of_separation(pair).map_or(by_scale, |proof| larger(proof.distance, by_scale))
 }
 
 /// What a call has cost, and who answered.
@@ -278,38 +253,5 @@ fn summary(call: &Call) -> Contact {
 fn remember(state: Option<&mut PairState>, remembered: Remembered) {
     if let Some(state) = state {
         state.remember(remembered);
-    }
-}
-
-/// Runs the separation tests, then the solver. The pair in one frame is handed on and not given back: copying it takes a twentieth
-/// of a call from memory.
-#[inline(always)]
-fn begin<T>(
-    a: (&Particle, &Pose),
-    b: (&Particle, &Pose),
-    settings: &Settings,
-    last: Option<Remembered>,
-    rejected: impl Fn(Apart) -> T,
-    undecided: impl FnOnce(&Pair) -> T,
-) -> T {
-    let overlapped = last.is_some_and(|last| last.overlapping);
-    let known = last.filter(|_| !overlapped && !settings.solve_separated);
-    let still_apart = |last: Remembered| match last.balanced {
-        true => hull::still_balanced(a, b, &last.x, &last.closest),
-        false => separation::still_apart(a, b, &last.x),
-    };
-    if let Some(proof) = known.and_then(still_apart) {
-        return rejected(proof);
-    }
-    let pair = Pair::new(a.0, a.1, b.0, b.1);
-    let proof = match overlapped {
-        _ if settings.solve_separated => None,
-        // Of a pair that overlapped, only the cheapest test is tried.
-        true => separation::balls_apart(&pair),
-        false => separation::proof_of_separation(&pair),
-    };
-    match proof {
-        Some(proof) => rejected(proof),
-        None => undecided(&pair),
     }
 }

@@ -4,7 +4,7 @@ use crate::bounds::scale::Scale;
 use crate::bounds::solution::Solution;
 use crate::contact::contact::{Contact, Kind};
 use crate::flags::Flags;
-use crate::linalg::number::{larger, smaller};
+use crate::linalg::number::{direction, larger, smaller};
 use crate::model::local_model::Piece;
 use crate::model::problem::Problem;
 use crate::pair::body;
@@ -281,9 +281,3 @@ const LARGEST_BELOW_1: f64 = 1.0 - 0.5 * f64::EPSILON;
 
 /// Square of the difference of two unit vectors that is too small to tell a direction.
 const OPPOSED: f64 = 1e-6;
-
-/// A vector at unit length, also where its square is lost or infinite; `None` if it has no direction.
-pub(crate) fn direction(v: &Vector3<f64>) -> Option<Vector3<f64>> {
-    let scaled = v / v.amax();
-    scaled.iter().all(|c| c.is_finite()).then(|| scaled.normalize())
-}

@@ -24,7 +24,7 @@
 //!
 //! | file | holds |
 //! |---|---|
-//! | `contact` | the answer |
+//! | `contact`, `error` | the answer, and why there is none |
 //! | `geometry` | point, normal and overlap from a solution |
 //! | `followed` | the quadratics of a contact whose point has left their reach |
 //! | `carried` | the last contact carried on to new poses |
@@ -37,5 +37,6 @@ pub(crate) mod carried;
 pub(crate) mod closest_point;
 pub(crate) mod contact;
 pub(crate) mod detect;
+pub(crate) mod error;
 pub(crate) mod followed;
 pub(crate) mod geometry;

@@ -1,6 +1,7 @@
 //! What is given and what is asked for.
 
-use crate::contact::detect::DetectError;
+use crate::contact::contact::Kind;
+use crate::contact::error::DetectError;
 use crate::flags::flag_set;
 use crate::particle::particle::{Particle, Plane};
 use crate::settings::SettingsError;
@@ -16,6 +17,7 @@ pub type PoseRows = SMatrix<f64, 3, 12>;
 
 /// The derivatives of a contact in the poses of both bodies. What is NaN in the contact is NaN here.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct ContactDerivatives {
     /// Of s, 1/length and no unit.
@@ -75,6 +77,7 @@ pub struct ContactWeights {
 
 /// The derivative of a cost in the pose of a body.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct PoseGradient {
     /// In a shift, world axes.
     pub shift: Vector3<f64>,
@@ -87,6 +90,7 @@ pub struct PoseGradient {
 /// At the ends of the range of k its derivative is that towards the inside: at k = 0 towards a sphere of the given R (without one,
 /// where R is not positive, only the planes count), at k = 1 towards the given planes.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ShapeGradient {
     /// In the normal and the offset of each plane, in the order in which they were given.
     pub planes: Vec<Plane>,
@@ -108,6 +112,7 @@ impl ShapeGradient {
 
 /// What else is to be known about derivatives; a set of bits.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct DerivativeFlags(u32);
 
 impl DerivativeFlags {
@@ -134,6 +139,13 @@ impl DerivativeFlags {
 
 flag_set!(DerivativeFlags);
 
+impl DerivativeError {
+    /// Of a contact some numbers of which are missing.
+    pub(super) fn without_point(kind: Kind) -> Self {
+        if kind == Kind::Separated { Self::NoPoint } else { Self::NotFinite }
+    }
+}
+
 /// Why a contact has no derivatives.
 #[derive(Clone, Debug, Error)]
 #[non_exhaustive]
@@ -144,6 +156,9 @@ pub enum DerivativeError {
     /// The pair was rejected without a contact point.
     #[error("the contact has no point: separation was proved without one; detect it with solve_separated")]
     NoPoint,
+    /// A number of an overlapping contact is not finite.
+    #[error("the contact is not finite: take the answer of a call for the same bodies and poses")]
+    NotFinite,
     /// Both gradients vanish, as in the core of both bodies or where centres coincide.
     #[error("the gradients of the potentials vanish at the contact point: there no normal is right, and no derivative")]
     NoGradient,

@@ -93,10 +93,10 @@ fn linearised<T>(
     let is_overlap = contact.kind == Kind::Overlapping;
     let surface = !is_overlap || contact.overlap.is_finite() && is_finite(&contact.on_particle);
     let on_boundary = is_finite(&contact.branch) && is_finite(&contact.on_boundary) && is_finite(&contact.normal);
-    if !(contact.s > 0.0 && contact.s.is_finite() && surface && on_boundary) {
-        return Err(DerivativeError::NoPoint);
+    if !(contact.s >= 0.0 && contact.s.is_finite() && surface && on_boundary) {
+        return Err(DerivativeError::without_point(contact.kind));
     }
-    if contact.flags.contains(Flags::NORMAL_BY_BOUNDARY) {
+    if contact.s == 0.0 || contact.flags.contains(Flags::NORMAL_BY_BOUNDARY) {
         return Err(DerivativeError::NoGradient);
     }
     let to_optimum = if is_overlap { contact.branch - 0.5 * contact.overlap * contact.normal } else { contact.branch };

@@ -10,7 +10,7 @@ use super::optimum::{FieldWeights, Kind as Problem, Optimum, normal_at};
 use super::surface::SurfacePoint;
 use crate::contact::closest_point::closest_point;
 use crate::contact::contact::{Contact, Kind};
-use crate::contact::detect::DetectError;
+use crate::contact::error::DetectError;
 use crate::flags::Flags;
 use crate::linalg::double_double::DoubleDouble;
 use crate::linalg::number::Single;
@@ -347,8 +347,11 @@ fn linearised<T>(
     let scales = contact.s > 0.0 && contact.s.is_finite() && (!closest || contact.s_b > 0.0 && contact.s_b.is_finite());
     let surfaces = contact.kind == Kind::Separated || is_finite(&contact.point_on_a) && is_finite(&contact.point_on_b);
     let centred = is_finite(&contact.branch_a) && is_finite(&contact.branch_b) && is_finite(&contact.point);
+    if contact.s == 0.0 || closest && contact.s_b == 0.0 {
+        return Err(DerivativeError::NoGradient);
+    }
     if !(scales && surfaces && centred && is_finite(&contact.normal)) {
-        return Err(DerivativeError::NoPoint);
+        return Err(DerivativeError::without_point(contact.kind));
     }
     if contact.flags.contains(Flags::NORMAL_BY_CENTRES) {
         return Err(DerivativeError::NoGradient);

@@ -6,6 +6,7 @@ use nalgebra::{Matrix3, Vector3};
 
 /// The derivatives of the wrench of a patch in the poses of both bodies, over the stiffness K per area, world axes.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct PatchDerivatives {
     /// Of the force on B; that on A is minus it.

@@ -1,7 +1,10 @@
 //! What the solver asks of a number: one double, two of them in lanes, or one of 32 digits.
 
 use super::double_double::DoubleDouble;
-use nalgebra::{ClosedAddAssign, ClosedDivAssign, ClosedMulAssign, ClosedSubAssign, Scalar, SimdValue, Vector3};
+use nalgebra::{
+    ArrayStorage, ClosedAddAssign, ClosedDivAssign, ClosedMulAssign, ClosedSubAssign, SVector, Scalar, SimdValue,
+    Vector3,
+};
 use num_traits::{One, Zero};
 use simba::simd::AutoF64x2;
 use std::ops::Neg;
@@ -32,7 +35,12 @@ macro_rules! equality {
 pub(crate) use equality;
 
 /// A vector of which nothing is known.
-pub(crate) const UNKNOWN_VECTOR: Vector3<f64> = Vector3::new(f64::NAN, f64::NAN, f64::NAN);
+pub(crate) const UNKNOWN_VECTOR: Vector3<f64> = unknown_vector();
+
+/// The same in any dimension.
+pub(crate) const fn unknown_vector<const N: usize>() -> SVector<f64, N> {
+    SVector::from_array_storage(ArrayStorage([[f64::NAN; N]]))
+}
 
 /// A number, or two of them in lanes. What is asked of a number is asked of both.
 pub trait Number:
@@ -202,4 +210,11 @@ pub(crate) fn larger(a: f64, b: f64) -> f64 {
 #[inline(always)]
 pub(crate) fn smaller(a: f64, b: f64) -> f64 {
     if a < b { a } else { b }
+}
+
+/// A vector at unit length, also where its square is lost or infinite; `None` if it has no direction. The one place where directions of any length
+/// that callers give are normalised.
+pub(crate) fn direction<const N: usize>(v: &SVector<f64, N>) -> Option<SVector<f64, N>> {
+    let scaled = v / v.amax();
+    scaled.iter().all(|c| c.is_finite()).then(|| scaled.normalize())
 }

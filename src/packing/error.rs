@@ -33,6 +33,10 @@ pub enum PackError {
     Margin(f64),
     #[error("a scattered packing needs a number of bodies (a settled one may do without: as many as fit)")]
     NoNumber,
+    #[error(
+        "number={number} bodies are more than the {most} that a packing may have: take fewer, larger bodies or a smaller container"
+    )]
+    TooMany { number: f64, most: usize },
     #[error("shape {index}, scaled by {scale:?}, is no particle: {reason}")]
     Scaled { index: usize, scale: f64, reason: ParticleError },
     #[error(

@@ -56,6 +56,9 @@ pub struct Placement {
 /// Bodies without a place, one after the other, after which no further one is tried.
 const GIVE_UP: usize = 64;
 
+/// Most bodies.
+const MOST_BODIES: usize = 10_000_000;
+
 /// Share of the container's cross-section, in squares of the bodies' widths, that a body has for itself in a round: with less,
 /// many would find their places taken.
 const ROOM: f64 = 32.0;
@@ -84,7 +87,7 @@ const MOST_AT_ONCE: f64 = 64.0;
 /// ```
 ///
 /// # Errors
-/// No shapes, a margin that is no distance, a scattered packing without a number, shapes that are no particles once they
+/// No shapes, more than ten million bodies, a margin that is no distance, a scattered packing without a number, shapes that are no particles once they
 /// are scaled, or a container into which no body fits.
 pub fn pack(
     container: &Container,
@@ -100,7 +103,7 @@ pub fn pack(
     let width = supply.typical_width();
     let at_once = (container.area() / (ROOM * width * width)).clamp(1.0, MOST_AT_ONCE) as usize;
     let mut rounds = Rounds { pile: Pile::new(*container, width), placements: Vec::new(), failures: 0 };
-    let mut queue = queue(&supply, container, how);
+    let mut queue = queue(&supply, container, how)?;
     let (mut looking, mut stopped) = (Vec::new(), false);
     while !stopped && rounds.failures < GIVE_UP {
         let missing = at_once.saturating_sub(looking.len());
@@ -123,18 +126,26 @@ pub fn pack(
 }
 
 /// The bodies in the order in which they are to look for a place.
-fn queue<'a>(supply: &'a Supply, container: &Container, how: &Packing) -> Box<dyn Iterator<Item = Wanted> + 'a> {
+fn queue<'a>(
+    supply: &'a Supply,
+    container: &Container,
+    how: &Packing,
+) -> Result<Box<dyn Iterator<Item = Wanted> + 'a>, PackError> {
     // More bodies than the smallest would fill the container with need no place, nor memory.
     let most = container.volume() / (std::f64::consts::FRAC_PI_6 * supply.least_diameter().powi(3));
-    let bodies = supply.bodies(how.seed).take(how.number.unwrap_or(usize::MAX).min(most.ceil() as usize));
-    match how.arrangement {
+    let number = how.number.map_or(f64::INFINITY, |number| number as f64).min(most.ceil());
+    if !(number <= MOST_BODIES as f64) {
+        return Err(PackError::TooMany { number, most: MOST_BODIES });
+    }
+    let bodies = supply.bodies(how.seed).take(number as usize);
+    Ok(match how.arrangement {
         Arrangement::Settled => Box::new(bodies),
         Arrangement::Scattered => {
             let mut all: Vec<_> = bodies.collect();
             all.sort_by(|a, b| supply.width(b).total_cmp(&supply.width(a)));
             Box::new(all.into_iter())
         }
-    }
+    })
 }
 
 /// A body that looks for its place, as it is packed.

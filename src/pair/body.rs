@@ -248,6 +248,11 @@ impl<'a> Body<'a> {
         self.added() * (x - self.centre).norm_squared()
     }
 
+    /// Square of the way from x to the centre; infinite where nothing is regularised.
+    pub fn regularised_square(&self, x: &Vector3<f64>) -> f64 {
+        if self.is_plain() { f64::INFINITY } else { (x - self.centre).norm_squared() }
+    }
+
     /// The gradient of that.
     pub fn surplus_gradient(&self, x: &Vector3<f64>) -> Vector3<f64> {
         self.surplus_curvature() * (x - self.centre)

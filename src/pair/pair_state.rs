@@ -201,7 +201,9 @@ mod tests {
         let both = warm.gap + cold.gap + 4.0 * f64::EPSILON * cold.s;
         assert!(warm.kind == cold.kind || (cold.s - 1.0).abs() <= both.min(1e-9), "{warm:?}\n{cold:?}");
         if warm.kind == Kind::Overlapping && cold.kind == Kind::Overlapping {
-            assert!((warm.s - cold.s).abs() <= both && warm.gap <= 1e-6 + 10.0 * cold.gap, "{warm:?}\n{cold:?}");
+            // A carried point is known to the carry tolerance, and s rises by 1/r along the normal of the sharpest body.
+            let most = if warm.flags.contains(crate::Flags::CARRIED) { 1e-9 / 1e-4 } else { 1e-6 };
+            assert!((warm.s - cold.s).abs() <= both && warm.gap <= most + 10.0 * cold.gap, "{warm:?}\n{cold:?}");
         }
     }
 

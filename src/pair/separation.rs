@@ -124,7 +124,7 @@ fn beyond_a_face(
     if gap <= other.bounds.inner * length {
         return None;
     }
-    let extent = other.support(&(to_other * (-n / length)));
+    let extent = other.bounds.support(&(to_other * (-n / length)));
     (gap > length * extent).then(|| gap / length - extent)
 }
 
@@ -214,9 +214,12 @@ mod tests {
                 // No more than the way back to where they touch.
                 assert!(contact.distance <= 1.001 * ((1.0 + share) * apart - deep), "{contact:?}");
                 solved += usize::from(contact.flags == Flags::REJECTED && contact.iterations > 0);
-                let normal = detect(a, &pose_a, b, &at(position), &to_the_end, None).unwrap().normal;
-                for towards in [-normal, -direction, vector().normalize()] {
-                    let then = look(position + 0.999_999 * contact.distance * towards);
+                // A pair that is solved to the end knows a distance, too.
+                let ended = detect(a, &pose_a, b, &at(position), &to_the_end, None).unwrap();
+                assert!(ended.distance > 0.0 && ended.distance <= 1.001 * ((1.0 + share) * apart - deep), "{ended:?}");
+                for towards in [-ended.normal, -direction, vector().normalize()] {
+                    let way = 0.999_999 * contact.distance.max(ended.distance);
+                    let then = look(position + way * towards);
                     assert_eq!(then.kind, Kind::Separated, "{contact:?} moved along {towards:?}");
                 }
             }

@@ -329,7 +329,7 @@ mod tests {
                 assert!(x.norm() <= particle.bounding_radius());
                 assert!((0..3).all(|axis| lower[axis] <= x[axis] && x[axis] <= upper[axis]));
                 for f in [e, Vector3::x(), -Vector3::z()] {
-                    assert!(f.dot(&x) <= particle.support(&f));
+                    assert!(f.dot(&x) <= particle.support(&f).unwrap());
                 }
             }
         }

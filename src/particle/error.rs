@@ -29,10 +29,7 @@ pub enum ParticleError {
          the origin: shift the planes so that the origin is inside"
     )]
     CentreOutside { f: f64, worst: usize, d: f64 },
-    #[error(
-        "the planes do not enclose a volume (of a size between 1e-150 and 1e150), and with k=0 nothing else does: \
-         add planes or take k>0"
-    )]
+    #[error("the planes do not enclose a volume, and with k=0 nothing else does: add planes or take k>0")]
     Unbounded,
     #[error("{0} planes are more than the {MAX_PLANES} that a particle may have")]
     TooManyPlanes(usize),
@@ -50,10 +47,7 @@ pub enum ParticleError {
          the origin: shift the lines so that the origin is inside"
     )]
     CentreOutsideLines { f: f64, worst: usize, d: f64 },
-    #[error(
-        "the lines do not enclose an area (of a size between 1e-150 and 1e150), and with k=0 nothing else does: \
-         add lines or take k>0"
-    )]
+    #[error("the lines do not enclose an area, and with k=0 nothing else does: add lines or take k>0")]
     OpenLines,
     #[error("{0} lines are more than the {MAX_PLANES} that a particle may have")]
     TooManyLines(usize),
@@ -70,6 +64,10 @@ pub enum ParticleError {
          of depths leave the range of numbers; take a larger r, or what encloses a smaller volume"
     )]
     RoundingTooSmall { r: f64, radius: f64 },
+    #[error(
+        "the particle reaches {radius:?} from its centre, which must be from 1e-30 to 1e30: take another unit of length"
+    )]
+    Size { radius: f64 },
 }
 
 /// A tolerance that is out of range, or no number.

@@ -25,6 +25,7 @@ use std::collections::BinaryHeap;
 
 /// Volume and moments of a particle of unit density, local frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct MassProperties {
     /// Volume, length³.
     pub volume: f64,
@@ -46,7 +47,7 @@ pub(crate) const LEAST_TOLERANCE: f64 = 1e-12;
 
 /// Most cells, some seconds of work for some tens of planes; and most planes evaluated on all rays together, some tens of seconds.
 const MOST_CELLS: usize = 200_000;
-const MOST_WORK: usize = 1_000_000_000;
+pub(crate) const MOST_WORK: usize = 1_000_000_000;
 
 /// Where the two parts of its error differ by less than this factor, a cell is halved in both directions.
 const ALIKE: f64 = 4.0;
@@ -56,7 +57,7 @@ pub(crate) const LEAST_PART: f64 = 0.1;
 
 /// How far the units in which errors are measured may be off, as a factor, and how often they are found anew.
 pub(crate) const SAME_UNITS: f64 = 1.05;
-const MOST_UNITS: usize = 8;
+pub(crate) const MOST_UNITS: usize = 8;
 
 /// Rounding of a sum of moments, relative.
 pub(crate) const OF_SUMS: f64 = 4.0 * f64::EPSILON;

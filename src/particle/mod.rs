@@ -9,6 +9,8 @@
 //! | `largest_ball` | the largest ball within half-spaces, by the simplex method |
 //! | `bounding_volumes` | a ball and a polyhedron that hold the particle |
 //! | `cutter`, `polyhedron`, `outlines` | a polyhedron that stays closed while planes cut it, what a plane takes away, and the faces |
+//! | `coplanar` | which faces of a convex body are one |
+//! | `volume` | volume, centroid and inertia of a body from the polygons of its surface |
 //! | `neighbours` | which planes are neighbours on the polyhedron that holds a particle |
 //! | `shape` | the validated definition with its clusters and bounding volumes |
 //! | `potential` | S, its gradient and its Hessian |
@@ -20,6 +22,7 @@
 //! | `particle` | the public interface |
 
 pub mod bounding_volumes;
+pub mod coplanar;
 pub mod cutter;
 pub mod direction_mesh;
 pub mod error;
@@ -37,3 +40,4 @@ pub mod potential;
 pub mod quadrature;
 pub mod ray_cast;
 pub mod shape;
+pub mod volume;

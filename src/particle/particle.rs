@@ -1,5 +1,6 @@
 //! A potential particle: the public interface to a [`Shape`].
 
+use crate::linalg::number;
 pub use crate::particle::error::ParticleError;
 use crate::particle::error::ToleranceError;
 use crate::particle::mass_properties::{self, MassProperties};
@@ -8,6 +9,8 @@ use crate::particle::shape::Shape;
 use crate::particle::{potential, ray_cast};
 use crate::pose::Pose;
 use nalgebra::{Matrix3, Vector3};
+use std::collections::hash_map::RandomState;
+use std::hash::{BuildHasher, Hasher};
 use std::ops::Deref;
 use std::sync::LazyLock;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -41,12 +44,13 @@ pub struct Particle {
 }
 
 impl Particle {
-    /// Builds a particle from its planes, rounding radius r, sphericity k and shadow radius R.
+    /// Builds a particle from its planes, rounding radius r, sphericity k and shadow radius R. Planes that are one within its bounding ball, to 1e-6 of the
+    /// ball's radius, count once: as the first of them.
     ///
     /// # Errors
     /// Non-finite numbers, k outside [0, 1], r ≤ 0 (unless k = 1), R ≤ 0 (unless k = 0), a normal that is zero or whose
-    /// square leaves the range of f64, an origin that is not inside (f(0) ≥ 0), for k = 0 an unbounded shape, and one that
-    /// reaches more than 1e150·r/√(1−k) from its centre.
+    /// square leaves the range of f64, an origin that is not inside (f(0) ≥ 0), for k = 0 an unbounded shape, one that
+    /// reaches more than 1e150·r/√(1−k) from its centre, and one that reaches less than 1e-30 or more than 1e30.
     pub fn new(planes: &[Plane], r: f64, k: f64, shadow_radius: f64) -> Result<Self, ParticleError> {
         Ok(Self::of(Shape::new(planes, r, k, shadow_radius, 3)?))
     }
@@ -75,7 +79,9 @@ impl Particle {
     }
 
     fn of(shape: Shape) -> Self {
-        static LAST: AtomicU64 = AtomicU64::new(0);
+        // From a random number on, so that a memory that was saved in spite of its documentation is of no particle of another process.
+        static LAST: LazyLock<AtomicU64> =
+            LazyLock::new(|| AtomicU64::new(RandomState::new().build_hasher().finish() >> 13));
         Self { shape, serial: 1 + LAST.fetch_add(1, Ordering::Relaxed) }
     }
 
@@ -118,7 +124,7 @@ impl Particle {
         potential::local(self, x).hessian.matrix()
     }
 
-    /// Planes as given.
+    /// Planes as given, without those that are one with an earlier one.
     pub fn planes(&self) -> impl ExactSizeIterator<Item = Plane> {
         self.shape.given_planes().into_iter()
     }
@@ -174,19 +180,20 @@ impl Particle {
         self.shape.bounds.aligned_box(pose.rotation(), pose.position())
     }
 
-    /// Upper bound of max e·x over the particle, local frame, e of unit length.
-    pub fn support(&self, e: &Vector3<f64>) -> f64 {
-        self.shape.bounds.support(e)
+    /// Upper bound of max e·x over the particle, length, e the unit vector of a local direction of any length. `None` for one that is zero or not
+    /// finite.
+    pub fn support(&self, direction: &Vector3<f64>) -> Option<f64> {
+        Some(self.shape.bounds.support(&number::direction(direction)?))
     }
 
-    /// Distance τ ≥ 0 along a local unit direction from a local point inside to the surface, length: the τ with
-    /// S(from + τ·direction) = 1.
+    /// Distance τ ≥ 0 along a local direction of any length from a local point inside to the surface, length: the τ with S(from + τ·e) = 1, e the
+    /// unit vector of the direction.
     ///
     /// From a point that rounding has put outside, the answer is a small negative number if the ray points away from the
-    /// particle, and the distance to where it leaves it again if the ray enters. `None` when the ray misses the particle or
+    /// particle, and the distance to where it leaves it again if the ray enters. `None` when the ray misses the particle, the direction is zero or
     /// something is not finite.
     pub fn surface_distance(&self, from: &Vector3<f64>, direction: &Vector3<f64>) -> Option<f64> {
-        ray_cast::distance(self, from, direction)
+        ray_cast::distance(self, from, &number::direction(direction)?)
     }
 
     /// Volume, centroid and inertia to a relative tolerance ([`MASS_TOLERANCE`](crate::MASS_TOLERANCE) = 1e-6 is usual),

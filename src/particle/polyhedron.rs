@@ -31,6 +31,9 @@ impl Corner {
     }
 }
 
+/// The number of a face, and those of its corners, counter-clockwise from outside.
+pub(crate) type Numbered = (usize, Vec<u32>);
+
 /// What became of a polyhedron that a plane was to split.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Split {
@@ -196,9 +199,27 @@ impl Polyhedron {
         [f64::min, f64::max].map(|of| self.corners().copied().reduce(|a, b| a.zip_map(&b, of)).unwrap_or_default())
     }
 
-    /// All corners with the numbers of their faces, counter-clockwise from outside.
-    pub fn corners_with_faces(&self) -> impl Iterator<Item = (&Vector3<f64>, [usize; 3])> {
-        self.left().map(|corner| (&corner.at, corner.faces.map(|face| face as usize)))
+    /// The height along n, of unit length, of the corner that lies deepest.
+    pub fn lowest(&self, cutter: &mut Cutter, n: &Vector3<f64>) -> f64 {
+        n.dot(&self.corners[cutter.highest(&self.corners, &-n, self.start, self.least_cut) as usize].at)
+    }
+
+    /// All corners, and all faces.
+    pub fn numbered(&self) -> (Vec<Vector3<f64>>, Vec<Numbered>) {
+        let mut places = Vec::with_capacity(self.corners.len());
+        let mut corners = Vec::new();
+        for corner in &self.corners {
+            places.push(corners.len() as u32);
+            if corner.next != REMOVED {
+                corners.push(corner.at);
+            }
+        }
+        let (mut outlines, mut outline) = (Vec::new(), Vec::new());
+        self.walk(&mut Vec::new(), |number, corner| match corner {
+            Some((at, _)) => outline.push(places[at]),
+            None => outlines.push((number as usize, std::mem::take(&mut outline))),
+        });
+        (corners, outlines)
     }
 
     /// All faces.
@@ -214,6 +235,20 @@ impl Polyhedron {
         faces.clear();
         corners.clear();
         beyond.clear();
+        self.walk(seen, |number, corner| match corner {
+            Some((at, side)) => {
+                let corner = &self.corners[at];
+                corners.push(corner.at);
+                beyond.push(corner.faces[(side + 2) % 3] as usize);
+            }
+            None => faces.push((number as usize, corners.len())),
+        });
+    }
+
+    /// Walks around each face in turn, counter-clockwise: `visit` is called with the face's number and each corner, as its place and which of its
+    /// three faces this one is, and with `None` at the end of the face. `seen` is room that is lent.
+    #[inline]
+    fn walk(&self, seen: &mut Vec<[bool; 3]>, mut visit: impl FnMut(u32, Option<(usize, usize)>)) {
         seen.clear();
         seen.resize(self.corners.len(), [false; 3]);
         for i in 0..self.corners.len() {
@@ -225,13 +260,11 @@ impl Polyhedron {
                 let (mut at, mut here) = (i, side);
                 while !seen[at][here] {
                     seen[at][here] = true;
-                    let corner = &self.corners[at];
-                    corners.push(corner.at);
-                    beyond.push(corner.faces[(here + 2) % 3] as usize);
-                    at = corner.next[here] as usize;
+                    visit(number, Some((at, here)));
+                    at = self.corners[at].next[here] as usize;
                     here = self.corners[at].faces.iter().position(|&face| face == number).unwrap_or(0);
                 }
-                faces.push((number as usize, corners.len()));
+                visit(number, None);
             }
         }
     }

@@ -12,16 +12,21 @@
 
 use crate::linalg::symmetric::Symmetric;
 use crate::particle::bounding_volumes::{self, Bounds, Extent};
+use crate::particle::coplanar;
 use crate::particle::error::ParticleError;
 use crate::particle::neighbours::Neighbours;
 use crate::particle::plane::{MAX_PLANES, Plane};
 use crate::particle::plane_clusters::PlaneClusters;
 use nalgebra::Vector3;
-use std::ops::Range;
+use std::ops::{Range, RangeInclusive};
 
 /// Most bounding radii in units of r/√(1−k). A plane that bounds the particle along a ray rises by at least the inverse of this along
 /// the ray; depth times rise and the square of the rise, at the surface, are then no smaller than 1e-304 and 1e-300, normal numbers.
 const MOST_RADII: f64 = 1e150;
+
+/// The bounding radius lies in this range: moments of inertia go with the fifth power of lengths, and the products and squares that are taken of them and of the wrench
+/// of a patch are normal numbers then.
+const SIZES: RangeInclusive<f64> = 1e-30..=1e30;
 
 /// A validated definition with its bounding volumes.
 #[derive(Clone, Debug)]
@@ -52,7 +57,7 @@ pub struct Shape {
 
 impl Shape {
     /// Checks and completes a definition. With two dimensions every plane is (a, b, 0, d), and only the cut at z = 0 has to be
-    /// bounded.
+    /// bounded. Of planes that are one within the bounding ball the first counts.
     pub(crate) fn new(
         planes: &[Plane],
         r: f64,
@@ -76,6 +81,14 @@ impl Shape {
         let bounds = Bounds::of(&rows, &extent).ok_or(ParticleError::Unbounded)?;
         if !rows.is_empty() && plane_weight.sqrt() * bounds.radius > MOST_RADII {
             return Err(ParticleError::RoundingTooSmall { r, radius: bounds.radius });
+        }
+        if !SIZES.contains(&bounds.radius) {
+            return Err(ParticleError::Size { radius: bounds.radius });
+        }
+        if plane_weight > 0.0 {
+            if let Some(distinct) = coplanar::distinct_planes(planes, bounds.radius) {
+                return Self::new(&distinct, r, k, shadow_radius, dimensions);
+            }
         }
         let single = clusters.is_single();
         let neighbours = if single { Neighbours::default() } else { Neighbours::of(&rows, &bounds) };

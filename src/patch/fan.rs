@@ -5,9 +5,10 @@ use super::ray::{EVENTS, Event, Line, RIM, Ray, SUMS, Walker};
 use super::rules::GAUSS_KRONROD;
 use super::smoothness::{error_of_rule, norm};
 
-/// Most rays, and points on them.
+/// Most rays, points on them, and planes looked at in their cells: some tens of milliseconds.
 const MOST_RAYS: usize = 1500;
 const MOST_NODES: usize = 500_000;
+const MOST_WORK: usize = 2_000_000;
 
 /// Most halvings in the search for the direction in which the sequence of cells changes.
 const DEEPEST: u32 = 14;
@@ -82,7 +83,7 @@ pub(super) struct Fan<'w, 'f, 'a, 's> {
     pub extent: f64,
     /// The ray at which a sector was halved: no sector is to grow over it.
     cut: usize,
-    /// Whether the most rays were used.
+    /// Whether the most rays, points or planes were used.
     pub is_capped: bool,
     /// Whether the loads of two neighbouring rays, one of them tilted, differ too much for the angle between them: a part of the patch lies between
     /// that no ray reaches, as the far side of a rod that goes through the other body.
@@ -199,7 +200,8 @@ impl<'w, 'f, 'a, 's> Fan<'w, 'f, 'a, 's> {
         let ray = self.walker.walk(&self.line(direction));
         self.extent = self.extent.max(ray.length());
         self.rays.push(ray);
-        if self.rays.len() >= MOST_RAYS || self.walker.nodes.len() >= MOST_NODES {
+        let used_up = self.walker.nodes.len() >= MOST_NODES || self.walker.work >= MOST_WORK;
+        if self.rays.len() >= MOST_RAYS || used_up {
             // What is left is done as cheaply as it can be.
             (self.is_capped, self.walker.budget) = (true, f64::INFINITY);
         }

@@ -1,6 +1,5 @@
 //! From the potentials to the answer.
 
-use super::border::around;
 use super::cell::RayPlane;
 use super::cells::{CellScratch, cells};
 use super::centre::{flattest_axis, middle, on_patch};
@@ -10,7 +9,6 @@ use super::oval::oval;
 use super::patch::{Patch, PatchFlags, PatchPoint};
 use super::pieces::{Estimate, PieceScratch, pieces};
 use super::ray::{Line, Node, Walker};
-use super::rules::order_of;
 use super::scratch::PatchScratch;
 use super::settings::PatchSettings;
 use super::smoothness::norm;
@@ -72,7 +70,7 @@ pub(super) fn patch(task: &Task, scratch: &mut PatchScratch, mut visit: impl FnM
     } else {
         parts.cells(cells).or_else(|| parts.zones(pieces))
     };
-    let outcome = outcome.or_else(|| parts.around(pieces)).unwrap_or_else(|| {
+    let outcome = outcome.unwrap_or_else(|| {
         parts.field.restore(state);
         let Parts { field, planes, nodes, points, .. } = &mut parts;
         let walker = Walker::new(field, planes, nodes, 2);
@@ -87,7 +85,7 @@ pub(super) fn patch(task: &Task, scratch: &mut PatchScratch, mut visit: impl FnM
     flags.set(PatchFlags::EMPTY, is_empty);
     flags.set(PatchFlags::FOLDED, outcome.is_folded);
     let [error, area_error] = [outcome.error, outcome.area_error].map(|e| if is_empty { 0.0 } else { e.max(rounding) });
-    flags.set(PatchFlags::TOLERANCE_NOT_REACHED, error > task.settings.tolerance);
+    flags.set(PatchFlags::TOLERANCE_NOT_REACHED, error > task.settings.tolerance || outcome.is_capped);
     let mut summary = Summary::of(task, points, deepest);
     if !is_empty {
         summary.complete(task, points);
@@ -109,6 +107,8 @@ struct Outcome {
     area_error: f64,
     energy: f64,
     is_folded: bool,
+    /// Whether it ended at the limit of work.
+    is_capped: bool,
     rays: usize,
 }
 
@@ -151,16 +151,6 @@ impl<'a, 's> Parts<'_, '_, 'a, 's> {
         let Self { field, planes, nodes, points, .. } = self;
         let mut walker = Walker::new(field, planes, nodes, 2);
         let estimate = cells(&mut walker, axis, deepest, tolerance, scratch, points)?;
-        Some(Outcome::of(&estimate, points))
-    }
-
-    /// By rays around the flat part that the zones have found.
-    fn around(&mut self, scratch: &PieceScratch) -> Option<Outcome> {
-        let (level, polygon) = self.is_asked().then(|| scratch.flat()).flatten()?;
-        let (order, tolerance) = (order_of(self.tolerance), self.tolerance);
-        let Self { field, planes, nodes, points, .. } = self;
-        let mut walker = Walker::new(field, planes, nodes, order);
-        let estimate = around(&mut walker, level, polygon, tolerance, points)?;
         Some(Outcome::of(&estimate, points))
     }
 }
@@ -208,7 +198,7 @@ fn spread(task: &Task, fan: &mut Fan, start: [f64; 3], points: &mut Vec<Node>) -
         // The axis of the wrench in the plane of the frame.
         let [_, _, load, turn_u, turn_v, ..] = integral.sums;
         let off = [-turn_v / load, turn_u / load];
-        if starts < MOST_STARTS && off[0].hypot(off[1]) > OFF_CENTRE * fan.extent {
+        if starts < MOST_STARTS && !fan.is_capped && off[0].hypot(off[1]) > OFF_CENTRE * fan.extent {
             let [u, v, z] = fan.centre;
             if let Some(better) = on_patch(fan.walker.field, u + off[0], v + off[1], z) {
                 fan.centre = better;
@@ -237,6 +227,7 @@ fn spread(task: &Task, fan: &mut Fan, start: [f64; 3], points: &mut Vec<Node>) -
         area_error: integral.error[2] / integral.sums[6],
         energy: integral.sums[7],
         is_folded,
+        is_capped: fan.is_capped,
         rays: fan.rays.len(),
     }
 }

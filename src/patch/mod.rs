@@ -27,7 +27,6 @@
 //! | `piece` | one of these with its rule |
 //! | `zones` | where they lie |
 //! | `pieces` | the patch in such parts |
-//! | `border` | a flat part with rays around it |
 //! | `oval` | rays at equal steps around a smooth rim |
 //! | `centre` | where the rays start |
 //! | `smoothness` | how far off a rule over a sector is |
@@ -40,7 +39,6 @@
 //! | `planar` | the patch of two particles of the plane |
 //! | `planar_state` | how that is carried on |
 
-mod border;
 mod cap;
 mod cell;
 mod cells;

@@ -8,6 +8,7 @@ use nalgebra::{Matrix3, Matrix6, Vector3};
 /// With the scale s of both bodies, Σ = {s_A = s_B ≤ 1} and the pressure p = K ℓ (1 − s) on it; K is the caller's stiffness per area
 /// (force/length³) and all that is proportional to it is given over K. The normal n of Σ points from A to B.
 #[derive(Clone, Copy, Debug, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct Patch {
     /// ℓ = ℓ_A + ℓ_B, against a boundary ℓ_A ([`crate::Particle::depth_length`]), length.
@@ -60,6 +61,7 @@ pub struct Patch {
 
 /// A point of quadrature on Σ.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct PatchPoint {
     /// Its place minus the contact point, world axes.
     pub position: Vector3<f64>,
@@ -73,13 +75,14 @@ pub struct PatchPoint {
 
 /// What else is to be known about a patch; a set of bits.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct PatchFlags(u32);
 
 impl PatchFlags {
     /// Σ turns back under itself, as in deep overlaps of round bodies, or ends where no ray goes on. What turns back is part of the answer, but a part that no
     /// ray from the contact point reaches may be missing, which the estimated error does not tell: the far side of a rod that goes through the other body, and the like.
     pub const FOLDED: Self = Self(1);
-    /// The tolerance was not reached with the most rays, or is beyond what rounding allows where bodies hardly touch (overlaps of 1e-11 of their
+    /// The tolerance was not reached with the most rays (1500, or two million planes looked at in all of their cells), or is beyond what rounding allows where bodies hardly touch (overlaps of 1e-11 of their
     /// size at 1e-4); the estimated error tells how far off the answer is.
     pub const TOLERANCE_NOT_REACHED: Self = Self(2);
     /// The contact point lies in the core of both bodies, or the boundary reaches through that of A, so that

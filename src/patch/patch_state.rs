@@ -12,6 +12,7 @@ use crate::boundary::{FlatContact, Triangle};
 use crate::contact::contact::Contact;
 use crate::particle::particle::Particle;
 use crate::pose::Pose;
+use crate::settings::Formulation;
 use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
 
 /// Largest motion over the largest depth up to which a patch is carried on, over the root of the tolerance.
@@ -51,7 +52,7 @@ const OF_SHAPE: f64 = 0.1;
 #[derive(Clone, Copy, Debug, Default)]
 #[repr(C)]
 pub struct PatchState {
-    /// Serial numbers of A and B, that of a boundary 0; all 0 where nothing is known.
+    /// Serial numbers of A and B, of a plane 0 and of a triangle the largest; all 0 where nothing is known.
     of: [u64; 2],
     place: Place,
     /// The tolerance that was asked for, and whether the energy was: 0 or 1.
@@ -86,7 +87,8 @@ pub(super) struct Now<'a> {
     /// From the centres to it, world axes, and the centre of A.
     branches: [&'a Vector3<f64>; 2],
     position: &'a Vector3<f64>,
-    s: f64,
+    /// s there, where it is that of midway or of a boundary.
+    s: Option<f64>,
 }
 
 /// What A has done since the patch was integrated, in the frame of B.
@@ -115,7 +117,12 @@ impl PatchState {
         scratch: &mut PatchScratch,
     ) -> Result<Patch, PatchError> {
         checked(contact.kind, &[contact.branch_a, contact.branch_b], &contact.normal, settings)?;
-        let now = Now::of_pair([a, b], [pose_a, pose_b], [&contact.branch_a, &contact.branch_b], contact.s);
+        let now = Now::of_pair(
+            [a, b],
+            [pose_a, pose_b],
+            [&contact.branch_a, &contact.branch_b],
+            (contact.formulation, contact.s),
+        );
         self.carried_or(&now, settings, |settings| {
             patch_of_contact(a, pose_a, b, pose_b, contact, settings, scratch, |_| ())
         })
@@ -208,13 +215,15 @@ impl PatchState {
         let away = self.point - self.place.centre;
         let shift = (now.centre - self.place.centre) + (turn * away - away);
         let about = 0.5 * Vector3::new(turn.m32 - turn.m23, turn.m13 - turn.m31, turn.m21 - turn.m12);
+        // 2 sin(θ/2) of the turn by θ: the sine above is 0 of half a turn, too.
+        let turned = (turn - Matrix3::identity()).norm() * std::f64::consts::FRAC_1_SQRT_2;
         let change = [0, 1].map(|i| (now.shape[i] - self.place.shape[i]).norm());
         let depth = self.patch.largest_depth;
         // A plane has a normal, whose change turns the whole patch.
         let arm = if self.place.shape[1] == Vector3::zeros() { self.patch.reach } else { 1.0 };
         Motion {
             screw: Vector6::new(shift.x, shift.y, shift.z, about.x, about.y, about.z),
-            size: (shift.norm() + about.norm() * self.patch.reach) / depth,
+            size: (shift.norm() + turned * self.patch.reach) / depth,
             change: arm * change[0].max(change[1]) / depth,
         }
     }
@@ -244,7 +253,8 @@ impl PatchState {
             centroid: world(&(patch.pressure_centre + patch.centroid - centre)),
             second_moment: now.axes * patch.second_moment * now.axes.transpose(),
             mean_depth: patch.mean_depth * (size / patch.force.norm()),
-            largest_depth: patch.length * (1.0 - now.s),
+            // Of closest, s is not that of the point.
+            largest_depth: now.s.map_or(patch.largest_depth, |s| patch.length * (1.0 - s)),
             energy: patch.energy + work.dot(&motion.screw),
             stiffness: Matrix6::repeat(f64::NAN),
             // The stiffness is summed at points that are meant for the force: it is known to about the root of the tolerance.
@@ -270,8 +280,9 @@ impl<'a> Now<'a> {
         [a, b]: [&Particle; 2],
         [pose_a, pose_b]: [&'a Pose; 2],
         branches: [&'a Vector3<f64>; 2],
-        s: f64,
+        (formulation, s): (Formulation, f64),
     ) -> Self {
+        let s = (formulation == Formulation::Midway).then_some(s);
         let axes = *pose_b.rotation();
         let place = Place {
             rotation: axes.tr_mul(pose_a.rotation()),
@@ -293,14 +304,16 @@ impl<'a> Now<'a> {
         settings: &PatchSettings,
     ) -> Result<Self, PatchError> {
         checked(contact.kind, &[*branch], &contact.normal, settings)?;
+        // Planes and triangles are of no particle, and not of each other.
+        let boundary = if shape[1] == Vector3::zeros() { 0 } else { u64::MAX };
         Ok(Self {
-            of: [a.serial(), 0],
+            of: [a.serial(), boundary],
             place: Place { rotation: *pose.rotation(), centre, shape },
             axes: Matrix3::identity(),
             point: centre + branch,
             branches: [branch; 2],
             position: pose.position(),
-            s: contact.s,
+            s: Some(contact.s),
         })
     }
 

@@ -4,7 +4,7 @@
 use super::chart::{Vector, normal};
 use super::field::{Field, Owner};
 use super::piece::Piece;
-use super::polygon::{Corner, Level, integrate};
+use super::polygon::{Corner, integrate};
 use super::ray::Node;
 use super::zones::Zones;
 
@@ -13,8 +13,6 @@ use super::zones::Zones;
 pub(super) struct PieceScratch {
     corners: [Vec<Corner>; 2],
     pieces: Vec<Piece>,
-    /// The flat part, where there is one.
-    level: Option<Level>,
 }
 
 /// Part of the tolerance that the pieces may take.
@@ -44,8 +42,6 @@ pub(super) fn pieces(
 ) -> Option<Estimate> {
     nodes.clear();
     scratch.pieces.clear();
-    // Also where there are no pieces: the caller takes a level for that of this patch.
-    scratch.level = None;
     if field.a.sphere_weight > 0.0 || field.b.is_some_and(|b| b.sphere_weight > 0.0) {
         return None;
     }
@@ -68,7 +64,6 @@ pub(super) fn pieces(
     let mut zones = Zones { field, pieces: &mut scratch.pieces };
     let active = [&active[0][..count[0]], &active[1][..count[1]]];
     if let Some((level, sides)) = zones.face(active, &mut scratch.corners)? {
-        scratch.level = Some(level);
         let polygon = &scratch.corners[0];
         integrate(&level, polygon, nodes)?;
         zones.around(&level, polygon, sides)?;
@@ -107,12 +102,5 @@ fn refine(pieces: &mut [Piece], tolerance: f64, deepest: f64, nodes: &mut Vec<No
             piece.refine(allowed);
             piece.integrate(tolerance, deepest, nodes)?;
         }
-    }
-}
-
-impl PieceScratch {
-    /// The flat part of the last patch and its polygon.
-    pub fn flat(&self) -> Option<(&Level, &[Corner])> {
-        self.level.as_ref().map(|level| (level, &self.corners[0][..]))
     }
 }

@@ -17,6 +17,7 @@ pub(super) const AXES: [usize; 3] = [0, 1, 5];
 
 /// The contact patch of two particles of the plane: as [`crate::Patch`], with lengths in place of areas. All per unit of thickness.
 #[derive(Clone, Copy, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct Patch {
     /// ℓ = ℓ_A + ℓ_B, length.
@@ -56,6 +57,7 @@ pub struct Patch {
 
 /// A point of quadrature on Σ.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct PatchPoint {
     /// Its place minus the contact point, world axes.
     pub position: Vector2<f64>,

@@ -28,8 +28,12 @@ impl PatchState {
         let branches = [raised(&contact.branch_a), raised(&contact.branch_b)];
         checked(contact.kind, &branches, &raised(&contact.normal), settings)?;
         let (place_a, place_b) = (pose_a.in_space(), pose_b.in_space());
-        let now =
-            Now::of_pair([a.in_space(), b.in_space()], [&place_a, &place_b], [&branches[0], &branches[1]], contact.s);
+        let now = Now::of_pair(
+            [a.in_space(), b.in_space()],
+            [&place_a, &place_b],
+            [&branches[0], &branches[1]],
+            (contact.formulation, contact.s),
+        );
         let found = self.carried_or(&now, settings, |settings| {
             let mut reach = 0.0_f64;
             let visit = |point: PatchPoint| reach = reach.max(point.position.norm());

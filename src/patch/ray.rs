@@ -147,6 +147,8 @@ pub(super) struct Walker<'f, 'a, 's> {
     pub with_energy: bool,
     /// Error of ∫ p n that one of its rules may make.
     pub budget: f64,
+    /// Number of planes looked at so far, once for each cell.
+    pub work: usize,
 }
 
 impl<'f, 'a, 's> Walker<'f, 'a, 's> {
@@ -157,7 +159,7 @@ impl<'f, 'a, 's> Walker<'f, 'a, 's> {
         nodes: &'f mut Vec<Node>,
         order: usize,
     ) -> Self {
-        Self { field, planes, nodes, order, with_energy: false, budget: f64::INFINITY }
+        Self { field, planes, nodes, order, with_energy: false, budget: f64::INFINITY, work: 0 }
     }
 
     /// Walks over a ray to its end.
@@ -295,6 +297,7 @@ impl<'f, 'a, 's> Walker<'f, 'a, 's> {
 
     /// The quadratics from a point of the half-plane on.
     pub fn cell(&mut self, half_plane: &HalfPlane, rho: f64, zeta: f64) -> Cell {
+        self.work += self.planes.len();
         let field = &self.field;
         let weights = [field.a.plane_weight, field.b.map_or(0.0, |b| b.plane_weight)];
         let mut sums = [Quadratic::default(); 2];

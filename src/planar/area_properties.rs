@@ -7,7 +7,7 @@
 
 use super::raised;
 use crate::particle::gauge::{Gauge, OnRay, Piece, Undecided};
-use crate::particle::mass_properties::{LEAST_PART, LEAST_TOLERANCE, OF_SUMS, SAME_UNITS};
+use crate::particle::mass_properties::{LEAST_PART, LEAST_TOLERANCE, MOST_UNITS, MOST_WORK, OF_SUMS, SAME_UNITS};
 use crate::particle::quadrature::{self, POINTS, RULE};
 use crate::particle::ray_cast;
 use crate::particle::shape::Shape;
@@ -17,6 +17,7 @@ use std::f64::consts::TAU;
 
 /// Area and moments of a particle of unit density (mass per area), local frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct AreaProperties {
     /// Area, length².
     pub area: f64,
@@ -49,6 +50,8 @@ struct Interval {
     /// Bound on the error of the rule, and the rounding of the rays.
     error: f64,
     rounding: f64,
+    /// Number of lines evaluated on all of its rays.
+    work: usize,
 }
 
 /// The units in which errors are measured, as of [`mass_properties`](crate::particle::mass_properties).
@@ -71,24 +74,33 @@ pub(super) fn of(shape: &Shape, tolerance: f64) -> AreaProperties {
     let unit = Norm { area: 1.0, square: Matrix2::identity(), unscaled: Matrix2::identity() };
     let mut norm = Norm::of(&all(&unit).iter().map(|interval| interval.moments).sum());
     let mut intervals = all(&norm);
-    loop {
+    for _ in 0..MOST_UNITS {
         let left = tolerance / SAME_UNITS - norm.of_sums();
         intervals = refined(intervals, &gauge, &norm, left.max(LEAST_PART * tolerance));
-        let total: Moments = intervals.iter().map(|interval| interval.moments).sum();
+        let total = sum(&intervals);
         let found = Norm::of(&total);
         let change = norm.change_to(&found);
         if change <= SAME_UNITS || intervals.len() >= MOST_INTERVALS {
             let error: f64 = intervals.iter().map(|interval| interval.error + interval.rounding).sum();
-            return AreaProperties {
-                area: total[0],
-                centroid: Vector2::new(total[1], total[2]) / total[0],
-                second_moment: second(&total),
-                error: change * error + found.of_sums(),
-            };
+            return properties(&total, change * error + found.of_sums());
         }
         let again = |old: &Interval| Interval::of(&gauge, (old.start, old.end), old.u, &found);
         intervals = intervals.iter().map(again).collect();
         norm = found;
+    }
+    properties(&sum(&intervals), f64::INFINITY)
+}
+
+fn sum(intervals: &[Interval]) -> Moments {
+    intervals.iter().map(|interval| interval.moments).sum()
+}
+
+fn properties(total: &Moments, error: f64) -> AreaProperties {
+    AreaProperties {
+        area: total[0],
+        centroid: Vector2::new(total[1], total[2]) / total[0],
+        second_moment: second(total),
+        error: if error.is_nan() { f64::INFINITY } else { error },
     }
 }
 
@@ -96,7 +108,8 @@ pub(super) fn of(shape: &Shape, tolerance: f64) -> AreaProperties {
 fn refined(intervals: Vec<Interval>, gauge: &Gauge, norm: &Norm, tolerance: f64) -> Vec<Interval> {
     let mut error: f64 = intervals.iter().map(|interval| interval.error + interval.rounding).sum();
     let mut heap = BinaryHeap::from(intervals);
-    while error > tolerance && heap.len() < MOST_INTERVALS {
+    let mut work: usize = heap.iter().map(|interval| interval.work).sum();
+    while error > tolerance && heap.len() < MOST_INTERVALS && work < MOST_WORK {
         let Some(worst) = heap.pop() else { break };
         // What is left is rounding.
         if worst.error <= worst.rounding {
@@ -108,6 +121,7 @@ fn refined(intervals: Vec<Interval>, gauge: &Gauge, norm: &Norm, tolerance: f64)
         for u in [(worst.u.0, middle), (middle, worst.u.1)] {
             let half = Interval::of(gauge, (worst.start, worst.end), u, norm);
             error += half.error + half.rounding;
+            work += half.work;
             heap.push(half);
         }
     }
@@ -212,7 +226,7 @@ impl Interval {
         let share = quadrature::share(first, middle, last);
         let jump = jump(&piece, &corners, &along, &nodes);
         let error = share * norm.of_change(&difference) + (1.0 + share * quadrature::DIFFERENCE_OF_JUMP) * jump;
-        Self { start, end, u, moments, error, rounding }
+        Self { start, end, u, moments, error, rounding, work: POINTS * piece.len() }
     }
 }
 

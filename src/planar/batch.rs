@@ -4,7 +4,7 @@ use super::contact::{Contact, detect};
 use super::particle::Particle;
 use super::pose::Pose;
 use crate::contact::batch::{self, Placed};
-use crate::contact::detect::DetectError;
+use crate::contact::error::DetectError;
 use crate::pair::pair_state::PairState;
 use crate::settings::Settings;
 

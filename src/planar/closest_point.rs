@@ -3,42 +3,12 @@
 use super::particle::Particle;
 use super::pose::Pose;
 use crate::contact::closest_point;
-use crate::contact::detect::DetectError;
+use crate::contact::error::DetectError;
 use crate::pair::role::Role;
 use crate::settings::Settings;
-use nalgebra::Vector2;
 
-/// The closest point on one particle, world axes, lengths in the caller's unit.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[non_exhaustive]
-pub struct ClosestPoint {
-    /// Scale of the other particle at the point: s_A at P2, s_B at P1.
-    pub s: f64,
-    /// |s − s*| ≤ gap, as in [`crate::Contact`].
-    pub gap: f64,
-    /// P1 on A or P2 on B, world frame.
-    pub point: Vector2<f64>,
-    /// The point minus the position of A: free of the rounding of positions far from the origin.
-    pub branch_a: Vector2<f64>,
-    /// The point minus the position of B.
-    pub branch_b: Vector2<f64>,
-    /// Estimated bound on the distance of the point to the optimum, length.
-    pub point_bound: f64,
-}
-
-impl From<closest_point::ClosestPoint> for ClosestPoint {
-    /// Of two particles of the plane.
-    fn from(found: closest_point::ClosestPoint) -> Self {
-        Self {
-            s: found.s,
-            gap: found.gap,
-            point: found.point.xy(),
-            branch_a: found.branch_a.xy(),
-            branch_b: found.branch_b.xy(),
-            point_bound: found.point_bound,
-        }
-    }
-}
+/// The closest point on one particle: that of space without z.
+pub type ClosestPoint = closest_point::ClosestPoint<2>;
 
 /// The point on the particle `on` where the other one's scale is least: [`crate::closest_point`] with two coordinates.
 ///
@@ -69,5 +39,5 @@ pub fn closest_point(
     settings: &Settings,
 ) -> Result<Option<ClosestPoint>, DetectError> {
     let found = closest_point::closest_point(&a.0, &pose_a.in_space(), &b.0, &pose_b.in_space(), on, settings)?;
-    Ok(found.map(ClosestPoint::from))
+    Ok(found.map(|found| found.in_plane()))
 }

@@ -29,8 +29,6 @@ pub use crate::patch::planar::{Patch, PatchPoint, patch_of_contact};
 pub use area_properties::AreaProperties;
 pub use batch::detect_batch;
 pub use closest_point::{ClosestPoint, closest_point};
-#[cfg(feature = "capi")]
-pub(crate) use contact::detect_as;
 pub use contact::{Contact, detect};
 pub use particle::{Line, Particle};
 pub use pose::{Pose, PoseError};

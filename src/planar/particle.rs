@@ -6,7 +6,6 @@ use super::pose::Pose;
 use super::raised;
 use crate::particle::error::ToleranceError;
 use crate::particle::particle::{self, ParticleError};
-use crate::particle::ray_cast;
 use nalgebra::{Matrix2, Vector2};
 
 /// One line a·x + b·y = d of a particle, local frame, (a, b) pointing outwards.
@@ -114,10 +113,10 @@ impl Particle {
         self.0.hessian(&raised(x)).fixed_view::<2, 2>(0, 0).into()
     }
 
-    /// Distance τ ≥ 0 along a local unit direction from a local point inside to the boundary, length; `None` if a number is
-    /// not finite.
+    /// Distance τ ≥ 0 along a local direction of any length from a local point inside to the boundary, length; `None` if the direction is zero or a
+    /// number is not finite.
     pub fn surface_distance(&self, from: &Vector2<f64>, direction: &Vector2<f64>) -> Option<f64> {
-        ray_cast::distance(&self.0, &raised(from), &raised(direction))
+        self.0.surface_distance(&raised(from), &raised(direction))
     }
 
     /// Area, centroid and second moments to a relative tolerance, by adaptive quadrature over rays from the origin.

@@ -1,13 +1,17 @@
 //! Convex polygons from points: the lines of a particle with corners where they are wanted.
 
 use super::particle::Line;
+use crate::particle::coplanar::{self, Face};
 use crate::particle::particle::ParticleError;
-use nalgebra::Vector2;
+use crate::particle::plane::Plane;
+use nalgebra::{Vector2, Vector3};
+use robust::{Coord, orient2d};
 use std::f64::consts::TAU;
 
 /// A convex polygon of three corners or more, counter-clockwise, about its centroid.
 pub(super) struct Polygon {
     corners: Vec<Vector2<f64>>,
+    sides: Vec<Line>,
 }
 
 impl Polygon {
@@ -26,7 +30,8 @@ impl Polygon {
         corners.append(&mut chain(sorted.iter().rev()));
         let centroid = centroid(&corners).ok_or(flat)?;
         corners.iter_mut().for_each(|corner| *corner -= centroid);
-        Ok(Self { corners })
+        let sides = distinct_sides(&corners).ok_or(flat)?;
+        Ok(Self { corners, sides })
     }
 
     /// The outermost distance of a corner from the centroid, length.
@@ -36,22 +41,30 @@ impl Polygon {
 
     /// The sides, moved inwards by r, so that the particle's sides lie where those of the polygon are.
     pub(super) fn lines(&self, r: f64) -> Result<Vec<Line>, ParticleError> {
-        let sides: Vec<Line> = self.sides().collect();
-        let limit = sides.iter().map(|side| side.offset).fold(f64::INFINITY, f64::min);
+        let limit = self.sides.iter().map(|side| side.offset).fold(f64::INFINITY, f64::min);
         if r >= limit {
             return Err(ParticleError::RoundingTooLarge { r, limit });
         }
-        Ok(sides.into_iter().map(|side| Line { offset: side.offset - r, ..side }).collect())
+        Ok(self.sides.iter().map(|side| Line { offset: side.offset - r, ..*side }).collect())
     }
+}
 
-    fn sides(&self) -> impl Iterator<Item = Line> + '_ {
-        let ends = self.corners.iter().cycle().skip(1);
-        self.corners.iter().zip(ends).map(|(from, to)| {
-            let along = (to - from).normalize();
-            let normal = Vector2::new(along.y, -along.x);
-            Line { normal, offset: 0.5 * normal.dot(&(from + to)) }
-        })
-    }
+/// The sides of a convex polygon that are distinct, as those of the prism on it; `None` if it is flat.
+fn distinct_sides(corners: &[Vector2<f64>]) -> Option<Vec<Line>> {
+    let count = corners.len() as u32;
+    let half = 0.5 * coplanar::extent(&corners.iter().map(|corner| corner.push(0.0)).collect::<Vec<_>>());
+    let prism: Vec<Vector3<f64>> =
+        [-half, half].iter().flat_map(|&z| corners.iter().map(move |corner| corner.push(z))).collect();
+    let side = |i: u32| {
+        let next = (i + 1) % count;
+        Face::new(&prism, vec![i, next, count + next, count + i])
+    };
+    let ends = [Face::new(&prism, (0..count).rev().collect()), Face::new(&prism, (count..2 * count).collect())];
+    let faces: Vec<Face<Vec<u32>>> = (0..count).map(side).chain(ends).collect();
+    let mut planes = coplanar::distinct(&prism, &faces, 0.0)?.planes;
+    planes.retain(|(face, _)| (*face as u32) < count);
+    planes.sort_by_key(|(face, _)| *face);
+    Some(planes.into_iter().map(|(_, Plane { normal, offset })| Line { normal: normal.xy(), offset }).collect())
 }
 
 /// Corners of a regular polygon about the origin, the first on the x axis; radius: of the circle through them.
@@ -69,7 +82,9 @@ fn chain<'a>(points: impl Iterator<Item = &'a Vector2<f64>>) -> Vec<Vector2<f64>
     let mut corners: Vec<Vector2<f64>> = Vec::new();
     for point in points {
         while let [.., before, last] = corners[..] {
-            if turns_left(&(last - before), &(point - last)) {
+            // Exact in its sign.
+            let [a, b, c] = [before, last, *point].map(|p| Coord { x: p.x, y: p.y });
+            if orient2d(a, b, c) > 0.0 {
                 break;
             }
             corners.pop();
@@ -78,13 +93,6 @@ fn chain<'a>(points: impl Iterator<Item = &'a Vector2<f64>>) -> Vec<Vector2<f64>
     }
     corners.pop();
     corners
-}
-
-/// Whether b turns left from a by more than rounding explains: the sum of two products is off by at most γ₂ of their sizes,
-/// and each difference of points by half an ulp.
-fn turns_left(a: &Vector2<f64>, b: &Vector2<f64>) -> bool {
-    let (one, other) = (a.x * b.y, a.y * b.x);
-    one - other > 4.0 * f64::EPSILON * (one.abs() + other.abs())
 }
 
 /// Of the area of a counter-clockwise polygon; `None` if it has none.

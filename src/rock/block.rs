@@ -3,10 +3,12 @@
 use crate::particle::outlines::{Outline, Outlines};
 use crate::particle::particle::{Particle, ParticleError};
 use crate::particle::plane::Plane;
+use crate::particle::volume::{self, Enclosed};
 use nalgebra::{Matrix3, Vector3};
 
 /// What a face of a block comes from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum FaceOf {
     /// A plane of the domain, by its index.
     Domain(usize),
@@ -23,6 +25,7 @@ pub enum FaceOf {
 
 /// A face of a block.
 #[derive(Clone, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct BlockFace {
     /// What it comes from.
     pub of: FaceOf,
@@ -40,6 +43,7 @@ pub struct BlockFace {
 
 /// A convex block.
 #[derive(Clone, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Block {
     /// Volume.
     pub volume: f64,
@@ -67,18 +71,9 @@ impl Block {
     ) -> Self {
         let mut faces = Vec::with_capacity(outlines.len());
         let mut all = Vec::with_capacity(outlines.corner_count());
-        // About a corner of the block, so that no digits are lost far from the origin.
-        let pole = outlines.iter().next().map_or_else(Vector3::zeros, |face| face.corners[0]);
-        let (mut volume, mut moment) = (0.0, Vector3::zeros());
+        let mut enclosed = Enclosed::about(outlines.iter().next().map_or_else(Vector3::zeros, |face| face.corners[0]));
         for Outline { number, corners, .. } in outlines.iter() {
-            let mut doubled = Vector3::zeros();
-            for pair in corners[1..].windows(2) {
-                let [a, b, c] = [corners[0] - pole, pair[0] - pole, pair[1] - pole];
-                let six = a.dot(&b.cross(&c));
-                volume += six / 6.0;
-                moment += six / 24.0 * (a + b + c);
-                doubled += (b - a).cross(&(c - a));
-            }
+            let area = enclosed.add(corners.iter().copied());
             let (of, mut normal, mut height) = plane(number);
             if normal.dot(inside) > height {
                 (normal, height) = (-normal, -height);
@@ -86,15 +81,14 @@ impl Block {
             let plane = Plane { normal, offset: height + normal.dot(origin) };
             let (first, count) = (all.len() as u32, corners.len() as u32);
             all.extend(corners.iter().map(|at| at + origin));
-            let area = 0.5 * doubled.norm();
             let jointed_area = match of {
                 FaceOf::Joint(joint) => shared(joint, corners).map_or(area, |shared| shared.min(area)),
                 _ => 0.0,
             };
             faces.push(BlockFace { of, plane, area, jointed_area, first, count });
         }
-        let centroid = origin + (pole + moment / volume);
-        Self { volume, centroid, faces, corners: all, parent: 0, region: None }
+        let centroid = origin + enclosed.centroid();
+        Self { volume: enclosed.volume, centroid, faces, corners: all, parent: 0, region: None }
     }
 
     /// Corners of one of its faces, counter-clockwise from outside, axes and origin of the domain.
@@ -104,17 +98,7 @@ impl Block {
 
     /// Moments and products of inertia about its centroid for density 1, axes of the domain: ∫ (|x|² 1 − x xᵀ) dV.
     pub fn inertia(&self) -> Matrix3<f64> {
-        // Over a tetrahedron at the centroid with the corners a, b, c beyond: ∫ x xᵀ = V/20 (a aᵀ + b bᵀ + c cᵀ + s sᵀ), s = a + b + c.
-        let mut second = Matrix3::zeros();
-        for face in &self.faces {
-            let corners = self.corners_of(face);
-            for pair in corners[1..].windows(2) {
-                let [a, b, c] = [corners[0] - self.centroid, pair[0] - self.centroid, pair[1] - self.centroid];
-                let squares = [a, b, c, a + b + c].iter().map(|x| x * x.transpose()).sum::<Matrix3<f64>>();
-                second += a.dot(&b.cross(&c)) / 120.0 * squares;
-            }
-        }
-        Matrix3::from_diagonal_element(second.trace()) - second
+        volume::inertia(&self.centroid, self.faces.iter().map(|face| self.corners_of(face).iter().copied()))
     }
 
     /// The block as a particle about its centroid, its edges and corners rounded by r, length, with faces where they are (k = 0).

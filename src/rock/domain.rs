@@ -1,5 +1,6 @@
 //! The polyhedron of a domain, and the planes that bound and cut it.
 
+use crate::linalg::number::direction;
 use crate::particle::cutter::Cutter;
 use crate::particle::plane::Plane;
 use crate::particle::polyhedron::{OF_CUBE, Polyhedron};
@@ -7,15 +8,21 @@ use crate::rock::block::FaceOf;
 use crate::rock::error::RockError;
 use crate::rock::joint::Joint;
 use nalgebra::Vector3;
+use std::ops::RangeInclusive;
 
 /// Least depth of a cut over the size of the domain: some rounding of corners.
 const LEAST_CUT: f64 = 1e-13;
 
-/// Half of the cube in which a domain is looked for, over the largest distance of its planes from the origin.
-const FAR: f64 = 1e4;
+/// Half of the cube in which a domain is looked for, over the largest distance of its planes from the origin: the second where it does not end in
+/// the first, as a flat one.
+const FAR: [f64; 2] = [1e4, 1e8];
+
+/// Half extents of domains. Fifth powers of lengths, as moments of inertia are, and those of blocks a millionth as large, are doubles with all their
+/// digits.
+const EXTENTS: RangeInclusive<f64> = 1e-50..=1e50;
 
 /// A unit normal, and the height of its plane above some origin.
-pub(super) type Oriented = (Vector3<f64>, f64);
+pub(crate) type Oriented = (Vector3<f64>, f64);
 
 /// What each face comes from, with unit normal and height above the origin of the polyhedra, in the order of their numbers.
 pub(super) fn faces(
@@ -27,7 +34,7 @@ pub(super) fn faces(
     let about = |of: FaceOf, (n, d): Oriented| (of, n, d - n.dot(origin));
     let mut planes: Vec<_> = outer.iter().enumerate().map(|(i, plane)| about(FaceOf::Domain(i), *plane)).collect();
     for (i, joint) in joints.iter().enumerate() {
-        let n = joint.normal.normalize();
+        let n = direction(&joint.normal).ok_or(RockError::NoJoint(i))?;
         let height = n.dot(&(joint.point - origin));
         if !(height.is_finite() && joint.radius > 0.0) {
             return Err(RockError::NoJoint(i));
@@ -42,25 +49,35 @@ pub(super) fn faces(
 }
 
 /// Unit normals and distances from the origin; the index of a plane that is none.
-pub(super) fn unit_planes(planes: &[Plane]) -> Result<Vec<Oriented>, usize> {
+pub(crate) fn unit_planes(planes: &[Plane]) -> Result<Vec<Oriented>, usize> {
     let unit = |(i, plane): (usize, &Plane)| {
-        let length = plane.normal.norm();
-        let is_plane = length > 0.0 && length.is_finite() && plane.offset.is_finite();
-        is_plane.then(|| (plane.normal / length, plane.offset / length)).ok_or(i)
+        let normal = direction(&plane.normal).ok_or(i)?;
+        // By the largest component, whose square may leave the range of doubles.
+        let scale = plane.normal.amax();
+        let offset = plane.offset / scale / (plane.normal / scale).norm();
+        offset.is_finite().then_some((normal, offset)).ok_or(i)
     };
     planes.iter().enumerate().map(unit).collect()
 }
 
-/// What planes enclose, about an origin in its middle: twice, as corners that are cut from a cube far away are known less well.
-pub(super) fn enclosed(planes: &[Oriented]) -> Result<(Vector3<f64>, Polyhedron), RockError> {
+/// What planes enclose, about an origin in its middle.
+pub(crate) fn enclosed(planes: &[Oriented]) -> Result<(Vector3<f64>, Polyhedron), RockError> {
     let farthest = planes.iter().map(|(_, d)| d.abs()).fold(0.0, f64::max);
-    let (mut origin, mut half, mut cutter) = (Vector3::zeros(), FAR * farthest, Cutter::default());
-    for _ in 0..3 {
+    let [near, far] = FAR.map(|times| times * farthest);
+    match enclosed_within(planes, near) {
+        Err(RockError::Open) => enclosed_within(planes, far),
+        found => found,
+    }
+}
+
+/// Cut from a cube, and from smaller ones about its middle, as corners that are cut from a cube far away are known less well.
+fn enclosed_within(planes: &[Oriented], mut half: f64) -> Result<(Vector3<f64>, Polyhedron), RockError> {
+    let (mut origin, mut cutter) = (Vector3::zeros(), Cutter::default());
+    for _ in 0..4 {
         let mut polyhedron = Polyhedron::cube(half, LEAST_CUT * half);
         for (i, (n, d)) in planes.iter().enumerate() {
             let height = d - n.dot(&origin);
-            let lowest = polyhedron.corners().map(|at| n.dot(at)).fold(f64::INFINITY, f64::min);
-            if !(lowest < height - LEAST_CUT * half) {
+            if !(polyhedron.lowest(&mut cutter, n) < height - LEAST_CUT * half) {
                 return Err(RockError::Empty);
             }
             polyhedron.cut(&mut cutter, OF_CUBE + i, n, height);
@@ -72,7 +89,7 @@ pub(super) fn enclosed(planes: &[Oriented]) -> Result<(Vector3<f64>, Polyhedron)
         let [low, high] = polyhedron.extremes();
         let extent = 0.5 * (high - low).max();
         if half <= 4.0 * extent {
-            return Ok((origin, polyhedron));
+            return if EXTENTS.contains(&extent) { Ok((origin, polyhedron)) } else { Err(RockError::Extent(extent)) };
         }
         origin += 0.5 * (low + high);
         half = 2.0 * extent;

@@ -43,6 +43,9 @@ pub enum RockError {
     /// The planes of the domain enclose no volume.
     #[error("the domain is empty: no point lies inside of all its planes; normals have to point outwards")]
     Empty,
+    /// Volumes and moments of the blocks of a domain of that half extent would not be doubles with all their digits.
+    #[error("half extent of the domain = {0:?}: it must lie between 1e-50 and 1e50")]
+    Extent(f64),
     /// The planes of the domain leave a side open.
     #[error("the domain is open: its planes leave a direction in which it never ends")]
     Open,

@@ -14,6 +14,7 @@ const FLAT: f64 = 1e-6;
 
 /// A plane, or a disc or convex polygon of it, along which rock has parted. Axes: x east, y north, z up.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Joint {
     /// A point of it, length; of a disc its centre.
     pub point: Vector3<f64>,

@@ -37,9 +37,10 @@ mod slicing;
 mod tests;
 
 pub use block::{Block, BlockFace, FaceOf};
+pub(crate) use domain::{enclosed, unit_planes};
 pub use error::RockError;
 pub use joint::Joint;
 pub use joint_set::JointSet;
-pub use partners::Partners;
+pub use partners::{Interface, Partners};
 pub use settings::SliceSettings;
 pub use slicing::{RockMass, slice, slice_with_regions};

@@ -19,6 +19,17 @@ pub struct Partners {
     pub area: f64,
 }
 
+/// The polygon that two faces share.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Interface {
+    /// Each by the index of its block, and its own among the faces of that block.
+    pub faces: [[usize; 2]; 2],
+    /// Its area.
+    pub area: f64,
+    /// Its corners, counter-clockwise about the normal of the first face, axes and origin of the domain.
+    pub corners: Vec<Vector3<f64>>,
+}
+
 /// A face in its plane, from the left to the right, without sides too short to have a direction.
 struct Outline {
     at: [usize; 2],
@@ -29,9 +40,16 @@ struct Outline {
 }
 
 impl RockMass {
-    /// All pairs of faces that lie on each other, in the order of joints and regions. Where one side of a joint was cut further than the other, a face
+    /// All pairs of faces that lie on each other, in the order of joints and regions. Where one side of a joint was
+    /// cut further than the other, a face
     /// has several partners; the areas that it shares sum to its own.
     pub fn partners(&self) -> Vec<Partners> {
+        let pair = |Interface { faces, area, .. }| Partners { faces, area };
+        self.interfaces().into_iter().map(pair).collect()
+    }
+
+    /// The same with the polygons that they share.
+    pub fn interfaces(&self) -> Vec<Interface> {
         let mut planes: BTreeMap<[usize; 3], Vec<[usize; 2]>> = BTreeMap::new();
         for (i, block) in self.blocks.iter().enumerate() {
             for (j, face) in block.faces.iter().enumerate() {
@@ -52,7 +70,7 @@ impl RockMass {
     }
 
     /// Those among the faces of one plane.
-    fn in_plane(&self, faces: &[[usize; 2]]) -> Vec<Partners> {
+    fn in_plane(&self, faces: &[[usize; 2]]) -> Vec<Interface> {
         let face = |[i, j]: [usize; 2]| &self.blocks[i].faces[j];
         let (normal, origin) = (face(faces[0]).plane.normal, self.corners(faces[0])[0]);
         let [u, v] = axes_across(&normal);
@@ -80,9 +98,11 @@ impl RockMass {
                 if other.high.x <= one.low.x || other.high.y <= one.low.y || other.low.y >= one.high.y {
                     continue;
                 }
-                let area = shared(&one.corners, &other.corners);
+                let polygon = shared(&one.corners, &other.corners);
+                let area = area_of(&polygon);
                 if area > LEAST_SHARE * one.area.min(other.area) {
-                    found.push(Partners { faces: [one.at, other.at], area });
+                    let corners = polygon.iter().map(|at| origin + u * at.x + v * at.y).collect();
+                    found.push(Interface { faces: [one.at, other.at], area, corners });
                 }
             }
         }
@@ -90,18 +110,23 @@ impl RockMass {
     }
 }
 
-/// Area that two convex polygons share: the first counter-clockwise, the second clockwise, as they are seen from its other side.
-fn shared(first: &[Vector2<f64>], second: &[Vector2<f64>]) -> f64 {
-    let cross = |a: Vector2<f64>, b: Vector2<f64>| a.perp(&b);
+/// What two convex polygons share: the first counter-clockwise, the second clockwise, as they are seen from its other
+/// side.
+fn shared(first: &[Vector2<f64>], second: &[Vector2<f64>]) -> Vec<Vector2<f64>> {
     let mut left: Vec<Vector2<f64>> = first.to_vec();
     for (i, from) in second.iter().enumerate() {
         let along = second[(i + 1) % second.len()] - from;
-        clip(&mut left, |x| cross(x - from, along));
+        clip(&mut left, |x| (x - from).perp(&along));
         if left.len() < 3 {
-            return 0.0;
+            return Vec::new();
         }
     }
-    0.5 * left[1..].windows(2).map(|pair| cross(pair[0] - left[0], pair[1] - left[0])).sum::<f64>()
+    left
+}
+
+fn area_of(polygon: &[Vector2<f64>]) -> f64 {
+    let Some(first) = polygon.first() else { return 0.0 };
+    0.5 * polygon[1..].windows(2).map(|pair| (pair[0] - first).perp(&(pair[1] - first))).sum::<f64>()
 }
 
 #[cfg(test)]
@@ -119,7 +144,8 @@ mod tests {
         (0..6).map(side).collect()
     }
 
-    /// Joints without end, discs that leave steps, and a region: the areas that a face shares with others sum to its own.
+    /// Joints without end, discs that leave steps, and a region: the areas that a face shares with others sum to its
+    /// own.
     #[test]
     fn areas_shared_are_those_of_the_faces() {
         for seed in 0..6 {
@@ -136,7 +162,8 @@ mod tests {
         }
     }
 
-    /// Sets of joints as they come, with one of each through the middle of the domain: faces have sides of no length there, and some no width.
+    /// Sets of joints as they come, with one of each through the middle of the domain: faces have sides of no length
+    /// there, and some no width.
     #[test]
     fn areas_shared_are_those_of_the_faces_where_many_planes_meet() {
         for seed in 0..40 {
@@ -154,6 +181,17 @@ mod tests {
     /// The areas that each face shares sum to its own.
     fn areas_sum(mass: &RockMass, least: usize) {
         let partners = mass.partners();
+        for (pair, interface) in partners.iter().zip(mass.interfaces()) {
+            let [i, j] = pair.faces[0];
+            let plane = mass.blocks[i].faces[j].plane;
+            let corners = &interface.corners;
+            let beyond = |at: &Vector3<f64>| (plane.normal.dot(at) - plane.offset).abs();
+            assert!(corners.iter().all(|at| beyond(at) < 1e-11 * at.norm().max(1.0)), "a corner lies off its plane");
+            let doubled: Vector3<f64> =
+                corners.windows(2).map(|two| (two[0] - corners[0]).cross(&(two[1] - corners[0]))).sum();
+            let area = 0.5 * doubled.dot(&plane.normal);
+            assert!((area - pair.area).abs() <= 1e-9 * pair.area + 1e-11, "{area} {}", pair.area);
+        }
         let mut left: BTreeMap<[usize; 2], f64> = BTreeMap::new();
         for pair in &partners {
             let [below, beyond] = pair.faces.map(|[i, j]| &mass.blocks[i].faces[j]);

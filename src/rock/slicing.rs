@@ -22,6 +22,7 @@ const PIECES: usize = 1 << 17;
 
 /// What a domain was cut into.
 #[derive(Clone, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct RockMass {
     /// The blocks, whose volumes sum to that of the domain. Of what a joint cuts in two, what lies below it comes first, then what lies beyond, each with all
     /// that later joints make of it: neighbours are often near in this order.

@@ -326,3 +326,25 @@ fn bad_domains_are_told() {
         }
     }
 }
+
+#[test]
+fn normals_have_any_length_and_domains_a_size_that_numbers_can_bear() {
+    let joint = Joint::through([0.1, 0.0, 0.0], Vector3::new(1.0, 2.0, 0.5));
+    let expected = slice(&cuboid([2.0; 3], [0.0; 3]), std::slice::from_ref(&joint), &SliceSettings::default()).unwrap();
+    for length in [1e200, 1e-200, 3.0] {
+        let longer = |plane: Plane| Plane { normal: length * plane.normal, offset: length * plane.offset };
+        let domain: Vec<Plane> = cuboid([2.0; 3], [0.0; 3]).into_iter().map(longer).collect();
+        let joint = Joint::through(joint.point, length * joint.normal);
+        let found = slice(&domain, &[joint], &SliceSettings::default()).unwrap();
+        assert_eq!(found.blocks.len(), 2);
+        for (one, other) in found.blocks.iter().zip(&expected.blocks) {
+            assert!((one.volume - other.volume).abs() < 1e-14);
+        }
+    }
+    for size in [1e150, 1e51, 1e-51] {
+        let error = slice(&cuboid([2.0 * size; 3], [0.0; 3]), &[], &SliceSettings::default()).unwrap_err().to_string();
+        assert!(error.contains("half extent of the domain = 1") && error.len() < 100, "{error}");
+    }
+    let mass = slice(&cuboid([2e50; 3], [0.0; 3]), &[], &SliceSettings::default());
+    assert!((mass.unwrap().blocks[0].inertia()[(0, 0)] / (16.0 / 3.0 * 1e250) - 1.0).abs() < 1e-9);
+}

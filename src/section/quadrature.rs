@@ -5,6 +5,7 @@
 
 use super::plane_section::PlaneSection;
 use crate::particle::ray_cast;
+use std::cell::Cell;
 use std::f64::consts::TAU;
 
 /// Equal sectors before refinement: no more than a quarter of a circle may hide between two rays.
@@ -19,9 +20,14 @@ const SAFETY: f64 = 0.125;
 /// Least relative tolerance: where this is needed, rounding leaves no more digits.
 const LEAST_TOLERANCE: f64 = 1e-9;
 
-/// Area by Simpson's rule, to a relative tolerance of at least [`LEAST_TOLERANCE`]. `None` when a ray is not finite.
+/// Most rays: some seconds for some hundreds of planes.
+const MOST_RAYS: u32 = 1_000_000;
+
+/// Area by Simpson's rule, to a relative tolerance of at least [`LEAST_TOLERANCE`]. `None` when a ray is not finite, or the most rays do not do.
 pub(super) fn area(sections: &[PlaneSection; 2], relative_tolerance: f64) -> Option<f64> {
+    let left = Cell::new(MOST_RAYS);
     let half_square = |angle: f64| {
+        left.set(left.get().checked_sub(1)?);
         let (sin, cos) = angle.sin_cos();
         let mut rho = f64::INFINITY;
         for PlaneSection { shape, point, axes, .. } in sections {

@@ -1,6 +1,7 @@
 //! Why input makes no shape.
 
 use crate::particle::error::ParticleError;
+use crate::particle::plane::MAX_PLANES;
 use crate::rock::RockError;
 use thiserror::Error;
 
@@ -41,16 +42,19 @@ pub enum ShapeError {
     Empty,
     /// The half-spaces leave a side open.
     #[error(
-        "the planes enclose no volume: add the planes that are missing, or, if none is, take a body that reaches less than 1e4 times as far as \
+        "the planes enclose no volume: add the planes that are missing, or, if none is, take a body that reaches less than 1e8 times as far as \
          its planes are from the origin"
     )]
     Open,
+    /// The half-spaces enclose a body that is flat: all of it lies within 1e-6 of its extent of one of its faces, at which faces are one.
+    #[error("the planes enclose a body that is flat, to 1e-6 of its extent: move them apart")]
+    Thin,
     /// There is no regular solid of so many faces.
     #[error("faces={0}: regular solids have 4, 6, 8, 12 or 20")]
     NoRegularSolid(usize),
-    /// Fewer sides than a prism has.
-    #[error("sides={0} must be at least 3")]
-    TooFewSides(usize),
+    /// Fewer sides than a prism has, or, with its ends, more than a particle may have.
+    #[error("sides={0} must lie between 3 and {most}", most = MAX_PLANES - 2)]
+    Sides(usize),
     /// A triangle names a point that is not there.
     #[error("triangle {triangle} names point {point}, and there are {points}, counted from 0")]
     NoSuchPoint {
@@ -61,32 +65,62 @@ pub enum ShapeError {
         /// How many there are.
         points: usize,
     },
-    /// Edges of a surface that do not join two triangles.
+    /// Edges of a surface that belong to one triangle alone.
     #[error(
-        "the surface is open, or no single one: {edges} edges do not belong to two triangles, the first from point {from} to point {to}; the \
-         convex hull of its points is another way"
+        "the surface is open: {edges} edges belong to one triangle alone, the first from {} to {}; close it, or take the convex hull of its points",
+        place(from),
+        place(to)
     )]
     OpenSurface {
         /// How many.
         edges: usize,
-        /// A point of the first.
-        from: u32,
-        /// Its other point.
-        to: u32,
+        /// An end of the first, length.
+        from: [f64; 3],
+        /// Its other end, length.
+        to: [f64; 3],
+    },
+    /// Edges of a surface that belong to more than two triangles.
+    #[error(
+        "the surface is no single surface: {edges} edges belong to more than two triangles, the first from {} to {}; divide it, or take the convex \
+         hull of its points",
+        place(from),
+        place(to)
+    )]
+    BranchedSurface {
+        /// How many.
+        edges: usize,
+        /// An end of the first, length.
+        from: [f64; 3],
+        /// Its other end, length.
+        to: [f64; 3],
     },
     /// A point or triangle of a surface lies inside its convex hull.
     #[error(
-        "the surface is not convex, or crosses itself: triangle {triangle} lies {depth:.3e} inside the convex hull; that hull is another way"
+        "the surface is not convex, or crosses itself: the {what} at {} lies {} inside the convex hull; take the convex hull of its points",
+        place(at), short(*depth)
     )]
     Concave {
-        /// Which triangle.
-        triangle: usize,
+        /// "point" or "triangle".
+        what: &'static str,
+        /// Where, length.
+        at: [f64; 3],
         /// How far inside, length.
         depth: f64,
     },
     /// A surface that covers its convex hull more or less than once.
-    #[error("the surface crosses itself: its triangles cover its convex hull {0:.4} times")]
+    #[error("the surface crosses itself: its triangles cover its convex hull {} times", short(*.0))]
     Covers(f64),
+    /// A rounding radius that leaves nothing of the largest ball within.
+    #[error(
+        "r={r:?} is a length and must lie between 0 and {}, half the diameter of the largest ball that fits inside: rounding gives it as a share of \
+         that diameter", short(*limit)
+    )]
+    RadiusTooLarge {
+        /// As given, length.
+        r: f64,
+        /// The radius of the ball, length.
+        limit: f64,
+    },
     /// The centre of the shadow sphere does not settle at the centroid.
     #[error("{}", no_centre(*k, *shadow_radius))]
     NoCentre {
@@ -119,6 +153,16 @@ fn no_centre(k: f64, shadow_radius: f64) -> String {
     format!(
         "no centre is its own centroid, to which k={k} with R={shadow_radius} leads: take a smaller k, or a larger R"
     )
+}
+
+/// With six digits.
+fn short(value: f64) -> f64 {
+    format!("{value:.5e}").parse().unwrap_or(value)
+}
+
+fn place(point: &[f64; 3]) -> String {
+    let [x, y, z] = point.map(short);
+    format!("({x}, {y}, {z})")
 }
 
 /// The number, if it is finite and in its range.

@@ -1,153 +1,166 @@
-//! The convex hull of points, as half-spaces.
+//! The convex hull of points as triangles, exact: which side of a plane a point lies on is decided without rounding (J. R. Shewchuk's predicates,
+//! by the crate `robust`).
 //!
-//! About a point inside, the hull is the polar body of {y : p_i·y ≤ 1}: its faces are the corners of that one, which is cut out of a cube by
-//! the same cutter as the blocks of a rock mass.
+//! Quickhull (Barber, Dobkin and Huhdanpaa 1996): a tetrahedron grows by the farthest point above one of its triangles. The triangles below that point are connected; those in
+//! whose plane it lies do not count. Triangles from the point to the edges around them take their place. Each point is kept with one triangle that it lies above.
 
 use super::error::ShapeError;
-use crate::particle::cutter::Cutter;
-use crate::particle::plane::Plane;
-use crate::particle::polyhedron::{OF_CUBE, Polyhedron};
+use crate::particle::coplanar;
 use nalgebra::Vector3;
+use robust::{Coord3D, orient3d};
 
-/// Two faces are one if the corners of one lie this close to the plane of the other, as a share of the extent. The numbers of a binary .stl
-/// file are good to 6e-8.
-pub(super) const COPLANAR: f64 = 1e-6;
+/// Coordinates below this share of the extent are 0: products of three of them are then normal numbers.
+const LEAST_SHARE: f64 = 1e-60;
 
-/// A body thinner than this share of its extent is flat.
-const FLAT: f64 = 1e-9;
+/// A triangle of the hull, corners counter-clockwise from outside.
+struct Triangle {
+    corners: [u32; 3],
+    /// The triangle beyond the edge from each corner to the next one.
+    beyond: [u32; 3],
+    /// The points above it that are kept with it.
+    above: Vec<u32>,
+    is_left: bool,
+}
 
-/// Least depth of a cut over the size of the polar body: some rounding of corners.
-const LEAST_CUT: f64 = 1e-13;
+impl Triangle {
+    fn new(corners: [u32; 3], beyond: [u32; 3]) -> Self {
+        Self { corners, beyond, above: Vec::new(), is_left: true }
+    }
+}
 
-/// The faces of the convex hull of points, unit normals, coplanar triangles as one; no point lies outside of any.
+/// The triangles of the convex hull, corners counter-clockwise from outside; neighbours may lie in one plane.
 ///
 /// # Errors
 /// Points that are not finite, fewer than four, or all in a plane.
-pub(super) fn faces(points: &[Vector3<f64>]) -> Result<Vec<Plane>, ShapeError> {
+pub(super) fn triangles(points: &[Vector3<f64>]) -> Result<Vec<[u32; 3]>, ShapeError> {
     if let Some(index) = points.iter().position(|point| !point.iter().all(|c| c.is_finite())) {
         return Err(ShapeError::PointNotFinite(index));
     }
     if points.len() < 4 {
         return Err(ShapeError::TooFewPoints(points.len()));
     }
-    let low = points.iter().copied().reduce(|a, b| a.inf(&b)).unwrap_or_default();
-    let high = points.iter().copied().reduce(|a, b| a.sup(&b)).unwrap_or_default();
-    let (middle, extent) = (0.5 * low + 0.5 * high, (high - low).max());
+    let flat = ShapeError::Flat(points.len());
+    let extent = coplanar::extent(points);
     if !(extent > 0.0 && extent.is_finite()) {
-        return Err(ShapeError::Flat(points.len()));
+        return Err(flat);
     }
-    // About their middle and with an extent of 1, so that places and units do not matter.
-    let unit: Vec<Vector3<f64>> = points.iter().map(|point| (point - middle) / extent).collect();
-    let tetrahedron = tetrahedron(&unit).ok_or(ShapeError::Flat(points.len()))?;
-    let inside = tetrahedron.iter().map(|&i| unit[i]).sum::<Vector3<f64>>() / 4.0;
-    let triangles = triangles(&unit, &tetrahedron, &inside);
-    let faces = merged(&unit, triangles);
-    Ok(faces
-        .into_iter()
-        .map(|(normal, height)| Plane { normal, offset: extent * height + normal.dot(&middle) })
-        .collect())
-}
-
-/// Four of the points that enclose a volume: two far apart, the farthest from their line, the farthest from that plane.
-fn tetrahedron(points: &[Vector3<f64>]) -> Option<[usize; 4]> {
-    let farthest = |distance: &dyn Fn(&Vector3<f64>) -> f64| {
-        (0..points.len()).max_by(|&i, &j| distance(&points[i]).total_cmp(&distance(&points[j]))).unwrap_or(0)
-    };
-    let a = farthest(&|p| (p - points[0]).norm());
-    let b = farthest(&|p| (p - points[a]).norm());
-    let along = (points[b] - points[a]).try_normalize(0.0)?;
-    let c = farthest(&|p| along.cross(&(p - points[a])).norm());
-    let normal = along.cross(&(points[c] - points[a])).try_normalize(FLAT)?;
-    let d = farthest(&|p| normal.dot(&(p - points[a])).abs());
-    (normal.dot(&(points[d] - points[a])).abs() > FLAT).then_some([a, b, c, d])
-}
-
-/// The triangles of the hull: corners of the polar body of the points about `inside`, each where three of them are.
-fn triangles(points: &[Vector3<f64>], first: &[usize; 4], inside: &Vector3<f64>) -> Vec<[usize; 3]> {
-    // The polar body of the tetrahedron, which holds that of all points.
-    let reach = |i: usize| {
-        let [a, b, c] = [1, 2, 3].map(|step| points[first[(i + step) % 4]]);
-        let normal = (b - a).cross(&(c - a));
-        normal.norm() / normal.dot(&(a - inside)).abs()
-    };
-    let half = 1.01 * (0..4).map(reach).fold(0.0, f64::max);
-    let (mut polar, mut cutter) = (Polyhedron::cube(half, LEAST_CUT * half), Cutter::default());
-    for i in first.iter().copied().chain(0..points.len()) {
-        let from = points[i] - inside;
-        let distance = from.norm();
-        // One at the place of `inside` is no corner.
-        if 1.0 / distance < 2.0 * half {
-            polar.cut(&mut cutter, OF_CUBE + i, &(from / distance), 1.0 / distance);
+    // By a power of two, which changes no digit.
+    let scale = 2f64.powi(-(extent.log2().floor() as i32));
+    let share = |c: f64| if c.abs() > LEAST_SHARE { c } else { 0.0 };
+    let points: Vec<Vector3<f64>> = points.iter().map(|point| (point * scale).map(share)).collect();
+    let mut hull = Hull::of_tetrahedron(&points).ok_or(flat)?;
+    let mut open: Vec<u32> = (0..4).collect();
+    while let Some(triangle) = open.pop() {
+        if let Some(point) = hull.farthest(triangle) {
+            let first = hull.triangles.len() as u32;
+            hull.add(point, triangle);
+            open.extend(first..hull.triangles.len() as u32);
         }
     }
-    polar.corners_with_faces().map(|(_, faces)| faces.map(|face| face.saturating_sub(OF_CUBE))).collect()
+    Ok(hull.triangles.iter().filter(|triangle| triangle.is_left).map(|triangle| triangle.corners).collect())
 }
 
-/// Unit normals and heights of the faces of the hull, large triangles first, without those that lie in another's plane.
-fn merged(points: &[Vector3<f64>], triangles: Vec<[usize; 3]>) -> Vec<(Vector3<f64>, f64)> {
-    let doubled = |t: &[usize; 3]| (points[t[1]] - points[t[0]]).cross(&(points[t[2]] - points[t[0]]));
-    let mut left: Vec<_> = triangles.into_iter().map(|triangle| (doubled(&triangle), triangle)).collect();
-    left.sort_by(|a, b| b.0.norm().total_cmp(&a.0.norm()));
-    let used: Vec<Vector3<f64>> = {
-        let mut used: Vec<usize> = left.iter().flat_map(|(_, triangle)| *triangle).collect();
-        used.sort_unstable();
-        used.dedup();
-        used.into_iter().map(|i| points[i]).collect()
-    };
-    let mut faces = Vec::new();
-    while let Some(normal) = left.first().and_then(|(doubled, _)| doubled.try_normalize(0.0)) {
-        // No corner is cut off.
-        let height = used.iter().map(|at| normal.dot(at)).fold(f64::NEG_INFINITY, f64::max);
-        left.remove(0);
-        left.retain(|(_, triangle)| triangle.iter().any(|&i| normal.dot(&points[i]) < height - COPLANAR));
-        faces.push((normal, height));
-    }
-    faces
+struct Hull<'a> {
+    points: &'a [Vector3<f64>],
+    triangles: Vec<Triangle>,
+    /// Of a point that is being added: the triangles that it sees, and for each corner the edge around them that begins there.
+    seen: Vec<u32>,
+    leaving: Vec<u32>,
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::random::Random;
-
-    fn random_points(count: usize, seed: u64) -> Vec<Vector3<f64>> {
-        let mut random = Random::new(seed, 0);
-        (0..count).map(|_| random.direction().component_mul(&Vector3::new(1.0, 0.5, 0.2))).collect()
+impl<'a> Hull<'a> {
+    /// Of four points that enclose a volume: two far apart, one far from their line, one far from that plane.
+    fn of_tetrahedron(points: &'a [Vector3<f64>]) -> Option<Self> {
+        let farthest = |distance: &dyn Fn(&Vector3<f64>) -> f64| {
+            (0..points.len()).max_by(|&i, &j| distance(&points[i]).total_cmp(&distance(&points[j]))).unwrap_or(0)
+        };
+        let a = farthest(&|p| (p - points[0]).norm());
+        let b = farthest(&|p| (p - points[a]).norm());
+        let along = points[b] - points[a];
+        let c = farthest(&|p| along.cross(&(p - points[a])).norm());
+        let mut hull = Self { points, triangles: Vec::new(), seen: Vec::new(), leaving: vec![u32::MAX; points.len()] };
+        let plane = [a, b, c].map(|i| i as u32);
+        let d = farthest(&|p| above(points, plane, p).abs());
+        let height = above(points, plane, &points[d]);
+        if height == 0.0 {
+            return None;
+        }
+        let [a, b, c] = if height < 0.0 { plane } else { [plane[0], plane[2], plane[1]] };
+        let d = d as u32;
+        // Beyond the edges of the base are the three sides, in the order of their edges; beyond those of a side the base and the other two.
+        let sides = [([a, b, c], [1, 2, 3]), ([b, a, d], [0, 3, 2]), ([c, b, d], [0, 1, 3]), ([a, c, d], [0, 2, 1])];
+        for (corners, beyond) in sides {
+            hull.triangles.push(Triangle::new(corners, beyond));
+        }
+        hull.hand_out(0..points.len() as u32, 0);
+        Some(hull)
     }
 
-    /// Every point is below every face, every face has three points on it, and Euler's formula holds for points of an ellipsoid, but for slivers
-    /// that are coplanar with a neighbour.
-    #[test]
-    fn faces_hold_all_points() {
-        for seed in 0..10 {
-            let points = random_points(200, seed);
-            let faces = faces(&points).unwrap();
-            let expected = 2 * points.len() - 4;
-            assert!((expected - 3..=expected).contains(&faces.len()), "seed {seed}: {}", faces.len());
-            for face in &faces {
-                let excess: Vec<f64> = points.iter().map(|p| face.normal.dot(p) - face.offset).collect();
-                assert!(excess.iter().all(|&e| e < 1e-12));
-                assert!(excess.iter().filter(|e| e.abs() < 1e-9).count() >= 3);
+    /// Keeps each point with the first triangle, from a number on, that it lies above; a point above none of them is within the hull.
+    fn hand_out(&mut self, points: impl Iterator<Item = u32>, from: usize) {
+        for point in points {
+            let at = &self.points[point as usize];
+            if let Some(triangle) =
+                self.triangles[from..].iter_mut().find(|triangle| above(self.points, triangle.corners, at) > 0.0)
+            {
+                triangle.above.push(point);
             }
         }
     }
 
-    #[test]
-    fn triangles_of_one_face_are_one() {
-        let cube: Vec<_> = (0..8).map(|i| Vector3::from_fn(|axis, _| f64::from(i >> axis & 1) + 1e6)).collect();
-        assert_eq!(faces(&cube).unwrap().len(), 6);
-        // Points on faces and inside change nothing.
-        let mut more = cube.clone();
-        more.extend(cube.iter().map(|p| (p + cube[0]) * 0.5));
-        assert_eq!(faces(&more).unwrap().len(), 6);
+    /// Of the points that are kept with a triangle the one farthest above it.
+    fn farthest(&self, triangle: u32) -> Option<u32> {
+        let Triangle { corners, above: points, .. } = &self.triangles[triangle as usize];
+        let heights = points.iter().map(|&point| (above(self.points, *corners, &self.points[point as usize]), point));
+        heights.max_by(|(i, _), (j, _)| i.total_cmp(j)).map(|(_, point)| point)
     }
 
-    #[test]
-    fn what_has_no_volume_is_told() {
-        let flat: Vec<_> = random_points(50, 1).iter().map(|p| Vector3::new(p.x, p.y, p.x + p.y)).collect();
-        assert_eq!(faces(&flat), Err(ShapeError::Flat(50)));
-        assert_eq!(faces(&flat[..3]), Err(ShapeError::TooFewPoints(3)));
-        assert_eq!(faces(&[Vector3::zeros(); 5]), Err(ShapeError::Flat(5)));
-        assert_eq!(faces(&[Vector3::repeat(f64::NAN); 5]), Err(ShapeError::PointNotFinite(0)));
+    /// Adds a point that is kept with a triangle.
+    fn add(&mut self, point: u32, triangle: u32) {
+        let at = self.points[point as usize];
+        self.seen.clear();
+        self.seen.push(triangle);
+        self.triangles[triangle as usize].is_left = false;
+        let first = self.triangles.len();
+        // The edges around what the point sees, each with the triangle beyond it.
+        let (mut edges, mut i) = (Vec::new(), 0);
+        while i < self.seen.len() {
+            let Triangle { corners, beyond, .. } = self.triangles[self.seen[i] as usize];
+            for side in 0..3 {
+                let next = &self.triangles[beyond[side] as usize];
+                if next.is_left && above(self.points, next.corners, &at) > 0.0 {
+                    self.triangles[beyond[side] as usize].is_left = false;
+                    self.seen.push(beyond[side]);
+                } else if next.is_left {
+                    edges.push((corners[side], corners[(side + 1) % 3], beyond[side]));
+                }
+            }
+            i += 1;
+        }
+        for (i, &(from, to, beyond)) in edges.iter().enumerate() {
+            self.leaving[from as usize] = i as u32;
+            let other = &mut self.triangles[beyond as usize];
+            let side = (0..3).find(|&side| other.corners[side] == to).unwrap_or(0);
+            other.beyond[side] = (first + i) as u32;
+        }
+        for &(from, to, beyond) in &edges {
+            self.triangles.push(Triangle::new([from, to, point], [beyond, 0, 0]));
+        }
+        for (i, &(_, to, _)) in edges.iter().enumerate() {
+            let next = first + self.leaving[to as usize] as usize;
+            self.triangles[first + i].beyond[1] = next as u32;
+            self.triangles[next].beyond[2] = (first + i) as u32;
+        }
+        for i in 0..self.seen.len() {
+            let above = std::mem::take(&mut self.triangles[self.seen[i] as usize].above);
+            self.hand_out(above.into_iter().filter(|&other| other != point), first);
+        }
     }
+}
+
+/// Above 0 for a point above the plane of three points, which are counter-clockwise as seen from above; its sign is exact.
+fn above(points: &[Vector3<f64>], plane: [u32; 3], point: &Vector3<f64>) -> f64 {
+    let coordinates = |p: &Vector3<f64>| Coord3D { x: p.x, y: p.y, z: p.z };
+    let [a, b, c] = plane.map(|i| coordinates(&points[i as usize]));
+    -orient3d(a, b, c, coordinates(point))
 }

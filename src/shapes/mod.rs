@@ -1,13 +1,14 @@
 //! Builders of particles: from half-spaces, points, closed surfaces and names of solids, with rounded edges and faces where they are.
 //!
 //! A particle stands about its centroid along its principal axes of inertia, as codes want the frame of a body; [`Shape::centroid`] and
-//! [`Shape::orientation`] say where that frame lies in that of the builder. [`Rounding`] says how far edges and corners are rounded, in shares of
-//! the *size*: the diameter of the largest ball that fits into the sharp body. Each file uses only those above it:
+//! [`Shape::orientation`] say where that frame lies in that of the builder. [`Rounding`] says how far edges and corners are rounded, by a
+//! length or a share of the *size*: the diameter of the largest ball that fits into the sharp body. Each file uses only those above it:
 //!
 //! | file | holds |
 //! |---|---|
 //! | `error` | why input makes no shape |
-//! | `hull` | the convex hull of points, as half-spaces |
+//! | `hull` | the convex hull of points as triangles, exact |
+//! | `sharp_body` | a convex body of points or half-spaces: faces, corners, volume, centroid |
 //! | `surface` | whether triangles are the whole surface of their convex hull |
 //! | `principal_frame` | principal axes as near to the given ones as they can be |
 //! | `rounding` | from a sharp body to a particle about its own centroid |
@@ -30,9 +31,20 @@ mod error;
 mod hull;
 mod principal_frame;
 mod rounding;
+mod sharp_body;
 mod solids;
 mod surface;
 
 pub use error::ShapeError;
 pub use rounding::{Rounding, Shape};
 pub use solids::{cuboid, cylinder, frustum, half_spaces, hull, prism, regular_solid, sphere, surface};
+#[doc(hidden)]
+pub use solids::{sharp_hull, sharp_planes};
+// The sharp bodies of the C interface.
+#[cfg(feature = "capi")]
+pub(crate) use {
+    principal_frame::principal_orientation,
+    sharp_body::SharpBody,
+    solids::{sharp_frustum, sharp_regular_solid},
+    surface::refuse_open,
+};

@@ -1,6 +1,6 @@
 //! Principal axes of inertia, as near to the axes of the given frame as they can be.
 
-use nalgebra::{Matrix2, Matrix3, Vector3};
+use nalgebra::{Matrix2, Matrix3, Rotation3, UnitQuaternion, Vector3};
 
 /// Moments that differ by less than this share belong to one axis of symmetry, about which any axis is principal: some times the
 /// error to which they are known.
@@ -8,7 +8,7 @@ const EQUAL: f64 = 2e-5;
 
 /// Rotation whose columns are principal axes, column i the one nearest to axis i of the frame. Where moments are equal, and any axes of a plane or
 /// of space are principal, those nearest to the frame's own are taken: a cube or a sphere keeps its frame.
-pub(super) fn axes(inertia: &Matrix3<f64>) -> Matrix3<f64> {
+fn axes(inertia: &Matrix3<f64>) -> Matrix3<f64> {
     let eigen = inertia.symmetric_eigen();
     let mut order = [0, 1, 2];
     order.sort_by(|&i, &j| eigen.eigenvalues[i].total_cmp(&eigen.eigenvalues[j]));
@@ -27,6 +27,14 @@ pub(super) fn axes(inertia: &Matrix3<f64>) -> Matrix3<f64> {
     }
     // Axes that are those of the frame up to the error of the moments are those of the frame.
     if (rotation - Matrix3::identity()).amax() < EQUAL { Matrix3::identity() } else { rotation }
+}
+
+/// The same, and the quaternion (w, x, y, z), w ≥ 0, from them to the frame.
+pub(crate) fn principal_orientation(inertia: &Matrix3<f64>) -> (Matrix3<f64>, [f64; 4]) {
+    let axes = axes(inertia);
+    let quaternion = UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(axes));
+    let sign = if quaternion.w < 0.0 { -1.0 } else { 1.0 };
+    (axes, [quaternion.w, quaternion.i, quaternion.j, quaternion.k].map(|c| sign * c))
 }
 
 /// Three axes in the order and with the signs in which they are nearest to the frame's.
@@ -65,7 +73,6 @@ fn about(axis: &Vector3<f64>) -> Matrix3<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use nalgebra::Rotation3;
 
     #[test]
     fn axes_are_principal_and_nearest() {

@@ -12,14 +12,13 @@
 //! little, and it is found by repetition.
 
 use super::error::{ShapeError, positive, within};
-use super::principal_frame;
-use crate::particle::largest_ball;
+use super::principal_frame::principal_orientation;
+use super::sharp_body::SharpBody;
 use crate::particle::mass_properties::{self, MASS_TOLERANCE, MassProperties};
 use crate::particle::particle::Particle;
 use crate::particle::plane::Plane;
 use crate::pose::Pose;
-use crate::rock::{Block, SliceSettings, slice};
-use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
+use nalgebra::{Matrix3, Vector3};
 
 /// The repetition ends when the centre is the centroid to this share of the size, found with fewer digits, which takes far less time, or, of bodies so
 /// flat or long that these digits do not say as much, when it comes no nearer and is the centroid as far as they tell. A last step with all digits
@@ -28,48 +27,82 @@ const CENTRED: f64 = 1e-5;
 const ROUGHLY: f64 = 1e-4;
 const MOST_STEPS: usize = 50;
 
-/// How edges and corners are rounded: shares of the size, the diameter of the largest ball that fits into the sharp body.
+/// How edges and corners are rounded. The size of a body is the diameter of the largest ball that fits into it while it is sharp.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[non_exhaustive]
 pub struct Rounding {
-    /// Rounding radius r over the size, in (0, 0.5).
-    pub r: f64,
-    /// Sphericity k, in [0, 1]: 0 leaves faces flat, 1 makes a sphere of radius R.
-    pub k: f64,
-    /// Radius R of the shadow sphere over the size; `None`: the distance from the centre to the farthest corner.
-    pub shadow_radius: Option<f64>,
+    r: Extent,
+    k: f64,
+    shadow_radius: Option<Extent>,
+}
+
+/// A length, or a share of the size.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Extent {
+    Length(f64),
+    OfSize(f64),
+}
+
+impl Extent {
+    fn length(self, size: f64) -> f64 {
+        match self {
+            Self::Length(length) => length,
+            Self::OfSize(share) => share * size,
+        }
+    }
 }
 
 impl Default for Rounding {
-    /// What docs/shapes.md advises: r = 0.05, k = 0.02.
+    /// What docs/shapes.md advises: a twentieth of the size, k = 0.02.
     fn default() -> Self {
         Self::new(0.05, 0.02)
     }
 }
 
 impl Rounding {
-    /// By r, a share of the size, and k.
-    pub fn new(r: f64, k: f64) -> Self {
-        Self { r, k, shadow_radius: None }
+    /// By the rounding radius r as a share of the size, in (0, 0.5), and the sphericity k, in [0, 1]: 0 leaves faces flat, 1 makes a sphere of radius R.
+    /// R, the radius of the shadow sphere, is the distance from the centre to the farthest corner.
+    pub fn new(share: f64, k: f64) -> Self {
+        Self { r: Extent::OfSize(share), k, shadow_radius: None }
     }
 
-    /// The same with R, a share of the size.
+    /// The same by r, length, in (0, half the size).
+    pub fn of_radius(r: f64, k: f64) -> Self {
+        Self { r: Extent::Length(r), ..Self::new(0.0, k) }
+    }
+
+    /// The same with R, length.
     pub fn with_shadow_radius(self, shadow_radius: f64) -> Self {
-        Self { shadow_radius: Some(shadow_radius), ..self }
+        Self { shadow_radius: Some(Extent::Length(shadow_radius)), ..self }
     }
 
-    /// r and k as they are, and R, all lengths.
+    /// The same with R as a share of the size.
+    pub fn with_shadow_share(self, share: f64) -> Self {
+        Self { shadow_radius: Some(Extent::OfSize(share)), ..self }
+    }
+
+    /// r, k and R, lengths.
     fn lengths(&self, size: f64) -> Result<(f64, f64, Option<f64>), ShapeError> {
-        let range = "a share of the size between 0 and 0.5 (a sphere has k = 1 and no planes)";
-        let r = within(self.r, self.r > 0.0 && self.r < 0.5, "r", range)?;
+        match self.r {
+            Extent::OfSize(share) => {
+                let range = "a share of the size between 0 and 0.5 (a sphere has k = 1 and no planes)";
+                within(share, share > 0.0 && share < 0.5, "rounding", range)?;
+            }
+            Extent::Length(r) if positive(r, "r")? >= 0.5 * size => {
+                return Err(ShapeError::RadiusTooLarge { r, limit: 0.5 * size });
+            }
+            Extent::Length(_) => {}
+        }
         let k = within(self.k, (0.0..=1.0).contains(&self.k), "k", "between 0 and 1")?;
-        let shadow_radius = self.shadow_radius.map(|share| positive(share, "R")).transpose()?;
-        Ok((size * r, k, shadow_radius.map(|share| size * share)))
+        if let Some(Extent::Length(given) | Extent::OfSize(given)) = self.shadow_radius {
+            positive(given, "R")?;
+        }
+        Ok((self.r.length(size), k, self.shadow_radius.map(|shadow_radius| shadow_radius.length(size))))
     }
 }
 
 /// A particle about its centroid along its principal axes, with its mass properties.
 #[derive(Clone, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Shape {
     /// The particle.
     pub particle: Particle,
@@ -88,25 +121,16 @@ impl Shape {
         Pose::new(self.centroid.into(), self.orientation).expect("a finite centroid and a unit quaternion")
     }
 
-    /// The shape {n·x ≤ h} of half-spaces, rounded.
-    pub(super) fn rounded(half_spaces: &[Plane], rounding: &Rounding) -> Result<Self, ShapeError> {
-        Self::of_block(&block(half_spaces)?, rounding)
-    }
-
-    /// A sharp body, rounded.
-    pub(super) fn of_block(block: &Block, rounding: &Rounding) -> Result<Self, ShapeError> {
-        let centroid = block.centroid;
-        let heights: Vec<_> = block.faces.iter().map(|face| (face.plane.normal, face.plane.offset)).collect();
-        let about = |centre: &Vector3<f64>| heights.iter().map(|(n, h)| (*n, h - n.dot(centre))).collect::<Vec<_>>();
-        let farthest =
-            |centre: &Vector3<f64>| block.corners.iter().map(|corner| (corner - centre).norm()).fold(0.0, f64::max);
-        let radius = largest_ball::radius(&about(&centroid), farthest(&centroid)).ok_or(ShapeError::Empty)?;
-        let (r, k, shadow_radius) = rounding.lengths(2.0 * radius)?;
+    /// A sharp body, rounded. `tolerance`: of volume, centroid and inertia, relative.
+    pub(crate) fn of_body(body: &SharpBody, rounding: &Rounding, tolerance: f64) -> Result<Self, ShapeError> {
+        let size = body.size()?;
+        let (r, k, shadow_radius) = rounding.lengths(size)?;
         let definition = |centre: &Vector3<f64>| {
-            let shadow_radius = shadow_radius.unwrap_or_else(|| farthest(centre));
-            Definition { planes: lowered(&about(centre), r, k, shadow_radius), r, k, shadow_radius }
+            let shadow_radius = shadow_radius.unwrap_or_else(|| body.farthest(centre));
+            Definition { planes: lowered(&body.heights(centre), r, k, shadow_radius), r, k, shadow_radius }
         };
-        Self::settled(definition, centroid, 2.0 * radius)
+        let shape = Self::settled(definition, body.centroid, size, tolerance)?;
+        Ok(Self { centroid: shape.centroid + body.origin, ..shape })
     }
 
     /// With its centroid as its centre, in principal axes.
@@ -114,39 +138,42 @@ impl Shape {
         definition: impl Fn(&Vector3<f64>) -> Definition,
         mut centre: Vector3<f64>,
         size: f64,
+        tolerance: f64,
     ) -> Result<Self, ShapeError> {
+        let (roughly, near) = (ROUGHLY.max(10.0 * tolerance), CENTRED.max(0.1 * tolerance) * size);
         let mut found = None;
         let mut last = f64::INFINITY;
         for _ in 0..MOST_STEPS {
-            let Definition { k, shadow_radius, .. } = definition(&centre);
-            let particle = definition(&centre).particle()?;
-            let mass = mass_properties::of(&particle, ROUGHLY);
+            let made = definition(&centre);
+            let particle = made.particle()?;
+            let mass = mass_properties::of(&particle, roughly);
             let shift = mass.centroid;
             let is_known_no_better =
                 shift.amax() > 0.5 * last && known(&mass).zip_map(&shift, |k, s| s.abs() - k).max() <= 0.0;
-            if !(shift.amax() > CENTRED * size) || is_known_no_better {
+            if !(shift.amax() > near) || is_known_no_better {
                 found = Some(particle);
                 break;
             }
             last = shift.amax();
             centre += shift;
             if !centre.iter().all(|c| c.is_finite()) {
-                return Err(ShapeError::NoCentre { k, shadow_radius });
+                return Err(made.no_centre());
             }
         }
-        let Definition { k, shadow_radius, .. } = definition(&centre);
-        let particle = found.ok_or(ShapeError::NoCentre { k, shadow_radius })?;
-        let mass = mass_properties::of(&particle, MASS_TOLERANCE);
+        let particle = found.ok_or_else(|| definition(&centre).no_centre())?;
+        let mut mass = mass_properties::of(&particle, tolerance);
         // The centroid is known no better than this.
-        if mass.centroid.amax() > MASS_TOLERANCE * size {
+        let is_centred = !(mass.centroid.amax() > MASS_TOLERANCE * size);
+        if !is_centred {
             centre += mass.centroid;
         }
-        let axes = principal_frame::axes(&mass.inertia);
+        let (axes, orientation) = principal_orientation(&mass.inertia);
         let particle = definition(&centre).turned(&axes).particle()?;
-        let quaternion = UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(axes));
-        let sign = if quaternion.w < 0.0 { -1.0 } else { 1.0 };
-        let orientation = [quaternion.w, quaternion.i, quaternion.j, quaternion.k].map(|c| sign * c);
-        let mass = mass_properties::of(&particle, MASS_TOLERANCE);
+        if is_centred {
+            (mass.centroid, mass.inertia) = (axes.tr_mul(&mass.centroid), axes.transpose() * mass.inertia * axes);
+        } else {
+            mass = mass_properties::of(&particle, tolerance);
+        }
         Ok(Self { particle, mass, centroid: centre, orientation })
     }
 }
@@ -156,12 +183,6 @@ fn known(mass: &MassProperties) -> Vector3<f64> {
     let error = if mass.error.is_finite() { mass.error } else { 0.0 };
     let all = 0.5 * mass.inertia.trace();
     mass.inertia.diagonal().map(|about| error * ((all - about).max(0.0) / mass.volume).sqrt())
-}
-
-/// The sharp body of half-spaces: a domain of rock without joints.
-pub(super) fn block(half_spaces: &[Plane]) -> Result<Block, ShapeError> {
-    let mass = slice(half_spaces, &[], &SliceSettings::default())?;
-    mass.blocks.into_iter().next().ok_or(ShapeError::Empty)
 }
 
 /// What a particle is made of.
@@ -175,6 +196,10 @@ pub(super) struct Definition {
 impl Definition {
     fn particle(&self) -> Result<Particle, ShapeError> {
         Ok(Particle::new(&self.planes, self.r, self.k, self.shadow_radius)?)
+    }
+
+    fn no_centre(&self) -> ShapeError {
+        ShapeError::NoCentre { k: self.k, shadow_radius: self.shadow_radius }
     }
 
     /// In axes that are these columns.

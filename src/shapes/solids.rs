@@ -1,11 +1,10 @@
 //! The builders.
 
 use super::error::{ShapeError, positive, within};
-use super::hull::faces;
-use super::rounding::{Definition, Rounding, Shape, block};
-use super::surface::{refuse_concave, refuse_open};
-use crate::particle::plane::Plane;
-use crate::rock::{Block, FaceOf};
+use super::rounding::{Definition, Rounding, Shape};
+use super::sharp_body::SharpBody;
+use crate::particle::mass_properties::MASS_TOLERANCE;
+use crate::particle::plane::{MAX_PLANES, Plane};
 use nalgebra::Vector3;
 use std::f64::consts::{PI, TAU};
 
@@ -15,16 +14,15 @@ use std::f64::consts::{PI, TAU};
 /// # Errors
 /// Planes without a normal or whose numbers are not finite, that enclose no volume or hold no point; a rounding out of range.
 pub fn half_spaces(planes: &[Plane], rounding: &Rounding) -> Result<Shape, ShapeError> {
-    Shape::rounded(planes, rounding)
+    rounded(&SharpBody::of_planes(planes)?, rounding)
 }
 
-/// Of the convex hull of points, rounded inwards: no part lies outside the hull. Triangles that are coplanar to 1e-6 of the extent are one face.
+/// Of the convex hull of points, rounded inwards: no part lies outside the hull. Faces that are coplanar to 1e-6 of the extent are one.
 ///
 /// # Errors
 /// Points that are not finite, fewer than four, or all in a plane; a rounding out of range.
 pub fn hull(points: &[[f64; 3]], rounding: &Rounding) -> Result<Shape, ShapeError> {
-    let (middle, points) = about_middle(points);
-    placed(&body(&faces(&points)?, &points)?, &middle, rounding)
+    rounded(&SharpBody::of_points(points, 0.0)?, rounding)
 }
 
 /// Of a closed convex surface of triangles, three indices of points each, in any sense of rotation.
@@ -32,50 +30,24 @@ pub fn hull(points: &[[f64; 3]], rounding: &Rounding) -> Result<Shape, ShapeErro
 /// # Errors
 /// Those of [`hull`]; a surface that is open, not convex or crosses itself, of which [`hull`] makes the convex hull.
 pub fn surface(points: &[[f64; 3]], triangles: &[[u32; 3]], rounding: &Rounding) -> Result<Shape, ShapeError> {
-    let (middle, points) = about_middle(points);
-    refuse_open(points.len(), triangles)?;
-    let faces = faces(&points)?;
-    let body = body(&faces, &points)?;
-    refuse_concave(&points, triangles, &faces, body.faces.iter().map(|face| face.area).sum())?;
-    placed(&body, &middle, rounding)
+    rounded(&SharpBody::of_surface(points, triangles, 0.0)?, rounding)
 }
 
-/// The middle of points, and the points about it: their distances from it have all digits, however far away they are.
-fn about_middle(points: &[[f64; 3]]) -> (Vector3<f64>, Vec<Vector3<f64>>) {
-    let points: Vec<Vector3<f64>> = points.iter().map(|&point| point.into()).collect();
-    let [low, high] = extremes(&points);
-    let middle = 0.5 * low + 0.5 * high;
-    let origin = if middle.iter().all(|c| c.is_finite()) { middle } else { Vector3::zeros() };
-    (origin, points.iter().map(|point| point - origin).collect())
+/// The faces of the hull of points, about their middle: for tests.
+#[doc(hidden)]
+pub fn sharp_hull(points: &[[f64; 3]]) -> Result<(Vector3<f64>, Vec<Plane>), ShapeError> {
+    let body = SharpBody::of_points(points, 0.0)?;
+    Ok((body.origin, body.planes))
 }
 
-fn extremes(points: &[Vector3<f64>]) -> [Vector3<f64>; 2] {
-    let first = points.first().copied().unwrap_or_default();
-    points.iter().fold([first; 2], |[low, high], point| [low.inf(point), high.sup(point)])
+/// The faces of the body of half-spaces: for tests.
+#[doc(hidden)]
+pub fn sharp_planes(planes: &[Plane]) -> Result<Vec<Plane>, ShapeError> {
+    Ok(SharpBody::of_planes(planes)?.planes)
 }
 
-/// The sharp body of the faces of a hull of points about their middle. Of a flat body all planes may pass close to the origin, while it reaches far: a
-/// box about the points says how far, and makes no face.
-fn body(faces: &[Plane], points: &[Vector3<f64>]) -> Result<Block, ShapeError> {
-    let [low, high] = extremes(points);
-    let sides = (0..6).map(|i| {
-        let normal = Vector3::ith(i / 2, if i % 2 == 0 { 1.0 } else { -1.0 });
-        Plane { normal, offset: (high - low).max() }
-    });
-    let planes: Vec<Plane> = sides.chain(faces.iter().copied()).collect();
-    let flat = ShapeError::Flat(points.len());
-    let body = block(&planes).map_err(|error| match error {
-        ShapeError::Empty | ShapeError::Open => flat.clone(),
-        other => other,
-    })?;
-    let is_open = body.faces.iter().any(|face| matches!(face.of, FaceOf::Domain(side) if side < 6));
-    if is_open { Err(flat) } else { Ok(body) }
-}
-
-/// A body about a place, rounded.
-fn placed(body: &Block, place: &Vector3<f64>, rounding: &Rounding) -> Result<Shape, ShapeError> {
-    let shape = Shape::of_block(body, rounding)?;
-    Ok(Shape { centroid: shape.centroid + place, ..shape })
+fn rounded(body: &SharpBody, rounding: &Rounding) -> Result<Shape, ShapeError> {
+    Shape::of_body(body, rounding, MASS_TOLERANCE)
 }
 
 /// A sphere: k = 1.
@@ -85,7 +57,7 @@ fn placed(body: &Block, place: &Vector3<f64>, rounding: &Rounding) -> Result<Sha
 pub fn sphere(radius: f64) -> Result<Shape, ShapeError> {
     let radius = positive(radius, "radius")?;
     let definition = |_: &Vector3<f64>| Definition { planes: Vec::new(), r: 0.0, k: 1.0, shadow_radius: radius };
-    Shape::settled(definition, Vector3::zeros(), 2.0 * radius)
+    Shape::settled(definition, Vector3::zeros(), 2.0 * radius, MASS_TOLERANCE)
 }
 
 /// A cuboid about the origin with these edges along x, y, z, length.
@@ -98,7 +70,7 @@ pub fn cuboid(edges: [f64; 3], rounding: &Rounding) -> Result<Shape, ShapeError>
         let offset = 0.5 * positive(edge, ["edge x", "edge y", "edge z"][axis])?;
         planes.extend([1.0, -1.0].map(|sign| Plane { normal: Vector3::ith(axis, sign), offset }));
     }
-    Shape::rounded(&planes, rounding)
+    half_spaces(&planes, rounding)
 }
 
 /// A regular prism along z, its heights from −height/2 to height/2, the first side towards x; `radius` is that of the circle within its section.
@@ -120,8 +92,12 @@ pub fn frustum(
     height: f64,
     rounding: &Rounding,
 ) -> Result<Shape, ShapeError> {
-    if sides < 3 {
-        return Err(ShapeError::TooFewSides(sides));
+    rounded(&sharp_frustum(sides, radius, top_radius, height)?, rounding)
+}
+
+pub(crate) fn sharp_frustum(sides: usize, radius: f64, top_radius: f64, height: f64) -> Result<SharpBody, ShapeError> {
+    if !(3..=MAX_PLANES - 2).contains(&sides) {
+        return Err(ShapeError::Sides(sides));
     }
     let (radius, height) = (positive(radius, "radius")?, positive(height, "height")?);
     let top = within(top_radius, top_radius >= 0.0, "top radius", "finite and not below 0")?;
@@ -130,7 +106,7 @@ pub fn frustum(
         Plane { normal: Vector3::new(cos, sin, (radius - top) / height), offset: 0.5 * (radius + top) }
     };
     let ends = [1.0, -1.0].map(|sign| Plane { normal: Vector3::ith(2, sign), offset: 0.5 * height });
-    Shape::rounded(&(0..sides).map(side).chain(ends).collect::<Vec<_>>(), rounding)
+    SharpBody::of_planes(&(0..sides).map(side).chain(ends).collect::<Vec<_>>())
 }
 
 /// A cylinder along z as a prism of as many sides, whose section has the area π radius².
@@ -138,9 +114,6 @@ pub fn frustum(
 /// # Errors
 /// Those of [`prism`].
 pub fn cylinder(radius: f64, height: f64, sides: usize, rounding: &Rounding) -> Result<Shape, ShapeError> {
-    if sides < 3 {
-        return Err(ShapeError::TooFewSides(sides));
-    }
     let inner = positive(radius, "radius")? * (PI / (sides as f64 * (PI / sides as f64).tan())).sqrt();
     prism(sides, inner, height, rounding)
 }
@@ -150,6 +123,10 @@ pub fn cylinder(radius: f64, height: f64, sides: usize, rounding: &Rounding) -> 
 /// # Errors
 /// Another number of faces, an edge that is not positive and finite; a rounding out of range.
 pub fn regular_solid(faces: usize, edge: f64, rounding: &Rounding) -> Result<Shape, ShapeError> {
+    rounded(&sharp_regular_solid(faces, edge)?, rounding)
+}
+
+pub(crate) fn sharp_regular_solid(faces: usize, edge: f64) -> Result<SharpBody, ShapeError> {
     let golden = 0.5 * (1.0 + 5f64.sqrt());
     let signs = [-1.0, 1.0];
     let cube: Vec<[f64; 3]> =
@@ -168,5 +145,5 @@ pub fn regular_solid(faces: usize, edge: f64, rounding: &Rounding) -> Result<Sha
         _ => return Err(ShapeError::NoRegularSolid(faces)),
     };
     let scale = positive(edge, "edge")? / length;
-    hull(&points.iter().map(|p: &[f64; 3]| p.map(|c| scale * c)).collect::<Vec<_>>(), rounding)
+    SharpBody::of_points(&points.iter().map(|p: &[f64; 3]| p.map(|c| scale * c)).collect::<Vec<_>>(), 0.0)
 }

@@ -10,6 +10,7 @@ use crate::flags::Flags;
 use crate::model::dual_search;
 use crate::model::local_model::{self, LocalModel};
 use crate::model::problem::Problem;
+use crate::pair::body::Body;
 use crate::pair::pair_state::Remembered;
 use crate::settings::BackEnd;
 use crate::solver::call::{Call, SolveError, Solved};
@@ -127,11 +128,38 @@ impl Call<'_> {
         }
     }
 
+    /// Flags points that are free to move along flat faces, so that the way from one to the other has a part along them that the regularisation has chosen.
+    pub fn flag_free(&mut self, points: &[CertifiedPoint; 2]) {
+        let bodies = self.bodies();
+        if !bodies.iter().any(|body| body.is_plain()) {
+            self.flags.set(Flags::FREE, is_free(bodies, points));
+        }
+    }
+
     fn certified(&self, problem: Problem, solution: &Solution, model: &LocalModel) -> CertifiedPoint {
         let Solution { x, lambda, gradients, gradient_norms, values, .. } = *solution;
         let bound = point_bound(solution, model, self.bodies(), problem);
         CertifiedPoint { x, lambda, gradients, gradient_norms, values, scale: self.scale(solution, problem), bound }
     }
+}
+
+/// Part of the way from one point to the other that has to lie along the faces for it to be longer by more than rounding.
+const ALONG: f64 = 1e-6;
+
+/// Rounding of a gradient, relative.
+const OF_GRADIENT: f64 = 32.0 * f64::EPSILON;
+
+/// Whether the way between both points has a part along the level surfaces on which no gradient changes but by the regularisation.
+fn is_free(bodies: [&Body; 2], [p1, p2]: &[CertifiedPoint; 2]) -> bool {
+    let (normal, way) = (p1.gradients[0] / p1.gradient_norms[0], p1.x - p2.x);
+    let along = way - way.dot(&normal) * normal;
+    let length = along.norm();
+    let is_flat = |i: usize| {
+        let change = (p1.gradients[i] - p2.gradients[i]).dot(&along).abs();
+        let sizes = p1.gradient_norms[i] + p2.gradient_norms[i];
+        change <= 2.0 * bodies[i].surplus_curvature() * length * length + OF_GRADIENT * sizes * length
+    };
+    length > ALONG * way.norm() && is_flat(0) && is_flat(1)
 }
 
 /// The λ of a closest point, as seen from midway.

@@ -8,7 +8,7 @@
 //! The bounds need no active set: with the depths of the last point as multipliers, the dual value less half the square of the slope
 //! over the curvature of the spheres is a lower bound, and the merit of the point an upper one.
 
-use crate::bounds::point_bound;
+use crate::bounds::point_bound::{self, Added};
 use crate::bounds::sensitivity::Sensitivity;
 use crate::bounds::solution::{Ending, Solution};
 use crate::linalg::double_double::DoubleDouble;
@@ -69,8 +69,8 @@ struct WideModel {
 struct Found {
     delta: Wide,
     lambda: DoubleDouble,
-    /// The optimum of its quadratics, where their active set is right.
-    optimum: Option<Optimum<DoubleDouble>>,
+    /// The optimum of its quadratics, where their active set is right, and their axes.
+    optimum: Option<(Optimum<DoubleDouble>, Matrix3<f64>)>,
 }
 
 /// The values of λ between which that of the optimum lies, halved where the dual path narrows them too slowly.
@@ -207,7 +207,7 @@ impl Extended<'_> {
     fn accepted(&mut self, delta: &Wide, model: &WideModel, optimum: Optimum<DoubleDouble>) -> Option<Found> {
         let v = model.to_solver(&optimum.step);
         let same = optimum.settled && self.keeps_active_sets(delta, model.undecided, &v);
-        same.then(|| Found { delta: delta + v, lambda: optimum.lambda, optimum: Some(optimum) })
+        same.then(|| Found { delta: delta + v, lambda: optimum.lambda, optimum: Some((optimum, model.axes)) })
     }
 
     fn keeps_active_sets(&mut self, delta: &Wide, undecided: Undecided, v: &Wide) -> bool {
@@ -320,7 +320,7 @@ impl Extended<'_> {
         };
         let slope = rounded(&(of_a.gradient * weights.0 + of_b.gradient * weights.1)).rows(0, self.dimensions).norm();
         // Where the places of 32 digits are too coarse for the forces to balance, those of the quadratics still do.
-        let slope = optimum.as_ref().map_or(slope, |optimum| smaller(slope, self.slope_of_model(optimum, (a, b))));
+        let slope = optimum.as_ref().map_or(slope, |(optimum, _)| smaller(slope, self.slope_of_model(optimum, (a, b))));
         let slope = slope + a * of_a.turn + b * of_b.turn;
         let height = 0.5 * slope * slope / (LESS * (a * self.bodies[0].soft() + b * self.bodies[1].soft()));
         // The difference is taken before it is rounded.
@@ -338,7 +338,7 @@ impl Extended<'_> {
             duality_gap: above + height,
             rounding: larger(problem.weighted(error[0], error[1], lambda.rounded()), larger(error[0], error[1])),
             linear: true,
-            rate: optimum.as_ref().map_or(0.0, |optimum| approximate(optimum).rate(problem)),
+            rate: optimum.as_ref().map_or(0.0, |(optimum, _)| approximate(optimum).rate(problem)),
             ..Solution::unsettled(x, lambda.rounded(), self.steps)
         }
     }
@@ -369,15 +369,20 @@ impl Extended<'_> {
     /// Bound on the distance of the point to the optimum: by strong convexity, or by its sensitivity to the data where that is less.
     fn point_bound(&self, found: &Found, solution: &Solution, bodies: [&Body; 2]) -> f64 {
         let by_convexity = point_bound::by_convexity(solution, bodies, self.problem);
-        let by_sensitivity =
-            found.optimum.as_ref().and_then(|optimum| self.by_sensitivity(&approximate(optimum), &found.delta));
+        let by_sensitivity = found.optimum.as_ref().and_then(|(optimum, axes)| {
+            let to_axes = |v: &Vector3<f64>| axes.tr_mul(v);
+            let added = Added::at(&solution.x, solution.lambda, bodies, self.problem, to_axes);
+            self.by_sensitivity(&approximate(optimum), &found.delta, &added)
+        });
+        let is_plain = bodies.iter().all(|body| body.is_plain());
+        let by_convexity = if is_plain { by_convexity } else { point_bound::farthest(solution, bodies, self.problem) };
         // A point of a boundary is placed from the centre of the particle.
         let placed = PLACED * f64::EPSILON * (solution.x.norm() + self.placed_from);
         by_sensitivity.map_or(by_convexity, |bound| smaller(bound, by_convexity)) + placed
     }
 
     /// The bound by sensitivity, where the active set is certain.
-    fn by_sensitivity(&self, optimum: &Optimum, delta: &Wide) -> Option<f64> {
+    fn by_sensitivity(&self, optimum: &Optimum, delta: &Wide, added: &Added) -> Option<f64> {
         let values = [self.bodies[0].value(delta), self.bodies[1].value(delta)];
         let soft = (self.bodies[0].soft(), self.bodies[1].soft());
         // Whether planes still push is seen below, once it is known how far the point may move.
@@ -393,6 +398,7 @@ impl Extended<'_> {
         let left = self.problem.mismatch(values[0].value, values[1].value).approximate();
         let (side_a, side_b) = self.problem.changes(sides[0], sides[1]);
         sum += sensitivity.to_value(left + side_a + side_b);
+        sum += added.moves(&sensitivity, sum);
         // The active set is certain if no plane switches within the bound.
         let switches = (0..2).any(|i| values[i].clear <= values[i].blur + self.bodies[i].longest_normal() * sum);
         (sum.is_finite() && !switches).then_some(sum)

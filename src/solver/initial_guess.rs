@@ -34,7 +34,7 @@ const MOST_FOLLOWED: usize = 32;
 
 /// Planes that share a place of the surface, above which the quadratics there tell more than the planes one by one. With r/size = 0.05,
 /// bodies of 40 planes (1.4) take as many instructions either way, of 50 planes (1.75) 44 % fewer without the linear program, of 20
-/// planes (0.7) 50 % more (docs/benchmarks.md).
+/// planes (0.7) 50 % more (docs/design_notes.md).
 const SMOOTH: f64 = 1.5;
 
 /// Relative to F: no other plane lies higher.

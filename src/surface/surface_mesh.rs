@@ -17,6 +17,7 @@ use thiserror::Error;
 
 /// A closed mesh of triangles in the local frame of a particle, inside the particle and with its corners on the surface.
 #[derive(Clone, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct SurfaceMesh {
     /// Corners, length.
     pub vertices: Vec<Vector3<f64>>,

@@ -72,12 +72,12 @@ class HungBlock:
 
     def __init__(self, case):
         self.case, self.line = case, case.limit.line
-        shape = shapes.from_planes(case.half_spaces(), r=ROUNDING, k=0.0)
+        shape = shapes.from_planes(case.half_spaces(), rounding=ROUNDING, k=0.0)
         size = shape.r / ROUNDING
         self.scene = scene = Scene(size=size, load=shape.volume)
         self.block = scene.add(shape)
         for outward, offset in ((-case.plane_a.normal, 0.0), (-case.plane_b.normal, 0.0), case.joint_c()):
-            scene.add(shapes.cuboid((8.0, 8.0, 1.0), r=ROUNDING * size, k=0.0), fixed=True, **_behind(outward, offset))
+            scene.add(shapes.cuboid((8.0, 8.0, 1.0), rounding=ROUNDING * size, k=0.0), fixed=True, **_behind(outward, offset))
         scene.start(friction=0.0)
         weight = self.block.state.mass * GRAVITY
         hold = weight * self.line[2] * self.line
@@ -116,12 +116,12 @@ def fall():
     """Acceleration (m/s^2) of a block between three joints that all overhang, between which friction cannot hold it."""
     normals = [Plane(70.0, bearing).normal for bearing in (90.0, 210.0, 330.0)]
     spaces = [(*normal, normal[2] * HEIGHT) for normal in normals] + [(0.0, 0.0, -1.0, 0.0)]
-    shape = shapes.from_planes(spaces, r=ROUNDING, k=0.0)
+    shape = shapes.from_planes(spaces, rounding=ROUNDING, k=0.0)
     size = shape.r / ROUNDING
     scene = Scene(size=size, load=shape.volume, moving=True)
     block = scene.add(shape)
     for *outward, offset in spaces[:3]:
-        scene.add(shapes.cuboid((8.0, 8.0, 1.0), r=ROUNDING * size, k=0.0), fixed=True, **_behind(outward, offset))
+        scene.add(shapes.cuboid((8.0, 8.0, 1.0), rounding=ROUNDING * size, k=0.0), fixed=True, **_behind(outward, offset))
     scene.start(friction=STEEP)
     start = block.state.pos[2]
     scene.run(np.sqrt(2.0 * 0.1 / GRAVITY))

@@ -30,7 +30,7 @@ def simulate(sides, slope=SLOPE, way=WAY):
     """Time (s) and way (m) down the plane from rest."""
     scene = Scene(size=2.0 * RADIUS, load=np.pi * RADIUS**2 * WIDTH, moving=True)
     scene.block(box_corners(16.0, 4.0, 1.0), fixed=True, position=(0.0, 0.0, -0.5))
-    shape = shapes.cylinder(RADIUS, WIDTH, sides, r=ROUNDING, k=0.0)
+    shape = shapes.cylinder(RADIUS, WIDTH, sides, rounding=ROUNDING, k=0.0)
     # On a side, its axis along y.
     height = RADIUS * np.sqrt(np.pi / (sides * np.tan(np.pi / sides)))
     turn = yade.Quaternion((1, 0, 0), 0.5 * np.pi)

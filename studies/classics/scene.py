@@ -6,7 +6,7 @@ Every length below is relative to the size of the scene, the diameter of the lar
 - Edges are rounded with the radius r = ROUNDING: the flat part of a face, over which its contact point may move, ends r inside the edge.
 - Springs are so stiff that the largest force at rest, which the case names (`load`), makes an overlap of OVERLAP.
 - Faces are flat (k = 0). Their contact point is chosen as if they bulged by BULGE of that overlap, so that it moves smoothly with
-  the tilt: it crosses a face while the block tilts by some 1e-6 rad (docs/wedge.md).
+  the tilt: it crosses a face while the block tilts by some 1e-6 rad (docs/classics.md).
 - The time step follows from the stiffest motion, springs or tilting.
 - With LAW=joint in the environment, contacts are patches with the law of joints: the load on a square of the size makes an overlap of
   OVERLAP_OF_JOINTS, less than of points, since a face that tilts on its edge gives way (docs/classics.md). Their dashpots have RESTITUTION_AT_REST, so that
@@ -80,8 +80,8 @@ class Scene:
     def block(self, corners, fixed=False, position=(0.0, 0.0, 0.0), mask=None):
         """The convex hull of corners (m) as a body."""
         corners = np.asarray(corners, float)
-        relative = self.rounding / (2.0 * Polyhedron.of_points(corners).ball_radius)
-        shape = shapes.from_vertices(corners, r=relative, k=self.sphericity)
+        relative = self.rounding / Polyhedron.of_points(corners).size
+        shape = shapes.from_vertices(corners, rounding=relative, k=self.sphericity)
         return self.add(shape, fixed, position, mask=mask)
 
     def add(self, shape, fixed=False, position=(0.0, 0.0, 0.0), orientation=(1.0, 0.0, 0.0, 0.0), mask=None):

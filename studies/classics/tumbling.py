@@ -87,7 +87,7 @@ def simulate(steps_per_turn, turns=TURNS, rule=FINCHAM):
     and the largest change of the angular momentum, relative."""
     O.reset()
     O.materials.append(yade.FrictMat(density=DENSITY))
-    book = body(shapes.cuboid(BOOK, r=ROUNDING, k=0.0))
+    book = body(shapes.cuboid(BOOK, rounding=ROUNDING, k=0.0))
     O.bodies.append(book)
     state = book.state
     middle = int(np.argsort(np.array(state.inertia))[1])

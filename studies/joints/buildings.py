@@ -29,8 +29,8 @@ class Building:
 
     @staticmethod
     def shape(corners):
-        size = 2 * potential_particles.polyhedron.Polyhedron.of_points(corners).ball_radius
-        return shapes.from_vertices(corners, r=ROUNDING / size, k=0)
+        size = potential_particles.polyhedron.Polyhedron.of_points(corners).size
+        return shapes.from_vertices(corners, rounding=ROUNDING / size, k=0)
 
     def limit(self):
         """The horizontal acceleration in `directions`, over gravity, at which it falls."""

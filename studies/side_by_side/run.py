@@ -4,7 +4,7 @@
     make side-by-side            (or: scripts/yade.sh -j1 studies/side_by_side/run.py)
 
 Environment: QUICK=1 for a run of seconds that shows that everything works; OUTPUT for another folder
-than out/side_by_side. docs/side_by_side.md explains what is measured and how.
+than out/side_by_side. docs/scenes.md explains what is measured and how.
 """
 
 import sys
@@ -126,7 +126,7 @@ def run_case(plan, results, report, case, area):
 def run_bounces(plan, results, report, _out):
     for number, (steps_per_contact, keep, area) in enumerate(plan.bounces):
         line = HeadOn(steps_per_contact, keep, plan.bounce_count)
-        library, builtin = (line.run(kind, area, plan.seconds) for kind in (DROP_IN, BUILTIN))
+        library, builtin = line.run(DROP_IN, area), line.run(BUILTIN, area, plan.seconds)
         exact = None if area else line.exact
         results["bounces"].append(Comparison(steps_per_contact, keep, area, exact, library, builtin))
         report((number + 1) / len(plan.bounces))

@@ -45,7 +45,8 @@ void check_consistent(const pp_contact *contact, const pp_pose *pose_a, const pp
         CHECK(contact->overlap > 0 && isnan(contact->distance));
     } else {
         CHECK(isnan(contact->overlap) && all_nan(contact->point_on_a) && all_nan(contact->point_on_b));
-        CHECK(contact->distance == 0);
+        CHECK(contact->distance >= 0 && isfinite(contact->distance));
+        CHECK(contact->formulation != PP_MIDWAY || contact->s - contact->gap <= 1 || contact->distance > 0);
     }
     CHECK_NEAR(dot(contact->normal, contact->normal), 1.0, 1e-14);
     double largest = 1.0;

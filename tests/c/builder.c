@@ -4,6 +4,7 @@
 #include "tests.h"
 
 #include <math.h>
+#include <stdint.h>
 #include <string.h>
 
 /* The corners of a brick of 3 x 2 x 1, turned by 90 degrees about z and moved. */
@@ -57,7 +58,7 @@ static void what_is_no_body_is_told(void) {
     CHECK(pp_particle_from_points(&infinite[0][0], 4, 0.1, 0, 0, &out, NULL, why, sizeof why) == PP_BAD_POINT && strstr(why, "point 0"));
     CHECK(pp_particle_from_faces(&planes[0][0], 2, 0.1, 0, 0, &out, NULL, why, sizeof why) == PP_UNBOUNDED && strstr(why, "enclose"));
     CHECK(pp_particle_from_faces(&none[0][0], 1, 0.1, 0, 0, &out, NULL, why, sizeof why) == PP_PLANE_ZERO_NORMAL && strstr(why, "plane 0"));
-    CHECK(pp_particle_from_points(&corner[0][0], 4, 0.5, 0, 0, &out, NULL, why, sizeof why) == PP_BAD_ROUNDING_RADIUS && strstr(why, "r=0.5"));
+    CHECK(pp_particle_from_points(&corner[0][0], 4, 0.5, 0, 0, &out, NULL, why, sizeof why) == PP_BAD_ROUNDING_RADIUS && strstr(why, "rounding=0.5"));
     CHECK(pp_particle_from_points(&corner[0][0], 4, 0.1, 2, 0, &out, NULL, why, sizeof why) == PP_BAD_SPHERICITY && strstr(why, "k=2"));
     CHECK(pp_particle_from_points(&corner[0][0], 4, 0.1, 0, -1, &out, NULL, why, sizeof why) == PP_BAD_SHADOW_RADIUS && strstr(why, "R=-1"));
     CHECK(pp_particle_from_points(NULL, 4, 0.1, 0, 0, &out, NULL, why, sizeof why) == PP_NULL_POINTER && strstr(why, "points"));
@@ -65,7 +66,75 @@ static void what_is_no_body_is_told(void) {
     CHECK(out == NULL);
 }
 
+/* A brick of 3 x 2 x 1 far away: what is known of it sharp, and rounded by lengths. */
+static void a_polyhedron_is_sharp_until_it_is_rounded(void) {
+    double points[8][3], faces[6][4], corners[8][3], size, r;
+    for (int i = 0; i < 8; i++)
+        points[i][0] = 1000.0 + (i & 1 ? 3.0 : 0.0), points[i][1] = i & 2 ? 2.0 : 0.0, points[i][2] = i & 4 ? 1.0 : 0.0;
+    pp_polyhedron *brick = NULL, *other = NULL;
+    pp_particle *particle = NULL;
+    pp_mass_properties mass;
+    pp_built built;
+    uint32_t triangles[12][3];
+    size_t count;
+    char why[PP_MESSAGE_SIZE];
+    CHECK(pp_polyhedron_from_points(&points[0][0], 8, 0.0, &brick, NULL, 0) == PP_OK);
+    CHECK(pp_polyhedron_properties(brick, &mass, &size) == PP_OK);
+    CHECK_NEAR(mass.volume, 6.0, 1e-12);
+    CHECK_NEAR(mass.centroid[0], 1001.5, 1e-12);
+    CHECK_NEAR(mass.inertia[0], 6.0 * (4.0 + 1.0) / 12.0, 1e-12);
+    CHECK_NEAR(size, 1.0, 1e-12);
+    CHECK(pp_polyhedron_faces(brick, NULL, 0, &count) == PP_BUFFER_TOO_SMALL && count == 6);
+    CHECK(pp_polyhedron_faces(brick, &faces[0][0], 6, &count) == PP_OK);
+    for (int i = 0; i < 6; i++)
+        if (faces[i][0] > 0.5) CHECK_NEAR(faces[i][3], 1003.0, 1e-12);
+    CHECK(pp_polyhedron_corners(brick, &corners[0][0], 8, &count) == PP_OK && count == 8);
+    CHECK(pp_polyhedron_triangles(brick, &triangles[0][0], 12, &count) == PP_OK && count == 12);
+    /* Its own surface is closed and convex, and no longer with one triangle less. */
+    CHECK(pp_surface_is_closed(&corners[0][0], 8, &triangles[0][0], 12, why, sizeof why) == PP_OK);
+    CHECK(pp_surface_is_closed(&corners[0][0], 8, &triangles[0][0], 11, why, sizeof why) == PP_UNBOUNDED && strstr(why, "open: 3 edges"));
+    CHECK(pp_polyhedron_from_surface(&corners[0][0], 8, &triangles[0][0], 12, 0.0, &other, why, sizeof why) == PP_OK);
+    pp_polyhedron_free(other);
+    CHECK(pp_polyhedron_from_surface(&corners[0][0], 7, &triangles[0][0], 12, 0.0, &other, why, sizeof why) == PP_BAD_POINT && strstr(why, "point 7"));
+
+    CHECK(pp_particle_from_polyhedron(brick, 0.1, 0.0, 0.0, 1e-6, &particle, &built, NULL, 0) == PP_OK);
+    CHECK(pp_particle_rounding_radius(particle, &r) == PP_OK && r == 0.1);
+    CHECK_NEAR(built.centroid[0], 1001.5, 1e-5);
+    CHECK(built.mass.volume > 5.7 && built.mass.volume < 6.0);
+    pp_particle_free(particle);
+    CHECK(pp_polyhedron_from_faces(&faces[0][0], 6, &other, NULL, 0) == PP_OK && pp_polyhedron_properties(other, &mass, NULL) == PP_OK);
+    CHECK_NEAR(mass.volume, 6.0, 1e-9);
+    pp_polyhedron_free(other);
+    CHECK(pp_polyhedron_from_faces(NULL, 6, &other, why, sizeof why) == PP_NULL_POINTER && strstr(why, "NULL"));
+    CHECK(pp_polyhedron_from_points(&points[0][0], 8, 0.0, NULL, NULL, 0) == PP_NULL_POINTER);
+    CHECK(pp_polyhedron_faces(NULL, &faces[0][0], 6, &count) == PP_NULL_POINTER);
+    CHECK(pp_polyhedron_corners(brick, NULL, 8, &count) == PP_NULL_POINTER);
+    CHECK(pp_polyhedron_properties(brick, NULL, &size) == PP_NULL_POINTER);
+    CHECK(pp_principal_axes(NULL, &size) == PP_NULL_POINTER);
+    CHECK(pp_particle_from_polyhedron(NULL, 0.1, 0.0, 0.0, 1e-6, &particle, NULL, why, sizeof why) == PP_NULL_POINTER);
+    CHECK(pp_particle_from_polyhedron(brick, 0.6, 0.0, 0.0, 1e-6, &particle, NULL, why, sizeof why) == PP_BAD_ROUNDING_RADIUS && strstr(why, "between 0 and 0.5"));
+    CHECK(pp_particle_from_polyhedron(brick, 0.1, 0.0, 0.0, 2.0, &particle, NULL, why, sizeof why) == PP_BAD_SETTING);
+    pp_polyhedron_free(brick);
+
+    CHECK(pp_polyhedron_prism(4, 0.5, 0.0, 3.0, &other, NULL, 0) == PP_OK && pp_polyhedron_properties(other, &mass, NULL) == PP_OK);
+    CHECK_NEAR(mass.volume, 1.0, 1e-12);
+    pp_polyhedron_free(other);
+    CHECK(pp_polyhedron_regular_solid(8, 1.0, &other, NULL, 0) == PP_OK && pp_polyhedron_properties(other, &mass, NULL) == PP_OK);
+    CHECK_NEAR(mass.volume, sqrt(2.0) / 3.0, 1e-12);
+    pp_polyhedron_free(other);
+    CHECK(pp_polyhedron_regular_solid(7, 1.0, &other, why, sizeof why) == PP_UNBOUNDED && strstr(why, "4, 6, 8, 12 or 20"));
+    pp_polyhedron_free(NULL);
+
+    /* Of 3, 2 and 1 about axes that are turned by 30 degrees about z. */
+    const double inertia[6] = {2.75, 2.25, 1.0, 0.25 * sqrt(3.0), 0.0, 0.0};
+    double axes[4];
+    CHECK(pp_principal_axes(inertia, axes) == PP_OK);
+    CHECK_NEAR(axes[0], cos(acos(-1.0) / 12.0), 1e-12);
+    CHECK_NEAR(axes[3], sin(acos(-1.0) / 12.0), 1e-12);
+}
+
 void test_builder(void) {
+    a_polyhedron_is_sharp_until_it_is_rounded();
     a_hull_is_known_by_its_frame();
     what_is_no_body_is_told();
 }

@@ -72,7 +72,7 @@ static void particles_of_any_numbers(void) {
             FILL(why);
             pp_status status = pp_particle_new(planes, CUBE_PLANES, *r, *k, *shadow, &particle, why, sizeof why);
             if (status != PP_OK) {
-                CHECK(status >= PP_PLANE_NOT_FINITE && status <= PP_TOO_MANY_PLANES);
+                CHECK(status >= PP_PLANE_NOT_FINITE && status <= PP_BAD_SIZE);
                 CHECK_UNTOUCHED(particle);
                 CHECK(memchr(why, 0, sizeof why) != NULL && why[0] != 0);
                 continue;

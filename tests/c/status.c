@@ -33,6 +33,7 @@ static const struct {
     {PP_CENTRE_OUTSIDE, 25},
     {PP_UNBOUNDED, 26},
     {PP_TOO_MANY_PLANES, 27},
+    {PP_BAD_SIZE, 28},
     {PP_BAD_PACKING, 30},
     {PP_BAD_ROCK, 31},
 };
@@ -59,7 +60,7 @@ static void every_code_has_its_own_sentence(void) {
 }
 
 static void other_codes_are_unknown(void) {
-    const pp_status others[] = {-1, 16, 19, 28, 29, 32, 1000, INT32_MAX, INT32_MIN};
+    const pp_status others[] = {-1, 16, 19, 29, 32, 33, 1000, INT32_MAX, INT32_MIN};
     for (size_t i = 0; i < sizeof others / sizeof others[0]; i++) {
         CHECK_TEXT(pp_status_message(others[i]), unknown);
     }

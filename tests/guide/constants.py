@@ -13,7 +13,7 @@ from pathlib import Path
 
 TOP = Path(__file__).resolve().parents[2]
 CORE = ["linalg", "pair", "model", "bounds", "solver", "contact", "boundary"]
-CONST = re.compile(r"\bconst ([A-Z][A-Z0-9_]*): (?:f64|usize|u8|u16|u32|u64|\(f64, f64\)|\[f64; \d+\]) =\s*([^;]+);")
+CONST = re.compile(r"\bconst ([A-Z][A-Z0-9_]*): (?:f64|usize|u8|u16|u32|u64|\(f64, f64\)|\[f64; \d+\]) =\s*([^;>{]+);")
 SUPERSCRIPTS = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻", "0123456789-")
 EPSILON = 2.0**-52
 # Of a particle, outside of CORE.

@@ -6,10 +6,11 @@
 
 Python blocks of a page run one after the other in one YADE, C blocks are compiled and run, cmake blocks build an example against an
 installation in a folder of its own. Of a shell block each "make" must be a target and each script must be there. Rust blocks are
-doctests of the library; here it is checked that their page is one. Python blocks of docs/wheel.md and docs/derivatives.md run in the tests
-of the wheel. Other languages, and blocks that name none, fail.
+doctests of the library; here it is checked that their page is one. Python blocks of docs/wheel.md, docs/derivatives.md and
+docs/equilibrium.md run in the tests of the wheel. Other languages, and blocks that name none, fail.
 """
 import os
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -22,7 +23,7 @@ TARGET = Path(os.environ.get("CARGO_TARGET_DIR", TOP / "target")).resolve()
 RELEASE = TARGET / "release"
 SECONDS = 600
 # Its Python blocks run where there is no YADE: python/tests/run.py.
-WHEEL = [Path("docs/wheel.md"), Path("docs/derivatives.md")]
+WHEEL = [Path("docs/wheel.md"), Path("docs/derivatives.md"), Path("docs/equilibrium.md")]
 # In YADE, and past its exit, which waits for threads that a block may have started. Names are those of scripts: global.
 PAGE = """import os, sys, traceback
 for _place, _source in %r:
@@ -68,7 +69,7 @@ def run_cmake(block, scratch):
     Path(scratch, "CMakeLists.txt").write_text(
         f"cmake_minimum_required(VERSION 3.18)\nproject(guide C)\nadd_executable(mine {TOP}/examples/c/one_pair.c)\n{block.code}"
         "target_link_libraries(mine m)\n")
-    return (call(["make", "install", f"PREFIX={installed}"], TOP)
+    return (call(["make", "install", f"PREFIX={installed}"], TOP, env={**os.environ, "PROFILE": "dev"})
             or call(["cmake", "-S", ".", "-B", "build", f"-DCMAKE_PREFIX_PATH={installed}"], scratch)
             or call(["cmake", "--build", "build"], scratch) or call(["build/mine"], scratch))
 
@@ -121,8 +122,8 @@ def main():
         results = {}
         if scripts:
             with tempfile.TemporaryDirectory() as scratch:
-                for file in (TOP / "examples/data").iterdir():
-                    Path(scratch, file.name).symlink_to(file)
+                # Copies, since a block may write a file of the same name.
+                shutil.copytree(TOP / "examples/data", scratch, dirs_exist_ok=True)
                 results = run_python(scripts, scratch)
         for block in found:
             said = None if of_wheel and block.language == "python" else results[block.place] if block.place in results else run_block(block)

@@ -20,7 +20,7 @@ def words(text):
 
 def main():
     said = words(re.sub(r'"\s*\n\s*[fr]?"', "", "\n".join(path.read_text() for path in SOURCES)))
-    table = (TOP / "docs/troubleshooting.md").read_text().split("## What is said, and what to do")[1].split("\n## ")[0]
+    table = (TOP / "docs/troubleshooting.md").read_text().split("## Messages")[1].split("\n## ")[0]
     passed = failed = 0
     for row in table.splitlines():
         first = row.split("|")[1] if row.startswith("| ") else ""

@@ -1,11 +1,9 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Contacts by patch, with the law of joints: closed forms, YADE, several ranks, restarts, bonds, and what is refused."""
-import subprocess
-
 import numpy as np
 from potential_particles_lammps import polyhedron, write_shapes
 from potential_particles_lammps.pictures import frames
-from scene import DEFAULTS, SCRIPT, TOP, lammps, random_bodies, refused, run, shapes, state, thermo
+from scene import DEFAULTS, SCRIPT, TOP, lammps, long, process, random_bodies, refused, run, shapes, state, thermo
 from test_motion import YADE
 from test_ranks import AGAIN
 
@@ -78,7 +76,7 @@ def test_block_that_turns_on_the_spot_stops(folder):
     lever = np.hypot(x, y).mean()
     wanted = w**2 * SPIN_INERTIA / (2 * MU * MASS * G * lever)
     dumped, said = run(folder, [resting(w=(0, 0, w))], shapes=block(folder), style=PATCH, coefficients=f"pair_coeff * * {KN} {KS} {MU} 1", walls=floor(restitution=0.1),
-                       timestep="timestep 1e-5", run="dump_modify all every 1000\nthermo 1000\nrun 12000")
+                       timestep="timestep 2e-5", run="dump_modify all every 1000\nthermo 1000\nrun 6000")
     end = state(dumped[-1][1])[0]
     angle = 2 * np.arctan2(end[12], end[9])
     assert abs(angle / wanted - 1) < 2e-3, (angle, wanted)
@@ -160,10 +158,9 @@ TRAIN = {"style": "pair_style potential/particle patch 1e-4 bonds yes", "coeffic
 TRAIN_SUMS = SUMS + "f_floor[2] f_floor[3] f_floor[4] f_floor[8]"
 
 
-def test_patches_on_ranks(folder):
-    """One, two and four ranks, with bonds and patches that slide across their borders."""
+def on_ranks(folder, *all_ranks):
     ends = []
-    for ranks, processors in ((1, "1 1 1"), (2, "2 1 1"), (4, "2 2 1")):
+    for ranks, processors in all_ranks:
         steps = 100 if ranks == 4 else 500  # four ranks wait for each other where there are two cores
         dumped, said = run(folder, train(), ranks=ranks, shapes=block(folder, 2e-3), processors=f"processors {processors}", before=TRAIN_SUMS + DIGITS,
                            run=f"thermo 100\ndump_modify all every 100\nrun {steps}", **TRAIN)
@@ -177,18 +174,28 @@ def test_patches_on_ranks(folder):
             assert np.allclose(table[column], ends[0][1][column][:len(table[column])], rtol=1e-6, atol=1e-12), (column, table[column], ends[0][1][column])
 
 
+def test_patches_on_ranks(folder):
+    """One and two ranks, with bonds and patches that slide across their border."""
+    on_ranks(folder, (1, "1 1 1"), (2, "2 1 1"))
+
+
+@long
+def test_patches_on_four_ranks(folder):
+    on_ranks(folder, (1, "1 1 1"), (4, "2 2 1"))
+
+
 def test_restart_of_patches(folder):
     """A run that goes on from a file begins with the forces of the run that was not interrupted, to rounding, and stays with it to the tolerance of patches, which
     rounding can make one way or another; springs, bonds, dashpots and sums go along. The file says what its contacts are."""
     parts = {**TRAIN, "shapes": block(folder, 2e-3)}
     forces = "d2_orientation[4] fx fy fz tqx tqy tqz\ndump_modify"
-    whole, said = run(folder, train(), before=TRAIN_SUMS + DIGITS + "restart 250 half.restart other.restart\n", run="thermo 100\nrun 450",
+    whole, said = run(folder, train(), before=TRAIN_SUMS + DIGITS + "restart 250 half.restart other.restart\n", run="thermo 50\nrun 350",
                       script=SCRIPT.replace("d2_orientation[4]\ndump_modify", forces), **parts)
     wanted, table = state(whole[-1][1]), thermo(said)
-    again = AGAIN.replace("f_floor[3] f_floor[4]", "c_pp[6] c_pp[7] c_pp[8] f_floor[3] f_floor[4] f_floor[8]").replace("run 400", "run 200").replace("d2_orientation[4]\ndump_modify", forces)
+    again = AGAIN.replace("f_floor[3] f_floor[4]", "c_pp[6] c_pp[7] c_pp[8] f_floor[3] f_floor[4] f_floor[8]").replace("run 150", "run 100").replace("d2_orientation[4]\ndump_modify", forces)
     for ranks in (1, 2):
         status, said = lammps(folder, "newton off\nprocessors * 1 1\n" + again.format(**{**DEFAULTS, **parts}), ranks)
-        assert status == 0, said[-2000:]
+        assert status == 0
         dumped = list(frames(folder / "again.dump"))
         assert dumped[0][0] == 250 and np.abs(state(dumped[0][1]) - state(whole[250][1])).max() == 0
         for column in forces.split()[1:-1]:
@@ -203,26 +210,24 @@ def test_restart_of_patches(folder):
         changed = {**DEFAULTS, **parts, part: parts[part].replace("patch 1e-4", "").replace("bonds yes", "")}
         changed["coefficients"] = "pair_coeff * * 1e8 5e7 0.4 0.5" if part == "style" else changed["coefficients"]
         status, said = lammps(folder, "newton off\n" + again.replace(" c_pp[6] c_pp[7] c_pp[8]", "").format(**changed))
-        assert status and wanted in " ".join(said.split()), said[-2000:]
+        assert status and wanted in " ".join(said.split())
 
 
-def test_same_blocks_in_yade(folder):
-    """Bonded blocks that slide, one that slides on them, and one that hits them: a scene of YADE with the law of joints, carried over by to_lammps, moves as
-    in YADE, to the order of the time step, and its bonds end in the same step."""
+def errors_of_blocks(folder, steps):
+    """Of bonded blocks that slide, one that slides on them, and one that hits them: how far they are from where YADE has them, by to_lammps, and that the bond ends in the same step."""
     if not YADE.exists():
         print("not tried: the YADE plugin is not built (make build)")
-        return
+        return [0, 0]
     errors = []
-    for halvings in range(2):
-        done = subprocess.run([TOP / "scripts" / "yade.sh", "-j1", TOP / "tests" / "lammps" / "yade_patch_scene.py", folder, str(halvings)], stdin=subprocess.DEVNULL,
-                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=120)
-        assert (folder / "yade.npz").exists(), done.stdout[-2000:]
+    for halvings in range(steps):
+        _, told = process(folder, [TOP / "scripts" / "yade.sh", "-j1", TOP / "tests" / "lammps" / "yade_patch_scene.py", folder, halvings])
+        assert (folder / "yade.npz").exists()
         yade = np.load(folder / "yade.npz")
         wanted, every = yade["rows"], 2**halvings
         status, said = lammps(folder, "include scene.lmp\ncompute pp all pair potential/particle\nthermo_style custom step c_pp[8] c_pp[9]\nthermo 1\n"
                               f"dump 1 all custom {every} all.dump id type x y z d2_orientation[1] d2_orientation[2] d2_orientation[3] d2_orientation[4]\n"
                               f"dump_modify 1 sort id format float %.17g\nrun {len(wanted) - 1}")
-        assert status == 0, said[-2000:]
+        assert status == 0
         mine = np.array([np.column_stack([columns[c] for c in "xyz"]) for _, columns in frames(folder / "all.dump")])
         errors.append(np.abs(mine - wanted[::every, :, :3]).max())
         moved = np.abs(wanted[-1] - wanted[0]).max(axis=0)
@@ -231,7 +236,17 @@ def test_same_blocks_in_yade(folder):
         # YADE counts joints that shall be bonded, LAMMPS those that hold: in the step in which it breaks a bond holds still.
         assert bonds[0] == 1 and list(np.nonzero(np.diff(bonds))[0]) == [n + 1 for n in np.nonzero(np.diff(yade["bonds"]))[0]], (bonds, yade["bonds"])
     assert bonds[-1] == 0 and moved[:3].min() > 5e-4 and moved[3:].max() > 5e-4, moved
-    assert errors[0] < 1e-7 and errors[1] < 0.6 * errors[0], errors
+    return errors
+
+
+def test_same_blocks_in_yade(folder):
+    assert errors_of_blocks(folder, 1)[0] < 1e-7
+
+
+@long
+def test_same_blocks_in_yade_to_the_order_of_the_step(folder):
+    errors = errors_of_blocks(folder, 2)
+    assert errors[1] <= 0.6 * errors[0]
 
 
 def test_blocks_of_yade_after_some_steps(folder):
@@ -239,16 +254,15 @@ def test_blocks_of_yade_after_some_steps(folder):
     if not YADE.exists():
         print("not tried: the YADE plugin is not built (make build)")
         return
-    done = subprocess.run([TOP / "scripts" / "yade.sh", "-j1", TOP / "tests" / "lammps" / "yade_later_scene.py", folder], stdin=subprocess.DEVNULL,
-                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=120)
-    assert (folder / "yade.npz").exists() and "SceneWarning" not in done.stdout, done.stdout[-2000:]
+    _, told = process(folder, [TOP / "scripts" / "yade.sh", "-j1", TOP / "tests" / "lammps" / "yade_later_scene.py", folder])
+    assert (folder / "yade.npz").exists() and "SceneWarning" not in told
     yade = np.load(folder / "yade.npz")
     wanted = yade["rows"]
     status, said = lammps(folder, "include scene.lmp\ncompute pp all pair potential/particle\nthermo_style custom step c_pp[8]\nthermo 1\n"
                           f"dump 1 all custom 1 all.dump id type x y z d2_orientation[1] d2_orientation[2] d2_orientation[3] d2_orientation[4]\ndump_modify 1 sort id format float %.17g\nrun {len(wanted) - 1}")
-    assert status == 0, said[-2000:]
+    assert status == 0
     mine = np.array([np.column_stack([columns[c] for c in "xyz"]) for _, columns in frames(folder / "all.dump")])
-    assert set(thermo(said)["c_pp[8]"]) == {3} and yade["bonds"] == 3, said[-2000:]
+    assert set(thermo(said)["c_pp[8]"]) == {3} and yade["bonds"] == 3
     moved, off = np.abs(wanted - wanted[0]).max(axis=(0, 2)), np.abs(mine - wanted).max(axis=(0, 2))
     assert moved[0] == 0 and moved[1:].min() > 2e-8, moved
     assert off[0] == 0 and (off[1:] < 0.02 * moved[1:]).all(), (off, moved)
@@ -261,14 +275,14 @@ def test_bad_input(folder):
     def says(*wanted, **parts):
         said = refused(folder, bodies, **{"shapes": block(folder), "style": PATCH, "coefficients": f"pair_coeff * * {KN} {KS} {MU} 1", "timestep": "timestep 1e-5", **parts})
         for text in wanted:
-            assert text in said, f"'{text}' is not in: {said[-1500:]}"
+            assert text in said
 
     strength = f"pair_coeff * * {KN} {KS} {MU} 1 "
     says("patch = 0.5", "[1e-12, 0.1]", style="pair_style potential/particle patch 0.5")
     says("'bonds maybe'", "bonds yes or no", style=PATCH + " bonds maybe")
     says("whole and bonds are for contacts by patch", style="pair_style potential/particle bonds yes")
     says("'tension'", "pair_style potential/particle patch 1e-4", style="pair_style potential/particle", coefficients=strength + "tension 1e5")
-    says("cohesion = -1", "must not be below 0", coefficients=strength + "cohesion -1")
+    says("cohesion = -1", "be 0 or lie in [1e-100, 1e+100]", coefficients=strength + "cohesion -1")
     says("residual:", "are expected after it", coefficients=strength + "residual 0.3")
     says("'glue'", "cohesion C, tension T, residual FRICTION COHESION, softening W", coefficients=strength + "glue 1")
     says("cohesion = 5", "give a shear stiffness", coefficients=f"pair_coeff * * {KN} 0 0 1 cohesion 5")
@@ -285,4 +299,4 @@ def test_bonds_that_are_stretched_out_of_reach(folder):
     bodies = [still((0, 0, 0)), still((2 * HALF[0] - 1e-9, 0, 0), v=(2, 0, 0))]
     said = refused(folder, bodies, shapes=block(folder), style=PATCH + " bonds yes", coefficients="pair_coeff * * 1e3 1e3 0.4 1 cohesion 1e9 tension 1e9", gravity="",
                    timestep="timestep 1e-4", neighbor="neighbor 0.01 bin", run="run 2000")
-    assert "2 bonded atoms have lost their partner" in said and "larger stiffness" in said, said[-1500:]
+    assert "2 bonded atoms have lost their partner" in said and "larger stiffness" in said

@@ -6,7 +6,7 @@ import subprocess
 import time
 
 import numpy as np
-from scene import DEFAULTS, FRICTION, SCRIPT, SHEAR, STIFFNESS, TOP, lammps, random_bodies, run, shapes, state, thermo, write
+from scene import DEFAULTS, FRICTION, LAMMPS, SCRIPT, SHEAR, STIFFNESS, lammps, long, random_bodies, run, shapes, state, thermo, write
 
 from potential_particles_lammps.pictures import frames
 from potential_particles_lammps.shapes import principal
@@ -16,7 +16,7 @@ FLOOR = f"fix floor all wall/potential/particle {STIFFNESS} {SHEAR} {FRICTION} 0
 
 def heap(seed=11):
     """24 bodies that slide over x = 0 and y = 0, where two and four ranks have their borders."""
-    return [(b[0], b[1], b[2] + np.array([1.0, 0.4, 0]), b[3], b[4]) for b in random_bodies(24, 0.115, seed=seed, low=(-0.25, -0.2, 0.1))]
+    return [(b[0], b[1], b[2] + np.array([3.0, 1.2, 0]), b[3], b[4]) for b in random_bodies(24, 0.115, seed=seed, low=(-0.25, -0.2, 0.1))]
 
 
 def test_ranks_agree(folder):
@@ -24,7 +24,7 @@ def test_ranks_agree(folder):
     ends = []
     for ranks in (1, 2):
         dumped, said = run(folder, heap(), ranks=ranks, processors="processors * 1 1", walls=FLOOR,
-                           coefficients=f"pair_coeff * * {STIFFNESS} {SHEAR} {FRICTION} 0.3", run="thermo 10\nrun 900")
+                           coefficients=f"pair_coeff * * {STIFFNESS} {SHEAR} {FRICTION} 0.3", run="thermo 10\nrun 300")
         ends.append((state(dumped[-1][1]), thermo(said)))
         start = state(dumped[0][1])
     crossed = (np.sign(start[:, 0]) != np.sign(ends[0][0][:, 0])).sum()
@@ -35,6 +35,7 @@ def test_ranks_agree(folder):
             assert np.allclose(table[column], ends[0][1][column], rtol=1e-6, atol=1e-10), (column, table[column], ends[0][1][column])
 
 
+@long
 def test_four_ranks(folder):
     """Few steps, since four ranks wait for each other where there are two cores: forces over edges between ranks."""
     bodies = [(b[0], np.asarray(b[1]) * 0.8, *b[2:]) for b in random_bodies(8, 0.1, seed=6, low=(-0.05, -0.05, -0.05), across=2)]
@@ -68,26 +69,26 @@ thermo_style custom step ke pe f_move c_pp[1] c_pp[2] c_pp[3] c_pp[4] c_pp[5] f_
 thermo_modify format float %.17g
 dump all all custom 1 again.dump id type x y z vx vy vz omegax omegay omegaz d2_orientation[1] d2_orientation[2] d2_orientation[3] d2_orientation[4]
 dump_modify all sort id format float %.17g
-run 400
+run 150
 """
 
 
 def test_restart_in_the_middle(folder):
     """A run that goes on from a file, on as many ranks or more, is the run that was not interrupted: friction, dashpots, energies."""
     parts = {"walls": FLOOR, "coefficients": f"pair_coeff * * {STIFFNESS} {SHEAR} {FRICTION} 0.3", "boundary": "f f f"}
-    whole, said = run(folder, heap(), run="thermo 10\nrun 800", before="restart 400 half.restart other.restart\n"
+    whole, said = run(folder, heap(), run="thermo 10\nrun 300", before="restart 150 half.restart other.restart\n"
                       "thermo_style custom step ke pe f_move c_pp[1] c_pp[2] c_pp[3] c_pp[4] c_pp[5] f_floor[3] f_floor[4]", **parts)
     (folder / "half.restart").exists() or (folder / "other.restart").rename(folder / "half.restart")
     wanted, table = state(whole[-1][1]), thermo(said)
     assert table["c_pp[4]"][0] == 0 and table["c_pp[1]"].max() > 8, table["c_pp[1]"]
     for ranks in (1, 2):
         status, said = lammps(folder, "newton off\nprocessors * * 1\n" + AGAIN.format(**{**DEFAULTS, **parts}), ranks)
-        assert status == 0, said[-2000:]
+        assert status == 0
         again = list(frames(folder / "again.dump"))
-        assert again[0][0] == 400 and again[-1][0] == 800
+        assert again[0][0] == 150 and again[-1][0] == 300
         error = np.abs(state(again[-1][1]) - wanted)[:, :3].max()
         assert error < 1e-9, (ranks, error)
-        first = np.abs(state(again[0][1]) - state(whole[400][1])).max()
+        first = np.abs(state(again[0][1]) - state(whole[150][1])).max()
         assert first == 0, first
         for column in ("c_pp[4]", "c_pp[5]", "f_floor[3]", "f_floor[4]"):
             assert np.isclose(thermo(said)[column][-1], table[column][-1], rtol=1e-8), (column, thermo(said)[column][-1], table[column][-1])
@@ -96,10 +97,10 @@ def test_restart_in_the_middle(folder):
 def test_runs_in_parts(folder):
     """Two runs one after the other are one, also with a restart written by command between and atoms that balance."""
     parts = {"walls": FLOOR, "coefficients": f"pair_coeff * * {STIFFNESS} {SHEAR} {FRICTION} 0.3"}
-    whole, _ = run(folder, heap(), run="run 600", **parts)
-    split, _ = run(folder, heap(), ranks=2, run="run 300\nwrite_restart x.restart\nbalance 1.0 shift x 5 1.05\nrun 150\nrun 150 pre no", **parts)
+    whole, _ = run(folder, heap(), run="run 300", **parts)
+    split, _ = run(folder, heap(), ranks=2, run="run 150\nwrite_restart x.restart\nbalance 1.0 shift x 5 1.05\nrun 75\nrun 75 pre no", **parts)
     steps = {step: state(columns) for step, columns in split}
-    error = np.abs(steps[600] - state(whole[-1][1]))[:, :3].max()
+    error = np.abs(steps[300] - state(whole[-1][1]))[:, :3].max()
     assert error < 1e-8, error
 
 
@@ -107,8 +108,8 @@ def test_killed_rank(folder):
     """A rank that is killed ends the run."""
     write(folder, heap(), DEFAULTS["box"])
     (folder / "in.scene").write_text(SCRIPT.format(**{**DEFAULTS, "walls": FLOOR, "run": "run 100000000", "before": "undump all"}))
-    run_ = subprocess.Popen([str(TOP / "scripts" / "lammps.sh"), "2", "-in", "in.scene", "-log", "none"], cwd=folder, stdin=subprocess.DEVNULL,
-                            stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True)
+    run_ = subprocess.Popen([LAMMPS, "2", "-in", "in.scene", "-log", "none"], cwd=folder, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
+                            start_new_session=True)
     try:
         ranks, until = [], time.time() + 30
         while len(ranks) < 2 and time.time() < until:
@@ -164,7 +165,7 @@ def test_atoms_that_come_during_a_run(folder):
     shape = principal(shapes()["pyramid"])[0]
     for ranks in (1, 2):
         status, said = lammps(folder, DEPOSIT, ranks)
-        assert status == 0, said[-2000:]
+        assert status == 0
         last = list(frames(folder / "all.dump"))[-1][1]
         assert len(last["id"]) == 29 and (last["z"] > 0).all()
         assert np.allclose(last["mass"], 2600 * shape.volume, rtol=1e-5) and np.allclose(last["radius"], shape.radius, rtol=1e-5)

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Planes, meshes and walls that move."""
+import shutil
 import struct
 
 import numpy as np
@@ -72,7 +73,7 @@ def test_wall_has_its_own_time(folder):
         assert np.abs(end - frames["once"]).max() < 1e-12, (name, end, frames["once"])
     _, said = run(folder, block, walls=wall, run="undump all\ncompute height all reduce sum z\nthermo_style custom step c_height\nthermo_modify format float %.17g\n"
                   "run 100\nreset_timestep 0\nrun 100 pre no")
-    assert abs(thermo(said)["c_height"][-1] - frames["once"][2]) < 1e-12, said[-2000:]
+    assert abs(thermo(said)["c_height"][-1] - frames["once"][2]) < 1e-12
 
 
 def test_wall_goes_on_from_a_restart(folder):
@@ -92,7 +93,7 @@ def test_periodic_border_of_a_wall(folder):
         write_stl(folder / "floor.stl", floor(4, size))
         _, said = run(folder, block, boundary="p f f", run="run 1", walls="fix floor all wall/potential/particle %g %g %g 0.3 stl floor.stl plane 0 0 -0.5 0 0 1" % (
             STIFFNESS, SHEAR, FRICTION))
-        assert ("the box is periodic in x, the wall is not" in " ".join(said.split())) == told, said[-2000:]
+        assert ("the box is periodic in x, the wall is not" in " ".join(said.split())) == told
 
 
 def test_rotating_mesh(folder):
@@ -113,8 +114,9 @@ def test_rotating_mesh(folder):
 def test_shipped_hopper_holds(folder):
     """Bodies in the hopper of the examples: nobody passes its walls of triangles."""
     bodies = [(1 + n % 2, (0.16 * (n % 3 - 1), 0.16 * (n // 3 % 3 - 1), 0.6 + 0.16 * (n // 9)), (0, 0, -1), (1, 2, 3), (1, 0.2 * n, 0, 0.3)) for n in range(18)]
+    shutil.copy(TOP / "examples" / "data" / "hopper.stl", folder)
     dumped, _ = run(folder, bodies, box="-2 2 -2 2 -3 3", timestep="timestep 2e-4", coefficients=f"pair_coeff * * {STIFFNESS} {SHEAR} 0.4 0.4",
-                    walls=f"fix hopper all wall/potential/particle {STIFFNESS} {SHEAR} 0.4 0.4 stl {TOP}/examples/data/hopper.stl\n"
+                    walls=f"fix hopper all wall/potential/particle {STIFFNESS} {SHEAR} 0.4 0.4 stl hopper.stl\n"
                     f"fix below all wall/potential/particle {STIFFNESS} {SHEAR} 0.4 0.4 plane 0 0 -1.5 0 0 1", run="dump_modify all every 1000\nrun 3000")
     x = state(dumped[-1][1])[:, :3]
     assert np.isfinite(x).all() and (np.abs(x[:, :2]) < 1.5).all() and (x[:, 2] > -1.5).all(), x

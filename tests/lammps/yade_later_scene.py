@@ -11,7 +11,7 @@ from yade import O
 folder = sys.argv[-1]
 DT, STEPS = 1e-5, 400
 O.materials.append(yade.ConicJointMat(normalStiffness=1e9, shearStiffness=5e8, frictionAngle=0.4, density=2600, cohesion=1e5, tensileStrength=1e5))
-cube = shapes.cuboid((0.1, 0.1, 0.1), r=0.004, k=0)
+cube = shapes.cuboid((0.1, 0.1, 0.1), rounding=0.004, k=0)
 # A held block with two bonded to it, whose end a lasting force pulls; a block on one that is held and moves; a block before a wall that moves.
 for position, held, velocity in (((0, 0, 0), True, (0, 0, 0)), ((0.1 - 1e-6, 0, 0), False, (0, 0, 0)), ((0.2 - 2e-6, 0, 0), False, (0, 0, 0)),
                                  ((0, 0.5, 0), True, (0, 0, 0.1)), ((0, 0.5, 0.1 - 1e-6), False, (0, 0, 0)), ((0, 1, 0), False, (0, 0, 0))):

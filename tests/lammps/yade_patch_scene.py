@@ -13,7 +13,7 @@ folder, halvings = sys.argv[-2], int(sys.argv[-1])
 DT, STEPS = 2e-5 / 2**halvings, 250 * 2**halvings
 O.materials.append(yade.ConicJointMat(normalStiffness=1e9, shearStiffness=5e8, frictionAngle=math.atan(0.4), restitution=0.4, density=2600, cohesion=2e4,
                                       tensileStrength=3e4, residualFrictionAngle=math.atan(0.3), residualCohesion=1e3))
-brick = shapes.cuboid((0.12, 0.1, 0.06), r=0.004, k=0.02)
+brick = shapes.cuboid((0.12, 0.1, 0.06), rounding=0.004, k=0.02)
 O.bodies.append(yade.utils.wall(0, axis=2))
 # Two that are bonded, one that slides on them, and one that hits their end with an edge.
 for position, velocity, turn in (((0, 0, 0.03), (0.3, 0, 0), 0), ((0.12 - 1e-6, 0, 0.03), (0.3, 0, 0), 0), ((0.05, 0.01, 0.0905), (-0.4, 0.2, -0.3), 0.2),

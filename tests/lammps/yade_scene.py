@@ -12,7 +12,7 @@ from yade import O
 folder, halvings = sys.argv[-2], int(sys.argv[-1])
 KN, KS, MU, DT, STEPS = 1e5, 6e4, 0.4, 1e-4 / 2**halvings, 400 * 2**halvings
 O.materials.append(yade.FrictMat(young=1e7, poisson=0.6, frictionAngle=math.atan(MU), density=2600))
-brick = shapes.cuboid((0.12, 0.1, 0.06), r=0.004, k=0.02)
+brick = shapes.cuboid((0.12, 0.1, 0.06), rounding=0.004, k=0.02)
 O.bodies.append(yade.utils.wall(0, axis=2))
 O.bodies.append(potential_particles.body(brick, position=(0, 0, 0.0301), velocity=(0.6, 0.1, -0.05)))
 O.bodies.append(potential_particles.body(brick, position=(0.01, 0.005, 0.0905), velocity=(-0.5, 0.2, -0.1)))

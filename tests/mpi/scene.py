@@ -7,6 +7,7 @@ rounding to grow.
 """
 import json
 import os
+import resource
 import sys
 from pathlib import Path
 
@@ -118,8 +119,24 @@ def whole(build=build, name="whole"):
         across += contacts_across()
         bonded.append(bonds())
         if look == 1:
-            mpi.save(FOLDER / f"{name}_half{mpi.ranks()}.yade.gz")
-    result(f"{name}{mpi.ranks()}", across=across, bonds=bonded)
+            saved = FOLDER / f"{name}_half{mpi.ranks()}.yade.gz"
+            mpi.save(saved)
+            full = full_disk(saved)
+    result(f"{name}{mpi.ranks()}", across=across, bonds=bonded, full=full)
+
+
+def full_disk(file):
+    """What a save there says where no file may have a byte, of each rank; and whether the file stays as it is. The run goes on."""
+    mpi.gather(None)
+    content, told = file.read_bytes(), "nothing"
+    before = resource.getrlimit(resource.RLIMIT_FSIZE)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (0, before[1]))
+    try:
+        mpi.save(file)
+    except OSError as error:
+        told = str(error)
+    resource.setrlimit(resource.RLIMIT_FSIZE, before)
+    return mpi.gather([told, file.read_bytes() == content])
 
 
 def contacts_across():
@@ -157,12 +174,19 @@ def recorders():
     mpi.gather(None)
 
 
+def say_pid():
+    """For run.py, which reads the file as soon as it is there."""
+    unfinished = FOLDER / f"part{mpi.rank()}"
+    unfinished.write_text(str(os.getpid()))
+    unfinished.rename(FOLDER / f"pid{mpi.rank()}")
+
+
 def killed():
     """Saves, says so, and steps until it is ended."""
     start()
     mpi.run(20)
     mpi.save(FOLDER / "killed.yade.gz")
-    (FOLDER / f"pid{mpi.rank()}").write_text(str(os.getpid()))
+    say_pid()
     for _ in range(10_000):
         mpi.run(50)
 
@@ -170,7 +194,7 @@ def killed():
 def interrupted():
     """Steps until it is asked to stop."""
     start()
-    (FOLDER / f"pid{mpi.rank()}").write_text(str(os.getpid()))
+    say_pid()
     for _ in range(10_000):
         mpi.run(10)
         if mpi.interrupted():

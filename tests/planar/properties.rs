@@ -291,3 +291,42 @@ proptest! {
         }
     }
 }
+
+/// The same polygon with normals of any length, and d and r with them, or d alone and so with sharp corners, or neither and so as many times smaller: its
+/// area is told, and the call ends.
+#[test]
+fn areas_are_right_for_normals_of_any_length() {
+    use potential_particles::planar::{Line, Particle};
+    let area = |sides: usize, length: f64, of_d: f64, of_r: f64| {
+        let lines = (0..sides).map(|i| {
+            let (sin, cos) = (0.3 + TAU * i as f64 / sides as f64).sin_cos();
+            Line::from([length * cos, length * sin, 0.4 * of_d])
+        });
+        let made = Particle::new(&lines.collect::<Vec<_>>(), 0.1 * of_r, 0.0, 1.0);
+        made.map(|particle| particle.area_properties(1e-6).unwrap())
+    };
+    for sides in [3, 4, 5, 7] {
+        let known = area(sides, 1.0, 1.0, 1.0).unwrap();
+        let sharp = sides as f64 * 0.16 * (std::f64::consts::PI / sides as f64).tan();
+        for length in [1e-8, 1e3, 1e8, 1e16, 1e25, 1e29] {
+            let alike = area(sides, length, length, length).unwrap();
+            assert!(
+                (alike.area / known.area - 1.0).abs() <= alike.error + known.error,
+                "{sides}, {length:e}: {alike:?}"
+            );
+            let small = area(sides, length, 1.0, 1.0).unwrap();
+            let off = small.area * length * length / known.area - 1.0;
+            assert!(off.abs() <= small.error + known.error, "{sides}, {length:e}: {small:?}");
+            if length > 1e8 {
+                let found = area(sides, length, length, 1.0).unwrap();
+                assert!(
+                    (found.area / sharp - 1.0).abs() <= found.error + 10.0 / length,
+                    "{sides}, {length:e}: {found:?}"
+                );
+            }
+        }
+        // Beyond the range of sizes the length is named.
+        let error = area(sides, 1e40, 1.0, 1.0).unwrap_err();
+        assert!(matches!(error, ParticleError::Size { radius } if radius < 1e-30), "{error}");
+    }
+}

@@ -7,7 +7,7 @@ use crate::placed_boundary::{Boundary, Part};
 use crate::random::Random;
 use crate::reference::Body;
 use crate::wide::{Wide, Wide3};
-use crate::{THREADS, mass, memories, planar, seams, walls};
+use crate::{THREADS, hulls, mass, memories, patches, planar, seams, walls};
 use indicatif::ProgressBar;
 use nalgebra::Vector3;
 use potential_particles::{Feature, FlatContact, Kind, Particle, Plane};
@@ -28,7 +28,7 @@ fn check(part: &str, ledger: &Ledger, most_unsettled: f64) {
 
 #[test]
 fn random_contacts_with_planes_and_triangles() {
-    check("walls", &ledger(20_000, |index, ledger| walls::one(1, index, walls::solve, ledger)), 1e-2);
+    check("walls", &ledger(8_000, |index, ledger| walls::one(1, index, walls::solve, ledger)), 1e-2);
 }
 
 /// Planes that come on and go off in turn within the rounding of their depths: the minimum was not found, and the point that was reached was not used.
@@ -41,17 +41,38 @@ fn where_the_minimum_is_not_found_the_point_that_was_reached_is_the_answer() {
 
 #[test]
 fn triangles_that_share_an_edge_or_a_vertex_agree_on_it() {
-    check("seams", &ledger(5_000, |index, ledger| seams::one(1, index, ledger)), 0.0);
+    check("seams", &ledger(2_000, |index, ledger| seams::one(1, index, ledger)), 0.0);
 }
 
 #[test]
 fn random_pairs_of_the_plane() {
-    check("planar", &ledger(4_000, |index, ledger| planar::one(1, index, ledger)), 0.05);
+    check("planar", &ledger(2_000, |index, ledger| planar::one(1, index, ledger)), 0.05);
 }
 
 #[test]
 fn any_memory_leaves_the_answer_as_it_is() {
     check("memories", &ledger(1_000, |index, ledger| memories::one(1, index, ledger)), 0.0);
+}
+
+/// Of 60 cases with 159 answers two are off by more than three times what they say, or were asked for: no larger share may be.
+#[test]
+fn hardly_any_patch_is_off_by_more_than_it_says() {
+    let ledger = ledger(30, |index, ledger| patches::one(1, index, ledger));
+    if 50 * ledger.failures() > ledger.judged {
+        ledger.print("patches");
+        panic!("{} of {}: {:?}", ledger.failures(), ledger.judged, ledger.by_fault());
+    }
+    assert!(
+        ledger.judged > 60 && ledger.share_unsettled() == 0.0,
+        "{} judged, {} unsettled",
+        ledger.judged,
+        ledger.unsettled
+    );
+}
+
+#[test]
+fn hulls_are_those_of_exact_arithmetic() {
+    check("hulls", &ledger(800, |index, ledger| hulls::one(1, index, ledger)), 0.0);
 }
 
 /// The last two have the centre just inside a face: gaps of the mesh, and long rays beside a corner without area, were overlooked.

@@ -11,7 +11,7 @@ import struct
 import potential_particles
 from mixed import *
 
-STEPS, JOINT_STEPS = 240, 90  # contact patches take their time
+STEPS, JOINT_STEPS = 160, 60  # contact patches take their time
 loop_class = getattr(yade, os.environ["LOOP"])
 
 

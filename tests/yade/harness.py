@@ -3,51 +3,15 @@
 import math
 import sys
 import time
-import traceback
+from pathlib import Path
 
 import yade
 from yade import Body, Omega, Quaternion, Vector3, utils
 
+sys.path.append(str(Path(__file__).resolve().parents[1]))
+from checks import Checks
+
 O = Omega()
-
-
-class Checks:
-    """Counts what held and what did not; the last line it prints is what the runner reads."""
-
-    def __init__(self):
-        self.passed = self.failed = 0
-
-    def true(self, condition, text):
-        if condition:
-            self.passed += 1
-        else:
-            self.failed += 1
-            caller = traceback.extract_stack(limit=3)
-            line = next((f.lineno for f in reversed(caller) if f.filename != __file__), 0)
-            print(f"FAILED (line {line}): {text}")
-        return bool(condition)
-
-    def equal(self, found, expected, text):
-        return self.true(found == expected, f"{text}: {found!r}, expected {expected!r}")
-
-    def close(self, found, expected, tolerance, text):
-        """Numbers or vectors, absolute tolerance."""
-        distance = (found - expected).norm() if hasattr(found, "norm") else abs(found - expected)
-        return self.true(distance <= tolerance,
-                         f"{text}: {found}, expected {expected} within {tolerance:g}, off by {distance:g}")
-
-    def raises(self, kind, action, text, containing=""):
-        try:
-            action()
-        except kind as error:
-            return self.true(containing in str(error), f"{text}: says '{error}', without '{containing}'")
-        except Exception as error:
-            return self.true(False, f"{text}: raised {error!r}, expected {kind.__name__}")
-        return self.true(False, f"{text}: raised nothing, expected {kind.__name__}")
-
-    def finish(self):
-        print(f"{self.passed} passed, {self.failed} failed", flush=True)
-        sys.exit(1 if self.failed or not self.passed else 0)
 
 
 def turned(axis, angle):

@@ -60,7 +60,7 @@ def moved(mass, one, friction, turns=False, nearer=1.0):
     yade.O.materials.append(yade.ConicJointMat(normalStiffness=nearer * STIFFNESS, shearStiffness=nearer * STIFFNESS, frictionAngle=np.radians(friction), density=DENSITY))
     kept = np.zeros(len(mass), bool)
     kept[near] = True
-    ids = rock.bodies(mass._with(kept), r=ROUNDING / nearer, fixed=near != block)
+    ids = rock.bodies(mass._with(kept), rounding=ROUNDING / nearer, fixed=near != block)
     state = yade.O.bodies[int(ids[list(near).index(block)])].state
     if not turns:
         state.blockedDOFs = "XYZ"

@@ -421,7 +421,7 @@ check.equal(swinging(yade.ConicInteractionLoop, saved=True), plain_loop, "a run 
 # --- what is refused -----------------------------------------------------------------------------------------------------------
 
 for name, value in (("cohesion", -1), ("tensileStrength", math.inf), ("residualFrictionAngle", 2), ("softening", -1), ("frictionAngle", 30), ("frictionAngle", -0.1)):
-    check.raises(ValueError, lambda: yade.ConicJointMat(**{name: value}), name, f"{name} = {'inf' if value == math.inf else value}: give")
+    check.raises(ValueError, lambda: yade.ConicJointMat(**{name: value}), name, f"{name} = {'inf: it must be finite' if value == math.inf else f'{value}: give'}")
 # Set later it is YADE's attribute, which takes any number: the run is refused.
 column()
 O.materials[0].frictionAngle = 30

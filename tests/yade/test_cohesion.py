@@ -106,7 +106,7 @@ for gap, meets in ((0.004, True), (0.006, False)):
 tilted = bonded(place=Vector3(0.1, 0.05, -1.004), gravity=(0, 0, 0), distance=0.02, adhesion=1e7, turn=(1, 0, 0, 0.3))
 check.close(tilted.geom.penetrationDepth, -0.004, 1e-5, "a gap between turned faces")
 
-# JCFpm holds tension with an interaction distance, too; but its torques are those of spheres.
+# JCFpm holds tension with an interaction distance, too.
 def joined(place, gravity):
     O.reset()
     O.materials.append(yade.JCFpmMat(young=1e7, poisson=0.3, frictionAngle=0.5, density=2000.0, tensileStrength=1e6, cohesion=1e6))
@@ -124,13 +124,6 @@ joined((0, 0, -0.9999), (0, 0, -9.81))
 run(40000)
 one, weight = contact(), O.bodies[1].state.mass * 9.81
 check.true(one is not None and abs(one.phys.normalForce[2] / weight - 1) < 0.01, f"JCFpm in tension: {one and one.phys.normalForce}, {weight}")
-# The force of a corner pushes beside the centre; the law gives it no arm there.
-joined((0.7, 0, -0.9999), (0, 0, 9.81))
-run(156)
-one = contact()
-arm = one.geom.contactPoint - O.bodies[1].state.pos
-check.true(arm.cross(one.phys.normalForce).norm() > 0.2 * one.phys.normalForce.norm(), f"the force has an arm: {arm}")
-check.close(O.forces.t(1).norm() / arm.cross(one.phys.normalForce).norm(), 0.0, 1e-2, "of which JCFpm makes no torque, since its arm lies along the normal")
 
 for settings, words in ((dict(interactionDistance=-1), "interactionDistance"), (dict(patch=True, rotations=True), "patch"),
                         (dict(patch=True, interactionDistance=0.1), "patch")):

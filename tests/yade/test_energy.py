@@ -9,7 +9,7 @@ from potential_particles import shapes
 
 check = Checks()
 
-STIFFNESS, BOUNCES, STEPS_PER_CONTACT = 1e4, 50, 500
+STIFFNESS, BOUNCES, STEPS_PER_CONTACT = 1e4, 6, 500
 GAP, TWIST = 0.1, 0.3
 
 

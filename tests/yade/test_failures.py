@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
+# threads
 # What cannot be solved is counted and reported once, and YADE lives.
 import math
 

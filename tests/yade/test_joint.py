@@ -275,7 +275,7 @@ for patch, physics, law in ((True, yade.Ip2_ConicJointMat_ConicJointMat_ConicJoi
         O.materials.append(yade.ConicJointMat(normalStiffness=1e9, density=2000.0))
     for size, height in (((40, 4, 1), -0.5), ((1, 1, 1), 0.5)):
         corners = [(0.5 * x * size[0], 0.5 * y * size[1], 0.5 * z * size[2]) for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)]
-        O.bodies.append(potential_particles.body(shapes.from_vertices(corners, r=1e-3, k=0.0), position=(0, 0, height), fixed=True))
+        O.bodies.append(potential_particles.body(shapes.from_vertices(corners, rounding=1e-3, k=0.0), position=(0, 0, height), fixed=True))
     run(3)
     check.equal(touching.failures, 0, f"no failure where bodies just touch, patch={patch}: {touching.failureReport}")
     check.close(O.forces.f(1), Vector3.Zero, 1e-6, "and no force")
@@ -298,4 +298,11 @@ O.materials.append(yade.ElastMat())
 O.bodies.append(utils.sphere((0, 0, 0), 1, material=O.materials[1]))
 check.raises(ValueError, potential_particles.use_joints, "another material", "ElastMat")
 
+
+# What is not finite is refused where it enters, from scripts and from files.
+nan = float("nan")
+for name, value in [("twist", nan), ("shearDisplacement", (nan, 0, 0)), ("bondPoint1", (0, nan, 0)), ("bondTurn1", Quaternion(nan, 0, 0, 0)),
+                    ("bondRim", [1.0, float("inf")]), ("normalStiffness", float("inf"))]:
+    check.raises(ValueError, lambda: yade.ConicJointPhys(**{name: value}), name, f"ConicJointPhys: {name} = ")
+    check.raises(ValueError, lambda: setattr(yade.ConicJointPhys(), name, value), name, "it must be finite")
 check.finish()

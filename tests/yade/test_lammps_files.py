@@ -69,7 +69,7 @@ def column(number=3, bonds=True, gravity=0.0, **material):
     joint_scene(yade.InteractionLoop, yade.ConicJointMat(**{**dict(normalStiffness=1e9, shearStiffness=4e8, frictionAngle=0.5, density=2600, cohesion=1e6, tensileStrength=1e6), **material}),
                 0.0, (0, 0, -gravity), False, 1e-5, bonds=bonds)
     for i in range(number):
-        O.bodies.append(potential_particles.body(shapes.cuboid((0.2, 0.2, 0.2), r=0.01, k=0), position=(0, 0, (0.2 - 1e-6) * i), fixed=i == 0))
+        O.bodies.append(potential_particles.body(shapes.cuboid((0.2, 0.2, 0.2), rounding=0.01, k=0), position=(0, 0, (0.2 - 1e-6) * i), fixed=i == 0))
 
 
 def written(*lines):

@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
+# threads
 # ConicInteractionLoop finds what InteractionLoop finds, whatever bodies, shapes and scenes do between its calls.
 import math
 import os
@@ -63,7 +64,7 @@ def touching():
     return {(i.id1, i.id2) for i in O.interactions if i.isReal}
 
 
-def fallen(looks=12, steps=250):
+def fallen(looks=8, steps=250):
     """What moves, forces and real contacts, at each of the looks."""
     seen = []
     for _ in range(looks):
@@ -123,7 +124,7 @@ def bouncing(tolerance):
     O.bodies[0].state.vel, O.bodies[1].state.vel = Vector3(1, 0, 0), Vector3(-1, 0, 0)
     O.dt = 1e-4
     first, free, bounces, touched = utils.kineticEnergy(), [], 0, False
-    for _ in range(12000):
+    for _ in range(6000):
         O.step()
         depth = max([i.geom.penetrationDepth for i in O.interactions if i.isReal], default=-1)
         if touched and depth <= 0:
@@ -134,7 +135,7 @@ def bouncing(tolerance):
 
 (carried_energy, carried_momentum, contacts), (energy, solved_momentum, _) = bouncing(1e-9), bouncing(0)
 check.true(contacts.answers["carried"] > 100, f"contacts of the bounces are carried on: {contacts.answers}")
-check.true(len(energy) == len(carried_energy) >= 4, f"bounces: {len(energy)} and {len(carried_energy)}")
+check.true(len(energy) == len(carried_energy) >= 2, f"bounces: {len(energy)} and {len(carried_energy)}")
 drift = max(map(abs, energy))
 check.true(drift < 1e-3, f"energy changes by {drift:g}")
 difference = max(abs(one - other) for one, other in zip(energy, carried_energy))

@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
+# threads
 # A script changes the scene while YADE steps it in another thread: taken, or refused with a sentence, and the
 # process lives. Whatever fails here mostly ends it, which the runner notices.
 import builtins
 import math
 import random
 import threading
-import time
 
 import potential_particles
 import yade
@@ -13,9 +13,7 @@ from harness import *
 
 check = Checks()
 random.seed(6)
-SECONDS = 2.0  # of hammering; without protection the process was gone sooner, mostly
-PATIENCE = 60.0  # seconds; on a busy machine one thread may take the lock over and over while the other waits
-CALLS, STEPS = 50, 5  # more of both than this in each hammering
+CALLS, STEPS = 600, 100  # at least so many of both in each hammering; without protection the process was gone sooner, mostly
 
 
 def prism(sides):
@@ -39,16 +37,14 @@ def ring(make, functor_):
 
 
 def hammer(action):
-    """Calls it while O.run() goes on; how often, and how many steps there were."""
+    """Calls it while O.run() goes on."""
     O.run()
-    begin, calls, first = time.monotonic(), 0, O.iter
-    while (seconds := time.monotonic() - begin) < SECONDS or (seconds < PATIENCE and (calls <= CALLS or O.iter - first <= STEPS)):
+    calls, first = 0, O.iter
+    while O.running and (calls < CALLS or O.iter - first < STEPS):
         action(calls)
         calls += 1
-    check.true(O.running, "the run still goes on")
-    steps = O.iter - first
+    check.true(O.running, f"the run still goes on, after {calls} calls and {O.iter - first} steps")
     halt()
-    check.true(calls > CALLS and steps > STEPS, f"{calls} calls during {steps} steps")
 
 
 def settled():
@@ -151,8 +147,8 @@ add(cube(half=4, R=7, isBoundary=True), Vector3(0, 0, -4), fixed=True)
 for _ in range(30):
     drop()
 O.engines = O.engines + [yade.PyRunner(command="churn()", iterPeriod=5)]
-run(1500)
-check.true(len(O.bodies) > 900, f"ids given: {len(O.bodies)}")
+run(400)
+check.true(len(O.bodies) > 240, f"ids given: {len(O.bodies)}")
 check.equal(len([b for b in O.bodies]), 31, "bodies there")
 check.true(all(b.state.pos.norm() < 10 for b in O.bodies), "none was thrown out")
 check.equal((functor().failures, functor().failureReport), (0, []), "failures")
@@ -190,7 +186,8 @@ for one in [b.id for b in O.bodies][1:21]:
     O.bodies.erase(one)
     check.equal(O.iter, step, "a paused run takes no further step")
     O.run()
-    time.sleep(0.003)
+    while O.iter == step:
+        pass
     O.pause()
 check.equal((len([b for b in O.bodies]), O.stopAtIter), (11, stop), "bodies left after a pause for each; O.stopAtIter is as before")
 

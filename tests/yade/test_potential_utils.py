@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # The names and arguments of yade.potential_utils: every call of its manual runs, and makes the solid that it names.
+import ast
 import inspect
 import math
 import os
-import re
 
 import potential_particles
 import yade
@@ -14,11 +14,10 @@ check = Checks()
 material = yade.FrictMat(density=1000.0, frictionAngle=0.5)
 
 # Names and arguments, in their order, are those of the file that YADE installs.
-theirs = open(os.path.join(os.path.dirname(yade.__file__), "potential_utils.py")).read()
+with open(os.path.join(os.path.dirname(yade.__file__), "potential_utils.py"), encoding="utf-8") as file:
+    theirs = {one.name: [argument.arg for argument in one.args.args] for one in ast.parse(file.read()).body if isinstance(one, ast.FunctionDef)}
 for name in ("potentialblock", "cuboid", "aabbPlates", "cylindricalPlates", "prism", "platonic_solid"):
-    arguments = re.search(rf"^def {name}\((.*?)\):", theirs, re.S | re.M).group(1)
-    names = re.findall(r"(\w+)\s*(?:=|,|$)", re.sub(r"=\s*(\[[^]]*\]|\w+\([^)]*\)|[^,]+)", "", arguments))
-    check.equal(list(inspect.signature(getattr(potential_utils, name)).parameters), names, f"arguments of {name}")
+    check.equal(list(inspect.signature(getattr(potential_utils, name)).parameters), theirs[name], f"arguments of {name}")
 
 
 def volume(made):

@@ -74,7 +74,7 @@ check.equal(len(rock.slice(cube, [rock.joint((0, 0, 0.9), 0, 0)], least_width=0.
 # Joints as surfaces: one block is lifted by a millimetre, shifted by two across its base, and turned about the normal there.
 start()
 two = rock.slice(cube, [rock.joint((0, 0, 0), 0, 0)], progress=False)
-ids = rock.bodies(two, r=0.01)
+ids = rock.bodies(two, rounding=0.01)
 upper = O.bodies[int(ids[int(two[1].centroid[2] > 0)])]
 upper.state.pos += Vector3(0.002, 0, 0.001)
 upper.state.ori = Quaternion((0, 0, 1), 0.3) * upper.state.ori
@@ -114,7 +114,7 @@ for text, action in (
         ("more than most_blocks = 7", lambda: rock.slice(slope, sets, most_blocks=7)), ("not a rock.Domain", lambda: rock.slice([(0, 0, 1, 1)], sets)),
         ("joints[0] holds float", lambda: rock.slice(cube, [[1.5]])), ("least_volume=-1", lambda: rock.slice(cube, [], least_volume=-1)),
         ("must lie below", lambda: Domain.box((0, 0, 0), (1, 0, 1))), ("a region is list", lambda: rock.slice(cube, [], regions=[[1]])),
-        ("at most 10 million joints", lambda: rock.slice(cube, [rock.JointSet(5, 0, 1e-8)])), ("r=0.7", lambda: rock.bodies(mass, r=0.7)),
+        ("at most 10 million joints", lambda: rock.slice(cube, [rock.JointSet(5, 0, 1e-8)])), ("rounding=0.7", lambda: rock.bodies(mass, rounding=0.7)),
         ("fixed must be numbers from 0", lambda: rock.bodies(mass, fixed=[99999])),
         ("friction has no key None", lambda: rock.key_blocks(mass, (), friction={0: 3})), ("friction='bedding'", lambda: rock.key_blocks(mass, (), friction={"bedding": 3, None: 3})),
         ("free must be numbers of planes", lambda: rock.key_blocks(mass, [True, False])), ("free holds 77", lambda: rock.key_blocks(mass, [77])),
@@ -165,7 +165,7 @@ for seed in range(6):
 
 # Bodies: where the blocks are, with their mass, and the inertia that the library finds for the shape by itself.
 start()
-ids = rock.bodies(few, r=0.01, fixed=few.on_domain(Domain.BOTTOM))
+ids = rock.bodies(few, rounding=0.01, fixed=few.on_domain(Domain.BOTTOM))
 check.close(sum(O.bodies[int(i)].state.mass for i in ids) / (2000 * volume), 1.0, 1e-12, "masses sum to that of the domain")
 for number in (0, 5, 11):
     body, block = O.bodies[int(ids[number])], few[number]
@@ -193,7 +193,7 @@ check.true({pair for pair, area in pairs if area > 0.05} <= found, "partners are
 check.equal(found - {pair for pair, _ in pairs}, set(), "and no others")
 # Pieces of a block are a clump of its mass and inertia.
 start()
-ids = rock.bodies(notched, r=0.01)
+ids = rock.bodies(notched, rounding=0.01)
 clumps = [body for body in O.bodies if body.isClump]
 check.equal(len(clumps), 1, "one clump")
 removed = 2000 * 0.4 * 2 * 1
@@ -214,7 +214,7 @@ two = rock.slice(ramp, [rock.joint((2, 2, 1.9), 35, 90), rock.joint((2, 2, 2), 9
 start(normalStiffness=1e9, shearStiffness=1e9, frictionAngle=1.2, restitution=0.1)
 O.engines[-1].damping = 0.0
 upper = two.blocks["centroid"][:, 2] > 1.9
-ids = rock.bodies(two, r=0.01, fixed=~upper)
+ids = rock.bodies(two, rounding=0.01, fixed=~upper)
 O.engines = O.engines[:3] + [rock.joint_engine(two, ids, {0: yade.ConicJointMat(frictionAngle=0.35, cohesion=7.0, residualCohesion=7.0), 1: yade.ConicJointMat(frictionAngle=0.0)})] + O.engines[3:]
 O.dt = potential_particles.critical_time_step()
 # The stiffness that it gives counts for contacts that are not there yet: against twice that of the bodies, which a rigid neighbour would give.
@@ -281,7 +281,7 @@ check.close(side[0, 4], 9810 * 2.25 * 0.5, 1e-9, "at a third of the depth: its t
 load = rock.face_pressure(mass, mass.faces_on(Domain.TOP), 1e4)
 check.close(load[:, 2].sum(), -1e4 * outer, 1e-6, "a surcharge")
 start()
-ids = rock.bodies(notched, r=0.01)
+ids = rock.bodies(notched, rounding=0.01)
 rock.apply_loads(ids, rock.face_pressure(notched, notched.faces_on(Domain.EAST), 100.0))
 clump = next(body for body in O.bodies if body.isClump)
 O.engines[-1].gravity, O.engines[-1].damping, O.dt = (0, 0, 0), 0.0, 1e-6
@@ -292,7 +292,7 @@ check.close(clump.state.angMom / O.dt, Vector3(0, 400 * centre, 0), 1e-6, "and t
 # Excavation: the lower of two blocks is taken out, the upper one falls.
 column = rock.slice(Domain.box((0, 0, 0), (1, 1, 3)), [rock.joint((0, 0, 1), 0, 0)], regions=[Domain.box((-1, -1, 1), (2, 2, 2))], progress=False)
 start()
-ids = rock.bodies(column, r=0.01, fixed=column.on_domain(Domain.BOTTOM))
+ids = rock.bodies(column, rounding=0.01, fixed=column.on_domain(Domain.BOTTOM))
 O.dt = 1e-4
 top = O.bodies[int(ids[column.blocks["centroid"][:, 2] > 2][0])]
 run(500)
@@ -373,4 +373,20 @@ for seed in range(40):
     check.true(slope_cuts.agrees(one, distance, direction), f"seed {seed}: {one.mode}, factor {one.factor:.3f}, moved by {distance:.2e} m along {direction}, not {one.direction}")
 check.true(tried == 20 and 5 <= moving <= 15, f"{tried} cuts, {moving} that move")
 
+
+# Numbers that nothing can be made of, and loops that would not end.
+for spacing, words in (("1e-9", "spacing=1e-09 over size=10 makes 1e+10 joints"), ("1e-320", "must be at least 1e-50")):
+    with open("many.csv", "w") as file:
+        file.write(f"30; 90; {spacing}\n")
+    check.raises(ValueError, lambda: rock.read_blockgen("many.csv", "persistent", size=10), spacing, words)
+    check.raises(ValueError, lambda: rock.read_blockgen("many.csv", "persistent", size=10), spacing, "many.csv, line 1")
+small = rock.Domain.box((0, 0, 0), (1, 1, 1))
+for name, make, words in [
+    ("joints of a set", lambda: rock.slice(small, [rock.JointSet(30, 90, 1e-6)], progress=False), "no more than 1000000 are made"),
+    ("discs", lambda: rock.slice(small, [rock.JointSet(30, 90, 1e-3, radius=1e-3)], progress=False), "10 million"),
+    ("a large box", lambda: rock.Domain.box((-1e150,) * 3, (1e150,) * 3), "lower=(-1e+150"),
+    ("planes far away", lambda: rock.slice(rock.Domain([(*sign * axis, 1e150) for axis in np.eye(3) for sign in (1, -1)]), [], progress=False), "extent of the domain = 1"),
+    ("sides", lambda: rock.Domain.cylinder((0, 0, 0), (0, 0, 1), 1, sides=10**12), "sides=1000000000000"),
+]:
+    check.raises(ValueError, make, name, words)
 check.finish()

@@ -77,14 +77,18 @@ check.true(exact.fit.largest <= 0.03 and len(exact.planes) < 40, f"a given error
 check.raises(ValueError, lambda: shapes.from_mesh(file, error=1e-7), "an error that is not reached", "error=1e-07 is not reached")
 check.raises(ValueError, lambda: shapes.from_mesh(file, error=0.001, planes=20), "nor with so few planes", "up to 20 planes")
 check.raises(ValueError, lambda: shapes.from_mesh(file, planes=3), "three planes", "planes=3")
-given = shapes.from_vertices(points, planes=30, r=0.05)
+given = shapes.from_vertices(points, planes=30, rounding=0.05)
 check.close(given.volume / hull.volume, 1.0, 1e-4, "a given r keeps the volume, too")
-check.close(given.r / shapes.from_vertices(points, planes=30, r=0.1).r, 0.5, 0.05, "r is the one that was given")
+check.close(given.r / shapes.from_vertices(points, planes=30, rounding=0.1).r, 0.5, 0.05, "r is the one that was given")
 
 # All faces: r gives way to the volume, and says so where it may not.
 shape, said = told(lambda: shapes.from_mesh(file))
+check.true(len(shape.planes) <= 60 and len(said) == 1 and "60 planes in the place of" in said[0] and f"{shape.fit.largest:.2g}" in said[0], f"by default few: {said}")
+check.close(shape.volume / hull.volume, 1.0, 1e-4, "which keep the volume")
+shape, said = told(lambda: shapes.from_mesh(file, planes="all"))
+check.true(len(shape.planes) > 1900, f"all of them: {len(shape.planes)}")
 check.true(0.985 < shape.volume / hull.volume < 0.995 and not said, f"all faces, r chosen: {shape.volume / hull.volume}, {said}")
-shape, said = told(lambda: shapes.from_mesh(file, r=0.05))
+shape, said = told(lambda: shapes.from_mesh(file, rounding=0.05, planes="all"))
 check.true(len(said) == 1 and "% less volume than the surface" in said[0] and f"{shape.r:.3g}" in said[0], f"r = 0.05: {said}")
 corners = np.array([(x, y, z) for x in (0, 2) for y in (0, 2) for z in (0, 2)], float)
 faces = [(0, 1, 3), (0, 3, 2), (4, 7, 5), (4, 6, 7), (0, 5, 1), (0, 4, 5), (2, 3, 7), (2, 7, 6), (0, 2, 6), (0, 6, 4), (1, 5, 7), (1, 7, 3)]
@@ -132,7 +136,7 @@ check.close(O.bodies[number].state.mass / (2000 * VOLUME), 1.0, 3e-3, "mass of t
 centre = Vector3(*((0.5 * np.array([1, 0.25]) + 0.25 * np.array([0.25, 1])) / 0.75), 5.3)
 check.close(O.bodies[number].state.pos, centre, 5e-3, "which stands where the file has it")
 open_one = write(solid, [(a, c, b) for a, b, c in cap] + sides, "open")
-check.raises(ValueError, lambda: shapes.clump_from_mesh(open_one), "an open surface", "close it first")
+check.raises(ValueError, lambda: shapes.clump_from_mesh(open_one), "an open surface", "close it, or")
 sys.modules.update(coacd=None, vhacdx=types.SimpleNamespace(
     compute_vhacd=lambda points, faces, **_: [((np.array(box) - (1, 0.75, 0.3)) / 2, None) for box in boxes if faces[0] == 3]))
 check.close(shapes.clump_from_mesh(ell).error, parts.error, 1e-9, "V-HACD, whose faces begin with their number of corners")
@@ -183,4 +187,35 @@ for bad, words in ((np.zeros((3, 3, 3), int), "no grain"), (np.zeros((3, 3), int
                    (np.full((3, 3, 3), -1), "range from -1"), (path + "f", "is no file"), (file, "cannot be read as .tif")):
     check.raises(ValueError, lambda: shapes.from_voxels(bad), f"{words}", words)
 
+
+# Labels as they come; files of pages, whole and damaged.
+grains = np.zeros((12, 12, 12), int)
+grains[1:6, 1:6, 1:6], grains[7:11, 7:11, 7:11] = 2**31 - 1, 5
+made = shapes.from_voxels(grains, progress=False)
+check.equal([one.shape.name for one in made], ["grain 5", f"grain {2**31 - 1}"], "large labels")
+check.close(made[1].shape.volume, 125.0, 0.1, "the grain of the largest one")
+from PIL import Image  # noqa: E402
+pages = [Image.fromarray(page.astype(np.int32)) for page in grains]
+tif = os.path.join(folder, "grains.tif")
+pages[0].save(tif, save_all=True, append_images=pages[1:])
+check.equal(len(shapes.from_voxels(tif, progress=False)), 2, "a .tif")
+whole = open(tif, "rb").read()
+seed = 1
+random, refused = np.random.default_rng(seed), 0
+warnings.simplefilter("ignore")
+for number in range(200):
+    content = bytearray(whole)
+    for _ in range(random.integers(1, 6)):
+        content[random.integers(len(content))] = random.integers(256)
+    with open(tif, "wb") as file:
+        file.write(content[:random.integers(len(content))] if number % 3 == 0 else content)
+    try:
+        shapes.voxel_image(tif)
+    except ValueError as error:
+        refused += 1
+        if "grains.tif" not in str(error) and "labels" not in str(error):
+            check.true(False, f"seed {seed}, file {number}: {error}")
+    except Exception as error:
+        check.true(False, f"seed {seed}, file {number}: {error!r}")
+check.true(refused > 30, f"damaged pages are refused, seed {seed}: {refused}")
 check.finish()

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Shapes from planes, points and names of solids: where their faces are, mass against closed forms, bad input.
 import math
+import warnings
 
 import numpy as np
 
@@ -53,7 +54,7 @@ def reach(shape, direction):
 # Where faces are. A skew body far from the origin: five planes of a wedge, normals of any length.
 planes = [(0, 0, -2, -2 * 9.0), (0, 3, 0, 3 * 6.0), (0, -1, 0, -4.5), (2, 0, 1, 2 * 5 + 11), (-1, 0, 1, -4 + 10.5)]
 for r, k in [(0.02, 0.0), (0.1, 0.02), (0.2, 0.3)]:
-    shape = shapes.from_planes(planes, r=r, k=k)
+    shape = shapes.from_planes(planes, rounding=r, k=k)
     points = surface(shape, everywhere)
     unit = np.array([np.array(p) / np.linalg.norm(p[:3]) for p in planes])
     excess = (points @ unit[:, :3].T - unit[:, 3]).max()
@@ -74,7 +75,7 @@ for r, k in [(0.02, 0.0), (0.1, 0.02), (0.2, 0.3)]:
     check.true(error <= 1e-7 and shape.error <= 1e-6, "errors as asked for")
 
 # Sharp limits: volume and inertia of solids in closed form; with k = 0 and r -> 0 the body is the solid.
-sharp = {"r": 1e-5, "k": 0.0}
+sharp = {"rounding": 1e-5, "k": 0.0}
 a, b, c = 1.0, 2.0, 0.5
 box = shapes.cuboid((a, b, c), **sharp)
 check.close(box.volume, a * b * c, 1e-6, "volume of a cuboid")
@@ -131,16 +132,29 @@ check.true(shapes.random_rock(8) != shapes.random_rock(9), "another seed is anot
 check.raises(AttributeError, lambda: setattr(rock, "r", 1.0), "a shape is immutable")
 last = math.inf
 for k in (0.0, 0.02, 0.2, 0.6):
-    cube = shapes.cuboid(r=0.1, k=k)
+    cube = shapes.cuboid(rounding=0.1, k=k)
     check.equal(cube.centroid, (0, 0, 0), "centre of a cube")
     check.true(cube.volume < 1.0, "it lies inside the sharp cube")
+
+# r and R are lengths, as of a particle, and rounding a share of the size; scripts of before are told so, once.
+with warnings.catch_warnings(record=True) as said:
+    warnings.simplefilter("always")
+    small = shapes.cuboid((0.4, 0.2, 0.3), r=0.01, k=0.0)
+    check.equal(small.r, 0.01, "r is a length")
+    share = shapes.cuboid((0.4, 0.2, 0.3), rounding=0.05, k=0.0)
+    check.close(share.r, 0.01, 1e-15, "and a share of the size by another keyword")
+    check.equal(shapes.cuboid((0.4, 0.2, 0.3), 0.05, 0.0), share, "which is the one without a name, as before")
+    check.close(shapes.cuboid((4, 2, 3), R=3.0).R, 3.0, 1e-12, "R is a length")
+    check.raises(ValueError, lambda: shapes.cuboid((0.04, 0.02, 0.03), r=0.05), "r of before", "r=0.05 is a length and must lie between 0 and 0.01, half")
+check.equal([one.category for one in said], [FutureWarning], "once a process")
+check.true("r=0.05 of then is rounding=0.05" in str(said[0].message), f"{said[0].message}")
 
 # Bad input: a sentence that names the value.
 nan = float("nan")
 for action, words in [
         (lambda: shapes.sphere(-1), "radius=-1"), (lambda: shapes.sphere(nan), "radius=nan"), (lambda: shapes.sphere("a"), "is no number"),
         (lambda: shapes.cuboid((1, 1, 0)), "above 0"), (lambda: shapes.cuboid((1, 1)), "has 2 numbers"),
-        (lambda: shapes.cuboid(r=0), "r=0"), (lambda: shapes.cuboid(r=0.5), "between 0 and 0.5"), (lambda: shapes.cuboid(k=-0.1), "k=-0.1"),
+        (lambda: shapes.cuboid(rounding=0), "rounding=0"), (lambda: shapes.cuboid(rounding=0.5), "between 0 and 0.5"), (lambda: shapes.cuboid(k=-0.1), "k=-0.1"),
         (lambda: shapes.cuboid(k=1.5), "k=1.5"), (lambda: shapes.cuboid(k=nan), "k=nan"), (lambda: shapes.cuboid(k=0.1, R=0), "R=0"),
         (lambda: shapes.prism(2), "sides"), (lambda: shapes.prism(6, 0.5, -1), "height=-1"), (lambda: shapes.cylinder(0), "radius=0"),
         (lambda: shapes.platonic_solid(5), "faces=5"), (lambda: shapes.platonic_solid(8, edge=nan), "edge=nan"),
@@ -148,7 +162,7 @@ for action, words in [
         (lambda: shapes.random_rock(1, flatness=2), "flatness=2"), (lambda: shapes.random_rock(1, faces=4), "faces"),
         (lambda: shapes.from_planes([]), "planes is empty"), (lambda: shapes.from_planes([(1, 0, 0)]), "row 0 has 3 numbers"),
         (lambda: shapes.from_planes([(1, 0, 0, nan)]), "row 0"),
-        (lambda: shapes.from_planes([(0, 0, 0, 1)] + planes), "length zero"),
+        (lambda: shapes.from_planes([(0, 0, 0, 1)] + planes), "plane 0 is none"),
         (lambda: shapes.from_planes(planes[:4], k=0.0), "enclose no volume"), (lambda: shapes.from_planes(planes[1:], k=0.1), "enclose no volume"),
         (lambda: shapes.from_planes([(1, 0, 0, 1), (-1, 0, 0, 1)]), "enclose no volume"),
         (lambda: shapes.from_planes([(1, 0, 0, -1), (-1, 0, 0, -1), (0, 1, 0, 1), (0, -1, 0, 1), (0, 0, 1, 1), (0, 0, -1, 1)]), "no point lies inside"),
@@ -163,4 +177,22 @@ check.true("\n" not in repr(rock) and len(repr(rock)) < 140 and "24 planes" in r
 place = potential_particles.pack(potential_particles.packing.Box((0, 0, 0), (1, 1, 1)), rock, number=1, progress=False)[0]
 check.true(len(repr(place)) < 400 and repr(rock) in repr(place), f"printed: {place}")
 
+
+# Numbers that nothing can be made of, and loops that would not end: a sentence before any work.
+for name, make, words in [
+    ("a small sphere", lambda: shapes.sphere(1e-110), "radius=1e-110 must be at least 1e-50"),
+    ("a large sphere", lambda: shapes.sphere(1e300), "radius=1e+300"),
+    ("R", lambda: shapes.cuboid(R=1e-110), "R=1e-110"),
+    ("a small cuboid", lambda: shapes.cuboid((1e-60, 1e-60, 1e-60)), "edges=1e-60 must be at least"),
+    ("points", lambda: shapes.from_vertices([(1e200, 0, 0), (0, 1, 0), (0, 0, 1), (0, 0, 0)]), "points 0=(1e+200, 0, 0)"),
+    ("scaled", lambda: shapes.sphere(1e-30).scaled(1e-30), "bounding radius"),
+    ("sides of a prism", lambda: shapes.prism(10**9), "sides=1000000000"),
+    ("sides of a cylinder", lambda: shapes.cylinder(sides=10**12), "sides=1000000000000"),
+    ("faces", lambda: shapes.random_rock(1, faces=10**9), "faces=1000000000"),
+    ("planes", lambda: shapes.from_vertices(np.eye(3).tolist() + [(0, 0, 0)], planes=10**9), "planes=1000000000"),
+]:
+    check.raises(ValueError, make, name, words)
+for length in (1e200, 1e-200):
+    rows_of_cube = [(length * a, length * b, length * c, length) for a, b, c in [(1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0), (0, 0, 1), (0, 0, -1)]]
+    check.close(shapes.from_planes(rows_of_cube, rounding=1e-4, k=0.0).volume, 8.0, 1e-3, f"normals of length {length:g}")
 check.finish()

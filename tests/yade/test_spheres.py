@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
+# threads
 # The import of potential_particles leaves YADE as it is: a scene without potential particles may do all that it may do
 # without the plugin, while O.run() steps too. (protect_runs(), which refuses some of that: test_outside.py.)
 import builtins

@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
+# threads
 # Many bodies: a heap of cubes and pyramids on a fixed floor, with as many threads as YADE was given.
 import builtins
 import math

@@ -3,6 +3,7 @@
 import potential_particles
 import yade
 from mixed import *
+from potential_particles import boundaries
 
 check = Checks()
 TURN = turned((1, 2, 3), 0.7)
@@ -156,4 +157,12 @@ check.equal([c.geom.penetrationDepth for c in touching()], [overlap], "and the c
 report, = O.engines[2].geomDispatcher.functors[4].failureReport
 check.true("triangle" in report["message"] and report["id1"] == 0, f"with a sentence: {report['message']}")
 
+
+# Loops that would not end.
+for name, make, words in [
+    ("facets", lambda: boundaries.box_walls((0, 0, 0), (1, 1, 1), facets=10**12), "facets=1000000000000"),
+    ("a narrow plate", lambda: boundaries.plate((0, 0, 0), (1, 0, 0), (0, 1e-30, 0), facets=10), "so long and narrow"),
+    ("sides", lambda: boundaries.funnel(1, 2, 1, sides=10**12), "sides=1000000000000"),
+]:
+    check.raises(ValueError, make, name, words)
 check.finish()

@@ -13,6 +13,8 @@ pub enum Part {
     Planar,
     Memories,
     Mass,
+    Patches,
+    Hulls,
 }
 
 /// Random pairs over everything that can be written down, judged without a known answer; then walks and sweeps.
@@ -54,9 +56,16 @@ pub struct Arguments {
     /// Leave the continuity sweeps out.
     #[arg(long)]
     pub no_sweeps: bool,
-    /// Particles whose volume, centroid and inertia are held against closed forms or a finer tolerance.
-    #[arg(long, default_value_t = 0)]
-    pub mass: u64,
+    /// Particles, of space and of the plane, whose volume, centroid and inertia are held against closed forms or a finer tolerance; by default one for
+    /// each thousand poses.
+    #[arg(long)]
+    pub mass: Option<u64>,
+    /// Pairs whose patches are held against brute force; by default one for each thousand poses.
+    #[arg(long)]
+    pub patches: Option<u64>,
+    /// Hulls of points and bodies of half-spaces that are held against exact arithmetic; by default one for each ten poses.
+    #[arg(long)]
+    pub hulls: Option<u64>,
     /// Only this family of pairs.
     #[arg(long)]
     pub family: Option<String>,

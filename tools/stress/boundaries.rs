@@ -58,10 +58,6 @@ static PARTICLES: [(&str, Recipe); 20] = [
     ("units", Recipe { hull: Hull::Any, sphericity: Sphericity::Any, size: (-9.0, 9.0), ..BASE }),
 ];
 
-fn power(random: &mut Random, low: f64, high: f64) -> f64 {
-    10f64.powf(low + (high - low) * random.uniform())
-}
-
 /// The particle of a group of cases, and the name of its kind.
 pub fn particle_of(random: &mut Random, group: u64) -> (Particle, &'static str) {
     let (name, recipe) = &PARTICLES[(group % PARTICLES.len() as u64) as usize];
@@ -74,7 +70,7 @@ pub fn particle_of(random: &mut Random, group: u64) -> (Particle, &'static str) 
         let planes: Vec<Plane> = particle
             .planes()
             .map(|p| {
-                let factor = power(random, -2.0, 2.0);
+                let factor = random.power(-2.0, 2.0);
                 Plane { normal: factor * p.normal, offset: factor * p.offset }
             })
             .collect();
@@ -91,7 +87,7 @@ pub fn place_of(particle: &Particle, random: &mut Random) -> Place {
         0 => [1.0, 0.0, 0.0, 0.0],
         1 => {
             let exact = [[1.0, 1.0, 0.0, 0.0], [0.5, 0.5, 0.5, 0.5], [1.0, 0.0, 0.0, 0.4]][random.whole(0, 3)];
-            let tilt = if random.uniform() < 0.5 { 0.0 } else { power(random, -17.0, -1.0) };
+            let tilt = if random.uniform() < 0.5 { 0.0 } else { random.power(-17.0, -1.0) };
             exact.map(|c: f64| c + tilt * random.normal())
         }
         _ => [0; 4].map(|_| random.normal()),
@@ -99,8 +95,8 @@ pub fn place_of(particle: &Particle, random: &mut Random) -> Place {
     let length = particle.bounding_radius();
     let position = match random.whole(0, 5) {
         0 | 1 => Vector3::zeros(),
-        2 | 3 => length * power(random, -1.0, 1.0) * random.direction(),
-        _ => length * power(random, 3.0, 6.5) * random.direction(),
+        2 | 3 => length * random.power(-1.0, 1.0) * random.direction(),
+        _ => length * random.power(3.0, 6.5) * random.direction(),
     };
     Place { position: position.into(), orientation }
 }
@@ -133,11 +129,11 @@ fn depth(random: &mut Random) -> f64 {
     let sign = if random.uniform() < 0.75 { -1.0 } else { 1.0 };
     match random.whole(0, 8) {
         0 => 1.0,
-        1..=3 => 1.0 + sign * power(random, -16.0, -9.0),
-        4 | 5 => 1.0 + sign * power(random, -9.0, -2.0),
+        1..=3 => 1.0 + sign * random.power(-16.0, -9.0),
+        4 | 5 => 1.0 + sign * random.power(-9.0, -2.0),
         6 => random.uniform(),
         _ if random.uniform() < 0.3 => 0.0,
-        _ => power(random, -16.0, 0.0),
+        _ => random.power(-16.0, 0.0),
     }
 }
 
@@ -159,7 +155,7 @@ fn outline(random: &mut Random) -> [[f64; 2]; 3] {
     });
     if random.uniform() < 0.2 {
         // A sliver: the third corner next to the line of the others.
-        let (share, thin) = (random.uniform(), power(random, -9.0, -1.0));
+        let (share, thin) = (random.uniform(), random.power(-9.0, -1.0));
         let aside = [0, 1].map(|c| corners[1][c] - corners[0][c]);
         corners[2] =
             [corners[0][0] + share * aside[0] - thin * aside[1], corners[0][1] + share * aside[1] + thin * aside[0]];
@@ -174,7 +170,7 @@ fn outline(random: &mut Random) -> [[f64; 2]; 3] {
             weights = [0, 1, 2].map(|i| if i == kept { 1.0 } else { 0.0 });
         }
         2 => {
-            let (at, by) = (random.whole(0, 3), power(random, -16.0, 0.0));
+            let (at, by) = (random.whole(0, 3), random.power(-16.0, 0.0));
             weights[at] = if random.uniform() < 0.5 { by } else { -by };
         }
         3 => weights[random.whole(0, 3)] -= 1.0,
@@ -190,7 +186,7 @@ pub fn settings(random: &mut Random) -> Settings {
     let default = Settings::default();
     match random.whole(0, 6) {
         0 => default.with_gap_tolerance(1e-14).with_solve_separated(true),
-        1 => default.with_flat_regularisation(power(random, -12.0, -2.0)).with_solve_separated(true),
+        1 => default.with_flat_regularisation(random.power(-12.0, -2.0)).with_solve_separated(true),
         2 => default,
         _ => default.with_solve_separated(true),
     }
@@ -225,7 +221,7 @@ pub fn beside(particle: &Particle, at: &Place, random: &mut Random) -> (Boundary
     let point = centre + turn * (depth(random) * surface + aside);
     let normal = turn * tilted(&outward, random);
     if random.uniform() < 0.4 {
-        let length = if random.uniform() < 0.5 { 1.0 } else { power(random, -3.0, 3.0) };
+        let length = if random.uniform() < 0.5 { 1.0 } else { random.power(-3.0, 3.0) };
         let sign = if random.uniform() < 0.5 { 1.0 } else { -1.0 };
         let normal: Vector3<f64> = sign * length * normal;
         return (Boundary::Plane { point: point.into(), normal: normal.into() }, format!("plane {how}"));
@@ -237,9 +233,9 @@ pub fn beside(particle: &Particle, at: &Place, random: &mut Random) -> (Boundary
         let second = normal.cross(&first).normalize();
         let size = particle.bounding_radius()
             * match random.whole(0, 3) {
-                0 => power(random, -3.0, 0.0),
-                1 => power(random, -0.5, 1.0),
-                _ => power(random, 0.0, 6.0),
+                0 => random.power(-3.0, 0.0),
+                1 => random.power(-0.5, 1.0),
+                _ => random.power(0.0, 6.0),
             };
         let corner = |[u, v]: [f64; 2]| (point + size * (u * first + v * second)).into();
         let vertices: [[f64; 3]; 3] = outline(random).map(corner);

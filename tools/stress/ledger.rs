@@ -38,6 +38,8 @@ pub enum Fault {
     Seam,
     /// From a memory of any bytes, and without.
     Memory,
+    /// A patch is further from its definition than it says.
+    Patch,
 }
 
 /// A case that failed.
@@ -147,6 +149,16 @@ impl Ledger {
             }
         }
     }
+}
+
+/// Judges one case again and prints what is found in full; whether it passed.
+pub fn replay(one: impl FnOnce(&mut Ledger)) -> bool {
+    let mut ledger = Ledger::default();
+    one(&mut ledger);
+    for finding in &ledger.found {
+        println!("{}", serde_json::to_string_pretty(finding).expect("numbers"));
+    }
+    ledger.failures() == 0
 }
 
 /// Cases 0 to `count` by several threads, each a function of its index alone. A panic is a finding of no family.

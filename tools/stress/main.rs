@@ -7,12 +7,16 @@
 
 mod arguments;
 mod boundaries;
+#[path = "../../tests/patch/brute.rs"]
+mod brute;
 mod cases;
 mod clock;
 mod double;
 #[path = "../../benches/scene/evaluation.rs"]
 #[allow(dead_code)]
 mod evaluation;
+mod exact;
+mod hulls;
 mod judge;
 mod least;
 mod ledger;
@@ -24,6 +28,7 @@ mod machine;
 mod mass;
 mod memories;
 mod pairs;
+mod patches;
 mod placed_boundary;
 mod planar;
 #[path = "../../benches/scene/random.rs"]
@@ -34,6 +39,8 @@ mod replay;
 mod report;
 mod seams;
 mod shapes;
+#[path = "../../benches/target/summary.rs"]
+mod summary;
 mod sweeps;
 mod tally;
 mod walks;
@@ -59,10 +66,12 @@ fn main() -> ExitCode {
         let passed = match arguments.of {
             Part::Poses => return replay::one(seed, index),
             Part::Walls => walls::replay(seed, index),
-            Part::Seams => seams::replay(seed, index),
-            Part::Planar => planar::replay(seed, index),
-            Part::Memories => memories::replay(seed, index),
+            Part::Seams => ledger::replay(|ledger| seams::one(seed, index, ledger)),
+            Part::Planar => ledger::replay(|ledger| planar::one(seed, index, ledger)),
+            Part::Memories => ledger::replay(|ledger| memories::one(seed, index, ledger)),
             Part::Mass => mass::replay(seed, index),
+            Part::Patches => ledger::replay(|ledger| patches::one(seed, index, ledger)),
+            Part::Hulls => ledger::replay(|ledger| hulls::one(seed, index, ledger)),
         };
         return if passed { ExitCode::SUCCESS } else { ExitCode::FAILURE };
     }
@@ -119,12 +128,16 @@ fn run(arguments: &Arguments, seed: u64) -> Result<u64, String> {
     let seams = |index, ledger: &mut Ledger| seams::one(seed, index, ledger);
     let planar = |index, ledger: &mut Ledger| planar::one(seed, index, ledger);
     let memories = |index, ledger: &mut Ledger| memories::one(seed, index, ledger);
+    let patches = |index, ledger: &mut Ledger| patches::one(seed, index, ledger);
+    let hulls = |index, ledger: &mut Ledger| hulls::one(seed, index, ledger);
     type One<'a> = &'a (dyn Fn(u64, &mut Ledger) + Sync);
-    let each: [(&'static str, Option<u64>, u64, One); 4] = [
+    let each: [(&'static str, Option<u64>, u64, One); 6] = [
         ("walls", arguments.walls, 10, &walls),
         ("seams", arguments.seams, 20, &seams),
         ("planar", arguments.planar, 20, &planar),
         ("memories", arguments.memories, 20, &memories),
+        ("patches", arguments.patches, 1000, &patches),
+        ("hulls", arguments.hulls, 10, &hulls),
     ];
     let mut parts = Vec::new();
     for (name, count, share, one) in each {
@@ -140,8 +153,9 @@ fn run(arguments: &Arguments, seed: u64) -> Result<u64, String> {
         bar.finish_and_clear();
     }
 
-    let bar = progress("particles", arguments.mass);
-    let mass = mass::run(seed, arguments.mass, threads, &stop, &bar);
+    let particles = arguments.mass.unwrap_or(arguments.poses / 1000);
+    let bar = progress("particles", particles);
+    let mass = mass::run(seed, particles, threads, &stop, &bar);
     bar.finish_and_clear();
 
     let findings = Findings {

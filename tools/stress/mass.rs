@@ -184,10 +184,6 @@ fn compared<const D: usize>(
     tally
 }
 
-fn power(random: &mut Random, low: f64, high: f64) -> f64 {
-    10f64.powf(low + (high - low) * random.uniform())
-}
-
 /// Any shape: a hull of `shapes` with some of what makes integration hard.
 fn any(seed: u64, index: u64, random: &mut Random) -> Tally {
     let made = loop {
@@ -217,16 +213,16 @@ fn altered(planes: &mut Vec<Plane>, radius: f64, random: &mut Random) {
         for _ in 0..random.whole(1, 6) {
             let normal = random.direction();
             let Ok(here) = Particle::new(planes, 1e-6 * radius, 0.0, 1.0) else { break };
-            let reach = here.support(&normal);
-            planes.push(Plane { normal, offset: reach * (1.0 - power(random, -6.0, -0.5)) });
+            let Some(reach) = here.support(&normal) else { break };
+            planes.push(Plane { normal, offset: reach * (1.0 - random.power(-6.0, -0.5)) });
         }
     }
     // Planes nearly given twice.
     if random.uniform() < 0.3 {
         for _ in 0..random.whole(1, 6) {
             let Plane { normal, offset } = planes[random.whole(0, planes.len())];
-            let tilt = if random.uniform() < 0.3 { 0.0 } else { power(random, -16.0, -1.0) };
-            let shift = if random.uniform() < 0.3 { 0.0 } else { power(random, -16.0, -2.0) };
+            let tilt = if random.uniform() < 0.3 { 0.0 } else { random.power(-16.0, -1.0) };
+            let shift = if random.uniform() < 0.3 { 0.0 } else { random.power(-16.0, -2.0) };
             let normal = normal + tilt * normal.norm() * random.direction();
             planes.push(Plane { normal, offset: offset * (1.0 - shift) });
         }
@@ -237,14 +233,14 @@ fn altered(planes: &mut Vec<Plane>, radius: f64, random: &mut Random) {
         let along = |plane: &Plane| plane.normal.dot(&direction) / plane.offset;
         let most = planes.iter().map(along).fold(0.0, f64::max);
         if most > 0.0 {
-            let way = (1.0 - power(random, -6.0, -0.1)) / most * direction;
+            let way = (1.0 - random.power(-6.0, -0.1)) / most * direction;
             planes.iter_mut().for_each(|plane| plane.offset -= plane.normal.dot(&way));
         }
     }
     // Normals of any length.
     if random.uniform() < 0.3 {
         for plane in planes {
-            let factor = power(random, -2.0, 2.0);
+            let factor = random.power(-2.0, 2.0);
             *plane = Plane { normal: factor * plane.normal, offset: factor * plane.offset };
         }
     }
@@ -261,10 +257,10 @@ fn turn(random: &mut Random) -> Rotation3<f64> {
 
 /// A box whose edges are rounded by r, about any centre.
 fn rounded_box(seed: u64, index: u64, random: &mut Random) -> Tally {
-    let half = Vector3::from_fn(|_, _| power(random, -2.0, 1.0));
-    let r = half.amin() * if random.uniform() < 0.1 { 1.0 } else { power(random, -9.0, 0.0) };
+    let half = Vector3::from_fn(|_, _| random.power(-2.0, 1.0));
+    let r = half.amin() * if random.uniform() < 0.1 { 1.0 } else { random.power(-9.0, 0.0) };
     let turn = if random.uniform() < 0.2 { Rotation3::identity() } else { turn(random) };
-    let far = if random.uniform() < 0.5 { 0.0 } else { 1.0 - power(random, -5.0, 0.0) };
+    let far = if random.uniform() < 0.5 { 0.0 } else { 1.0 - random.power(-5.0, 0.0) };
     let centre = turn * (far * half.map(|h| (h - r) * (2.0 * random.uniform() - 1.0)));
     let mut planes = Vec::new();
     for axis in 0..3 {
@@ -273,11 +269,11 @@ fn rounded_box(seed: u64, index: u64, random: &mut Random) -> Tally {
             planes.push(Plane { normal, offset: half[axis] - r + normal.dot(&centre) });
         }
     }
-    // Each plane of a pair counts with half of the weight: t² = r² again, if the normals are shorter.
+    // Planes given twice, with normals of any length, count once.
     if random.uniform() < 0.2 {
-        let share = 0.5f64.sqrt();
-        planes.iter_mut().for_each(|p| *p = Plane { normal: share * p.normal, offset: share * p.offset });
-        planes.extend(planes.clone());
+        let share = random.power(-2.0, 2.0);
+        let again = planes.iter().map(|p| Plane { normal: share * p.normal, offset: share * p.offset });
+        planes.extend(again.collect::<Vec<_>>());
     }
     let Ok(made) = Particle::new(&planes, r, 0.0, 1.0) else { return Tally::default() };
     let (volume, second) = steiner::<3>(half.map(|h| h - r), r);
@@ -318,10 +314,10 @@ fn steiner<const D: usize>(a: SVector<f64, D>, r: f64) -> (f64, SVector<f64, D>)
 /// With all offsets 0, planes n and −n give (n·x)²: an ellipsoid; of three equal weights, a sphere.
 fn ellipsoid(seed: u64, index: u64, random: &mut Random) -> Tally {
     let turn = turn(random);
-    let equal = power(random, -1.0, 1.0);
-    let weights = Vector3::from_fn(|_, _| power(random, -1.5, 1.5)).map(|w| if index % 3 == 0 { equal } else { w });
-    let k = if random.uniform() < 0.5 { 0.0 } else { power(random, -6.0, 0.0) };
-    let (r, shadow) = (power(random, -1.0, 1.0), power(random, -1.0, 1.0));
+    let equal = random.power(-1.0, 1.0);
+    let weights = Vector3::from_fn(|_, _| random.power(-1.5, 1.5)).map(|w| if index % 3 == 0 { equal } else { w });
+    let k = if random.uniform() < 0.5 { 0.0 } else { random.power(-6.0, 0.0) };
+    let (r, shadow) = (random.power(-1.0, 1.0), random.power(-1.0, 1.0));
     let mut planes = Vec::new();
     for axis in 0..3 {
         for sign in [1.0, -1.0] {
@@ -331,7 +327,7 @@ fn ellipsoid(seed: u64, index: u64, random: &mut Random) -> Tally {
     let axes = weights.map(|w| 1.0 / (w * w * (1.0 - k) / (r * r) + k / (shadow * shadow)).sqrt());
     // Planes that are never reached.
     for _ in 0..random.whole(0, 5) {
-        planes.push(Plane { normal: random.direction(), offset: axes.amax() * power(random, 0.01, 2.0) });
+        planes.push(Plane { normal: random.direction(), offset: axes.amax() * random.power(0.01, 2.0) });
     }
     let Ok(made) = Particle::new(&planes, r, k, shadow) else { return Tally::default() };
     let volume = 4.0 / 3.0 * PI * axes.product();
@@ -343,8 +339,8 @@ fn ellipsoid(seed: u64, index: u64, random: &mut Random) -> Tally {
 
 /// Rounded rectangles of the plane.
 fn plane_closed(seed: u64, index: u64, random: &mut Random) -> Tally {
-    let half = Vector2::from_fn(|_, _| power(random, -2.0, 1.0));
-    let r = half.amin() * power(random, -9.0, 0.0);
+    let half = Vector2::from_fn(|_, _| random.power(-2.0, 1.0));
+    let r = half.amin() * random.power(-9.0, 0.0);
     let angle = PI * random.uniform();
     let turn = Matrix2::new(angle.cos(), -angle.sin(), angle.sin(), angle.cos());
     let centre = turn * half.map(|h| (h - r) * (2.0 * random.uniform() - 1.0));
@@ -365,8 +361,8 @@ fn plane_closed(seed: u64, index: u64, random: &mut Random) -> Tally {
 /// Any particle of the plane.
 fn plane_any(seed: u64, index: u64, random: &mut Random) -> Tally {
     let made = loop {
-        let half = Vector2::new(power(random, -2.0, 0.0), 1.0);
-        let count = power(random, 0.5, 1.7) as usize;
+        let half = Vector2::new(random.power(-2.0, 0.0), 1.0);
+        let count = random.power(0.5, 1.7) as usize;
         let mut lines = Vec::new();
         for _ in 0..count {
             let angle = 2.0 * PI * random.uniform();
@@ -377,27 +373,27 @@ fn plane_any(seed: u64, index: u64, random: &mut Random) -> Tally {
         // Nearly given twice.
         if random.uniform() < 0.3 {
             let planar::Line { normal, offset } = lines[0];
-            let tilt = power(random, -16.0, -1.0) * Vector2::new(random.normal(), random.normal());
-            lines.push(planar::Line { normal: normal + tilt, offset: offset * (1.0 - power(random, -16.0, -2.0)) });
+            let tilt = random.power(-16.0, -1.0) * Vector2::new(random.normal(), random.normal());
+            lines.push(planar::Line { normal: normal + tilt, offset: offset * (1.0 - random.power(-16.0, -2.0)) });
         }
         let nearest = lines.iter().map(|line| line.offset).fold(f64::INFINITY, f64::min);
-        let r = nearest * power(random, -9.0, -0.1);
+        let r = nearest * random.power(-9.0, -0.1);
         // A centre far from the centroid.
         if random.uniform() < 0.4 {
             let angle = 2.0 * PI * random.uniform();
             let way = Vector2::new(angle.cos(), angle.sin());
             let most = lines.iter().map(|line| line.normal.dot(&way) / line.offset).fold(0.0, f64::max);
-            let way = (1.0 - power(random, -6.0, -0.1)) / most.max(0.1) * way;
+            let way = (1.0 - random.power(-6.0, -0.1)) / most.max(0.1) * way;
             lines.iter_mut().for_each(|line| line.offset -= line.normal.dot(&way));
         }
         if random.uniform() < 0.3 {
             for line in &mut lines {
-                let factor = power(random, -2.0, 2.0);
+                let factor = random.power(-2.0, 2.0);
                 *line = planar::Line { normal: factor * line.normal, offset: factor * line.offset };
             }
         }
-        let k = [0.0, 0.0, power(random, -13.0, 0.0)][random.whole(0, 3)];
-        if let Ok(particle) = planar::Particle::new(&lines, r, k, power(random, -0.5, 0.5)) {
+        let k = [0.0, 0.0, random.power(-13.0, 0.0)][random.whole(0, 3)];
+        if let Ok(particle) = planar::Particle::new(&lines, r, k, random.power(-0.5, 0.5)) {
             break particle;
         }
     };

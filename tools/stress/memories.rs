@@ -167,11 +167,3 @@ fn wrong(cold: &Result<Contact, DetectError>, warm: &Result<Contact, DetectError
     let comparable = cold.formulation == warm.formulation;
     (comparable && !(off <= both)).then(|| format!("s={:e}, cold {:e}, gaps {both:e}", warm.s, cold.s))
 }
-
-/// One case again.
-pub fn replay(seed: u64, index: u64) -> bool {
-    let mut ledger = Ledger::default();
-    one(seed, index, &mut ledger);
-    ledger.print("memories");
-    ledger.failures() == 0
-}

@@ -44,25 +44,21 @@ struct Written {
     answer: String,
 }
 
-fn power(random: &mut Random, low: f64, high: f64) -> f64 {
-    10f64.powf(low + (high - low) * random.uniform())
-}
-
 const KINDS: [&str; 5] = ["rectangles", "regular polygons", "random lines", "slender", "circles"];
 
 fn particle(kind: usize, random: &mut Random) -> Particle {
     loop {
-        let size = power(random, -1.0, 1.0);
+        let size = random.power(-1.0, 1.0);
         let k = match random.whole(0, 6) {
             0 | 1 => 0.0,
-            2 => power(random, -14.0, -4.0),
-            3 => 1.0 - power(random, -16.0, 0.0),
-            _ => power(random, -4.0, -0.1),
+            2 => random.power(-14.0, -4.0),
+            3 => 1.0 - random.power(-16.0, 0.0),
+            _ => random.power(-4.0, -0.1),
         };
-        let rounding = power(random, -9.0, -0.35);
+        let rounding = random.power(-9.0, -0.35);
         let made = match kind {
             0 => {
-                let (width, height) = (size, size * power(random, -0.7, 0.7));
+                let (width, height) = (size, size * random.power(-0.7, 0.7));
                 Particle::rectangle(width, height, 0.5 * rounding * width.min(height), k)
             }
             1 => Particle::regular_polygon(random.whole(3, 13), size, 0.4 * rounding * size, k),
@@ -72,15 +68,15 @@ fn particle(kind: usize, random: &mut Random) -> Particle {
                 let lines: Vec<Line> = (0..count)
                     .map(|_| {
                         let angle = std::f64::consts::TAU * random.uniform();
-                        let length = if random.uniform() < 0.2 { power(random, -2.0, 2.0) } else { 1.0 };
+                        let length = if random.uniform() < 0.2 { random.power(-2.0, 2.0) } else { 1.0 };
                         let offset = size * (0.6 + 0.4 * random.uniform()) - r;
                         Line::from([length * angle.cos(), length * angle.sin(), length * offset])
                     })
                     .collect();
-                Particle::new(&lines, r, k, size * power(random, -0.3, 0.3))
+                Particle::new(&lines, r, k, size * random.power(-0.3, 0.3))
             }
             3 => {
-                let height = size * power(random, -3.0, -1.0);
+                let height = size * random.power(-3.0, -1.0);
                 Particle::rectangle(size, height, 0.5 * rounding * height, k)
             }
             _ => Particle::circle(size),
@@ -131,15 +127,15 @@ fn places(a: &Particle, b: &Particle, random: &mut Random) -> [Place; 2] {
         (-normal.y).atan2(-normal.x) - out_b.y.atan2(out_b.x) + tilt
     };
     let sign = if random.uniform() < 0.7 { -1.0 } else { 1.0 };
-    let apart = sign * small * power(random, -15.0, 0.0);
+    let apart = sign * small * random.power(-15.0, 0.0);
     let aside = if random.uniform() < 0.5 { small * (random.uniform() - 0.5) } else { 0.0 };
     let relative =
         turned(&on_a, angle_a) - turned(&on_b, angle_b) + apart * normal + aside * Vector2::new(-normal.y, normal.x);
     let direction = std::f64::consts::TAU * random.uniform();
     let far = match random.whole(0, 3) {
         0 => 0.0,
-        1 => small * power(random, -1.0, 1.0),
-        _ => small * power(random, 3.0, 6.0),
+        1 => small * random.power(-1.0, 1.0),
+        _ => small * random.power(3.0, 6.0),
     };
     let origin = far * Vector2::new(direction.cos(), direction.sin());
     [Place { position: origin.into(), angle: angle_a }, Place { position: (origin + relative).into(), angle: angle_b }]
@@ -367,12 +363,4 @@ fn is_settled(truth: &Optimum, gap: f64) -> bool {
 /// Whether 32 digits tell the point well enough to judge it.
 fn is_known(truth: &Optimum, c: &Contact) -> bool {
     is_settled(truth, c.gap) && truth.doubt < 0.05 * c.point_bound
-}
-
-/// One case again.
-pub fn replay(seed: u64, index: u64) -> bool {
-    let mut ledger = Ledger::default();
-    one(seed, index, &mut ledger);
-    ledger.print("planar");
-    ledger.failures() == 0
 }

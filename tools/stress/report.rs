@@ -7,6 +7,7 @@ use crate::ledger::{Fault, Ledger};
 use crate::line::Line;
 use crate::machine::Machine;
 use crate::mass;
+use crate::summary::write_summary;
 use crate::sweeps::Sweep;
 use crate::tally::{Distribution, OfFamily, Tally};
 use serde::Serialize;
@@ -204,9 +205,7 @@ impl Findings {
 
     /// Writes summary.json, failures.jsonl, faults.jsonl and slowest.jsonl.
     pub fn write(&self, folder: &Path) -> io::Result<()> {
-        fs::create_dir_all(folder)?;
-        let text = serde_json::to_string_pretty(&self.summary()).map_err(io::Error::other)?;
-        fs::write(folder.join("summary.json"), text + "\n")?;
+        write_summary(folder.join("summary.json"), &self.summary())?;
         let mut failures = fs::File::create(folder.join("failures.jsonl"))?;
         for line in self.tally.found.iter().filter_map(|found| found.line.as_ref()) {
             writeln!(failures, "{}", serde_json::to_string(line).map_err(io::Error::other)?)?;

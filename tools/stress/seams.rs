@@ -138,11 +138,3 @@ fn differ(
         format!("on vertices {part_one:?}: s={:e} and {:e}, points {off:e} apart", one.s, other.s)
     })
 }
-
-/// One case again.
-pub fn replay(seed: u64, index: u64) -> bool {
-    let mut ledger = Ledger::default();
-    one(seed, index, &mut ledger);
-    ledger.print("seams");
-    ledger.failures() == 0
-}

@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
+from .files import written
 from .shapes import read_shapes
 
 # OpenGL without a display, of the package for YADE: the file stands alone.
@@ -83,9 +84,10 @@ def write_vtk(dump, shapes, stem):
         writer = vtk.vtkXMLPolyDataWriter()
         writer.SetFileName(name)
         writer.SetInputData(polydata(columns, shapes))
-        writer.Write()
+        if not writer.Write():
+            raise OSError(f"{name} could not be written")
         entries.append(f'<DataSet timestep="{step}" file="{name.rsplit("/", 1)[-1]}"/>')
-    with open(f"{stem}.pvd", "w") as file:
+    with written(f"{stem}.pvd", text=True) as file:
         file.write('<VTKFile type="Collection"><Collection>\n' + "\n".join(entries) + "\n</Collection></VTKFile>\n")
     return len(entries)
 

@@ -2,6 +2,7 @@
 """Files of shapes, as `fix potential/particle/shapes` reads them."""
 import numpy as np
 
+from .files import written
 from .library import Particle
 
 # Of the centre of mass over the radius, and of products of inertia over the largest moment.
@@ -50,7 +51,7 @@ def _axes(inertia):
 def write_shapes(path, shapes):
     """shapes: {name: Particle}. Each is written about its centre of mass and in principal axes; returns {name: (centre, rotation)}, in the old frame."""
     frames = {}
-    with open(path, "w") as file:
+    with written(path, text=True) as file:
         for name, particle in shapes.items():
             if not name or any(c.isspace() or c == "#" for c in name):
                 raise ValueError(f"shape name {name!r}: it must be one word without '#'")
@@ -89,7 +90,7 @@ def write_drum(path, radius, length, sides=48):
     for i in range(sides):
         triangles += [(near[i], near[i + 1], far[i]), (near[i + 1], far[i + 1], far[i])]
         triangles += [((0, s * 0.5 * length, 0), rims[i], rims[i + 1]) for s, rims in ((-1, near), (1, far))]
-    with open(path, "w") as file:
+    with written(path, text=True) as file:
         file.write("solid drum\n")
         for triangle in triangles:
             file.write("facet normal 0 0 0\nouter loop\n" + "".join("vertex %.7g %.7g %.7g\n" % tuple(v) for v in triangle) + "endloop\nendfacet\n")

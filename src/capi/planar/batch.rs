@@ -3,12 +3,13 @@
 use super::contact::contact;
 use super::convert::pose_from;
 use super::particle::pp_particle_2d;
-use super::types::{pp_contact_2d, pp_pose_2d};
+use super::types::pp_pose_2d;
 use crate::capi::batch::detect_batch;
 use crate::capi::status::*;
-use crate::capi::types::{pp_pair_state, pp_settings};
+use crate::capi::types::{pp_contact_2d, pp_pair_state, pp_settings};
 use crate::planar::{Particle, Pose};
 use crate::{PairState, Settings};
+use std::mem::MaybeUninit;
 
 /// Finds the contacts of many pairs of bodies of the plane: pp_contact_detect_batch with two coordinates,
 /// where every argument, status and error is explained.
@@ -31,9 +32,12 @@ pub unsafe extern "C" fn pp_contact_detect_batch_2d(
     statuses: *mut pp_status,
 ) -> pp_status {
     let (bodies, pairs, outputs) = ((particles, poses, body_count), (pairs, pair_count), (contacts, statuses));
-    let one = |a: &Body, b: &Body, settings: &Settings, state: Option<&mut PairState>, out| {
-        contact((a.0, &a.1), (b.0, &b.1), settings, state, out)
-    };
+    let one =
+        |a: &Body,
+         b: &Body,
+         settings: &Settings,
+         state: Option<&mut PairState>,
+         out: &mut MaybeUninit<pp_contact_2d>| { contact((a.0, &a.1), (b.0, &b.1), settings, state, out) };
     // SAFETY: as the caller promised.
     unsafe { detect_batch(bodies, pairs, settings, threads, states, outputs, (body, one)) }
 }

@@ -1,14 +1,15 @@
 //! The contact of one pair of the plane, its length, and one closest point alone.
 
-use super::convert::{closest_to, contact_to, pose_from};
+use super::convert::pose_from;
 use super::particle::pp_particle_2d;
-use super::types::{pp_closest_2d, pp_contact_2d, pp_pose_2d};
-use crate::capi::convert::{detect_status, role_from, settings_from, state_of};
-use crate::capi::fence::{Output, borrow, fenced, output};
+use super::types::pp_pose_2d;
+use crate::capi::convert::{contact_of, detect_status, role_from, settings_from, state_of};
+use crate::capi::fence::{borrow, fenced, output, place};
 use crate::capi::status::*;
-use crate::capi::types::{PP_OVERLAPPING, PP_SEPARATED, pp_pair_state, pp_settings};
-use crate::planar::{Contact, Particle, Pose, Section, closest_point, detect_as};
-use crate::{PairState, Settings};
+use crate::capi::types::{pp_closest_2d, pp_contact_2d, pp_pair_state, pp_settings};
+use crate::planar::{ClosestPoint, Contact, Particle, Pose, Section, closest_point, detect};
+use crate::{Kind, PairState, Settings};
+use std::mem::MaybeUninit;
 
 /// Finds the contact of particle A at pose_a with particle B at pose_b, both of the plane.
 ///
@@ -31,7 +32,7 @@ pub unsafe extern "C" fn pp_contact_detect_2d(
         // One body after the other, as of a batch.
         let (a, pose_a) = unsafe { (&borrow(a)?.0, pose_from(borrow(pose_a)?)?) };
         let (b, pose_b) = unsafe { (&borrow(b)?.0, pose_from(borrow(pose_b)?)?) };
-        let out = unsafe { output(out) }?;
+        let out = unsafe { place(out) }?;
         let settings = settings_from(unsafe { settings.as_ref() })?;
         // SAFETY: NULL or exclusively ours for the call.
         let state = unsafe { state.as_mut() }.map(state_of);
@@ -45,10 +46,11 @@ pub(super) fn contact(
     b: (&Particle, &Pose),
     settings: &Settings,
     state: Option<&mut PairState>,
-    out: Output<pp_contact_2d>,
+    out: &mut MaybeUninit<Contact>,
 ) -> Result<(), pp_status> {
-    let write = |contact: Contact| out.write(contact_to(&contact));
-    detect_as(a, b, settings, state, write).map_err(|error| detect_status(&error))
+    let found = detect(a.0, a.1, b.0, b.1, settings, state).map_err(|error| detect_status(&error))?;
+    out.write(found);
+    Ok(())
 }
 
 /// The point on one of the particles of the plane where the scale of the other is least: P1 on A, P2 on B
@@ -76,7 +78,7 @@ pub unsafe extern "C" fn pp_closest_point_2d(
         let on = role_from(on)?;
         let settings = settings_from(unsafe { settings.as_ref() })?;
         let found = closest_point(a, &pose_a, b, &pose_b, on, &settings).map_err(|error| detect_status(&error))?;
-        out.write(closest_to(found));
+        out.write(found.unwrap_or(ClosestPoint::UNKNOWN));
         Ok(())
     })
 }
@@ -100,17 +102,11 @@ pub unsafe extern "C" fn pp_contact_length_2d(
     fenced(|| {
         let (a, b) = unsafe { (&borrow(a)?.0, &borrow(b)?.0) };
         let (pose_a, pose_b) = unsafe { (pose_from(borrow(pose_a)?)?, pose_from(borrow(pose_b)?)?) };
-        let contact = unsafe { borrow(contact) }?;
+        let contact = unsafe { contact_of(contact) }?;
         let out = unsafe { output(length) }?;
-        let section = Section {
-            branch_a: contact.branch_a.into(),
-            branch_b: contact.branch_b.into(),
-            normal: contact.normal.into(),
-        };
         out.write(match contact.kind {
-            PP_OVERLAPPING => section.length(a, &pose_a, b, &pose_b).ok_or(PP_BAD_POINT)?,
-            PP_SEPARATED => 0.0,
-            _ => return Err(PP_BAD_POINT),
+            Kind::Overlapping => Section::from(contact).length(a, &pose_a, b, &pose_b).ok_or(PP_BAD_POINT)?,
+            Kind::Separated => 0.0,
         });
         Ok(())
     })

@@ -2,7 +2,8 @@
 
 use crate::ParticleError;
 use crate::capi::fence::{array, borrow, fenced, output, write_rows};
-use crate::capi::particle::{PP_MAX_PLANES, create};
+use crate::capi::message::create;
+use crate::capi::particle::PP_MAX_PLANES;
 use crate::capi::status::*;
 use crate::planar::{Line, Particle};
 use std::ffi::c_char;
@@ -23,7 +24,7 @@ pub struct pp_particle_2d(pub(super) Particle);
 /// message: receives, on failure, a sentence that names the line or value (may be NULL).
 /// Errors: PP_NULL_POINTER, PP_PLANE_NOT_FINITE, PP_PLANE_ZERO_NORMAL, PP_BAD_SPHERICITY,
 /// PP_BAD_ROUNDING_RADIUS, PP_BAD_SHADOW_RADIUS, PP_CENTRE_OUTSIDE, PP_UNBOUNDED (k = 0 and
-/// the lines enclose no area), PP_TOO_MANY_PLANES.
+/// the lines enclose no area), PP_TOO_MANY_PLANES, PP_BAD_SIZE.
 /// Pointers: lines points to 3*count doubles, out to one pointer, message to message_size bytes.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pp_particle_new_2d(

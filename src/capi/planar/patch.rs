@@ -2,12 +2,13 @@
 
 use super::convert::pose_from;
 use super::particle::pp_particle_2d;
-use super::types::{pp_contact_2d, pp_pose_2d};
+use super::types::pp_pose_2d;
+use crate::capi::convert::contact_of;
 use crate::capi::fence::{borrow, fenced, output};
-use crate::capi::patch::{kind, pp_patch_state, settings, state_of, with_points};
+use crate::capi::patch::{pp_patch_state, settings, state_of, with_points};
 use crate::capi::status::*;
-use crate::contact::contact as space;
-use crate::planar::{Contact, PatchPoint, patch_of_contact};
+use crate::capi::types::pp_contact_2d;
+use crate::planar::{PatchPoint, patch_of_contact};
 use crate::{PatchScratch, PatchSettings};
 
 /// The contact patch of two particles of the plane, a curve: the fields of struct pp_patch, with lengths in
@@ -85,22 +86,13 @@ pub unsafe extern "C" fn pp_patch_of_contact_2d(
     fenced(|| {
         let (a, b) = unsafe { (&borrow(a)?.0, &borrow(b)?.0) };
         let (pose_a, pose_b) = unsafe { (pose_from(borrow(pose_a)?)?, pose_from(borrow(pose_b)?)?) };
-        let contact = unsafe { borrow(contact) }?;
+        let contact = unsafe { contact_of(contact) }?;
         let settings = PatchSettings { with_stiffness: true, ..settings(tolerance, with_energy)? };
-        let contact = Contact {
-            kind: kind(contact.kind)?,
-            s: contact.s,
-            overlap: contact.overlap,
-            normal: contact.normal.into(),
-            branch_a: contact.branch_a.into(),
-            branch_b: contact.branch_b.into(),
-            ..Contact::from(space::Contact::UNKNOWN)
-        };
         let out = unsafe { output(patch) }?;
         let state = unsafe { state_of(state, capacity) };
         let run = |scratch: &mut PatchScratch, visit: &mut dyn FnMut(PatchPoint)| match state {
-            Some(state) => state.patch_in_plane(a, &pose_a, b, &pose_b, &contact, &settings, scratch),
-            None => patch_of_contact(a, &pose_a, b, &pose_b, &contact, &settings, scratch, visit),
+            Some(state) => state.patch_in_plane(a, &pose_a, b, &pose_b, contact, &settings, scratch),
+            None => patch_of_contact(a, &pose_a, b, &pose_b, contact, &settings, scratch, visit),
         };
         let point_to = |point: PatchPoint| pp_patch_point_2d {
             position: point.position.into(),

@@ -106,11 +106,9 @@ pub unsafe extern "C" fn pp_particle_surface_distance_2d(
 ) -> pp_status {
     fenced(|| {
         let particle = &unsafe { borrow(particle) }?.0;
-        let direction = finite(unsafe { borrow(direction.cast::<[f64; 2]>()) }?)?;
+        let direction = unsafe { borrow(direction.cast::<[f64; 2]>()) }?;
         let distance = unsafe { output(distance) }?;
-        // Scaled first, so that the squares stay in range.
-        let unit = (direction / direction.amax()).try_normalize(0.5).ok_or(PP_BAD_POINT)?;
-        distance.write(particle.surface_distance(&Vector2::zeros(), &unit).ok_or(PP_BAD_POINT)?);
+        distance.write(particle.surface_distance(&Vector2::zeros(), &(*direction).into()).ok_or(PP_BAD_POINT)?);
         Ok(())
     })
 }

@@ -15,7 +15,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(sys.argv[0]).resolve().parent))
 
-import potential_particles  # noqa: F401 (a saved scene holds its classes)
+import potential_particles
 from yade import O
 
 import scene
@@ -34,9 +34,8 @@ def go_on(steps):
 if "BODIES" in os.environ:
     scene.build(int(os.environ["BODIES"]), os.environ["FUNCTOR"])
     for step in go_on(int(os.environ["STEPS"])):
-        # In one move, so that a kill while it is written leaves no part of a save.
-        O.save(path + ".new.yade.gz")
-        os.replace(path + ".new.yade.gz", f"{path}-{step}.yade.gz")
+        # Whole or not at all, so that a kill while it is written leaves no part of a save.
+        potential_particles.save(f"{path}-{step}.yade.gz")
         print(f"saved at step {step}", flush=True)
 else:
     O.load(f"{path}-{os.environ['FROM']}.yade.gz")

@@ -27,6 +27,7 @@ sys.path.insert(0, str(TOP / "studies"))
 import machine
 import settings
 from progress import Progress
+from summary import write_summary
 
 SEED = 2012
 SHORT = "--short" in sys.argv[1:]
@@ -160,7 +161,8 @@ def killed(folder, unbroken, number, chance):
     end()
     if process.returncode != -signal.SIGKILL:
         raise SystemExit(f"the run that was to be killed ended before, with exit code {process.returncode}")
-    last = max(int(re.search(r"-(\d+)\.yade\.gz", str(path))[1]) for path in folder.glob("killed-*"))
+    # Not killed-N.yade.gz.part: the save that the kill broke off.
+    last = max(int(re.search(r"-(\d+)\.yade\.gz$", str(path))[1]) for path in folder.glob("killed-*.yade.gz"))
     found = resumed(folder, "killed", 1, last)
     return {"killed_after_step": last, "failures": found["failures"], **apart(unbroken, found, last + LATER)}
 
@@ -248,7 +250,7 @@ def main():
         summary["interrupted"] = True
     finally:
         end()
-    (out / "summary.json").write_text(json.dumps(summary, indent=1) + "\n")
+    write_summary(out / "summary.json", summary)
     show(summary)
     print(f"results: {out / 'summary.json'}")
     if summary["interrupted"]:
@@ -263,7 +265,7 @@ def main():
 
 
 def show(summary):
-    """Tables as they stand in docs/reliability_yade.md."""
+    """Tables of a run; docs/reliability.md has their sum."""
     print("\n| pile | steps | contacts asked for | failures | lost | energy, largest rise, W x size | drift in the second half "
           "| largest overlap, size | memory grew by, MiB | time, s |\n|---|---|---|---|---|---|---|---|---|---|")
     for p in summary["piles"]:

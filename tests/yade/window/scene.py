@@ -4,6 +4,7 @@
 Argument: when the plugin is imported, "before" the window is opened, "after", or "first", before YADE has made a renderer.
 PP_PICTURE in the environment names a file for the first picture.
 """
+import contextlib
 import os
 import sys
 import tempfile
@@ -27,7 +28,7 @@ if ORDER != "after":
 yade.runtime.hasDisplay = True
 from yade import qt  # noqa: E402
 application = QApplication.instance() or QApplication(sys.argv)
-view = qt.View(timeout=60)
+view = qt.View(timeout=120)
 if ORDER == "after":
     O.bodies.append(utils.sphere((0, 0, 0), 1))
     for _ in range(50):
@@ -40,6 +41,7 @@ folder = tempfile.TemporaryDirectory()
 SPACING = 2.6
 # Pixels by which an outline may be off: 1 % of a radius of some 60 pixels, the rounding to pixels, the blocks of a JPEG.
 MARGIN = 2.5
+PATIENCE = 120  # seconds, for a busy machine
 
 
 def draw(seconds=0.0):
@@ -56,12 +58,13 @@ def picture():
     draw(0.1)
     file = os.path.join(folder.name, "view%d.jpg" % len(os.listdir(folder.name)))
     view.saveSnapshot(file)
-    end = time.monotonic() + 60
-    while not os.path.exists(file):
-        if time.monotonic() > end:
-            raise RuntimeError("the window saved no picture within a minute")
-        draw()
-    return matplotlib.image.imread(file) / 255.0
+    # Until it is there, and whole.
+    end = time.monotonic() + PATIENCE
+    while time.monotonic() < end:
+        draw(0.01)
+        with contextlib.suppress(OSError):
+            return matplotlib.image.imread(file) / 255.0
+    raise RuntimeError(f"the window saved no picture within {PATIENCE} s")
 
 
 def pixels(points):
@@ -187,7 +190,9 @@ widget = next(one for one in QApplication.topLevelWidgets() if one.windowTitle()
 for name in ("pyramid", "plain pyramid"):
     column, row = pixels([bodies[name].state.pos])[0]
     QTest.mouseClick(widget, Qt.LeftButton, Qt.ShiftModifier, QPoint(int(column), int(row)))
-    draw()
+    end = time.monotonic() + PATIENCE
+    while view.selection != bodies[name].id and time.monotonic() < end:
+        draw(0.01)
     check.equal(view.selection, bodies[name].id, f"the body under a click on the {name}")
 view.selection = -1
 

@@ -37,6 +37,7 @@ import builtins
 import functools
 import importlib.util
 import pkgutil
+import sys
 
 from . import builds, window
 from .bodies import body
@@ -46,14 +47,15 @@ from .lammps import to_lammps
 from .measures import body_stresses, coordination_number, extrema, fabric_tensor, overlap_ratio, porosity, solid_volume, stress
 from .outside import protect_runs
 from .packing import add_packing, pack
+from .saves import save
 from .specimen import grading_curve, sampled_porosity
 from .time_step import critical_time_step, time_stepper
 
-__version__ = "0.1.0"
+__version__ = "0.2.0"
 
 __all__ = ["AbiError", "Mesh", "Recorder", "SceneWarning", "add_clump", "add_packing", "body", "body_stresses", "bond_contacts", "check", "clump", "coordination_number",
            "critical_time_step", "extrema", "fabric_tensor", "grading_curve", "library_version", "mesh", "overlap_ratio", "pack", "plot", "porosity",
-           "prepare", "protect_runs", "sampled_porosity", "save_mesh", "solid_volume", "stress", "time_stepper", "to_lammps", "use_joints"]
+           "prepare", "protect_runs", "sampled_porosity", "save", "save_mesh", "solid_volume", "stress", "time_stepper", "to_lammps", "use_joints"]
 
 
 class AbiError(ImportError):
@@ -224,15 +226,16 @@ def library_version():
 
 
 def _take_numpy_names():
-    """The names of the package of the same name for numpy arrays (docs/wheel.md), if it is installed beside this one, whose own names stay."""
+    """The names of the package of the same name for numpy arrays (docs/wheel.md), whose objects they are; False where it is not installed beside this one."""
     global __path__
     __path__ = pkgutil.extend_path(__path__, __name__)
     if importlib.util.find_spec("._api", __name__) is None:
-        return
+        return False
     from . import _api
     for name in _api.__all__:
-        globals().setdefault(name, getattr(_api, name))
+        globals()[name] = getattr(_api, name)
         __all__.append(name)
+    return True
 
 
 def _load():
@@ -253,10 +256,12 @@ def _load():
     return glue
 
 
-_glue = _load()
-
-# After the classes that they serve.
-from .check import SceneWarning, check  # noqa: E402, F401
-from .output import Mesh, Recorder, mesh, plot, save_mesh  # noqa: E402, F401
-
-_take_numpy_names()
+_in_yade = "yade" in sys.modules or importlib.util.find_spec("yade") is not None
+# A Python without YADE has the names for numpy arrays alone, whichever of both packages comes first on the path.
+if not _in_yade:
+    __all__.clear()
+if not _take_numpy_names() or _in_yade:
+    _glue = _load()
+    # After the classes that they serve.
+    from .check import SceneWarning, check  # noqa: F401
+    from .output import Mesh, Recorder, mesh, plot, save_mesh  # noqa: F401

@@ -4,6 +4,15 @@ import math
 
 import numpy as np
 
+# Of what a script gives. Fifth powers of lengths, as moments of inertia are, and what is made of a few of them, are doubles with all their digits.
+LEAST, MOST = 1e-50, 1e50
+# Of what is made one by one in Python: more takes minutes or all memory, and is taken for a mistake.
+MANY = 1_000_000
+# Seeds, steps and numbers of things that are elsewhere: doubles count as far as this.
+LARGE = 2**53
+# The library has no particles of more.
+MOST_PLANES = 65_536
+
 
 def number(value, name):
     """A finite number, or ValueError."""
@@ -13,6 +22,8 @@ def number(value, name):
         raise ValueError(f"{name}={value!r} is no number") from None
     if not math.isfinite(found):
         raise ValueError(f"{name}={found} must be finite")
+    if abs(found) > MOST:
+        raise ValueError(f"{name}={found:g} must lie between {-MOST:g} and {MOST:g}")
     return found
 
 
@@ -21,6 +32,8 @@ def positive(value, name):
     found = number(value, name)
     if found <= 0.0:
         raise ValueError(f"{name}={found:g} must be above 0")
+    if found < LEAST:
+        raise ValueError(f"{name}={found:g} must be at least {LEAST:g}")
     return found
 
 
@@ -48,17 +61,37 @@ def radians(value, name):
     return found
 
 
-def whole(value, least, name):
-    """A whole number that is not below `least`, or ValueError."""
+def whole(value, least, most, name):
+    """A whole number from `least` to `most`, or ValueError."""
     found = number(value, name)
-    if found != int(found) or found < least:
-        raise ValueError(f"{name}={value!r} must be a whole number of at least {least}")
+    if found != int(found) or not least <= found <= most:
+        raise ValueError(f"{name}={value!r} must be a whole number between {least} and {most:.10g}")
     return int(found)
 
 
 def vector(value, name):
-    """Three finite numbers as an array, or ValueError."""
-    return rows([value], 3, name, "the three numbers x, y, z")[0]
+    """Three numbers as an array, or ValueError."""
+    return bearable(rows([value], 3, name, "the three numbers x, y, z"), name)[0]
+
+
+def bearable(points, name, note=""):
+    """Points (n, 3) as they are, if each of their numbers is finite and bearable, or ValueError that says which is not."""
+    fine = (np.abs(points) <= MOST).all(1)
+    if not fine.all():
+        first = int(np.argmin(fine))
+        found = ", ".join(f"{one:g}" for one in points[first])
+        raise ValueError(f"{name}{f' {first}' if len(points) > 1 else ''}=({found}){note}: each number must lie between {-MOST:g} and {MOST:g}")
+    return points
+
+
+def unit(value, name):
+    """The direction of a vector of any length as a unit vector (3,), or ValueError."""
+    found = rows([value], 3, name, "the three numbers x, y, z")[0]
+    largest = np.abs(found).max()
+    if not largest > 0.0:
+        raise ValueError(f"{name}={tuple(found)} has no direction: it must not be zero")
+    found = found / largest
+    return found / np.linalg.norm(found)
 
 
 def rows(values, width, name, meaning):
@@ -80,7 +113,8 @@ def unit_quaternion(value, name):
     if hasattr(value, "toAxisAngle"):
         value = (value[3], value[0], value[1], value[2])
     found = rows([value], 4, name, "a Quaternion or the four numbers w, x, y, z")[0]
-    length = np.linalg.norm(found)
-    if not 1e-100 < length < 1e100:
+    largest = np.abs(found).max()
+    if not largest > 0.0:
         raise ValueError(f"{name}={tuple(found)} has no direction: a quaternion must not be zero")
-    return found / length
+    found = found / largest
+    return found / np.linalg.norm(found)

@@ -10,7 +10,7 @@ import typing
 
 import numpy as np
 
-from .arguments import positive, rows, vector, whole
+from .arguments import MANY, positive, rows, vector, whole
 
 
 def box_walls(lower, upper, material=None, lid=False, facets=10, **more):
@@ -64,7 +64,7 @@ def _outline(opening, sides, name, closed=False):
         x, y = (0.5 * allowed(width, name) for width in rows([opening], 2, name, "the two widths along x and y")[0])
         return [(x, -y), (x, y), (-x, y), (-x, -y)]
     radius = allowed(opening, name)
-    angles = 2.0 * math.pi * np.arange(whole(sides, 3, "sides")) / sides
+    angles = 2.0 * math.pi * np.arange(whole(sides, 3, MANY, "sides")) / sides
     return [(radius * math.cos(angle), radius * math.sin(angle)) for angle in angles]
 
 
@@ -75,7 +75,7 @@ def _not_negative(value, name):
 def _meshed(quads, facets, material, more) -> typing.List:
     from yade import utils
     quads = [[np.asarray(corner, float) for corner in quad] for quad in quads]
-    wanted = whole(facets, 1, "facets")
+    wanted = whole(facets, 1, MANY, "facets")
     triangles = _triangles(quads, math.inf)
     # Edges of the length at which squares of the same area would be as many, and shorter until they are.
     length = math.sqrt(2.0 * sum(map(_area, triangles)) / wanted)
@@ -90,9 +90,11 @@ def _meshed(quads, facets, material, more) -> typing.List:
 def _triangles(quads, length):
     """Triangles of quadrilaterals (p, q, r, s) whose edges are cut into pieces of at most this length; none without area."""
     found = []
-    for p, q, r, s in quads:
-        n = _pieces(length, q - p, r - s)
-        m = _pieces(length, s - p, r - q)
+    pieces = [(_pieces(length, q - p, r - s), _pieces(length, s - p, r - q)) for p, q, r, s in quads]
+    needed = sum(2 * n * m for n, m in pieces)
+    if needed > 4 * MANY:
+        raise ValueError(f"the surface is so long and narrow that {needed:.3g} facets of equal edges are needed, and no more than {4 * MANY} are made: give fewer facets, or cut it up")
+    for (p, q, r, s), (n, m) in zip(quads, pieces):
         grid = [[(1 - v) * ((1 - u) * p + u * q) + v * ((1 - u) * s + u * r) for v in np.linspace(0, 1, m + 1)]
                 for u in np.linspace(0, 1, n + 1)]
         for i in range(n):

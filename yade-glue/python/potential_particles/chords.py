@@ -9,7 +9,7 @@ import math
 
 import numpy as np
 
-from .arguments import whole
+from .arguments import LARGE, MANY, whole
 
 # Grids that are shifted against each other, whose scatter is the error; 95 % of Student's distribution with one degree less.
 GRIDS, _STUDENT = 8, 2.36
@@ -89,8 +89,8 @@ def scatter(values):
 
 def grids(lines, seed):
     """(places (GRIDS n, 2) in the unit square of about `lines` lines, n): GRIDS lattices of n points, one after the other, shifted at random by `seed`."""
-    side = max(2, round(math.sqrt(whole(lines, 1, "lines") / GRIDS)))
-    random = np.random.default_rng(whole(seed, 0, "seed"))
+    side = max(2, round(math.sqrt(whole(lines, 1, 10 * MANY, "lines") / GRIDS)))
+    random = np.random.default_rng(whole(seed, 0, LARGE, "seed"))
     return np.concatenate([_grid(side, random) for _ in range(GRIDS)]), side**2
 
 

@@ -7,7 +7,8 @@ import typing
 import numpy as np
 
 from .arguments import positive, whole
-from .mesh_file import read, refuse_open, volume_within
+from .mesh_file import read, scaled, volume_within
+from .polyhedron import refuse_open
 from .rounding import SPHERICITY
 
 MISSING = ("cutting a surface into convex parts needs the Python package coacd (pip install --target DIR coacd, DIR on PYTHONPATH), or vhacdx: neither can "
@@ -27,34 +28,34 @@ class Parts(typing.NamedTuple):
         return f"<Parts {self.name}: {len(self.shapes)} parts of {planes} planes in all, volume {self.volume:.4g}, of their union {self.error:+.2g} off>"
 
 
-def clump_from_mesh(file, parts=16, planes=24, concavity=0.05, r=None, k=SPHERICITY, scale=1.0, name=None):
+def clump_from_mesh(file, parts=16, planes=24, concavity=0.05, rounding=None, k=SPHERICITY, scale=1.0, name=None, *, r=None):
     """Parts of a closed surface in a file (.stl, .obj, .gts): at most `parts` convex ones of at most `planes` planes each.
 
     potential_particles.add_clump makes a clump of them. concavity: how far the hull of a part may lie from the surface, as coacd counts it (0.01 to
-    1). r: a fraction of the size of each part; None: chosen so that each part keeps its volume. Parts share their cuts, so that the union has no gaps but
+    1). rounding: a share of the size of each part, or r: a length; without both, r is chosen so that each part keeps its volume. Parts share their cuts, so that the union has no gaps but
     those of their rounding; `error` says what its volume is off, measured along 20,000 lines. ImportError with the package to install where there is neither
     coacd nor vhacdx, ValueError for a surface that is open.
     """
-    parts, concavity, scale = whole(parts, 1, "parts"), positive(concavity, "concavity"), positive(scale, "scale")
+    parts, concavity, scale = whole(parts, 1, 65_536, "parts"), positive(concavity, "concavity"), positive(scale, "scale")
     name = name or os.path.splitext(os.path.basename(file))[0]
     cut = _cutter()
     points, triangles = read(file)
     try:
         refuse_open(points, triangles)
     except ValueError as error:
-        raise ValueError(f"{file}: {error}; close it first") from None
-    points = points * scale
+        raise ValueError(f"{file}: {error}") from None
+    points = scaled(points, scale, file)
     volume = volume_within(points, triangles)
     # The cutters' own tolerances are absolute.
     middle, size = 0.5 * (points.max(0) + points.min(0)), np.ptp(points, axis=0).max()
     pieces = [np.asarray(piece, float) * size + middle for piece in cut((points - middle) / size, triangles, parts, concavity)]
-    made = tuple(_part(piece, planes, r, k, f"{name}, part {number}") for number, piece in enumerate(pieces))
+    made = tuple(_part(piece, planes, rounding, k, r, f"{name}, part {number}") for number, piece in enumerate(pieces))
     return Parts(made, volume, _union(made) / volume - 1.0, name)
 
 
-def _part(points, planes, r, k, name):
+def _part(points, planes, rounding, k, r, name):
     from .shapes import from_vertices
-    return from_vertices(points, r, k, name=name, planes=planes)
+    return from_vertices(points, rounding, k, name=name, planes=planes, r=r)
 
 
 def _union(made):

@@ -5,13 +5,12 @@ Read here, since GTS's own reader ends the process where edges do not make the t
 """
 import numpy as np
 
-from .mesh_check import numbers
+from .mesh_text import numbers, read_text
 
 
 def read_gts(file):
     """Points (n, 3) and triangles (m, 3), numbers of points; ValueError for what is no such file."""
-    with open(file) as opened:
-        lines = [line.split() for line in opened if line.strip() and line.lstrip()[0] not in "#!"]
+    lines = [line.split() for line in read_text(file) if line.strip() and line.lstrip()[0] not in "#!"]
     if not lines:
         raise ValueError("it holds no line")
     counts = numbers(lines[0][:3], int, 3, "the first line")

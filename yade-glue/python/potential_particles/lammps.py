@@ -7,6 +7,7 @@ from typing import NamedTuple
 from . import lammps_joints, lammps_limits
 from .arguments import number, positive
 from .bodies import is_free
+from .files import written
 from .joints import given_by_engines
 
 PARTICLES = ("ConicPotentialParticle", "PotentialParticle")
@@ -109,12 +110,14 @@ def to_lammps(stem, normal_stiffness=None, shear_stiffness=None, friction=None, 
     lammps_limits.warn_of_engines(yade.O)
     gravity = next((engine.gravity for engine in yade.O.engines if type(engine).__name__ == "NewtonIntegrator"), yade.Vector3.Zero)
     size = min(_volume(kind.definition) for kind in kinds) ** (1 / 3)
-    paths[2].write_text(SCRIPT.format(
+    script = SCRIPT.format(
         name=stem.name, boundary=boundary, style=style, law=coefficients, walls=commands, dt=float(yade.O.dt), skin=0.2 * size,
         types=" ".join(f"type {n} shape{n} {kind.density!r}" for kind, n in kinds.items()),
         free=" ".join(str(n) for kind, n in kinds.items() if kind.free) or "0",
         moving=_moving(kinds), loads=LOADS if loaded else "", load_rows=" fix loads NULL loads" if loaded else "", pushing=PUSHING if loaded else "",
-        gravity=f"fix weight free gravity {gravity.norm()!r} vector {_text(gravity)}\n" if gravity.norm() > 0 else ""))
+        gravity=f"fix weight free gravity {gravity.norm()!r} vector {_text(gravity)}\n" if gravity.norm() > 0 else "")
+    with written(paths[2], text=True) as file:
+        file.write(script)
     return paths
 
 
@@ -184,7 +187,7 @@ def _volume(definition):
 
 
 def _write_shapes(path, kinds):
-    with open(path, "w") as file:
+    with written(path, text=True) as file:
         for kind, n in kinds.items():
             planes, r, k, R = kind.definition
             file.write(f"shape shape{n}\nr {r!r}\nk {k!r}\nR {R!r}\n")
@@ -208,7 +211,7 @@ def _write_data(path, rows, types, margin, loaded):
         low, high = extrema()
         space = yade.Vector3.Ones * (margin * (high - low).norm())
         low, high, boundary = low - space, high + space, "f f f"
-    with open(path, "w") as file:
+    with written(path, text=True) as file:
         file.write(f"a scene of YADE, step {yade.O.iter}\n\n{len(rows)} atoms\n{types} atom types\n"
                    + "".join(f"{l!r} {h!r} {axis}lo {axis}hi\n" for axis, l, h in zip("xyz", map(float, low), map(float, high))))
         # The diameter and density are replaced by those of the shape.
@@ -223,7 +226,7 @@ def _write_data(path, rows, types, margin, loaded):
 
 
 def _write_stl(path, facets):
-    with open(path, "w") as file:
+    with written(path, text=True) as file:
         file.write("solid facets\n")
         for facet in facets:
             file.write("facet normal 0 0 0\nouter loop\n" + "".join(f"vertex {_text(vertex)}\n" for vertex in facet) + "endloop\nendfacet\n")

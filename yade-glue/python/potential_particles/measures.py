@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Extrema, volume, porosity, contacts and stress of scenes with potential particles.
 
-YADE's own count spheres alone: utils.aabbExtrema() and porosity() are NaN for these bodies, porosity(volume) and voxelPorosity() 1,
-getSpheresVolume() 0 and RayleighWaveTimeStep() infinite. kineticEnergy(), momentum(), angularMomentum() and unbalancedForce() are right (the last is
+YADE's own count spheres alone: what utils.aabbExtrema(), porosity(), voxelPorosity(), getSpheresVolume() and RayleighWaveTimeStep() give for these
+bodies is undefined. kineticEnergy(), momentum(), angularMomentum() and unbalancedForce() are right (the last is
 NaN as long as there is no contact).
 """
 import math

@@ -16,7 +16,7 @@ import time
 import typing
 
 from .arguments import number as finite
-from .arguments import positive, rows, vector, whole
+from .arguments import LARGE, MANY, positive, rows, vector, whole
 
 
 class Box(typing.NamedTuple):
@@ -65,12 +65,12 @@ def pack(container, shapes, sizes=None, number=None, dense=False, seed=0, margin
         raise ValueError(f"shares={shares!r} must be 'number', 'mass' or 'passing'")
     if number is None and not dense:
         raise ValueError("say how many: number=..., or dense=True for as many as fit")
-    wanted = None if number is None else whole(number, 1, "number")
+    wanted = None if number is None else whole(number, 1, 10 * MANY, "number")
     kind, lower, upper = _space(container)
     how = {
         "container": choices[kind], "arrangement": choices["settled" if dense else "scattered"], "shares": choices[shares],
-        "threads": len(os.sched_getaffinity(0)) if threads is None else whole(threads, 1, "threads"),
-        "lower": lower, "upper": upper, "margin": finite(margin, "margin"), "seed": whole(seed, 0, "seed"), "number": wanted or 0,
+        "threads": len(os.sched_getaffinity(0)) if threads is None else whole(threads, 1, 1024, "threads"),
+        "lower": lower, "upper": upper, "margin": finite(margin, "margin"), "seed": whole(seed, 0, LARGE, "seed"), "number": wanted or 0,
     }
     report = _Report(wanted, progress)
     placements = []

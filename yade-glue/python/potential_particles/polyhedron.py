@@ -1,110 +1,167 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The sharp convex polyhedron behind a particle, from its planes or its points (scipy's Qhull and HiGHS)."""
+"""The sharp convex polyhedron behind a particle, and the particle that is made of it by rounding: by the library."""
+import functools
+import weakref
+
 import numpy as np
-from scipy.optimize import linprog
-from scipy.spatial import ConvexHull, QhullError
 
-# Two faces are one if, relative to the size of the body, the corners of one lie this close to the plane of the other.
-# The numbers of a binary .stl file are good to 6e-8.
-COPLANAR = 1e-6
+from . import library
+from .shape import Shape
 
-# A body thinner than this share of its length is flat.
-FLAT = 1e-9
-
-OPEN = "the planes enclose no volume: add the planes that are missing"
+# Of volume, centroid and inertia, relative.
+TOLERANCE = 1e-6
 
 
 class Polyhedron:
-    """{x : n_i.x <= h_i}, bounded: rows of `normals` (n, 3) of unit length, `offsets` (n,), `corners` (m, 3), one frame."""
+    """{x : n_i.x <= h_i}, bounded. The frame is that of the planes or points of which it is made."""
 
-    def __init__(self, normals, offsets, corners):
-        self.normals, self.offsets, self.corners = normals, offsets, corners
-        self.ball_centre, self.ball_radius = largest_ball(normals, offsets)
+    def __init__(self, handle):
+        self._handle = handle
+        weakref.finalize(self, library.free, "pp_polyhedron_free", handle).atexit = False
 
     @classmethod
-    def of_points(cls, points):
-        """The convex hull of points (n, 3), coplanar triangles of it as one face; ValueError where it has no volume."""
-        if len(points) < 4:
-            raise ValueError(f"{len(points)} points enclose no volume: at least 4 are needed")
-        refuse_flat(points)
-        # About their middle and with one length of 1, so that the places and units of the points do not matter.
-        middle = 0.5 * (points.max(0) + points.min(0))
-        scale = np.ptp(points, axis=0).max()
-        hull = ConvexHull((points - middle) / scale)
-        normals, offsets = _faces(hull)
-        return cls(normals, scale * offsets + normals @ middle, points[hull.vertices])
+    def of_points(cls, points, known=0.0):
+        """The convex hull of points (n, 3); ValueError where it has no volume.
+
+        Triangles that lie within 1e-6 of the extent of the plane of a larger one are one face with it, or within `known`, the
+        length to which the points are known.
+        """
+        points = _rows(points, 3)
+        return cls(library.made("pp_polyhedron_from_points", points, len(points), float(known)))
 
     @classmethod
     def of_planes(cls, normals, offsets):
-        """{n_i.x <= h_i}, without planes that make no face; ValueError where that is empty or has no end."""
-        lengths = np.linalg.norm(normals, axis=1)
-        if not np.all(lengths > 0.0):
-            raise ValueError(f"plane {int(np.argmin(lengths))} has a normal of length zero: give it a direction or remove it")
-        normals, offsets = normals / lengths[:, None], offsets / lengths
-        centre, radius = largest_ball(normals, offsets)
-        # Polar reciprocal about the centre of the ball: the facets of the hull of n/h are the corners of the polyhedron.
-        dual = normals * (radius / (offsets - normals @ centre))[:, None]
-        try:
-            hull = ConvexHull(dual)
-        except QhullError:
-            raise ValueError(OPEN) from None
-        heights = -hull.equations[:, 3]
-        if not np.all(heights > FLAT):
-            raise ValueError(OPEN)
-        corners = centre + radius * hull.equations[:, :3] / heights[:, None]
-        used = hull.vertices
-        return cls(normals[used], offsets[used], corners)
+        """{n_i.x <= h_i}, normals of any length; planes that make no face of their own are left out.
+
+        ValueError where that is empty or has no end.
+        """
+        planes = np.column_stack([normals, offsets]).astype(float)
+        return cls(library.made("pp_polyhedron_from_faces", np.ascontiguousarray(planes), len(planes)))
+
+    @classmethod
+    def of_surface(cls, points, triangles, known=0.0):
+        """What a closed convex surface encloses: points (n, 3), triangles (m, 3).
+
+        ValueError that says where it is open, not convex or crosses itself.
+        """
+        points, triangles = _rows(points, 3), np.ascontiguousarray(triangles, np.uint32)
+        given = points, len(points), triangles, len(triangles), float(known)
+        return cls(library.made("pp_polyhedron_from_surface", *given))
+
+    @classmethod
+    def prism(cls, sides, radius, top_radius, height):
+        """A regular prism, frustum or pyramid along z from -height/2 to height/2; the first side faces x.
+
+        radius, top_radius: of the circles within its ends.
+        """
+        return cls(library.made("pp_polyhedron_prism", int(sides), float(radius), float(top_radius), float(height)))
+
+    @classmethod
+    def regular_solid(cls, faces, edge):
+        """The regular solid of 4, 6, 8, 12 or 20 faces with this length of edges, about the origin."""
+        return cls(library.made("pp_polyhedron_regular_solid", int(faces), float(edge)))
+
+    @functools.cached_property
+    def planes(self):
+        """Rows (n, 4) of a, b, c, h, unit normals, the largest face first."""
+        return library.rows("pp_polyhedron_faces", self._handle, 4)
+
+    @property
+    def normals(self):
+        """(n, 3), of unit length."""
+        return self.planes[:, :3]
+
+    @property
+    def offsets(self):
+        """(n,) h, length."""
+        return self.planes[:, 3]
+
+    @functools.cached_property
+    def corners(self):
+        """(m, 3)."""
+        return library.rows("pp_polyhedron_corners", self._handle, 3)
+
+    @functools.cached_property
+    def triangles(self):
+        """(l, 3) numbers of corners, counter-clockwise from outside; those of a face may be several."""
+        return library.rows("pp_polyhedron_triangles", self._handle, 3, np.uint32)
+
+    @functools.cached_property
+    def _properties(self):
+        mass, size = np.empty(11), np.empty(1)
+        library.call("pp_polyhedron_properties", self._handle, mass, size)
+        return mass, float(size[0])
 
     @property
     def volume(self):
         """Of the sharp body."""
-        return ConvexHull(self.corners - self.ball_centre).volume
+        return float(self._properties[0][0])
 
     @property
     def centroid(self):
         """Of the volume."""
-        hull = ConvexHull(self.corners - self.ball_centre)
-        a, b, c = (hull.points[hull.simplices[:, i]] for i in range(3))
-        volumes = np.abs(np.einsum("ij,ij->i", a, np.cross(b, c)))
-        return self.ball_centre + volumes @ (a + b + c) / (4.0 * volumes.sum())
+        return self._properties[0][1:4]
+
+    @property
+    def inertia(self):
+        """(3, 3) about the centroid for density 1."""
+        xx, yy, zz, xy, yz, zx = self._properties[0][4:10]
+        return np.array([[xx, xy, zx], [xy, yy, yz], [zx, yz, zz]])
+
+    @property
+    def size(self):
+        """The diameter of the largest ball that fits inside."""
+        return self._properties[1]
+
+    def rounded(self, r, k, R, name, tolerance=TOLERANCE):
+        """The Shape whose faces are here, with rounding radius r (length), sphericity k and shadow radius R (length).
+
+        R=None: to the farthest corner. tolerance: of volume and inertia, relative.
+        """
+        built = np.empty(18)
+        given = self._handle, float(r), float(k), float(R or 0.0), float(tolerance)
+        particle = library.made("pp_particle_from_polyhedron", *given, results=[built])
+        try:
+            radii = np.empty(2)
+            library.call("pp_particle_shadow_radius", particle, radii[:1])
+            library.call("pp_particle_bounding_radius", particle, radii[1:])
+            planes = library.rows("pp_particle_planes", particle, 4)
+        finally:
+            library.free("pp_particle_free", particle)
+        shadow, bounding = radii.tolist()
+        built = built.tolist()
+        return Shape(
+            planes=tuple(map(tuple, planes.tolist())), r=float(r), k=float(k), R=shadow, volume=built[7],
+            error=built[17], inertia=tuple(built[11:14]), centroid=tuple(built[:3]), orientation=tuple(built[3:7]),
+            bounding_radius=bounding, name=name)
 
 
-def largest_ball(normals, offsets):
-    """Centre and radius of the largest ball in {n_i.x <= h_i}, |n_i| = 1; ValueError where there is none."""
-    scale = np.abs(offsets).max()
-    if not scale > 0.0:
-        raise ValueError("all planes pass through one point: the planes enclose no volume")
-    system = np.column_stack([normals, np.ones(len(normals))])
-    found = linprog([0.0, 0.0, 0.0, -1.0], system, offsets / scale, bounds=[(None, None)] * 3 + [(0.0, None)], method="highs")
-    if found.status == 2 or found.status == 0 and found.x[3] <= FLAT:
-        raise ValueError("no point lies inside all planes: turn their normals outwards, or move them apart")
-    if found.status != 0:
-        raise ValueError(OPEN)
-    return found.x[:3] * scale, found.x[3] * scale
+def refuse_open(points, triangles):
+    """ValueError that says where, if an edge of a surface does not join two triangles."""
+    points, triangles = _rows(points, 3), np.ascontiguousarray(triangles, np.uint32)
+    library.refuse("pp_surface_is_closed", points, len(points), triangles, len(triangles))
 
 
-def refuse_flat(points):
-    """ValueError if points (n, 3) lie in a plane."""
-    middle = points.mean(0)
-    _, extents, axes = np.linalg.svd(points - middle, full_matrices=False)
-    if not extents[-1] > FLAT * extents[0]:
-        normal = ", ".join(f"{one:.3g}" for one in axes[-1])
-        place = ", ".join(f"{one:.6g}" for one in middle)
-        raise ValueError(f"the {len(points)} points are flat: all lie in the plane through ({place}) with the normal ({normal})")
+def principal_axes(inertia):
+    """Principal axes of a symmetric matrix (3, 3), each the one nearest to an axis of its frame.
+
+    (w, x, y, z), w >= 0, from them to the frame; the same as a rotation (3, 3), whose columns they are; the moments about
+    them (3,).
+    """
+    inertia, orientation = np.asarray(inertia, float), np.empty(4)
+    six = np.array([inertia[i, j] for i, j in ((0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (0, 2))])
+    library.call("pp_principal_axes", six, orientation)
+    axes = rotation(orientation)
+    return orientation, axes, np.diag(axes.T @ inertia @ axes)
 
 
-def _faces(hull):
-    """Normals and offsets of the faces of a hull of size 1, large triangles first, without those that lie in another's plane."""
-    a, b, c = (hull.points[hull.simplices[:, i]] for i in range(3))
-    areas = np.linalg.norm(np.cross(b - a, c - a), axis=1)
-    left = np.argsort(-areas, kind="stable")
-    normals = []
-    while len(left):
-        normal = hull.equations[left[0], :3]
-        height = (hull.points[hull.vertices] @ normal).max()
-        corners = hull.points[hull.simplices[left]] @ normal
-        left = left[1:][(corners.min(1) < height - COPLANAR)[1:]]
-        normals.append(normal)
-    normals = np.array(normals)
-    # No corner is cut off.
-    return normals, (hull.points[hull.vertices] @ normals.T).max(0)
+def rotation(orientation):
+    """The rotation matrix (3, 3) of (w, x, y, z) of unit length."""
+    w, x, y, z = orientation
+    return np.array([[1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+                     [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+                     [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)]])
+
+
+def _rows(points, width):
+    return np.ascontiguousarray(points, float).reshape(-1, width)

@@ -12,11 +12,9 @@ import random as _random
 
 import numpy as np
 
-from . import shapes
-from .arguments import positive, rows, vector, whole
+from .arguments import MOST_PLANES, positive, rows, vector, whole
 from .bodies import body
 from .polyhedron import Polyhedron
-from .rounding import rounded
 
 
 def potentialblock(material, a=[], b=[], c=[], d=[], r=0.0, R=0.0, mask=1, isBoundary=False, fixed=False, color=[-1, -1, -1]):
@@ -65,7 +63,7 @@ def cylindricalPlates(material, radius=0.0, height=0.0, thickness=0.0, numFaces=
     """Plates that form a hollow prism of `numFaces` sides about z, `radius` that of the circle within, heights from -height/2 to height/2; and
     its lids, below and above, for which `lid` says whether to make them. thickness: 0 for a tenth of the radius.
     """
-    radius, height, sides = positive(radius, "radius"), positive(height, "height"), whole(numFaces, 3, "numFaces")
+    radius, height, sides = positive(radius, "radius"), positive(height, "height"), whole(numFaces, 3, MOST_PLANES - 2, "numFaces")
     thickness = positive(thickness or 0.1 * radius, "thickness")
     outer, half_angle = radius + thickness, math.pi / sides
     colour = color or [-1, -1, -1]
@@ -93,10 +91,8 @@ def prism(material, radius1=0.0, radius2=-1, thickness=0.0, numFaces=3, r=0.0, R
     radius = positive(radius1, "radius1")
     upper = radius if radius2 == -1 else radius2
     height = positive(thickness or radius, "thickness")
-    angles = [2.0 * math.pi * i / whole(numFaces, 3, "numFaces") for i in range(int(numFaces))]
-    sides = [(math.cos(angle), math.sin(angle), (radius - upper) / height, 0.5 * (radius + upper)) for angle in angles]
-    return _faced(sides + [(0, 0, 1, 0.5 * height), (0, 0, -1, 0.5 * height)],
-                  r, material, center or (0, 0, 0), mask, isBoundary, fixed, color, "prism")
+    sharp = Polyhedron.prism(whole(numFaces, 3, MOST_PLANES - 2, "numFaces"), radius, upper, height)
+    return _body(sharp, r, material, center or (0, 0, 0), mask, isBoundary, fixed, color, "prism")
 
 
 def platonic_solid(material, numFaces, edge=0.0, ri=0.0, rm=0.0, rc=0.0, volume=0.0, r=0.0, R=None, center=[0, 0, 0], mask=1,
@@ -104,22 +100,22 @@ def platonic_solid(material, numFaces, edge=0.0, ri=0.0, rm=0.0, rc=0.0, volume=
     """The regular solid of 4, 6, 8, 12 or 20 faces, by one of its edge, inradius, midradius, circumradius or volume."""
     if sum(one > 0.0 for one in (edge, ri, rm, rc, volume)) != 1:
         raise ValueError("give one of edge, ri, rm, rc and volume, and only one, above 0")
-    points, length = shapes.regular_solid(numFaces)
-    unit = points / length
-    sharp = Polyhedron.of_points(unit)
-    inner, outer = sharp.ball_radius, np.linalg.norm(unit, axis=1).max()
+    unit = Polyhedron.regular_solid(whole(numFaces, 0, MOST_PLANES, "faces"), 1.0)
+    inner, outer = 0.5 * unit.size, np.linalg.norm(unit.corners, axis=1).max()
     middle = math.sqrt(outer**2 - 0.25)
-    size = edge or ri / inner or rm / middle or rc / outer or (volume / sharp.volume) ** (1.0 / 3.0)
-    planes = [(*n, h * size) for n, h in zip(sharp.normals, sharp.offsets)]
-    return _faced(planes, r, material, center, mask, isBoundary, fixed, color, "platonic solid")
+    sharp = Polyhedron.regular_solid(numFaces, edge or ri / inner or rm / middle or rc / outer or (volume / unit.volume) ** (1.0 / 3.0))
+    return _body(sharp, r, material, center, mask, isBoundary, fixed, color, "platonic solid")
 
 
 def _faced(faces, r, material, center, mask, isBoundary, fixed, color, name):
-    """A body whose faces are the planes (a, b, c, h), with the rounding radius r, a length; 0: half of the least h."""
+    """A body whose faces are the planes (a, b, c, h)."""
     faces = np.array(faces, float)
-    polyhedron = Polyhedron.of_planes(faces[:, :3], faces[:, 3])
-    r = positive(r or 0.5 * polyhedron.offsets.min(), "r")
-    shape = rounded(polyhedron, r, 0.0, None, name)
+    return _body(Polyhedron.of_planes(faces[:, :3], faces[:, 3]), r, material, center, mask, isBoundary, fixed, color, name)
+
+
+def _body(sharp, r, material, center, mask, isBoundary, fixed, color, name):
+    """A polyhedron with the rounding radius r, a length; 0: half of the least distance of a face from the origin."""
+    shape = sharp.rounded(positive(r or 0.5 * float(sharp.offsets.min()), "r"), 0.0, None, name)
     if color is None or color[0] == -1:
         color = [_random.random() for _ in range(3)]
     return body(shape, material, center, fixed=fixed, color=color, mask=mask, isBoundary=isBoundary)

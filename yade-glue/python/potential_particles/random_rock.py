@@ -2,15 +2,13 @@
 """Rocks at random: convex polyhedra about an ellipsoid."""
 import numpy as np
 
-from . import rounding
-from .arguments import positive, whole, within
+from .arguments import LARGE, positive, whole, within
 from .polyhedron import Polyhedron
-from .rounding import ROUNDING, SPHERICITY
-from .solids import sizes
+from .rounding import ROUNDING, SPHERICITY, Rounding
 
 
-def random_rock(seed, size=1.0, elongation=1.0, flatness=1.0, faces=24, roughness=0.15, r=ROUNDING, k=SPHERICITY, R=None,
-                name=None):
+def random_rock(seed, size=1.0, elongation=1.0, flatness=1.0, faces=24, roughness=0.15, rounding=ROUNDING, k=SPHERICITY, R=None,
+                name=None, *, r=None):
     """A rock of extents L >= I >= S along x, y, z of its builder's frame, the same for the same arguments.
 
     size: I, the intermediate extent, by which a sieve sorts. elongation = I/L and flatness = S/I, both of (0, 1] (Zingg 1935).
@@ -18,7 +16,7 @@ def random_rock(seed, size=1.0, elongation=1.0, flatness=1.0, faces=24, roughnes
     the more faces, the rounder. Six of them, across the axes, set the extents: flat there for at least r, they reach them
     to within r k.
     """
-    seed, faces = whole(seed, 0, "seed"), whole(faces, 6, "faces")
+    seed, faces = whole(seed, 0, LARGE, "seed"), whole(faces, 6, 10_000, "faces")
     size, roughness = positive(size, "size"), within(roughness, 0.0, 1.0, "roughness")
     for value, label in ((elongation, "elongation"), (flatness, "flatness")):
         if within(value, 0.0, 1.0, label) == 0.0:
@@ -27,10 +25,11 @@ def random_rock(seed, size=1.0, elongation=1.0, flatness=1.0, faces=24, roughnes
     normals, offsets = _planes(np.random.default_rng(seed), half, faces, roughness)
     # The ball is at most as wide as the rock is thick, so that this is more than any rounding radius asked for.
     feet = half * np.vstack([np.eye(3), -np.eye(3)])
-    clear = sizes(half.min(), r, k, R)[0]
+    wanted = Rounding(rounding, k, r, R)
+    clear = wanted.lengths(2.0 * half.min())[0]
     offsets[6:] = np.maximum(offsets[6:], (normals[6:] @ feet.T).max(1) + clear)
     polyhedron = Polyhedron.of_planes(normals, offsets)
-    return rounding.rounded(polyhedron, *sizes(polyhedron.ball_radius, r, k, R), name or f"rock {seed}")
+    return polyhedron.rounded(*wanted.lengths(polyhedron.size), name or f"rock {seed}")
 
 
 def _planes(random, half, faces, roughness):

@@ -1,82 +1,56 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""From a polyhedron to a particle: where its faces, its centre and its axes are.
+"""How edges and corners are rounded, as a script says it: r as a length or as a share of the size.
 
-Let h_i be the distance of face i from the centre of the particle. The planes of the particle lie at
-
-    d_i = h_i - r sqrt((1 - k h_i^2/R^2) / (1 - k))
-
-so that S = 1 at the foot of the perpendicular from the centre on the face (as long as no other plane counts there): the particle touches the
-face at this foot and lies inside the polyhedron everywhere. Away from the foot a face is deeper by at most r (1/sqrt(1-k) - 1), which is
-about r k/2; for k = 0 it is flat, d_i = h_i - r, as YADE has it. Edges and corners are rounded.
-
-The shadow sphere is about the centre, which YADE wants at the centroid: with k > 0 the shape depends on it a little. It is found by
-repetition, each time with the centroid of the last shape as the centre.
+The size is the diameter of the largest ball that fits inside the sharp body. How the planes of the particle follow from its
+faces: src/shapes/rounding.rs.
 """
-import numpy as np
+import functools
+import typing
+import warnings
 
-from .principal_frame import principal_axes, quaternion
-from .shape import Shape
+from .arguments import number, positive, within
 
-# Fractions of the size (the diameter of the largest ball inside), and k itself: what docs/shapes.md advises.
+# What docs/shapes.md advises.
 ROUNDING, SPHERICITY = 0.05, 0.02
 
-# Of volume, centroid and inertia, relative.
-TOLERANCE = 1e-6
 
-# The repetition ends when the centre is the centroid to this share of the size (or a tenth of the last tolerance), found with fewer digits, which takes
-# far less time. A last step with all digits follows; the shape does not change by it, but in the product of this share and k.
-CENTRED, ROUGHLY = 1e-5, 1e-4
-MOST_STEPS = 50
+class Rounding(typing.NamedTuple):
+    """r (length) or else `share`, both None where a builder chooses it; k; R (length), None: to the farthest corner."""
+
+    share: typing.Optional[float]
+    k: float
+    r: typing.Optional[float] = None
+    R: typing.Optional[float] = None
+
+    @property
+    def is_chosen(self):
+        """Whether a script says how large r is."""
+        return self.share is not None or self.r is not None
+
+    def lengths(self, size, share=ROUNDING):
+        """r, k and R, lengths, R=None as it is; `share`: where the script gives neither r nor a share.
+
+        ValueError for numbers out of range.
+        """
+        size, k = positive(size, "size, the diameter of the largest ball inside"), within(self.k, 0.0, 1.0, "k")
+        R = None if self.R is None else positive(self.R, "R")
+        if self.r is not None or R is not None:
+            _warn_of_lengths()
+        if self.r is not None:
+            r = number(self.r, "r")
+            if not 0.0 < r < 0.5 * size:
+                raise ValueError(f"r={r:g} is a length and must lie between 0 and {0.5 * size:.6g}, half the diameter of the largest "
+                                 "ball that fits inside: rounding= gives it as a share of that diameter")
+            return r, k, R
+        share = number(share if self.share is None else self.share, "rounding")
+        if not 0.0 < share < 0.5:
+            raise ValueError(f"rounding={share:g} is a share of the size and must lie between 0 and 0.5 "
+                             "(for a sphere use sphere(radius))")
+        return size * share, k, R
 
 
-def rounded(polyhedron, r, k, R, name, tolerance=TOLERANCE):
-    """The Shape of a polyhedron with rounding radius r, sphericity k and shadow radius R, lengths; R=None: to the farthest corner."""
-    return _settled(lambda centre: _planes(polyhedron, r, k, R, centre), polyhedron.centroid, 2.0 * polyhedron.ball_radius, name, tolerance)
-
-
-def ball(radius, name):
-    """The Shape of a sphere: k = 1, no planes."""
-    return _settled(lambda centre: ([], 0.0, 1.0, radius), np.zeros(3), 2.0 * radius, name, TOLERANCE)
-
-
-def _planes(polyhedron, r, k, R, centre):
-    if R is None:
-        R = np.linalg.norm(polyhedron.corners - centre, axis=1).max()
-    heights = polyhedron.offsets - polyhedron.normals @ centre
-    return about(polyhedron.normals, heights, r, k, R), r, k, R
-
-
-def about(normals, heights, r, k, R):
-    """Rows (a, b, c, d) of faces at `heights` above the centre."""
-    if k == 1.0:
-        return []
-    # A face beyond the sphere is never reached, and keeps its place.
-    depth = r * np.sqrt(np.maximum(1.0 - k * (heights / R) ** 2, 0.0) / (1.0 - k))
-    return [(*map(float, n), float(d)) for n, d in zip(normals, heights - depth)]
-
-
-def _settled(definition_about, centre, size, name, tolerance):
-    """The Shape with its centroid as its centre, in principal axes. `definition_about(centre)`: planes, r, k, R."""
-    from yade.wrapper import ConicPotentialParticle
-    rough, near = max(ROUGHLY, 10.0 * tolerance), max(CENTRED, 0.1 * tolerance) * size
-    for _ in range(MOST_STEPS):
-        planes, r, k, R = definition_about(centre)
-        particle = ConicPotentialParticle(planes=planes, r=r, k=k, R=R)
-        shift = np.array(particle.massProperties(rough)[1])
-        if np.abs(shift).max() <= near:
-            break
-        centre = centre + shift
-    else:
-        raise ValueError(f"{name}: no centre is its own centroid, to which k={k:g} with R={R:g} leads: take a smaller k, or a larger R")
-    volume, shift, inertia, error = particle.massProperties(tolerance)
-    # The centroid is known no better than this.
-    if np.abs(np.array(shift)).max() > TOLERANCE * size:
-        centre = centre + np.array(shift)
-        planes, r, k, R = definition_about(centre)
-    axes, moments = principal_axes(np.array([[inertia[i, j] for j in range(3)] for i in range(3)]))
-    turned = [(*map(float, np.array(plane[:3]) @ axes), plane[3]) for plane in planes]
-    final = ConicPotentialParticle(planes=turned, r=r, k=k, R=R)
-    return Shape(
-        planes=tuple(turned), r=float(r), k=float(k), R=float(R), volume=float(volume), error=float(error),
-        inertia=tuple(map(float, moments)), centroid=tuple(map(float, centre)),
-        orientation=tuple(map(float, quaternion(axes))), bounding_radius=float(final.boundingRadius), name=name)
+@functools.lru_cache(maxsize=1)
+def _warn_of_lengths():
+    """Once a process, until December 2027, for scripts written for version 0.1."""
+    warnings.warn_explicit("r and R of shapes are lengths; until version 0.1 they were shares of the size: r=0.05 of then is "
+                           "rounding=0.05 (docs/shapes.md)", FutureWarning, "potential_particles", 0)

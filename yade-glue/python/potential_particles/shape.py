@@ -60,6 +60,7 @@ class Shape:
         """The same shape with all lengths multiplied by `factor`."""
         from .arguments import positive
         factor = positive(factor, "factor")
+        positive(factor * self.bounding_radius, f"factor={factor:g} times the bounding radius")
         return dataclasses.replace(
             self,
             planes=tuple((a, b, c, d * factor) for a, b, c, d in self.planes),

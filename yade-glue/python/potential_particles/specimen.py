@@ -6,7 +6,7 @@ import math
 import numpy as np
 
 from . import chords
-from .arguments import positive, vector
+from .arguments import MANY, positive, vector
 from .measures import counted, is_grain, volumes_of_grains
 from .time_step import bounding_radius
 
@@ -49,6 +49,9 @@ def _within(body, origin, axes, periodic, places):
     centre, reach = inverse @ position, radius * np.linalg.norm(inverse, axis=1)
     back = np.array(body.state.ori.conjugate().toRotationMatrix())
     images = [range(math.ceil(-c - r), math.floor(1.0 - c + r) + 1) if periodic else (0,) for c, r in zip(centre, reach)]
+    count = math.prod(map(len, images))
+    if count > MANY:
+        raise ValueError(f"body {body.id}, of bounding radius {radius:g}, has {count:.3g} images in the periodic cell, and no more than {MANY} are looked at")
     for image in itertools.product(*images):
         near = np.flatnonzero((np.abs(places - centre[:2] - image[:2]) <= reach[:2]).all(1))
         points = (places[near] @ axes[:, :2].T - position - axes @ image) @ back.T

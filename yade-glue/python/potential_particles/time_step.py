@@ -24,7 +24,7 @@ import math
 import numpy as np
 
 from . import rolling
-from .arguments import number, positive, whole
+from .arguments import LARGE, MANY, number, positive, whole
 from .bodies import image_shift, is_free
 from .joints import given_by_engines
 
@@ -44,7 +44,7 @@ def critical_time_step(stiffness=None, bodies=None, contacts=3, safety=0.5):
     """
     import yade
     scene = yade.O
-    contacts, safety = whole(contacts, 1, "contacts"), _share(safety)
+    contacts, safety = whole(contacts, 1, MANY, "contacts"), _share(safety)
     stiffness = None if stiffness is None else positive(stiffness, "stiffness")
     movers = _movers(scene, bodies)
     if not movers:
@@ -68,7 +68,7 @@ def time_stepper(period=200, contacts=3, safety=0.5):
     contact.
     """
     import yade
-    period, contacts = whole(period, 1, "period"), whole(contacts, 1, "contacts")
+    period, contacts = whole(period, 1, LARGE, "period"), whole(contacts, 1, MANY, "contacts")
     return yade.PyRunner(command=f"import potential_particles; potential_particles.time_step.follow(contacts={contacts}, safety={_share(safety)!r})",
                          iterPeriod=period, initRun=True)
 

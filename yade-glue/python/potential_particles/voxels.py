@@ -6,12 +6,12 @@ import time
 
 import numpy as np
 from scipy import ndimage
-from scipy.spatial import QhullError
 
 from . import fitting
-from .arguments import positive, whole
+from .arguments import LARGE, positive, whole
 from .packing import Placement
-from .rounding import SPHERICITY
+from .polyhedron import Polyhedron
+from .rounding import SPHERICITY, Rounding
 
 
 class Grains(list):
@@ -30,24 +30,29 @@ class Grains(list):
                 f"(median) and {largest.max():.2g} at most, volume {sum(one.shape.volume for one in self):.4g}, {len(self.left_out)} left out>")
 
 
-def from_voxels(labels, spacing=1.0, planes=30, error=None, r=None, k=SPHERICITY, least=64, border=True, progress=True):
+def from_voxels(labels, spacing=1.0, planes=30, error=None, rounding=None, k=SPHERICITY, least=64, border=True, progress=True, *, r=None):
     """One particle for each label of an image, in place: a list of Placement for add_packing.
 
     labels: an array of whole numbers [z, y, x], as stacks of pictures are read, or a .tif file of such pages; 0 is what lies between grains. The voxel [0, 0, 0] is a cube
-    of edge `spacing` (length) with a corner at the origin. planes, error, r, k: as for shapes.from_mesh; the volume is that of the voxels. least: labels of fewer voxels
+    of edge `spacing` (length) with a corner at the origin. planes, error, rounding, k, r: as for shapes.from_mesh; the volume is that of the voxels. least: labels of fewer voxels
     are left out; border=False: those that touch the border of the image as well. What is left out, or has no convex particle near to it, is said with its
     reason in `left_out`. `shape.fit` of each has its distances from the centres of the faces of its voxels. Ctrl-C keeps what is made.
     About 30 ms for a grain of 30 planes. ValueError for what is no such image.
     """
     image = voxel_image(labels)
-    spacing, least = positive(spacing, "spacing"), whole(least, 8, "least")
+    spacing, least = positive(spacing, "spacing"), whole(least, 8, LARGE, "least")
     begin, made, left_out, stopped = time.monotonic(), [], {}, ""
+    # ndimage.find_objects makes a list as long as the largest label.
+    names, shape = None, image.shape
+    if image.max() > image.size:
+        names, image = np.unique(np.append(image, 0), return_inverse=True)
+        image = image[:-1].reshape(shape)
     boxes = [(number + 1, box) for number, box in enumerate(ndimage.find_objects(image)) if box is not None]
     if not boxes:
         raise ValueError("labels holds no grain: all its voxels are 0")
     try:
-        for label, box in _with_bar(boxes, progress):
-            grain = image[box] == label
+        for number, box in _with_bar(boxes, progress):
+            grain, label = image[box] == number, number if names is None else int(names[number])
             count = int(np.count_nonzero(grain))
             if count < least:
                 left_out[label] = f"{count} voxels, fewer than {least}"
@@ -56,9 +61,9 @@ def from_voxels(labels, spacing=1.0, planes=30, error=None, r=None, k=SPHERICITY
             else:
                 faces = (_faces(grain) + [side.start for side in box])[:, ::-1] * spacing
                 try:
-                    shape = fitting.of_surface(faces, faces, count * spacing**3, r, k, None, f"grain {label}", planes, error)
+                    shape = fitting.of_surface(Polyhedron.of_points(faces), faces, count * spacing**3, Rounding(rounding, k, r), f"grain {label}", planes, error)
                     made.append(Placement(shape, 1.0, (0.0, 0.0, 0.0), (1.0, 0.0, 0.0, 0.0)))
-                except (ValueError, QhullError) as why:
+                except ValueError as why:
                     left_out[label] = str(why)
     except KeyboardInterrupt:
         stopped = f"; stopped by Ctrl-C before {len(boxes) - len(made) - len(left_out)} of them"
@@ -101,8 +106,9 @@ def _pages(file):
             if image.format != "TIFF":
                 raise ValueError(f"it is a {image.format} picture")
             pages = [np.array(page) for page in ImageSequence.Iterator(image)]
-    except (OSError, ValueError, SyntaxError, Image.DecompressionBombError) as error:
-        raise ValueError(f"{file} cannot be read as .tif: {error}") from None
+    # Of damaged files Pillow raises what its parts happen to raise: KeyError, struct.error, TypeError, MemoryError ...
+    except Exception as error:
+        raise ValueError(f"{file} cannot be read as .tif: {' '.join(f'{type(error).__name__}: {error}'.split())[:100]}") from None
     shapes = {page.shape for page in pages}
     if len(shapes) > 1 or len(pages[0].shape) != 2:
         raise ValueError(f"{file}: its {len(pages)} pages have the shapes {sorted(shapes)}: labels are pages of one size with one number a pixel")

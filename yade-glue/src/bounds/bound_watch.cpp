@@ -5,7 +5,7 @@
 #include "bounding_box.hpp"
 #include "particle/fetch.hpp"
 #include "shape/particle_of.hpp"
-#include "pair/turn_bound.hpp"
+#include "plugin-common/motion_bound.hpp"
 
 #include <algorithm>
 #include <typeinfo>

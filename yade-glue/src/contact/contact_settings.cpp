@@ -118,7 +118,7 @@ pp_settings ContactSettings::parsed() const
         refuse("patch", "True", "a patch ends where bodies come apart: rotations and interactionDistance are for laws at a point, joints have bonds of their own");
     if (!(std::isfinite(unitWidth2D) && unitWidth2D > 0))
         refuse("unitWidth2D", shown(unitWidth2D), "give a positive length");
-    if (!(twoDdir.allFinite() && twoDdir.norm() > 0))
+    if (!(twoDdir.allFinite() && !twoDdir.isZero(0)))
         refuse("twoDdir", "(" + shown(twoDdir.x()) + ", " + shown(twoDdir.y()) + ", " + shown(twoDdir.z()) + ")",
                "give a vector with a direction");
     return settings;

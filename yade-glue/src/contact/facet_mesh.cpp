@@ -89,12 +89,6 @@ BoundaryPoints verticesOf(const yade::Shape& shape, const yade::State& state, co
     return points;
 }
 
-double weldOf(const BoundaryPoints& vertices)
-{
-    const auto side = [&](std::size_t i, std::size_t j) { return (vertices[i] - vertices[j]).norm(); };
-    return weldShare * std::max({ side(0, 1), side(1, 2), side(2, 0) });
-}
-
 void FacetMesh::refresh(const yade::Scene& scene)
 {
     const auto isSeen = [&] {

@@ -16,14 +16,8 @@
 
 namespace potential_particles {
 
-// Vertices within this share of a facet's longest side of each other are one. STL files round to 1e-7 of a coordinate, but
-// alike for all facets that share the vertex.
-constexpr double weldShare = 1e-9;
-
 // Of a body with a Facet, in world axes from `origin`. Throws std::invalid_argument when it has no three vertices.
 BoundaryPoints verticesOf(const yade::Shape& facet, const yade::State& state, const yade::Vector3r& origin);
-// Length of the longest side times weldShare.
-double weldOf(const BoundaryPoints& vertices);
 
 // The facets around each vertex, from where all of them were when the scene's number of bodies changed last. What they may
 // have done since is for the caller to see: this only says whom to look at.

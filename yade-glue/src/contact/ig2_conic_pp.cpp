@@ -12,6 +12,8 @@
 #include "loop/relative_motion.hpp"
 #include "loop/step.hpp"
 
+#include "plugin-common/new_contact.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -346,13 +348,7 @@ pp_status Ig2_ConicPP_ConicPP_ScGeom::detect(Pair& pair, pp_contact& found)
     const auto ask = [&] {
         return pp_contact_detect(pair.particle1->handle(), &pose1, pair.particle2->handle(), &pose2, &pair.settings.library, state, &found);
     };
-    const pp_status status = ask();
-    if (status != PP_OK || found.kind != PP_OVERLAPPING || !state || pair.real)
-        return status;
-    // A new contact is solved from nothing. YADE saves no pairs that do not touch: what such a pair remembers would make a loaded run
-    // another one, by the last digits.
-    *state = {};
-    return ask();
+    return fromNothingIfNew(ask(), found, pair.real, state, ask);
 }
 
 void Ig2_ConicPP_ConicPP_ScGeom::fill(Pair& pair, pp_contact& found)
@@ -398,23 +394,22 @@ bool Ig2_ConicPP_ConicPP_ScGeom::tracksEnergy() const { return scene && scene->t
 bool Ig2_ConicPP_ConicPP_ScGeom::fillPatch(PairInScene& pair, pp_status status, const pp_patch& patch, const Vector3r& origin,
                                            double sense)
 {
-    if (!ContactPatch::isIn(status, patch)) {
+    const std::optional<PatchInStep> here = PatchInStep::of(status, patch);
+    if (!here) {
         pair.counts.add(Count::patchFallbacks);
         return false;
     }
-    const Vector3r force(patch.force);
-    const double size = force.norm();
     pair.counts.add(Count::patches);
     if (patch.flags & PP_PATCH_CARRIED)
         pair.counts.add(Count::patchesCarried);
     if (patch.flags & ~PP_PATCH_CARRIED)
         pair.counts.add(Count::doubtfulPatches);
     ScGeom& geom = *pair.geom;
-    geom.contactPoint = origin + Vector3r(patch.pressure_centre);
-    geom.penetrationDepth = size / patch.area;
-    pair.precompute(sense / size * force, scene);
+    geom.contactPoint = origin + here->point;
+    geom.penetrationDepth = here->patch.force / here->patch.area;
+    pair.precompute(sense * here->normal, scene);
     if (pair.own)
-        pair.own->setPatch(ContactPatch::of(patch));
+        pair.own->setPatch(here->patch);
     return true;
 }
 
@@ -454,10 +449,10 @@ void Ig2_ConicPP_ConicPP_ScGeom::fillPhysics(PairInScene& pair, const Posed& bod
         phys->contactArea = settings.twoDimension ? settings.unitWidth2D : 1.0;
     } else if (settings.twoDimension) {
         // The width of the overlap in the plane, across the normal.
-        const Vector3r normal(found.normal);
-        Vector3r across = normal.cross(settings.twoDdir);
-        if (across.norm() < 1e-7 * settings.twoDdir.norm())
-            across = settings.twoDdir.unitOrthogonal();
+        const Vector3r normal(found.normal), outOfPlane = settings.twoDdir.stableNormalized();
+        Vector3r across = normal.cross(outOfPlane);
+        if (across.norm() < 1e-7)
+            across = outOfPlane.unitOrthogonal();
         across.normalize();
         const Vector3r point(found.point);
         const auto reach = [&](const Vector3r& direction) {

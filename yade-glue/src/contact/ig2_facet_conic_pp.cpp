@@ -7,6 +7,8 @@
 #include "flat_pair.hpp"
 #include "ig2_facet_conic_pp.hpp"
 
+#include "plugin-common/new_contact.hpp"
+
 #include <array>
 
 namespace potential_particles {
@@ -16,19 +18,51 @@ using yade::Vector3r;
 
 namespace {
 
-    std::array<double, 9> rowsOf(const BoundaryPoints& vertices)
-    {
-        std::array<double, 9> rows;
-        for (std::size_t i = 0; i < 3; ++i)
-            std::copy_n(vertices[i].data(), 3, rows.data() + 3 * i);
-        return rows;
-    }
-
     // `state`: of the pair with this triangle, or null.
     pp_status contactWith(const FlatPair& pair, const BoundaryPoints& vertices, pp_pair_state* state, pp_flat_contact& found)
     {
         const pp_pose turn = pair.turn();
-        return pp_contact_triangle(pair.particle->handle(), &turn, rowsOf(vertices).data(), &pair.settings.library, state, &found);
+        return pp_contact_triangle(pair.particle->handle(), &turn, numbersOf(vertices), &pair.settings.library, state, &found);
+    }
+
+    TriangleContact contactOf(const FlatPair& pair, const BoundaryPoints& vertices, const pp_flat_contact& found, int id)
+    {
+        return { vertices, found, id, onSeam * pair.particle->boundingRadius() };
+    }
+
+    // Of a point on an edge: where, from the edge's first vertex to the next one, 0 to 1.
+    double shareOnEdge(const TriangleContact& contact)
+    {
+        if (contact.found.feature < PP_ON_EDGE || contact.found.feature >= PP_ON_VERTEX)
+            return 0;
+        const std::size_t i = contact.found.feature - PP_ON_EDGE;
+        const Vector3r along = contact.corners[(i + 1) % 3] - contact.corners[i];
+        return std::clamp((contact.point() - contact.corners[i]).dot(along) / along.squaredNorm(), 0.0, 1.0);
+    }
+
+    // Whether S falls from the least point of a facet, on a seam, into the neighbour that has that point as well. By convexity it
+    // does if it falls towards a vertex, and if it falls the neighbour has a lower one, off the seam; if it rises towards all, that
+    // point is the neighbour's least too.
+    enum class Slope { falls, rises, unclear };
+
+    Slope slopeInto(const BoundaryPoints& neighbour, const TriangleContact& own)
+    {
+        // In directions that are steeper than this no rounding of point and normal matters.
+        constexpr double clear = 1e-6;
+        if (own.found.flags & PP_FLAG_NORMAL_BY_BOUNDARY)
+            return Slope::unclear;
+        const Vector3r gradient(own.found.normal);
+        bool rises = true;
+        for (const Vector3r& vertex : neighbour) {
+            const Vector3r way = vertex - own.point();
+            const double length = way.norm(), slope = gradient.dot(way);
+            if (length <= own.rounding)
+                continue;
+            if (slope < -clear * length)
+                return Slope::falls;
+            rises = rises && slope > clear * length;
+        }
+        return rises ? Slope::rises : Slope::unclear;
     }
 
     // The body, if it has a facet that meets the same bodies as `own`.
@@ -69,7 +103,8 @@ pp_status Ig2_Facet_ConicPP_ScGeom::detect(FlatPair& pair, const BoundaryPoints&
     }
     if (pair.own)
         pair.own->left = {};
-    const pp_status status = contactWith(pair, points, pair.state(), found);
+    const auto ask = [&] { return contactWith(pair, points, pair.state(), found); };
+    const pp_status status = fromNothingIfNew(ask(), found, pair.real, pair.state(), ask);
     // Patches on triangles that share an edge add up: each has what lies on it.
     if (status != PP_OK || found.kind != PP_OVERLAPPING || pair.settings.given.patch)
         return status;
@@ -94,7 +129,7 @@ pp_status Ig2_Facet_ConicPP_ScGeom::findPatch(const FlatPair& pair, const Bounda
     const bool lasts = pair.real && !(pair.geom->penetrationDepth < 0);
     const Vector3r towardsParticle = lasts ? pair.lastNormal() : Vector3r(-Vector3r(found.normal));
     const pp_pose turn = pair.turn();
-    return pp_patch_on_triangle(pair.particle->handle(), &turn, rowsOf(points).data(), towardsParticle.dot(front) > 0, &found,
+    return pp_patch_on_triangle(pair.particle->handle(), &turn, numbersOf(points), towardsParticle.dot(front) > 0, &found,
                                 pair.settings.given.patchTolerance, tracksEnergy(), pair.lastPatch(), &patch, nullptr, 0, nullptr);
 }
 
@@ -111,11 +146,11 @@ bool Ig2_Facet_ConicPP_ScGeom::stillLeaves(const FlatPair& pair, const BoundaryP
     if (!neighbour || !interactionOf(*particle, *neighbour))
         return false;
     const BoundaryPoints others = verticesOf(*neighbour->shape, *neighbour->state, pair.centre());
-    if (!hasFeature(sharedParts(points, others, weldOf(points)), left.feature))
+    if (!isFeatureOf(SharedCorners::of(points, others).mine, left.feature))
         return false;
     int sense = 0;
     const pp_pose turn = pair.turn();
-    const pp_status status = pp_seam_slope(pair.particle->handle(), &turn, rowsOf(points).data(), left.feature, rowsOf(others).data(),
+    const pp_status status = pp_seam_slope(pair.particle->handle(), &turn, numbersOf(points), left.feature, numbersOf(others),
                                            &pair.settings.library, &left.share, &sense);
     return status == PP_OK && (sense < 0 || (sense > 0 && left.to < pair.interaction->id1));
 }
@@ -135,45 +170,45 @@ bool Ig2_Facet_ConicPP_ScGeom::hasForce(const yade::Interaction& pairOfOwner) co
 }
 
 // Whether a facet leaves its contact to this neighbour. `solve`: the neighbour's contact is wanted if it does.
-bool Ig2_Facet_ConicPP_ScGeom::leavesTo(const Neighbour& neighbour, const FacetContact& own, const FlatPair& pair, bool solve,
-                                        pp_flat_contact& other) const
+bool Ig2_Facet_ConicPP_ScGeom::leaves(const TriangleContact& own, const Neighbour& neighbour, const FlatPair& pair, bool solve,
+                                      pp_flat_contact& other) const
 {
     // Mostly the slope alone says it.
-    if (isOn(own, neighbour.common)) {
+    if (isFeatureOf(neighbour.shared, own.found.feature)) {
         const Slope slope = slopeInto(neighbour.vertices, own);
-        if (slope == Slope::rises && own.id < neighbour.id)
+        if (slope == Slope::rises && own.number < neighbour.id)
             return false;
         if (slope != Slope::unclear && !solve)
             return true;
     }
     return contactWith(pair, neighbour.vertices, nullptr, other) == PP_OK && other.kind == PP_OVERLAPPING
-        && yieldsTo(facetContact(neighbour.vertices, other, neighbour.id, pair.particle->boundingRadius()), own, neighbour.common);
+        && leavesTo(own, contactOf(pair, neighbour.vertices, other, neighbour.id));
 }
 
-// Of the facets that share the parts on which the point of the contact lies; until `visit` says false.
-template <class Visit>
-void Ig2_Facet_ConicPP_ScGeom::eachNeighbour(const FlatPair& pair, const FacetContact& own, const Parts& parts, Visit visit)
+// Of the facets on which the point of the contact lies as well; until `visit` says false.
+template <class Visit> void Ig2_Facet_ConicPP_ScGeom::eachNeighbour(const FlatPair& pair, const TriangleContact& own, Visit visit)
 {
+    constexpr unsigned all = 7;
+    if (!liesOn(own, all))
+        return;
     mesh.refresh(*scene);
     const auto& bodies = scene->bodies->body;
-    const Body* const facet = bodies[static_cast<std::size_t>(own.id)].get();
+    const Body* const facet = bodies[static_cast<std::size_t>(own.number)].get();
     const Body* const particle = bodies[static_cast<std::size_t>(pair.interaction->id2)].get();
-    const double weld = weldOf(own.vertices);
     for (unsigned i = 0; facet && particle && i < 3; ++i) {
         // The facets at an edge are among those around its first vertex.
-        if (!(((parts.edges | parts.vertices) >> i) & 1))
+        if (!liesOn(own, cornersOfEdge(i)))
             continue;
-        const auto [begin, end] = mesh.around(own.id, i);
+        const auto [begin, end] = mesh.around(own.number, i);
         for (const int* id = begin; id != end; ++id) {
-            const Body* const body = *id == own.id ? nullptr : facetLike(*facet, *id, *scene);
+            const Body* const body = *id == own.number ? nullptr : facetLike(*facet, *id, *scene);
             // One that YADE does not let meet the particle cannot have the contact.
             const yade::Interaction* const theirs = body ? interactionOf(*particle, *body) : nullptr;
             if (!theirs)
                 continue;
             const BoundaryPoints vertices = verticesOf(*body->shape, *body->state, pair.centre());
-            const Parts shared = sharedParts(own.vertices, vertices, weld);
-            const Parts common { shared.edges & parts.edges, shared.vertices & parts.vertices };
-            if (common.any() && !visit(Neighbour { theirs, *id, vertices, common }))
+            const SharedCorners shared = SharedCorners::of(own.corners, vertices);
+            if (liesOn(own, shared.mine) && !visit(Neighbour { theirs, *id, vertices, shared.mine }))
                 return;
         }
     }
@@ -182,29 +217,18 @@ void Ig2_Facet_ConicPP_ScGeom::eachNeighbour(const FlatPair& pair, const FacetCo
 const yade::Interaction* Ig2_Facet_ConicPP_ScGeom::ownerOf(const FlatPair& pair, const BoundaryPoints& points,
                                                            const pp_flat_contact& found, pp_flat_contact& ofOwner)
 {
-    const double radius = pair.particle->boundingRadius();
-    const FacetContact own = facetContact(points, found, pair.interaction->id1, radius);
-    const Parts parts = partsAt(own);
-    if (!parts.any())
-        return nullptr;
+    const TriangleContact own = contactOf(pair, points, found, pair.interaction->id1);
     // To leave the contact it is enough that there is one with less; to hold it, the one with the least is wanted.
     const bool holds = mustHold(pair);
     const yade::Interaction* owner = nullptr;
-    int id = -1;
-    BoundaryPoints vertices;
-    eachNeighbour(pair, own, parts, [&](const Neighbour& neighbour) {
+    eachNeighbour(pair, own, [&](const Neighbour& neighbour) {
         pp_flat_contact other = {};
-        if (!leavesTo(neighbour, own, pair, holds, other))
+        if (!leaves(own, neighbour, pair, holds, other))
             return true;
-        const auto isBest = [&] {
-            return isLower(facetContact(neighbour.vertices, other, neighbour.id, radius), facetContact(vertices, ofOwner, id, radius));
-        };
-        if (!holds && pair.own && isOn(own, neighbour.common))
-            pair.own->left = { neighbour.id, own.found.feature, shareOnEdge(own) };
-        if (!owner || (holds && isBest())) {
+        if (!holds && pair.own && isFeatureOf(neighbour.shared, found.feature))
+            pair.own->left = { neighbour.id, found.feature, shareOnEdge(own) };
+        if (!owner || (holds && other.s < ofOwner.s)) {
             owner = neighbour.theirs;
-            id = neighbour.id;
-            vertices = neighbour.vertices;
             ofOwner = other;
         }
         return holds;

@@ -5,7 +5,8 @@
 
 #include "facet_mesh.hpp"
 #include "ig2_flat_conic_pp.hpp"
-#include "seam.hpp"
+
+#include "plugin-common/seam.hpp"
 
 namespace potential_particles {
 
@@ -35,12 +36,10 @@ private:
         const yade::Interaction* theirs; // with the particle
         int id;
         BoundaryPoints vertices;
-        Parts common; // of those on which the facet's own point lies
+        unsigned shared; // of the facet's corners
     };
-    template <class Visit>
-    void eachNeighbour(const FlatPair& pair, const FacetContact& own, const Parts& parts, Visit visit);
-    bool leavesTo(const Neighbour& neighbour, const FacetContact& own, const FlatPair& pair, bool solve,
-                  pp_flat_contact& other) const;
+    template <class Visit> void eachNeighbour(const FlatPair& pair, const TriangleContact& own, Visit visit);
+    bool leaves(const TriangleContact& own, const Neighbour& neighbour, const FlatPair& pair, bool solve, pp_flat_contact& other) const;
 
     FacetMesh mesh;
 };

@@ -5,6 +5,8 @@
 #include "ig2_wall_conic_pp.hpp"
 #include "particle/ray.hpp"
 
+#include "plugin-common/new_contact.hpp"
+
 namespace potential_particles {
 
 using yade::Vector3r;
@@ -30,8 +32,10 @@ pp_status Ig2_Wall_ConicPP_ScGeom::detect(FlatPair& pair, const BoundaryPoints& 
     const auto& wall = static_cast<const yade::Wall&>(pair.boundary);
     const Vector3r normal = Vector3r::Unit(wall.axis) * (wall.sense < 0 ? -1 : 1);
     const pp_pose turn = pair.turn();
-    const pp_status status = pp_contact_plane(pair.particle->handle(), &turn, points[0].data(), normal.data(),
-                                              &pair.settings.library, pair.state(), &found);
+    const auto ask = [&] {
+        return pp_contact_plane(pair.particle->handle(), &turn, points[0].data(), normal.data(), &pair.settings.library, pair.state(), &found);
+    };
+    const pp_status status = fromNothingIfNew(ask(), found, pair.real, pair.state(), ask);
     if (status != PP_OK || found.kind != PP_OVERLAPPING || wall.sense == 0 || Vector3r(found.normal).dot(normal) < 0)
         return status;
     // The centre is behind a wall that pushes to one side only: the overlap is as far as the particle reaches behind it.

@@ -3,7 +3,7 @@
 
 #include "conic_joint_mat.hpp"
 
-#include "joint-law/restitution.hpp"
+#include "plugin-common/restitution.hpp"
 
 #include <cmath>
 #include <sstream>

@@ -11,7 +11,16 @@ ConicJointPhys::~ConicJointPhys() = default;
 PP_CLASS_DEFINITIONS(ConicJointPhys)
 PP_INDEX_DEFINITIONS(ConicJointPhys, yade::FrictPhys)
 PP_ATTRIBUTE_DEFINITIONS(ConicJointPhys, FrictPhys)
-void ConicJointPhys::callPostLoad() { yade::FrictPhys::callPostLoad(); }
+
+void ConicJointPhys::callPostLoad()
+{
+    yade::FrictPhys::callPostLoad();
+    // YADE's own stands for "not given"; Ip2 gives it with the stiffness.
+    if (normalStiffness > 0)
+        requireFinite<ConicJointPhys>("tangensOfFrictionAngle", tangensOfFrictionAngle);
+    if (bondRim.size() % 2 != 0)
+        throw std::invalid_argument("ConicJointPhys: bondRim has " + std::to_string(bondRim.size()) + " numbers: give y and z of each corner");
+}
 
 void ConicJointPhys::take(const JointForces& forces)
 {

@@ -6,7 +6,7 @@
 #include "abi/archive.hpp"
 #include "abi/knksphys.hpp"
 
-#include "joint-law/joint.hpp"
+#include "plugin-common/joint.hpp"
 
 #include <boost/serialization/access.hpp>
 

@@ -7,7 +7,7 @@
 #include "conic_joint_phys.hpp"
 #include "ip2_conic_joint.hpp"
 
-#include "joint-law/restitution.hpp"
+#include "plugin-common/restitution.hpp"
 
 #include <boost/make_shared.hpp>
 

@@ -16,7 +16,7 @@
 
 namespace potential_particles {
 
-using Ip2 = Ip2_FrictMat_FrictMat_KnKsPhys_Block;
+using Ip2OfBlocks = Ip2_FrictMat_FrictMat_KnKsPhys_Block;
 
 namespace {
 
@@ -29,11 +29,11 @@ namespace {
 
 } // namespace
 
-Ip2::~Ip2_FrictMat_FrictMat_KnKsPhys_Block() = default;
+Ip2OfBlocks::~Ip2_FrictMat_FrictMat_KnKsPhys_Block() = default;
 PP_FUNCTOR_2D_DEFINITIONS(Ip2_FrictMat_FrictMat_KnKsPhys_Block)
 PP_ATTRIBUTE_DEFINITIONS(Ip2_FrictMat_FrictMat_KnKsPhys_Block, IPhysFunctor)
 
-void Ip2::callPostLoad()
+void Ip2OfBlocks::callPostLoad()
 {
     IPhysFunctor::callPostLoad();
     if (useFaceProperties) {
@@ -43,7 +43,7 @@ void Ip2::callPostLoad()
     }
 }
 
-void Ip2::go(const boost::shared_ptr<yade::Material>& material1, const boost::shared_ptr<yade::Material>& material2,
+void Ip2OfBlocks::go(const boost::shared_ptr<yade::Material>& material1, const boost::shared_ptr<yade::Material>& material2,
              const boost::shared_ptr<yade::Interaction>& interaction)
 {
     if (interaction->phys)

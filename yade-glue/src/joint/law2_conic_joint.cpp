@@ -9,7 +9,7 @@
 #include "pair/sc_geom_conic_pp.hpp"
 #include "posed_body.hpp"
 
-#include "joint-law/joint_law.hpp"
+#include "plugin-common/joint_law.hpp"
 
 namespace potential_particles {
 
@@ -37,8 +37,14 @@ bool Law::act(yade::IGeom& geometry, yade::IPhys& physics, const yade::Interacti
     const JointParameters parameters = phys.parameters();
     JointLaw law(parameters, phys, one, other, scene->dt);
 
-    const bool wasBonded = phys.bondArea > 0, holds = wasBonded && law.holdAsBond(!(own && own->isHeldByBond()));
     const bool apart = geom.penetrationDepth < 0, touches = !apart && own && own->patch().area > 0;
+    const auto posed = [&](int which) {
+        const yade::Body& body = *scene->bodies->body[static_cast<std::size_t>(which == 1 ? interaction.id1 : interaction.id2)];
+        return PosedBody(body.shape, *body.state, which == 1 ? Vector3r(Vector3r::Zero()) : shift);
+    };
+    const bool holds = law.step(
+        touches ? &own->patch() : nullptr, !(own && own->isHeldByBond()),
+        [&] { return JointMotion { geom.contactPoint, geom.normal, geom.shearInc, geom.orthonormal_axis, geom.twist_axis }; }, posed);
     if (holds) {
         if (own)
             own->setHeldByBond(phys.bonded);
@@ -47,16 +53,6 @@ bool Law::act(yade::IGeom& geometry, yade::IPhys& physics, const yade::Interacti
             geom.contactPoint = law.forces().point;
             geom.normal = law.forces().normal;
         }
-    } else if (touches) {
-        const JointMotion motion { geom.contactPoint, geom.normal, geom.shearInc, geom.orthonormal_axis, geom.twist_axis };
-        law.holdAsPatch(own->patch(), motion);
-        if (law.shallBond()) {
-            const auto& bodies = scene->bodies->body;
-            const yade::Body &body1 = *bodies[static_cast<std::size_t>(interaction.id1)], &body2 = *bodies[static_cast<std::size_t>(interaction.id2)];
-            law.bond(own->patch(), motion, PosedBody(body1.shape, *body1.state, Vector3r::Zero()), PosedBody(body2.shape, *body2.state, shift));
-        }
-    } else {
-        law.open();
     }
     phys.take(law.forces());
     // One force a body: in which order threads add up more of them is left to chance.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The law of joints in YADE: forces and moments of a contact patch, as joint-law has them.
+// The law of joints in YADE: forces and moments of a contact patch, as plugin-common has them.
 #pragma once
 
 #include "abi/archive.hpp"

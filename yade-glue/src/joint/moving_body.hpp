@@ -6,7 +6,7 @@
 #include "abi/scene.hpp"
 #include "abi/state.hpp"
 
-#include "joint-law/joint.hpp"
+#include "plugin-common/joint.hpp"
 
 namespace potential_particles {
 

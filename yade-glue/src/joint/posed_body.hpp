@@ -7,7 +7,7 @@
 #include "abi/state.hpp"
 #include "particle/particle.hpp"
 
-#include "joint-law/patch_rim.hpp"
+#include "plugin-common/patch_rim.hpp"
 
 #include <memory>
 

@@ -6,6 +6,8 @@
 #include "abi/interaction.hpp"
 #include "body_in_step.hpp"
 
+#include "plugin-common/motion_bound.hpp"
+
 #include <boost/weak_ptr.hpp>
 
 #include <cstdint>
@@ -57,9 +59,7 @@ struct alignas(64) PairInStep {
         id2 = pair->id2;
         generation1 = body1.way.generation;
         generation2 = body2.way.generation;
-        // Three roundings of sums, and that of the room.
-        const double travelled = body1.way.travelled + body2.way.travelled;
-        wakes = room > 0 ? (travelled + room) - 1e-15 * (travelled + room) : 0;
+        wakes = wakesAt(body1.way.travelled + body2.way.travelled, room);
         touching = false;
     }
 

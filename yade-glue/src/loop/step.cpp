@@ -6,7 +6,7 @@
 #include "abi/shape.hpp"
 #include "shape/particle_of.hpp"
 #include "particle/pose.hpp"
-#include "pair/turn_bound.hpp"
+#include "plugin-common/motion_bound.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -100,15 +100,15 @@ void Step::lookAtParticle(BodyInStep& body, const boost::shared_ptr<yade::Shape>
             particle = nullptr;
         const double radius = particle ? particle->boundingRadius() : 0;
         const double way = (position - body.formerPosition).norm() + radius * wayOfTurn(body.formerOrientation, orientation);
-        const double sum = body.way.travelled + way * (1 + 1e-12);
+        const double sum = travelled(body.way.travelled, way);
         // Whether the way since the last look is known, so that it can be added to the sum.
         const bool continues
             = particle && particle->serial == body.serial && isUnit(body.formerOrientation) && std::isfinite(sum);
         if (!continues) {
             body.way.generation = nextGeneration();
             body.way.travelled = 0;
-        } else if (way > 0) {
-            body.way.travelled = std::nextafter(sum, std::numeric_limits<double>::infinity());
+        } else {
+            body.way.travelled = sum;
         }
         body.particle = particle;
         body.serial = particle ? particle->serial : 0; // no particle has 0
@@ -128,12 +128,12 @@ void Step::lookAtFlat(BodyInStep& body, const yade::Shape& shape)
     const bool turns = body.flat.kind == Flat::Kind::facet;
     const double turn = turns ? body.flat.radius * wayOfTurn(body.formerOrientation, body.orientation) : 0;
     const double way = (body.position - body.formerPosition).norm() + turn;
-    const double sum = body.way.travelled + way * (1 + 1e-12);
+    const double sum = travelled(body.way.travelled, way);
     if (!same || !std::isfinite(sum) || (turns && !isUnit(body.formerOrientation))) {
         body.way.generation = nextGeneration();
         body.way.travelled = 0;
-    } else if (way > 0) {
-        body.way.travelled = std::nextafter(sum, std::numeric_limits<double>::infinity());
+    } else {
+        body.way.travelled = sum;
     }
     body.formerPosition = body.position;
     body.formerOrientation = body.orientation;

@@ -5,10 +5,11 @@
 
 #include "abi/state.hpp"
 #include "particle/particle.hpp"
-#include "turn_bound.hpp"
+
+#include "plugin-common/motion_bound.hpp"
+#include "plugin-common/triangle.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
 
 namespace potential_particles {
@@ -16,7 +17,7 @@ namespace potential_particles {
 // A boundary as the particle sees it: points in world axes from the particle's centre. A triangle is given by its vertices,
 // a plane by the foot of the perpendicular, three times. Each point of the boundary is a mean of these (or moves with
 // them, along a plane's axis), so none moves further than the one that moves furthest.
-using BoundaryPoints = std::array<yade::Vector3r, 3>;
+using BoundaryPoints = Triangle;
 
 // Nothing here comes from a file or a script: it is no hint, the answer rests on it.
 class KeptApart {

@@ -7,7 +7,7 @@
 #include "abi/scgeom.hpp"
 #include "kept_apart.hpp"
 
-#include "joint-law/contact_patch.hpp"
+#include "plugin-common/contact_patch.hpp"
 
 #include <boost/serialization/access.hpp>
 

@@ -7,7 +7,32 @@
 
 #include "definitions.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
 namespace potential_particles {
+
+// What numbers of an attribute are none; an empty text where all are finite. From scripts and files: what is not would reach positions of bodies.
+inline std::string notFinite(double value) { return std::isfinite(value) ? "" : (std::ostringstream() << value).str(); }
+inline std::string notFinite(const yade::Vector3r& value) { return value.allFinite() ? "" : (std::ostringstream() << "(" << value.transpose() << ")").str(); }
+inline std::string notFinite(const yade::Quaternionr& value)
+{
+    return value.coeffs().allFinite() ? "" : (std::ostringstream() << "(" << value.coeffs().transpose() << ")").str();
+}
+inline std::string notFinite(const std::vector<double>& values)
+{
+    const auto found = std::find_if(values.begin(), values.end(), [](double value) { return !std::isfinite(value); });
+    return found == values.end() ? "" : notFinite(*found);
+}
+template <class Other> std::string notFinite(const Other&) { return ""; }
+
+template <class Class, class Value> void requireFinite(const char* name, const Value& value)
+{
+    const std::string found = notFinite(value);
+    if (!found.empty())
+        throw std::invalid_argument(std::string(Entry<Class>::name) + ": " + name + " = " + found + ": it must be finite");
+}
 
 // False when the class has no attribute of that name.
 template <class Class> bool setAttribute(Class& object, const std::string& key, const py::object& value)
@@ -16,7 +41,10 @@ template <class Class> bool setAttribute(Class& object, const std::string& key, 
     Class::eachAttribute([&](const char* name, auto member, const char*, unsigned = 0) {
         if (key != name)
             return;
-        object.*member = py::extract<typename Pointed<decltype(member)>::type>(value)();
+        using Value = typename Pointed<decltype(member)>::type;
+        const Value given = py::extract<Value>(value)();
+        requireFinite<Class>(name, given);
+        object.*member = given;
         own = true;
     });
     return own;
@@ -35,7 +63,8 @@ template <class Class, class Registered> void addAttributes(Registered& register
         using Value = typename Pointed<decltype(member)>::type;
         registered.add_property(
             name, pythonFunction<Value, const Class&>([member](const Class& object) { return object.*member; }),
-            pythonFunction<void, Class&, const Value&>([member](Class& object, const Value& value) {
+            pythonFunction<void, Class&, const Value&>([member, name](Class& object, const Value& value) {
+                requireFinite<Class>(name, value);
                 object.*member = value;
                 object.callPostLoad();
             }),
@@ -47,8 +76,11 @@ template <class Class, class Registered> void addAttributes(Registered& register
 template <class Class, class Archive> void archiveAttributes(Archive& archive, Class& object, unsigned version)
 {
     Class::eachAttribute([&](const char* name, auto member, const char*, unsigned since = 0) {
-        if (version >= since)
-            archiveAttribute(archive, name, object.*member);
+        if (version < since)
+            return;
+        archiveAttribute(archive, name, object.*member);
+        if (Archive::is_loading::value)
+            requireFinite<Class>(name, object.*member);
     });
 }
 
@@ -82,4 +114,6 @@ template <class Class, class Archive> void archiveAttributes(Archive& archive, C
         requireReadable<Class>(version);                                                           \
         serializeBase<yade::Base>(archive, *this, #Base);                                          \
         archiveAttributes(archive, *this, version);                                                \
+        if (Archive::is_loading::value)                                                            \
+            callPostLoad();                                                                        \
     }

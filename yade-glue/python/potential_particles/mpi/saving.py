@@ -5,6 +5,7 @@ import time
 
 import yade
 
+from ..saves import save as save_scene
 from .ranks import mpy, rank, ranks
 
 O = yade.O
@@ -17,17 +18,22 @@ MANY_BODIES, LARGE_FILE = 20_000, 50e6
 def save(path):
     """Brings all bodies and contacts to rank 0 and saves the scene there. Collective.
 
-    The file is an ordinary one: O.load on rank 0, then `divide`, and the run goes on, with any number of ranks. It gets its
-    name when it is whole, so that a run that ends while it saves leaves the file that was there before.
+    The file is an ordinary one: O.load on rank 0, then `divide`, and the run goes on, with any number of ranks. It is
+    written whole or not at all, as by potential_particles.save; all ranks raise the error where it could not be.
     """
-    path = os.fspath(path)
-    if ranks() > 1 and O.splittedOnce:
+    path, failed = os.fspath(path), None
+    merged = ranks() > 1 and O.splittedOnce
+    if merged:
         mpy.mergeScene()
-        if rank() == 0:
-            _save_merged(path)
-    elif rank() == 0:
-        _save(path)
-    mpy.comm.Barrier()
+    if rank() == 0:
+        try:
+            (_save_merged if merged else _save)(path)
+        except Exception as error:
+            failed = error
+    # Also the end of the wait of the others.
+    failed = mpy.comm.bcast(failed, root=0)
+    if failed:
+        raise failed
 
 
 def load(path):
@@ -43,14 +49,10 @@ def load(path):
 
 
 def _save(path):
-    folder, file = os.path.split(path)
-    # In front: YADE tells the format by the end of the name.
-    unfinished = os.path.join(folder, "unfinished." + file)
     many, begin = len(O.bodies) >= MANY_BODIES, time.perf_counter()
     if many:
         print(f"saving {len(O.bodies):,} bodies to {path}", flush=True)
-    O.save(unfinished)
-    os.replace(unfinished, path)
+    save_scene(path)
     if many:
         print(f"saved in {time.perf_counter() - begin:.0f} s, {1e-6 * os.path.getsize(path):.0f} MB", flush=True)
 

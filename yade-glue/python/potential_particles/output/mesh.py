@@ -45,7 +45,7 @@ def save_mesh(file, what, tolerance=1e-3, position=(0, 0, 0), orientation=None):
     """Writes a mesh to a file .stl (binary) or .vtp (with the normals of the surface at the points).
 
     what: a shape, a Mesh, or a body, which is written where it stands. position, orientation: where a shape or a Mesh is put.
-    The file appears under its name when it is whole. ValueError for another ending.
+    The file is written whole or not at all. ValueError for another ending.
     """
     ending = os.path.splitext(file)[1]
     if ending not in (".stl", ".vtp"):
@@ -58,8 +58,10 @@ def save_mesh(file, what, tolerance=1e-3, position=(0, 0, 0), orientation=None):
     elif any(position):
         made = Mesh(made.points + np.asarray(position, float), made.normals, made.triangles, made.error)
     from . import vtk_files
-    data = vtk_files.triangles(made.points, made.triangles, {"normal": made.normals})
-    vtk_files.write(file, data)
+    if ending == ".stl":
+        vtk_files.write_stl(file, made.points, made.triangles)
+    else:
+        vtk_files.write(file, vtk_files.triangles(made.points, made.triangles, {"normal": made.normals}))
 
 
 def rotation_matrix(orientation):

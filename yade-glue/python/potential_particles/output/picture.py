@@ -1,8 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Pictures of the scene without a display, drawn by VTK: sun, shadows, darkened gaps, and boundaries one can see through."""
+import os
+
 import numpy as np
 import yade
 
+from ..arguments import whole
+from ..files import written
 from . import vtk_files
 from .chains import tubes
 from .drawn import ShapeMeshes, Triangles, drawn, edges
@@ -35,9 +39,8 @@ def plot(file, towards=(0.46, -0.84, 0.42), size=(1000, 800), tolerance=None, bo
     hide them. Needs no display. ValueError for a scene that has nothing to draw; RuntimeError with the packages to install
     where there is no OpenGL.
     """
-    from matplotlib.image import imsave
     scene = [body for body in yade.O.bodies if body is not None] if bodies is None else [yade.O.bodies[i] for i in bodies]
-    width, height = size
+    width, height = (whole(one, 16, 20_000, "size") for one in size)
     if tolerance is None:
         tolerance = fitting_tolerance(sum(not body.isClump for body in scene), size)
     of_bodies, of_boundaries = drawn(scene, ShapeMeshes(tolerance))
@@ -45,7 +48,7 @@ def plot(file, towards=(0.46, -0.84, 0.42), size=(1000, 800), tolerance=None, bo
         raise ValueError("patches=True and chains=True have each a scale of their own: draw two pictures")
     if not patches and not chains:
         view = framing(of_bodies, of_boundaries, towards, width / height)
-        imsave(file, render(of_bodies, of_boundaries, view, width, height))
+        _write(file, render(of_bodies, of_boundaries, view, width, height))
         return
     chosen = {body.id for body in scene}
     contacts = [contact for contact in yade.O.interactions if contact.isReal and {contact.id1, contact.id2} <= chosen]
@@ -58,7 +61,13 @@ def plot(file, towards=(0.46, -0.84, 0.42), size=(1000, 800), tolerance=None, bo
     view = framing(of_bodies, of_boundaries, towards, (width - BAR) / height)
     scale, one, prefix = _scale(values)
     coloured = Triangles(corners, np.zeros_like(corners), scale.to_rgba(values / one)[..., :3], np.zeros(len(corners), int))
-    imsave(file, _with_scale(render(of_bodies, of_boundaries, view, width - BAR, height, coloured), scale, f"{name}, {prefix}{unit}"))
+    _write(file, _with_scale(render(of_bodies, of_boundaries, view, width - BAR, height, coloured), scale, f"{name}, {prefix}{unit}"))
+
+
+def _write(file, image):
+    from matplotlib.image import imsave
+    with written(file) as out:
+        imsave(out, image, format=os.path.splitext(file)[1][1:] or None)
 
 
 def fitting_tolerance(count, size):

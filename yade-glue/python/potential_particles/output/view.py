@@ -4,6 +4,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..arguments import unit as direction
+
 
 @dataclass
 class View:
@@ -27,7 +29,7 @@ def framing_view(points, towards, angle, aspect, margin=1.03):
 
     aspect: width over height of the picture; margin: 1 fits tightly.
     """
-    points, towards = np.asarray(points, float), unit(towards)
+    points, towards = np.asarray(points, float), direction(towards, "towards")
     half_y = np.tan(0.5 * angle) / margin
     half_x = half_y * aspect
     target, distance = points.mean(0), np.ptp(points, axis=0).max() * 4.0

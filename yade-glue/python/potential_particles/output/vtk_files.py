@@ -1,17 +1,17 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Files for ParaView, written by VTK's Python modules (Debian's python3-vtk9). Each appears under its name when it is whole."""
-import os
-
+"""Files for ParaView, by VTK's Python modules (Debian's python3-vtk9), and .stl. Each is written whole or not at all."""
 import numpy as np
+
+from ..files import written
 
 
 def _vtk():
     try:
-        from vtkmodules import vtkCommonCore, vtkCommonDataModel, vtkIOGeometry, vtkIOXML
+        from vtkmodules import vtkCommonCore, vtkCommonDataModel, vtkIOXML
         from vtkmodules.util import numpy_support
     except ImportError as error:
         raise ImportError(f"files for ParaView need VTK's Python modules: apt install python3-vtk9 ({error})") from error
-    return vtkCommonCore, vtkCommonDataModel, vtkIOGeometry, vtkIOXML, numpy_support
+    return vtkCommonCore, vtkCommonDataModel, vtkIOXML, numpy_support
 
 
 def triangles(points, triangles, point_data=None, cell_data=None, normals=None):
@@ -19,14 +19,23 @@ def triangles(points, triangles, point_data=None, cell_data=None, normals=None):
 
     normals: the name of the point data by which surfaces are to be shaded; without them triangles are shown flat.
     """
-    data, cells = _with_points(points), _vtk()[1].vtkCellArray()
-    offsets = np.arange(0, 3 * len(triangles) + 1, 3)
-    cells.SetData(_array(offsets.astype(np.int64)), _array(np.ascontiguousarray(triangles, np.int64).ravel()))
-    data.SetPolys(cells)
+    data = polygons(points, triangles)
     _enter(data.GetPointData(), point_data)
     _enter(data.GetCellData(), cell_data)
     if normals:
         data.GetPointData().SetActiveNormals(normals)
+    return data
+
+
+def polygons(points, polygons):
+    """VTK's polygons over points (n, 3), an array (m, k) or lists of numbers of points."""
+    data, cells = _with_points(points), _vtk()[1].vtkCellArray()
+    if isinstance(polygons, np.ndarray):
+        offsets, corners = np.arange(len(polygons) + 1) * polygons.shape[1], polygons.ravel()
+    else:
+        offsets, corners = np.cumsum([0, *map(len, polygons)]), np.array([corner for polygon in polygons for corner in polygon])
+    cells.SetData(_array(offsets.astype(np.int64)), _array(corners.astype(np.int64)))
+    data.SetPolys(cells)
     return data
 
 
@@ -49,29 +58,34 @@ def lines(segments, cell_data=None):
 
 
 def write(file, data):
-    """Writes polygons as .stl or .vtp, or points as .vtp."""
-    _, _, geometry, xml, _ = _vtk()
-    stl = str(file).endswith(".stl")
-    writer = geometry.vtkSTLWriter() if stl else xml.vtkXMLPolyDataWriter()
-    if stl:
-        writer.SetFileTypeToBinary()
-    part = unfinished(file)
-    # Where that fails it says why, which VTK's writers do not.
-    open(part, "wb").close()
-    writer.SetFileName(part)
+    """Writes polygons or points as .vtp."""
+    writer = _vtk()[2].vtkXMLPolyDataWriter()
+    # Not to the file: VTK does not notice all that could not be written.
+    writer.WriteToOutputStringOn()
     writer.SetInputData(data)
-    try:
-        if not writer.Write() or writer.GetErrorCode():
-            raise OSError(f"{file} could not be written: is there room on the disk?")
-        os.replace(part, file)
-    finally:
-        if os.path.exists(part):
-            os.remove(part)
+    if not writer.Write() or writer.GetErrorCode():
+        raise OSError(f"{file} could not be written: VTK makes no .vtp of it")
+    with written(file, text=True) as out:
+        out.write(writer.GetOutputString())
+
+
+_STL = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
+
+
+def write_stl(file, points, triangles):
+    """Writes triangles (m, 3) over points (n, 3) as a binary .stl."""
+    facets = np.zeros(len(triangles), _STL)
+    facets["corners"] = corners = np.asarray(points, float)[triangles]
+    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    length = np.linalg.norm(normals, axis=1, keepdims=True)
+    facets["normal"] = np.divide(normals, length, out=np.zeros_like(normals), where=length > 0.0)
+    with written(file) as out:
+        out.write(b"potential_particles".ljust(80) + len(facets).to_bytes(4, "little") + facets.tobytes())
 
 
 def read(file):
     """A .vtp file as {name: array}, with `points` and, for polygons, `triangles` (m, 3) among them."""
-    _, _, _, xml, numpy_support = _vtk()
+    _, _, xml, numpy_support = _vtk()
     reader = xml.vtkXMLPolyDataReader()
     reader.SetFileName(str(file))
     reader.Update()
@@ -90,16 +104,9 @@ def read(file):
 def write_index(file, frames):
     """A .pvd file that plays .vtp files as a series; frames: (time, name of the file beside it) each."""
     rows = [f'<DataSet timestep="{time:.9g}" part="0" file="{name}"/>\n' for time, name in frames]
-    part = unfinished(file)
-    with open(part, "w") as out:
+    with written(file, text=True) as out:
         out.write('<?xml version="1.0"?>\n<VTKFile type="Collection" version="0.1">\n<Collection>\n'
                   + "".join(rows) + "</Collection>\n</VTKFile>\n")
-    os.replace(part, file)
-
-
-def unfinished(file):
-    """The name of a file while it is being written."""
-    return f"{file}.part"
 
 
 def _with_points(points):

@@ -8,12 +8,10 @@ YADE's potential blocks have sharp edges: r is that of a body within, whose norm
 up to an overlap of twice the rounding, so that it must not be too small either. The faces stay where they are.
 """
 import numpy as np
-from scipy.spatial import ConvexHull
 from yade.wrapper import ConicPotentialParticle
 
 from ..arguments import positive, rows
-from ..polyhedron import Polyhedron
-from ..principal_frame import principal_axes, quaternion
+from ..polyhedron import Polyhedron, principal_axes
 from ..shape import definition, volumes
 
 #: A centroid, or a product of inertia, that is smaller than this share is 0 up to rounding.
@@ -48,7 +46,7 @@ class PotentialBlock(ConicPotentialParticle):
             attributes.pop(name, None)
         carried = {name: attributes.pop(name, default) for name, default in _CARRIED.items()}
         given = [np.atleast_1d(np.asarray(attributes.pop(name, []), float)) for name in "abcd"]
-        position, orientation = np.zeros(3), np.eye(3)
+        position, orientation = np.zeros(3), (1.0, 0.0, 0.0, 0.0)
         if any(len(one) for one in given):
             if len({len(one) for one in given}) > 1:
                 raise ValueError(f"a, b, c, d have {', '.join(str(len(one)) for one in given)} entries: all must be of one length")
@@ -58,7 +56,7 @@ class PotentialBlock(ConicPotentialParticle):
         super().__init__(**attributes)
         if self.planes:
             volumes[definition(self)] = self.volume
-        self._frame = tuple(map(float, position)), tuple(map(float, quaternion(orientation)))
+        self._frame = tuple(map(float, position)), tuple(map(float, orientation))
         for name, value in carried.items():
             setattr(self, name, value)
 
@@ -66,18 +64,18 @@ class PotentialBlock(ConicPotentialParticle):
     def vertices(self):
         """Of the sharp block, a list of Vector3, local axes."""
         import yade
-        return [yade.Vector3(*corner) for corner in self._corners().tolist()]
+        return [yade.Vector3(*corner) for corner in self._sharp().corners.tolist()]
 
     @property
     def volume(self):
         """Of the sharp block."""
-        return _mass_properties(self._corners())[0]
+        return self._sharp().volume
 
     @property
     def inertia(self):
         """Principal moments of the sharp block for density 1, Vector3."""
         import yade
-        return yade.Vector3(*np.diag(_mass_properties(self._corners())[2]).tolist())
+        return yade.Vector3(*np.diag(self._sharp().inertia).tolist())
 
     @property
     def position(self):
@@ -91,14 +89,14 @@ class PotentialBlock(ConicPotentialParticle):
         import yade
         return yade.Quaternion(*self._frame[1])
 
-    def _corners(self):
+    def _sharp(self):
         planes = np.array(self.planes)
-        return Polyhedron.of_planes(planes[:, :3], planes[:, 3] + self.r).corners
+        return Polyhedron.of_planes(planes[:, :3], planes[:, 3] + self.r)
 
     @property
     def connectivity(self):
         """For each plane the numbers of its vertices, counter-clockwise from outside."""
-        corners, found = self._corners(), []
+        corners, found = self._sharp().corners, []
         size = np.ptp(corners, axis=0).max()
         for a, b, c, d in self.planes:
             normal = np.array([a, b, c])
@@ -117,31 +115,16 @@ def _settled(planes, r, R):
     faces = np.column_stack([planes[:, :3], planes[:, 3] + r]) / lengths[:, None]
     faces[faces[:, 3] < 0.0] *= -1.0
     sharp = Polyhedron.of_planes(faces[:, :3], faces[:, 3])
-    _, centroid, _ = _mass_properties(sharp.corners)
-    reach = np.linalg.norm(sharp.corners - centroid, axis=1).max()
-    position = np.where(np.abs(centroid) > ROUNDING * reach, centroid, 0.0)
-    _, _, inertia = _mass_properties(sharp.corners - position)
-    axes = principal_axes(inertia)[0] if _has_products(inertia) else np.eye(3)
+    reach = np.linalg.norm(sharp.corners - sharp.centroid, axis=1).max()
+    position = np.where(np.abs(sharp.centroid) > ROUNDING * reach, sharp.centroid, 0.0)
+    inertia = sharp.inertia
+    orientation, axes = principal_axes(inertia)[:2] if _has_products(inertia) else ((1.0, 0.0, 0.0, 0.0), np.eye(3))
     heights = sharp.offsets - sharp.normals @ position
     r = 2.0 * EDGES * float(heights.min())
     radius = float(R) or 0.5 * max(float(np.linalg.norm(sharp.corners - one, axis=1).max()) for one in sharp.corners)
     turned = np.column_stack([sharp.normals @ axes, heights - r])
-    return [tuple(row) for row in turned.tolist()], r, radius, position, axes
+    return [tuple(row) for row in turned.tolist()], r, radius, position, orientation
 
 
 def _has_products(inertia):
     return np.abs(inertia[np.triu_indices(3, 1)]).max() > ROUNDING * np.trace(inertia)
-
-
-def _mass_properties(corners):
-    """Volume, centroid and inertia (3, 3) about the origin for density 1 of the hull of corners (n, 3)."""
-    middle = corners.mean(0)
-    hull = ConvexHull(corners - middle)
-    a, b, c = (hull.points[hull.simplices[:, i]] for i in range(3))
-    volumes = np.abs(np.einsum("ij,ij->i", a, np.cross(b, c))) / 6.0
-    volume = volumes.sum()
-    centroid = middle + volumes @ (a + b + c) / (4.0 * volume)
-    a, b, c, apex = a + middle, b + middle, c + middle, np.broadcast_to(middle, a.shape)
-    # Over a tetrahedron: integral of x x^T = V/20 (sum of the corners' x x^T + s s^T), s their sum.
-    second = sum(np.einsum("n,ni,nj->ij", volumes, one, one) for one in (a, b, c, apex, a + b + c + apex)) / 20.0
-    return float(volume), centroid, np.trace(second) * np.eye(3) - second

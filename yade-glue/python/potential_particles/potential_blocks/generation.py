@@ -8,6 +8,7 @@ import numpy as np
 
 from .. import rock
 from ..arguments import number, positive, vector
+from ..files import written
 from .block import PotentialBlock
 
 # Attributes of YADE's BlockGen, and their values before a script sets them.
@@ -148,5 +149,5 @@ class BlockGen:
         if not self.saveBlockGenData:
             print("\n".join(lines), file=sys.stderr)
         elif self.outputFile:
-            with open(self.outputFile, "w") as file:
+            with written(self.outputFile, text=True) as file:
                 file.write("\n".join(lines) + "\n")

@@ -17,7 +17,7 @@ import math
 
 import numpy as np
 
-from ..arguments import positive, vector, whole, within
+from ..arguments import LARGE, positive, vector, whole, within
 from .mass import LEAST_SHARE, OF_DOMAIN, planes_of
 from .scene import _marked, loads_of
 
@@ -192,7 +192,7 @@ def _by_set(given, name, checked):
     if not isinstance(given, dict):
         value = checked(given, name)
         return lambda entry: value
-    values = {entry if entry is None else whole(entry, 0, f"an entry of {name}"): checked(value, f"{name}[{entry!r}]") for entry, value in given.items()}
+    values = {entry if entry is None else whole(entry, 0, LARGE, f"an entry of {name}"): checked(value, f"{name}[{entry!r}]") for entry, value in given.items()}
     if None not in values:
         raise ValueError(f"{name} has no key None, for joints of other entries and for planes that are no joints")
     return lambda entry: values.get(int(entry), values[None])

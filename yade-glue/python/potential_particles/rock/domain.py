@@ -6,7 +6,7 @@ import typing
 
 import numpy as np
 
-from ..arguments import positive, rows, vector, whole
+from ..arguments import MOST_PLANES, positive, rows, vector, whole
 from .joints import joint
 
 
@@ -53,7 +53,7 @@ class Domain:
         up = np.eye(3)[2] if abs(along[2]) < 0.9 else np.eye(3)[0]
         u = up - (up @ along) * along
         u /= np.linalg.norm(u)
-        angles = 2.0 * np.pi * np.arange(whole(sides, 3, "sides")) / sides
+        angles = 2.0 * np.pi * np.arange(whole(sides, 3, MOST_PLANES - 2, "sides")) / sides
         normals = [math.cos(angle) * u + math.sin(angle) * np.cross(along, u) for angle in angles]
         return cls([(*n, n @ start + radius) for n in normals] + [(*along, along @ end), (*-along, -(along @ start))])
 

@@ -5,7 +5,7 @@ import math
 
 import numpy as np
 
-from ..arguments import positive
+from ..arguments import MANY, positive
 from .joints import Joint, JointSet, joint, polygon
 
 
@@ -50,6 +50,8 @@ def rows_of_blockgen(file, kind, size=None):
         if kind == "persistent":
             _told(file, number, lambda: JointSet(min(dip, 180 - dip), direction, values[2]))
             half = round(size / values[2]) // 2
+            if len(found) + 2 * half + 1 > MANY:
+                raise ValueError(f"{file}, line {number}: spacing={values[2]:g} over size={size:g} makes {2 * half + 1:.3g} joints, and no more than {MANY} are read")
             found += [(Joint(tuple(step * values[2] * one for one in normal), normal), strength) for step in range(-half, half + 1)]
         elif kind == "probabilistic":
             if not (values[5] > 0.0 and values[6] > 0.0):

@@ -6,7 +6,7 @@ import typing
 
 import numpy as np
 
-from ..arguments import number, positive, rows, vector, whole, within
+from ..arguments import LARGE, MANY, number, positive, rows, vector, whole, within
 
 
 class Joint(typing.NamedTuple):
@@ -67,7 +67,7 @@ class JointSet:
         within(self.dip, 0.0, 90.0, "dip")
         number(self.dip_direction, "dip_direction")
         positive(self.spacing, "spacing")
-        whole(self.seed, 0, "seed")
+        whole(self.seed, 0, LARGE, "seed")
         if not self.fisher > 0.0:
             raise ValueError(f"fisher={self.fisher} must be above 0; math.inf is no scatter")
         _radius(self.radius)
@@ -78,7 +78,10 @@ class JointSet:
         fields = {name: getattr(self, name) for name in ("dip", "dip_direction", "spacing", "fisher", "radius", "seed")}
         made = _glue.joints_of_set({**{name: float(value) for name, value in fields.items()}, "seed": int(self.seed), "exponential": bool(self.exponential)},
                                    tuple(map(float, vector(centre, "centre"))), positive(reach, "reach"))
-        return [Joint(tuple(row[:3]), tuple(row[3:6]), float(row[6])) for row in np.frombuffer(made).reshape(-1, 7).tolist()]
+        made = np.frombuffer(made).reshape(-1, 7)
+        if len(made) > MANY:
+            raise ValueError(f"spacing={self.spacing:g} makes {len(made)} joints, and no more than {MANY} are made: take a larger one, or a smaller domain")
+        return [Joint(tuple(row[:3]), tuple(row[3:6]), float(row[6])) for row in made.tolist()]
 
 
 def _radius(radius):

@@ -9,7 +9,7 @@ import typing
 
 import numpy as np
 
-from ..arguments import number, whole, within
+from ..arguments import LARGE, number, whole, within
 from .domain import Domain, convex
 from .joints import Joint, JointSet
 
@@ -108,7 +108,7 @@ class RockMass:
 
     def inside(self, region):
         """Which blocks lie in this region (its number among the `regions` of slice()), (blocks,) of bool."""
-        return self.blocks["region"] == whole(region, 0, "region")
+        return self.blocks["region"] == whole(region, 0, LARGE, "region")
 
     @functools.cached_property
     def pieces(self):
@@ -164,8 +164,8 @@ def slice(domain, joints, regions=(), least_volume=0.0, least_thickness=0.0, lea
         region.ball()  # raises where it is empty or open
     limits = {"least_volume": _not_negative(least_volume, "least_volume"), "least_thickness": _not_negative(least_thickness, "least_thickness"),
               "least_width": _not_negative(least_width, "least_width"), "largest_aspect": 0.0 if largest_aspect == math.inf else within(largest_aspect, 1.0, math.inf, "largest_aspect"),
-              "threads": len(os.sched_getaffinity(0)) if threads is None else whole(threads, 1, "threads"),
-              "most_blocks": whole(most_blocks, 1, "most_blocks")}
+              "threads": len(os.sched_getaffinity(0)) if threads is None else whole(threads, 1, 1024, "threads"),
+              "most_blocks": whole(most_blocks, 1, LARGE, "most_blocks")}
     centre, reach = domain.ball()
     cutting, numbers = [], []
     for entry, given in enumerate([joints] if isinstance(joints, (JointSet, Joint)) else _listed(joints, "joints")):

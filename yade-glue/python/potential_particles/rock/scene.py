@@ -5,8 +5,10 @@ import math
 
 import numpy as np
 
-from ..arguments import number, positive, radians, whole, within
+from ..arguments import LARGE, positive, radians, whole, within
 from ..joints import FOLLOWS, of_engine, table
+from ..polyhedron import principal_axes
+from ..rounding import Rounding
 from ..shape import Shape
 
 TAG = "potential_particles.rock"
@@ -31,11 +33,11 @@ class Ids(np.ndarray):
         return iter(self.tolist())
 
 
-def bodies(mass, material=None, r=0.05, fixed=(), overlap=None, color=None, **more):
+def bodies(mass, material=None, rounding=0.05, fixed=(), overlap=None, color=None, *, r=None, **more):
     """Appends the blocks of a RockMass to O.bodies; an array (blocks,) of the ids of their bodies, which gives a single one as an int.
 
-    material: a Material, or the number or label of one in O.materials (None: the last). r: rounding of edges and corners as a share of twice the distance of
-    the nearest face from the centroid; faces are flat (k = 0) and stay where they are, but for `overlap`, length, by which each is moved out, so that
+    material: a Material, or the number or label of one in O.materials (None: the last). rounding: of edges and corners, as a share of twice the distance of
+    the nearest face from the centroid, or in its place r, a length for all blocks; faces are flat (k = 0) and stay where they are, but for `overlap`, length, by which each is moved out, so that
     neighbours touch from the start: by default 1e-10 of the size of a block, and above rounding. Mass and inertia are those of the sharp blocks, so that masses sum to that of the domain.
     fixed: blocks that no force moves, as numbers or (blocks,) of bool, as mass.on_domain gives them. Pieces of a block that regions parted are a clump, with
     the mass of their sum, and all fixed where one is. color: one for all, or a function of the number of a block; by default a shade for each.
@@ -45,9 +47,7 @@ def bodies(mass, material=None, r=0.05, fixed=(), overlap=None, color=None, **mo
     import yade
     from ..bodies import body
     from ..clumps import clump
-    r = number(r, "r")
-    if not 0.0 < r < 0.5:
-        raise ValueError(f"r={r:g} is a share of the thickness of a block and must lie between 0 and 0.5")
+    wanted = Rounding(rounding, 0.0, r)
     size = np.median(np.cbrt(mass.blocks["volume"]))
     overlap = max(TOUCH * size, ROUNDING * np.abs(mass.corners).max()) if overlap is None else within(overlap, 0.0, math.inf, "overlap")
     still = _marked(fixed, len(mass), "fixed")
@@ -56,7 +56,7 @@ def bodies(mass, material=None, r=0.05, fixed=(), overlap=None, color=None, **mo
     made = []
     for one in range(len(mass)):
         block = mass[one]
-        shape, orientation = _shape(block, r, overlap)
+        shape, orientation = _shape(block, wanted, overlap)
         shade = _shade(one) if color is None else color(one) if callable(color) else color
         is_held = bool(held[mass.pieces[one]])
         made.append(body(shape, material, block.centroid, orientation, fixed=is_held, color=shade, **{**({"mask": FIXED_MASK} if is_held else {}), **more}))
@@ -77,7 +77,7 @@ def joint_engine(mass, ids, materials, period=1):
     Saved with the scene, in O.tags; a script that loads it imports potential_particles. Each rock mass has an engine of its own.
     """
     import yade
-    period = whole(period, 1, "period")
+    period = whole(period, 1, LARGE, "period")
     largest = {}
     sets, owners = mass.set_of_face, mass.faces["block"].astype(int)
     for (first, second), area in zip(mass.partners["faces"].astype(int), mass.partners["area"]):
@@ -147,7 +147,7 @@ def excavate(ids, settle=0, slow=1e-3, check_every=100):
     ValueError. Returns the steps that were run. A sequence is a loop over regions.
     """
     import yade
-    scene, settle, slow = yade.O, whole(settle, 0, "settle"), positive(slow, "slow")
+    scene, settle, slow = yade.O, whole(settle, 0, LARGE, "settle"), positive(slow, "slow")
     if np.asarray(ids).dtype == bool:
         raise ValueError("ids is an array of bool: give ids of bodies, as in excavate(ids[mass.inside(0)])")
     wanted = sorted({_id(one) for one in np.atleast_1d(ids)})
@@ -181,17 +181,16 @@ def _id(given):
     raise ValueError(f"ids holds {given}: an id is a whole number")
 
 
-def _shape(block, r, overlap):
+def _shape(block, wanted, overlap):
     """The Shape of a block in its principal axes, and the orientation of these."""
-    from ..principal_frame import principal_axes, quaternion
-    axes, moments = principal_axes(block.inertia)
+    orientation, axes, moments = principal_axes(block.inertia)
     heights = block.planes[:, 3] - block.planes[:, :3] @ block.centroid
-    rounding = 2.0 * r * float(heights.min())
-    planes = np.column_stack([block.planes[:, :3] @ axes, heights + overlap - rounding])
+    r = wanted.lengths(2.0 * float(heights.min()))[0]
+    planes = np.column_stack([block.planes[:, :3] @ axes, heights + overlap - r])
     reach = float(np.linalg.norm(block.corners - block.centroid, axis=1).max())
-    shape = Shape(planes=tuple(map(tuple, planes.tolist())), r=rounding, k=0.0, R=reach, volume=block.volume, inertia=tuple(map(float, moments)), error=1e-12,
+    shape = Shape(planes=tuple(map(tuple, planes.tolist())), r=r, k=0.0, R=reach, volume=block.volume, inertia=tuple(map(float, moments)), error=1e-12,
                   centroid=(0.0, 0.0, 0.0), orientation=(1.0, 0.0, 0.0, 0.0), bounding_radius=reach, name=f"block {block.number}")
-    return shape, quaternion(axes)
+    return shape, orientation
 
 
 def _marked(chosen, count, name):

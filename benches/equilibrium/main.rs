@@ -1,0 +1,175 @@
+//! Equilibrium: closed forms, and how time and memory grow with the number of blocks. Writes
+//! out/equilibrium/summary.json, and out/equilibrium/wall.json for the picture; `-- quick` takes the small scenes only.
+
+mod scenes;
+#[path = "../target/mod.rs"]
+mod target;
+
+use potential_particles::Plane;
+use potential_particles::equilibrium::{Flow, JointStrength, Load, Scene, load_factor, stands, strength_factor};
+use potential_particles::nalgebra::Vector3;
+use potential_particles::rock::{JointSet, SliceSettings, slice};
+use scenes::{arch, block, pushed, v, wall, wedge};
+use serde_json::{Value, json};
+use target::at_most;
+
+const BOTH: [Flow; 2] = [Flow::Associated, Flow::NonDilatant];
+/// Bricks of a course and courses of the walls.
+const WALLS: [(usize, usize); 3] = [(10, 9), (31, 31), (100, 99)];
+/// Joints of each of the three sets of the rock masses: some 500 and 2,000 blocks.
+const JOINTS: [u32; 2] = [7, 11];
+/// Planes of wedges and faces, (dip, dip direction), that the tests do not have.
+const WEDGES: [([[f64; 2]; 2], [f64; 2]); 5] = [
+    ([[42.0, 98.0], [66.0, 228.0]], [68.0, 180.0]),
+    ([[52.0, 122.0], [57.0, 237.0]], [72.0, 183.0]),
+    ([[61.0, 118.0], [44.0, 210.0]], [77.0, 168.0]),
+    ([[58.0, 105.0], [63.0, 246.0]], [79.0, 176.0]),
+    ([[49.0, 145.0], [54.0, 255.0]], [71.0, 198.0]),
+];
+
+fn main() {
+    let is_quick = std::env::args().any(|argument| argument == "quick");
+    let mut targets = closed_forms();
+    let (walls, masses) = if is_quick { (&WALLS[..2], &JOINTS[..1]) } else { (&WALLS[..], &JOINTS[..]) };
+    let scenes = walls.iter().map(|&(width, rows)| ("wall", pushed(wall(width, rows, 0.6))));
+    let scenes = scenes.chain(masses.iter().map(|&count| ("rock mass", rock_mass(count))));
+    let rows: Vec<Value> = scenes.map(|(name, scene)| timed(name, &scene)).collect();
+    let [last, before] = [1, 2].map(|i| &rows[walls.len() - i]);
+    let of = |row: &Value, name: &str| row[name].as_f64().expect("a number");
+    let growth = (of(last, "seconds") / of(before, "seconds")).ln() / (of(last, "blocks") / of(before, "blocks")).ln();
+    targets.push(at_most("largest wall, s", 60.0, of(last, "seconds")));
+    targets.push(at_most("growth of the time of walls, power of the number of blocks", 1.3, growth));
+    targets.push(at_most("largest rock mass, s", 120.0, of(&rows[rows.len() - 1], "seconds")));
+    std::fs::create_dir_all("out/equilibrium").expect("out/equilibrium");
+    let write = |name: &str, value: &Value| {
+        target::write_summary(format!("out/equilibrium/{name}"), value).expect("out/equilibrium");
+    };
+    write("summary.json", &json!({"rows": rows, "targets": targets}));
+    write("wall.json", &drawn());
+}
+
+/// Differences from closed forms; the thickness of the arch by bisection.
+fn closed_forms() -> Vec<Value> {
+    let angle = 0.31_f64;
+    let (mut slope, mut side, mut degrees) = (0.0_f64, 0.0_f64, 0.0_f64);
+    for flow in BOTH {
+        let found = strength_factor(&block(0.6, angle, 0.7), flow).expect("a factor");
+        slope = slope.max((found.factor * angle.tan() / 0.7 - 1.0).abs());
+        for (height, friction) in [(0.7, 0.4), (2.6, 0.6)] {
+            let found = load_factor(&pushed(block(height, 0.0, friction)), flow).expect("a factor");
+            side = side.max((found.factor / f64::min(friction, 1.0 / height) - 1.0).abs());
+        }
+    }
+    for (planes, face) in WEDGES {
+        let (scene, expected) = wedge(planes, face, 0.7);
+        let [bound, found] = BOTH.map(|flow| strength_factor(&scene, flow).expect("a factor").factor);
+        println!("wedge {planes:?}: Hoek and Bray {expected:.6}, without dilatancy {found:.6}, associated {bound:.6}");
+        let friction_angle = |factor: f64| (0.7 / factor).atan().to_degrees();
+        degrees = degrees.max((friction_angle(found) - friction_angle(expected)).abs());
+    }
+    let (mut falls, mut holds) = (0.1, 0.115);
+    while holds - falls > 1e-6 {
+        let middle = 0.5 * (falls + holds);
+        if stands(&arch(middle, 240)).expect("an answer").stands { holds = middle } else { falls = middle }
+    }
+    vec![
+        at_most("block on a slope, relative", 1e-6, slope),
+        at_most("block under a side load, relative", 1e-6, side),
+        at_most("wedges without dilatancy against Hoek and Bray, degrees", 1e-4, degrees),
+        at_most(
+            "least thickness of a semicircular arch over its radius, against 0.107478",
+            1e-4,
+            (holds - 0.107478).abs(),
+        ),
+    ]
+}
+
+/// A cube cut by three sets, held below and on all sides but the east, to which it is pushed.
+fn rock_mass(count: u32) -> Scene {
+    let side = |i: usize| Plane { normal: Vector3::ith(i / 2, [1.0, -1.0][i % 2]), offset: 10.0 };
+    let domain: Vec<Plane> = (0..6).map(side).collect();
+    let set = |(dip, direction): (f64, f64)| {
+        let set =
+            JointSet { fisher: 300.0, seed: count.into(), ..JointSet::new(dip, direction, 20.0 / f64::from(count)) };
+        set.joints([0.0; 3], 10.0).expect("a joint set")
+    };
+    let joints: Vec<_> = [(3.0, 10.0), (87.0, 100.0), (86.0, 190.0)].into_iter().flat_map(set).collect();
+    let settings = SliceSettings { least_volume: 1e-2, ..SliceSettings::default() };
+    let mass = slice(&domain, &joints, &settings).expect("a rock mass");
+    let is_inside = |at: &Vector3<f64>| at.x > -9.99 && at.y.abs() < 9.99 && at.z > -9.99;
+    let is_held = |block: usize| !mass.blocks[block].corners.iter().all(is_inside);
+    let strength = JointStrength { friction: 0.6, ..JointStrength::default() };
+    pushed(Scene::of_rock(&mass, v(0.0, 0.0, -26e3), is_held, |_| strength))
+}
+
+/// Seconds for which this thread has had a processor, by Linux.
+fn own_time() -> f64 {
+    std::thread::yield_now();
+    let told = std::fs::read_to_string("/proc/thread-self/schedstat").expect("Linux");
+    1e-9 * told.split(' ').next().and_then(|told| told.parse::<f64>().ok()).expect("nanoseconds")
+}
+
+/// The associated load factor of a scene, its processor time and the largest memory so far.
+fn timed(name: &str, scene: &Scene) -> Value {
+    let blocks = scene.bodies.iter().filter(|body| !body.held).count();
+    let begin = own_time();
+    let found = load_factor(scene, Flow::Associated);
+    let seconds = own_time() - begin;
+    let told = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let memory =
+        told.lines().find_map(|line| line.strip_prefix("VmHWM:")?.split_whitespace().next()?.parse::<f64>().ok());
+    let megabytes = memory.map_or(f64::NAN, |kilobytes| kilobytes / 1024.0);
+    let factor = found.as_ref().map_or(f64::NAN, |found| found.factor);
+    let status = found.map_or_else(
+        |error| error.to_string(),
+        |found| if found.stands { "solved" } else { "falls by its weight" }.into(),
+    );
+    let contacts = scene.contacts.len();
+    println!(
+        "{name} of {blocks} blocks, {contacts} contacts: {factor:.6}, {seconds:.2} s, up to {megabytes:.0} MB; {status}"
+    );
+    json!({"scene": name, "blocks": blocks, "contacts": contacts, "corners": scene.corner_count(), "factor": factor,
+        "seconds": seconds, "megabytes": megabytes, "status": status})
+}
+
+/// A wall at its limit: outlines, velocities, forces at corners and the use of friction, for both flows.
+fn drawn() -> Value {
+    let scene = pushed(wall(6, 8, 0.65));
+    let of = |flow: Flow| {
+        let found = load_factor(&scene, flow).expect("a factor");
+        let mut forces = found.forces.iter();
+        let contacts: Vec<Value> = scene
+            .contacts
+            .iter()
+            .map(|contact| {
+                let normal = contact.normal.normalize();
+                let (mut n, mut t) = (0.0, Vector3::zeros());
+                let corners: Vec<Value> = contact
+                    .corners
+                    .iter()
+                    .map(|at| {
+                        let force = forces.next().expect("a force at each corner");
+                        n += force.dot(&normal);
+                        t += force - force.dot(&normal) * normal;
+                        json!([<[f64; 3]>::from(*at), <[f64; 3]>::from(*force)])
+                    })
+                    .collect();
+                json!({"corners": corners, "use": t.norm() / (contact.friction * n).max(1e-12), "force": n})
+            })
+            .collect();
+        let bodies: Vec<Value> = scene
+            .bodies
+            .iter()
+            .zip(&found.mechanism)
+            .skip(1)
+            .map(|(body, velocity)| {
+                let Load { force, .. } = body.dead;
+                json!({"centre": <[f64; 3]>::from(body.centre), "length": force.norm(),
+                "linear": <[f64; 3]>::from(velocity.linear), "angular": <[f64; 3]>::from(velocity.angular)})
+            })
+            .collect();
+        println!("drawn wall, {flow:?}: {:.4}, {} programs", found.factor, found.programs);
+        json!({"factor": found.factor, "programs": found.programs, "bodies": bodies, "contacts": contacts})
+    };
+    json!({"associated": of(Flow::Associated), "without dilatancy": of(Flow::NonDilatant)})
+}

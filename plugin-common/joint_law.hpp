@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//
+// The law of joints: forces and moments of a contact patch, and of a bond. Derived in docs/joints.md.
+#pragma once
+
+#include "contact_patch.hpp"
+#include "joint.hpp"
+#include "limit_surface.hpp"
+#include "patch_rim.hpp"
+
+namespace potential_particles {
+
+// A joint in one step: step(), or a repetition of the last one.
+class JointLaw {
+public:
+    JointLaw(const JointParameters& joint, JointMemory& memory, const JointBody& one, const JointBody& other, double dt)
+        : joint(joint)
+        , memory(memory)
+        , one(one)
+        , other(other)
+        , dt(dt)
+    {
+    }
+
+    // One step. patch: none where the bodies are apart, or where the bond holds and the contact was not looked for
+    // (not mayEnd); motion(): of the patch; posed(1), posed(2): the shapes, for a patch that becomes a bond. Whether
+    // a bond holds the bodies.
+    template <class Motion, class Posed>
+    bool step(const ContactPatch* patch, bool mayEnd, Motion&& motion, Posed&& posed)
+    {
+        if (memory.bondArea > 0 && holdAsBond(mayEnd))
+            return true;
+        if (!patch) {
+            open();
+            return false;
+        }
+        const JointMotion here = motion();
+        holdAsPatch(*patch, here);
+        // It shall become a bond.
+        if (memory.bonded && !(memory.bondArea > 0))
+            bond(*patch, here, posed(1), posed(2));
+        return false;
+    }
+
+    const JointForces& forces() const { return all; }
+
+    // The forces of the last step once more, for poses that have not changed: nothing is remembered, and dashpots do
+    // what they did. Of a patch that became a bond in that step, those of the bond.
+    void repeatAsBond(const Wrench& damping);
+    void repeatAsPatch(const ContactPatch& patch, const JointMotion& motion, const Wrench& damping);
+
+private:
+    // A bond that reaches its strength holds for this step, in which the contact may not have been looked for, and is
+    // ended in the next one, as if `bonded` had been set to false. False when it is ended: what it held along the
+    // joint is left to the springs of the patch, for open() or holdAsPatch() to go on with. mayEnd: the contact was
+    // looked for.
+    bool holdAsBond(bool mayEnd);
+    void holdAsPatch(const ContactPatch& patch, const JointMotion& motion);
+    // The bodies are apart.
+    void open();
+
+    void bond(const ContactPatch& patch, const JointMotion& motion, const PosedShape& shape1, const PosedShape& shape2);
+
+    // The springs along the joint: how far they are drawn, and turned about the normal.
+    struct Springs {
+        Eigen::Vector3d shear;
+        double twist;
+    };
+
+    Wrench dashpotAcross(const ContactPatch& patch, const JointMotion& motion) const;
+    Springs springsAlong(const JointMotion& motion);
+    FrictionForce slip(const ContactPatch& patch, double pressing, Springs& springs);
+    void dampAlong(const ContactPatch& patch, const JointMotion& motion, const FrictionForce& limit);
+    Wrench dashpotOfBond(const BondStrain& strain) const;
+    void takeStiffness(const ContactPatch& patch);
+    void pushAsBond(const BondStrain& strain, const Wrench& damping);
+    void push();
+    double dashpotPerArea(double stiffness, double mobility, double area) const;
+    double energyAlong(const Springs& springs) const;
+    double turning(const Eigen::Vector3d& normal) const { return (other.spin - one.spin).dot(normal); }
+
+    const JointParameters& joint;
+    JointMemory& memory;
+    const JointBody &one, &other;
+    const double dt;
+    bool bondEnded = false; // in this step: its springs along the joint are now those of the patch
+    JointForces all;
+};
+
+} // namespace potential_particles

@@ -1,0 +1,8 @@
+# SPDX-License-Identifier: MIT OR Apache-2.0
+"""Whether a scene of rigid blocks stands, and by how much: limit analysis by cone programs."""
+from ._core import _equilibrium
+
+Scene = _equilibrium.Scene
+Equilibrium = _equilibrium.Equilibrium
+
+__all__ = ["Equilibrium", "Scene"]

@@ -1,0 +1,213 @@
+//! Whether a scene of blocks stands.
+
+use crate::arrays::{rows, to_rows, vector};
+use crate::errors::refused;
+use crate::slicing::PyRockMass;
+use numpy::{PyArray1, PyArray2};
+use potential_particles::equilibrium::{self as library, Body, Contact, Equilibrium, EquilibriumError, Flow};
+use potential_particles::equilibrium::{JointStrength, Load, Scene};
+use potential_particles::nalgebra::Vector3;
+use pyo3::exceptions::PyRuntimeError;
+use pyo3::prelude::*;
+use std::collections::HashSet;
+
+/// Rigid bodies and their contacts, filled by add_body and add_contact or from a rock mass.
+#[pyclass(name = "Scene", module = "potential_particles.equilibrium")]
+pub struct PyScene(Scene);
+
+/// An invalid scene raises a ValueError; a program that does not converge a RuntimeError, since the scene may stand or fall.
+fn raised(error: EquilibriumError) -> PyErr {
+    match error {
+        EquilibriumError::NotConverged { .. } | EquilibriumError::NotSettled { .. } => {
+            PyRuntimeError::new_err(error.to_string())
+        }
+        _ => refused(error),
+    }
+}
+
+fn flow(dilatant: bool) -> Flow {
+    if dilatant { Flow::Associated } else { Flow::NonDilatant }
+}
+
+#[pymethods]
+impl PyScene {
+    #[new]
+    fn new() -> Self {
+        Self(Scene::default())
+    }
+
+    /// The blocks of a rock mass under unit_weight (3,), force over volume. held: indices of blocks. friction = tan phi, cohesion, tension: of all joints.
+    #[staticmethod]
+    #[pyo3(signature = (mass, unit_weight, *, held, friction, cohesion=0.0, tension=0.0))]
+    fn of_rock(
+        mass: &PyRockMass,
+        unit_weight: &Bound<'_, PyAny>,
+        held: Vec<usize>,
+        friction: f64,
+        cohesion: f64,
+        tension: f64,
+    ) -> PyResult<Self> {
+        let weight = Vector3::from(vector::<3>(unit_weight, "unit_weight")?);
+        let count = mass.mass().blocks.len();
+        if let Some(block) = held.iter().find(|block| **block >= count) {
+            return Err(refused(format!("held names block {block} of a rock mass of {count}")));
+        }
+        let held: HashSet<usize> = held.into_iter().collect();
+        let strength = JointStrength { friction, cohesion, tension };
+        Ok(Self(Scene::of_rock(mass.mass(), weight, |block| held.contains(&block), |_| strength)))
+    }
+
+    /// Adds a body and returns its index. force and torque about its centre are there; live ones are multiplied by the load factor.
+    #[pyo3(signature = (centre, *, held=false, force=[0.0; 3], torque=[0.0; 3], live_force=[0.0; 3], live_torque=[0.0; 3]))]
+    fn add_body(
+        &mut self,
+        centre: &Bound<'_, PyAny>,
+        held: bool,
+        force: [f64; 3],
+        torque: [f64; 3],
+        live_force: [f64; 3],
+        live_torque: [f64; 3],
+    ) -> PyResult<usize> {
+        let load = |force: [f64; 3], torque: [f64; 3]| Load { force: force.into(), torque: torque.into() };
+        let centre = vector::<3>(centre, "centre")?.into();
+        self.0.bodies.push(Body { centre, held, dead: load(force, torque), live: load(live_force, live_torque) });
+        Ok(self.0.bodies.len() - 1)
+    }
+
+    /// Adds a contact of two bodies: corners (n, 3) in order, normal from the first to the second. friction = tan phi; cohesion and tension are stresses.
+    #[pyo3(signature = (first, second, corners, normal, *, friction, cohesion=0.0, tension=0.0))]
+    #[allow(clippy::too_many_arguments)]
+    fn add_contact(
+        &mut self,
+        first: usize,
+        second: usize,
+        corners: &Bound<'_, PyAny>,
+        normal: &Bound<'_, PyAny>,
+        friction: f64,
+        cohesion: f64,
+        tension: f64,
+    ) -> PyResult<usize> {
+        let corners = rows::<3>(corners, "corners", "x, y, z")?.into_iter().map(Vector3::from).collect();
+        let normal = vector::<3>(normal, "normal")?.into();
+        let contact = Contact::new([first, second], corners, normal, friction);
+        self.0.contacts.push(Contact { cohesion, tension, ..contact });
+        Ok(self.0.contacts.len() - 1)
+    }
+
+    /// Gives each free body the live force acceleration times its dead force, along direction (3,): an earthquake as a share of gravity.
+    fn push(&mut self, direction: &Bound<'_, PyAny>) -> PyResult<()> {
+        let along = Vector3::from(vector::<3>(direction, "direction")?);
+        for body in &mut self.0.bodies {
+            body.live.force = along * body.dead.force.norm();
+        }
+        Ok(())
+    }
+
+    #[getter]
+    fn body_count(&self) -> usize {
+        self.0.bodies.len()
+    }
+
+    #[getter]
+    fn contact_count(&self) -> usize {
+        self.0.contacts.len()
+    }
+
+    /// (n, 3): the corners of all contacts, in the order of Equilibrium.forces.
+    #[getter]
+    fn corners<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<f64>> {
+        let corners = self.0.contacts.iter().flat_map(|contact| &contact.corners);
+        to_rows(py, corners.map(|&at| at.into()).collect::<Vec<_>>().into_iter())
+    }
+
+    /// (n,): the contact that each corner belongs to.
+    #[getter]
+    fn contact_of_corner<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<u64>> {
+        let of = |(i, contact): (usize, &Contact)| vec![i as u64; contact.corners.len()];
+        PyArray1::from_vec(py, self.0.contacts.iter().enumerate().flat_map(of).collect())
+    }
+
+    /// Whether forces exist that hold all bodies: the least of these, or the mechanism that proves that none do.
+    fn stands(&self, py: Python<'_>) -> PyResult<PyEquilibrium> {
+        py.detach(|| library::stands(&self.0)).map(PyEquilibrium).map_err(raised)
+    }
+
+    /// The largest multiple of the live loads that can be borne. dilatant=True: the bound by one program, in which joints open as they slip.
+    #[pyo3(signature = (*, dilatant=false))]
+    fn load_factor(&self, py: Python<'_>, dilatant: bool) -> PyResult<PyEquilibrium> {
+        py.detach(|| library::load_factor(&self.0, flow(dilatant))).map(PyEquilibrium).map_err(raised)
+    }
+
+    /// The factor of safety on tan phi and cohesion. dilatant=True: the bound by programs in which joints open as they slip.
+    #[pyo3(signature = (*, dilatant=false))]
+    fn strength_factor(&self, py: Python<'_>, dilatant: bool) -> PyResult<PyEquilibrium> {
+        py.detach(|| library::strength_factor(&self.0, flow(dilatant))).map(PyEquilibrium).map_err(raised)
+    }
+
+    fn __repr__(&self) -> String {
+        format!("<Scene of {} bodies and {} contacts>", self.0.bodies.len(), self.0.contacts.len())
+    }
+}
+
+/// Forces in equilibrium and the motion at the limit.
+#[pyclass(name = "Equilibrium", module = "potential_particles.equilibrium", frozen)]
+pub struct PyEquilibrium(Equilibrium);
+
+#[pymethods]
+impl PyEquilibrium {
+    #[getter]
+    fn stands(&self) -> bool {
+        self.0.stands
+    }
+
+    #[getter]
+    fn factor(&self) -> f64 {
+        self.0.factor
+    }
+
+    /// (n, 3): force on the second body at each corner, contact after contact; no row where nothing stands.
+    #[getter]
+    fn forces<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<f64>> {
+        to_rows(py, self.0.forces.iter().map(|&force| force.into()))
+    }
+
+    /// (n, 6): linear and angular velocity of each body, the fastest at 1; no row where stands() is asked and it does.
+    #[getter]
+    fn mechanism<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<f64>> {
+        let six = |v: &library::Velocity| {
+            let ([a, b, c], [d, e, f]): ([f64; 3], [f64; 3]) = (v.linear.into(), v.angular.into());
+            [a, b, c, d, e, f]
+        };
+        to_rows(py, self.0.mechanism.iter().map(six))
+    }
+
+    /// The largest force that is left on a body, over the mean load of one.
+    #[getter]
+    fn unbalanced(&self) -> f64 {
+        self.0.unbalanced
+    }
+
+    /// The largest friction beyond its strength at a corner, over the mean load of a body.
+    #[getter]
+    fn excess(&self) -> f64 {
+        self.0.excess
+    }
+
+    /// Number of cone programs.
+    #[getter]
+    fn programs(&self) -> u32 {
+        self.0.programs
+    }
+
+    fn __repr__(&self) -> String {
+        let Equilibrium { stands, factor, programs, .. } = self.0;
+        format!("<Equilibrium stands={stands} factor={factor:.6}, {programs} programs>")
+    }
+}
+
+pub fn add(parent: &Bound<'_, PyModule>) -> PyResult<()> {
+    let module = PyModule::new(parent.py(), "_equilibrium")?;
+    module.add_class::<PyScene>()?;
+    module.add_class::<PyEquilibrium>()?;
+    parent.add_submodule(&module)
+}

@@ -1,0 +1,57 @@
+# SPDX-License-Identifier: MIT OR Apache-2.0
+"""Equilibrium of scenes from Python: closed forms, a rock mass, and what is refused."""
+import math
+import unittest
+
+import numpy as np
+from potential_particles import equilibrium, slicing
+
+SQUARE = [(-0.5, -0.5, 0), (0.5, -0.5, 0), (0.5, 0.5, 0), (-0.5, 0.5, 0)]
+
+
+def block(height, friction, force=(0, 0, -1), **more):
+    scene = equilibrium.Scene()
+    scene.add_body((0, 0, -1), held=True)
+    scene.add_body((0, 0, height / 2), force=force, live_force=(1, 0, 0))
+    scene.add_contact(0, 1, SQUARE, (0, 0, 1), friction=friction, **more)
+    return scene
+
+
+class Block(unittest.TestCase):
+    def test_it_slides_or_turns_over(self):
+        for height, friction in ((0.5, 0.5), (3.0, 0.5)):
+            for dilatant in (False, True):
+                found = block(height, friction).load_factor(dilatant=dilatant)
+                self.assertAlmostEqual(found.factor, min(friction, 1 / height), delta=1e-6)
+                np.testing.assert_allclose(found.forces.sum(axis=0), (-found.factor, 0, 1), atol=1e-6)
+                self.assertGreater(found.mechanism[1, 0], 0.0)
+        self.assertAlmostEqual(block(0.2, 0.5, cohesion=0.7).load_factor().factor, 1.2, delta=1e-6)
+
+    def test_what_stands_has_forces_and_what_falls_a_mechanism(self):
+        stands, falls = (block(0.5, friction, force=(0.4, 0, -1)).stands() for friction in (0.5, 0.3))
+        self.assertTrue(stands.stands and len(stands.mechanism) == 0)
+        np.testing.assert_allclose(stands.forces.sum(axis=0), (-0.4, 0, 1), atol=1e-6)
+        self.assertTrue(not falls.stands and len(falls.forces) == 0 and falls.mechanism[1, 0] > 0)
+
+    def test_what_is_refused(self):
+        scene = block(0.5, 0.5)
+        scene.add_body((0, 0, 9))
+        with self.assertRaisesRegex(ValueError, "body 2 is free and has no contact"):
+            scene.stands()
+        with self.assertRaisesRegex(ValueError, "stands without friction"):
+            block(0.5, 0.5).strength_factor()
+
+
+class Rock(unittest.TestCase):
+    def test_blocks_on_one_joint(self):
+        box = np.vstack([[s * a for a in row] + [1] for row in np.eye(3) for s in (1, -1)])
+        mass = slicing.slice(box, [slicing.Joint((0, 0, 0), 25, 90), slicing.Joint((0, 0, 0), 90, 0)])
+        held = [i for i, one in enumerate(mass.blocks) if one.centroid[2] < 0]
+        scene = equilibrium.Scene.of_rock(mass, (0, 0, -26e3), held=held, friction=0.8)
+        self.assertEqual((scene.body_count, scene.contact_count), (4, 4))
+        self.assertEqual(scene.corners.shape, (len(scene.contact_of_corner), 3))
+        self.assertAlmostEqual(scene.strength_factor().factor, 0.8 / math.tan(math.radians(25)), delta=2e-6)
+        with self.assertRaisesRegex(ValueError, "held names block 9 of a rock mass of 4"):
+            equilibrium.Scene.of_rock(mass, (0, 0, -26e3), held=[9], friction=0.8)
+        scene.push((1, 0, 0))
+        self.assertGreater(scene.load_factor().factor, 0.0)

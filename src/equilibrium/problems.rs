@@ -1,0 +1,276 @@
+//! The three questions: does it stand, how much more can it bear, how much weaker could its joints be.
+
+use super::assembly::{Assembly, Corner};
+use super::error::EquilibriumError;
+use super::program::{Goal, Near, Outcome, Solved, Strength, solve};
+use super::scene::{Scene, Velocity};
+use nalgebra::Vector3;
+
+/// Part of the dilatancy that each program of a sequence keeps of that of the last one: the sequence ends at none.
+const KEPT: f64 = 0.2;
+/// Dilatancy, as a part of tan φ, that counts as 0: it changes the factor by less than the tolerance of the sequence.
+const NO_DILATANCY: f64 = 1e-4;
+/// Weight of the distance from the forces of the last program, over units of force. Forces are not unique where a
+/// contact has more than three corners, and without this weight they jump from program to program. At the end of the
+/// sequence the distance is 0.
+const NEARNESS: f64 = 1e-3;
+/// A sequence has settled if its factor changes by no more than this part,
+const SETTLED: f64 = 1e-7;
+/// and if no friction exceeds its strength by more than this, over the mean load of a body.
+const EXCESS: f64 = 1e-5;
+/// Most programs of a sequence. Slopes of 69 blocks and walls of 52 need 16, walls of some 100 more than 40 (measured).
+const MOST: u32 = 200;
+/// Largest force that may stay unbalanced on a body, over the largest force.
+const BALANCED: f64 = 1e-6;
+
+/// How a contact opens as it slides.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Flow {
+    /// By tan φ times the slip. One convex program; its factor is an upper bound of all states of equilibrium: "may
+    /// stand".
+    Associated,
+    /// Not at all, as Coulomb's friction does: a sequence of programs (Gilbert, Casapulla & Ahmed 2006).
+    NonDilatant,
+}
+
+/// Forces in equilibrium, and the motion at the limit.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Equilibrium {
+    /// Whether there are forces in equilibrium, for a load factor or a strength factor: for any factor.
+    pub stands: bool,
+    /// The load factor or the factor of safety; 0 where nothing stands, and in [`stands()`].
+    pub factor: f64,
+    /// Force on the second body at each corner, contact after contact, in the axes of the scene; empty where nothing
+    /// stands.
+    pub forces: Vec<Vector3<f64>>,
+    /// Velocity of each body in the mechanism, the fastest at 1; empty in [`stands()`] of a scene that does.
+    pub mechanism: Vec<Velocity>,
+    /// The largest force, or torque over the size of the body, that is left on a body, over the mean load of one.
+    pub unbalanced: f64,
+    /// The largest friction beyond its strength at a corner, over the mean load of a body: of a sequence that was
+    /// solved.
+    pub excess: f64,
+    /// Number of cone programs.
+    pub programs: u32,
+}
+
+/// Whether forces exist that keep every body in equilibrium under its dead load: of all such forces, those of the
+/// least norm. If none exist, the velocities of a motion in which the loads do more work than strength can take up.
+///
+/// # Errors
+/// A scene that is none, and a solver that reaches neither forces nor a motion: that does not mean that it falls.
+pub fn stands(scene: &Scene) -> Result<Equilibrium, EquilibriumError> {
+    let problem = Problem::new(scene)?;
+    let none = vec![[0.0; 3]; problem.strengths.len()];
+    let near = Near { weight: 1.0, forces: &none };
+    match solve(&problem.assembly, &problem.strengths, Goal::Rest, Some(near))? {
+        Outcome::Solved(solved) => {
+            let answer = problem.answer(&solved, 0.0, 0.0, 1)?;
+            Ok(Equilibrium { mechanism: Vec::new(), ..answer })
+        }
+        Outcome::Falls(velocities) => problem.falls(&velocities, &problem.strengths, 1),
+        // Without a factor there is no limit to miss.
+        Outcome::Unlimited => Err(EquilibriumError::NotConverged { status: "PrimalInfeasible".into() }),
+    }
+}
+
+/// The largest factor λ for which dead + λ live loads can be carried, with the forces and the mechanism there. Below 0
+/// the dead loads alone cannot be.
+///
+/// # Errors
+/// As of [`stands()`]; no live load, or a load that can be carried whatever its size.
+pub fn load_factor(scene: &Scene, flow: Flow) -> Result<Equilibrium, EquilibriumError> {
+    let problem = Problem::new(scene)?;
+    if problem.assembly.live.iter().all(|load| *load == 0.0) {
+        return Err(EquilibriumError::NoLiveLoad);
+    }
+    // With forces of the last program n̄: |t| ≤ c a + (1 − α) μ n̄ + α μ n.
+    let strengths = |dilatancy: f64, last: Option<&Solved>| -> Vec<Strength> {
+        let held = |(given, i): (&Strength, usize)| {
+            let normal = last.map_or(0.0, |last| last.forces[i][0].max(0.0));
+            let base = given.base + (1.0 - dilatancy) * given.slope * normal;
+            Strength { slope: dilatancy * given.slope, base, ..*given }
+        };
+        problem.strengths.iter().zip(0..).map(held).collect()
+    };
+    let unlimited = EquilibriumError::Unlimited;
+    let sequence = Sequence { problem: &problem, goal: Goal::Load, flow, unlimited };
+    match sequence.run(1.0, strengths, |_| 1.0)? {
+        Ended::Settled(solved, excess, programs) => problem.answer(&solved, solved.factor, excess, programs),
+        Ended::Falls(answer) => Ok(answer),
+    }
+}
+
+/// The factor of safety F: tan φ and c over F are the least with which the scene stands under its dead loads; with the
+/// forces and the mechanism there.
+///
+/// # Errors
+/// As of [`stands()`]; a scene that needs no strength.
+pub fn strength_factor(scene: &Scene, flow: Flow) -> Result<Equilibrium, EquilibriumError> {
+    let problem = Problem::new(scene)?;
+    // With κ and forces of the last program: |t| ≤ α κ (c a + μ n) + (φ − α κ) (c a + μ n̄). At the end φ = κ and
+    // n = n̄. Before the first program n is unknown: strength is the same at all corners.
+    let strengths = |dilatancy: f64, last: Option<&Solved>| -> Vec<Strength> {
+        let reduced = |(given, i): (&Strength, usize)| {
+            let (normal, kappa) = last.map_or((1.0, 0.0), |last| (last.forces[i][0].max(0.0), last.factor));
+            let slope = dilatancy * kappa * given.slope;
+            Strength { slope, base: -slope * normal, growth: given.base + given.slope * normal, ..*given }
+        };
+        problem.strengths.iter().zip(0..).map(reduced).collect()
+    };
+    let unlimited = EquilibriumError::StandsWithoutStrength;
+    let sequence = Sequence { problem: &problem, goal: Goal::Strength, flow, unlimited };
+    match sequence.run(0.0, strengths, |factor| factor)? {
+        Ended::Settled(solved, ..) if solved.factor <= SETTLED => Err(EquilibriumError::StandsWithoutStrength),
+        Ended::Settled(solved, excess, programs) => {
+            let answer = problem.answer(&solved, 0.0, excess, programs)?;
+            Ok(Equilibrium { factor: 1.0 / solved.factor, ..answer })
+        }
+        Ended::Falls(answer) => Ok(answer),
+    }
+}
+
+/// Programs, each with the forces of the last one, until nothing changes.
+struct Sequence<'a> {
+    problem: &'a Problem,
+    goal: Goal,
+    flow: Flow,
+    unlimited: EquilibriumError,
+}
+
+enum Ended {
+    Settled(Solved, f64, u32),
+    Falls(Equilibrium),
+}
+
+impl Sequence<'_> {
+    /// `first`: dilatancy of the first program; `strengths` from the dilatancy and the last program; `strength`: what
+    /// multiplies the given one at a factor.
+    fn run(
+        self,
+        first: f64,
+        strengths: impl Fn(f64, Option<&Solved>) -> Vec<Strength>,
+        strength: impl Fn(f64) -> f64,
+    ) -> Result<Ended, EquilibriumError> {
+        let mut dilatancy = first;
+        let mut last: Option<Solved> = None;
+        let mut factors = Vec::new();
+        for programs in 1..=MOST {
+            let now = strengths(dilatancy, last.as_ref());
+            let near = last.as_ref().filter(|_| dilatancy < 1.0);
+            let near = near.map(|last| Near { weight: NEARNESS, forces: &last.forces });
+            let solved = match solve(&self.problem.assembly, &now, self.goal, near)? {
+                Outcome::Solved(solved) => solved,
+                Outcome::Falls(velocities) if programs == 1 => {
+                    return self.problem.falls(&velocities, &now, programs).map(Ended::Falls);
+                }
+                // Only strength bounded by the last normal forces has failed.
+                Outcome::Falls(_) => {
+                    let status = format!("program {programs} of the sequence has no equilibrium");
+                    return Err(EquilibriumError::NotConverged { status });
+                }
+                Outcome::Unlimited => return Err(self.unlimited),
+            };
+            let change = last.as_ref().map_or(f64::INFINITY, |last| (solved.factor - last.factor).abs());
+            let excess = self.problem.excess(&solved, strength(solved.factor));
+            // One program of load factors is the whole of the associated one.
+            let whole = self.goal == Goal::Load && dilatancy == 1.0;
+            let settled = whole || change <= SETTLED * solved.factor.abs() && excess <= EXCESS;
+            if settled && dilatancy == if self.flow == Flow::Associated { 1.0 } else { 0.0 } {
+                return Ok(Ended::Settled(solved, excess, programs));
+            }
+            // The associated state comes first: from anywhere else normal forces may vanish where they are needed.
+            dilatancy = match dilatancy {
+                0.0 if last.is_none() => 1.0,
+                1.0 if !settled => 1.0,
+                _ if KEPT * dilatancy > NO_DILATANCY => KEPT * dilatancy,
+                _ => 0.0,
+            };
+            factors.push(solved.factor);
+            last = Some(solved);
+        }
+        let end = &factors[factors.len() - 10..];
+        let [least, most] = [f64::min, f64::max].map(|of| end.iter().copied().fold(end[0], of));
+        Err(EquilibriumError::NotSettled { programs: MOST, least, most })
+    }
+}
+
+/// A scene in its own units, and its strength as given.
+struct Problem {
+    assembly: Assembly,
+    strengths: Vec<Strength>,
+}
+
+impl Problem {
+    fn new(scene: &Scene) -> Result<Self, EquilibriumError> {
+        let assembly = Assembly::new(scene)?;
+        let strength = |corner: &Corner| {
+            let contact = &scene.contacts[corner.contact];
+            let share = contact.area / (corner.of * assembly.unit);
+            let [base, tension] = [contact.cohesion * share, contact.tension * share];
+            Strength { slope: contact.friction, base, growth: 0.0, tension }
+        };
+        let strengths = assembly.corners.iter().map(strength).collect();
+        Ok(Self { assembly, strengths })
+    }
+
+    /// The largest friction beyond `part` of its strength.
+    fn excess(&self, solved: &Solved, part: f64) -> f64 {
+        let beyond = |(given, [n, t, s]): (&Strength, &[f64; 3])| t.hypot(*s) - part * (given.base + given.slope * n);
+        self.strengths.iter().zip(&solved.forces).map(beyond).fold(0.0, f64::max)
+    }
+
+    /// Forces, if they are in equilibrium to what is promised.
+    fn answer(&self, solved: &Solved, live: f64, excess: f64, programs: u32) -> Result<Equilibrium, EquilibriumError> {
+        let unbalanced = self.assembly.unbalanced(&solved.forces, live);
+        let largest = solved.forces.iter().flatten().fold(1.0_f64, |most, part| most.max(part.abs()));
+        if !(unbalanced <= BALANCED * largest) {
+            let status = format!("{unbalanced:.1e} of the mean load stays unbalanced");
+            return Err(EquilibriumError::NotConverged { status });
+        }
+        Ok(Equilibrium {
+            stands: true,
+            factor: solved.factor,
+            forces: self.assembly.forces(&solved.forces),
+            mechanism: self.assembly.velocities(&solved.velocities),
+            unbalanced,
+            excess,
+            programs,
+        })
+    }
+
+    /// A motion, if it is a proof: the power of the loads exceeds what strength takes up, and what its own rounding
+    /// could resist if all loads bore on one corner.
+    fn falls(
+        &self,
+        velocities: &[f64],
+        strengths: &[Strength],
+        programs: u32,
+    ) -> Result<Equilibrium, EquilibriumError> {
+        let assembly = &self.assembly;
+        let power: f64 = assembly.dead.iter().zip(velocities).map(|(load, v)| load * v).sum();
+        let total: f64 = assembly.dead.iter().map(|load| load.abs()).sum();
+        let (mut dissipated, mut inadmissible) = (0.0, 0.0_f64);
+        for (corner, strength) in assembly.corners.iter().zip(strengths) {
+            let along = |axis| corner.relative(axis).map(|(column, value)| value * velocities[column]).sum::<f64>();
+            let (opening, slip) = (along(0), along(1).hypot(along(2)));
+            dissipated += strength.base.max(0.0) * slip + strength.tension * (opening - strength.slope * slip).max(0.0);
+            inadmissible = inadmissible.max(strength.slope * slip - opening);
+        }
+        // Where strength may grow as it likes the motion does not slide at all.
+        if !(power > dissipated + inadmissible * total) {
+            let status = "the motion that was found is no proof".into();
+            return Err(EquilibriumError::NotConverged { status });
+        }
+        let mechanism = assembly.velocities(velocities);
+        Ok(Equilibrium {
+            stands: false,
+            factor: 0.0,
+            forces: Vec::new(),
+            mechanism,
+            unbalanced: 0.0,
+            excess: 0.0,
+            programs,
+        })
+    }
+}

@@ -1,0 +1,256 @@
+//! One cone program, solved by clarabel.
+//!
+//! The unknowns are the velocities v of the free bodies; the forces at the corners are the multipliers of its cones.
+//! With u the velocity of the second body relative to the first at a corner, u_n along the normal and u_t across it:
+//!
+//! ```text
+//! minimise    −w·v + Σ (C y + T (u_n − m y)) + ε Σ (½ |q|² + f̄·q)     over v, y, q
+//! subject to  w'·v − Σ C' y = 1                                       (not in the question whether it stands)
+//!             |u_t + ε q_t| ≤ y,  m y ≤ u_n + ε q_n                   at each corner
+//! multipliers of the cones: the force f on the second body, |t| ≤ C + φ C' + m n,  n ≥ −T
+//! ```
+//!
+//! That v is optimal says E f + w + φ w' = 0, the equilibrium of all bodies, with φ the multiplier of the
+//! normalisation: the largest φ, or, with the signs of its row turned, the least. That q is says f = f̄ + q: the
+//! forces nearest to f̄, with the weight ε. The program has 6 unknowns a body, where the one in the forces has 3 a
+//! corner, and eliminating its cones leaves a matrix with the pattern of the contacts. Where T m ≥ C and C' = 0, the
+//! row of n adds nothing: then y = (u_n + ε q_n)/m.
+
+use super::assembly::{Assembly, Corner};
+use super::error::EquilibriumError;
+use clarabel::algebra::CscMatrix;
+use clarabel::solver::{DefaultSettings, DefaultSolver, IPSolver, SolverStatus, SupportedConeT};
+
+/// Accuracy that clarabel is asked for, relative to the mean load of a body, and its regularisation: each fails on
+/// different scenes, the most accurate comes first.
+const ATTEMPTS: [(f64, f64); 3] = [(1e-10, 1e-8), (1e-9, 1e-9), (1e-8, 1e-7)];
+/// Accuracy that is taken where it gets no further.
+const REDUCED: f64 = 1e-7;
+/// A strength below this part of the unit of force is none: no cone is that thin beside the tolerance.
+const NO_STRENGTH: f64 = 1e-12;
+
+/// Strength of a corner: |t| ≤ base + φ growth + slope n, n ≥ −tension, units of force.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Strength {
+    pub slope: f64,
+    pub base: f64,
+    pub growth: f64,
+    pub tension: f64,
+}
+
+/// What is asked for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Goal {
+    /// The least norm of forces; φ = 0.
+    Rest,
+    /// The largest φ on the live loads.
+    Load,
+    /// The least φ on the growth of strength.
+    Strength,
+}
+
+/// Forces that the solution is to be near to: ½ ε Σ |f − f̄|² is added to −φ, or to φ where the least is asked for.
+pub(super) struct Near<'a> {
+    /// ε, over units of force.
+    pub weight: f64,
+    /// f̄, in the axes of the corners.
+    pub forces: &'a [[f64; 3]],
+}
+
+/// What a program says.
+pub(super) enum Outcome {
+    Solved(Solved),
+    /// No forces at all are in equilibrium: these scaled velocities prove it.
+    Falls(Vec<f64>),
+    /// No motion is bound by what φ multiplies: φ has no limit.
+    Unlimited,
+}
+
+/// Forces and velocities.
+pub(super) struct Solved {
+    /// φ.
+    pub factor: f64,
+    /// (n, t₁, t₂) at each corner, units of force.
+    pub forces: Vec<[f64; 3]>,
+    /// Scaled velocities.
+    pub velocities: Vec<f64>,
+}
+
+/// How a corner stands in the program: its first row, or none.
+enum Rows {
+    None,
+    /// u_n ≥ 0.
+    Smooth(usize),
+    /// (u_n, m u_t) in the cone.
+    Cone(usize),
+    /// (y, u_t) in the cone, and u_n − m y ≥ 0 in a row of its own.
+    Cut(usize, usize),
+}
+
+#[derive(Default)]
+struct Program {
+    rows: Vec<usize>,
+    columns: Vec<usize>,
+    values: Vec<f64>,
+    right: Vec<f64>,
+    cones: Vec<SupportedConeT<f64>>,
+    cost: Vec<f64>,
+    /// Diagonal of the quadratic form.
+    squares: Vec<(usize, f64)>,
+    /// Of each corner.
+    places: Vec<Rows>,
+}
+
+/// Solves the program of a goal.
+///
+/// # Errors
+/// `NotConverged`.
+pub(super) fn solve(
+    assembly: &Assembly,
+    strengths: &[Strength],
+    goal: Goal,
+    near: Option<Near>,
+) -> Result<Outcome, EquilibriumError> {
+    let free = assembly.dead.len();
+    let mut program = Program { cost: assembly.dead.iter().map(|load| -load).collect(), ..Program::default() };
+    let mut normalisation: Vec<(usize, f64)> = Vec::new();
+    // The row of the normalisation, with its signs turned for the least φ.
+    let sign = if goal == Goal::Strength { -1.0 } else { 1.0 };
+    if goal == Goal::Load {
+        normalisation.extend(assembly.live.iter().enumerate().map(|(column, load)| (column, *load)));
+    }
+    for (corner, strength) in assembly.corners.iter().zip(strengths) {
+        let near = near.as_ref().map(|near| (near.weight, near.forces[program.places.len()]));
+        program.corner(corner, strength, near, |y| normalisation.push((y, -strength.growth)));
+    }
+    if goal != Goal::Rest {
+        program.row(normalisation.into_iter().map(|(column, value)| (column, sign * value)), -1.0);
+        program.cones.push(SupportedConeT::ZeroConeT(1));
+    }
+    program.run(strengths, goal, free, sign)
+}
+
+impl Program {
+    /// Appends the row right + Σ value x, which is to lie in the next cone.
+    fn row(&mut self, entries: impl Iterator<Item = (usize, f64)>, right: f64) {
+        for (column, value) in entries.filter(|(_, value)| *value != 0.0) {
+            self.rows.push(self.right.len());
+            self.columns.push(column);
+            self.values.push(-value);
+        }
+        self.right.push(right);
+    }
+
+    fn unknown(&mut self, cost: f64) -> usize {
+        self.cost.push(cost);
+        self.cost.len() - 1
+    }
+
+    /// The unknown q of ½ ε q² + ε f̄ q.
+    fn pulled(&mut self, weight: f64, force: f64) -> usize {
+        let column = self.unknown(weight * force);
+        self.squares.push((column, weight));
+        column
+    }
+
+    fn corner(
+        &mut self,
+        corner: &Corner,
+        strength: &Strength,
+        near: Option<(f64, [f64; 3])>,
+        grows: impl FnOnce(usize),
+    ) {
+        let Strength { slope, base, growth, tension } = *strength;
+        if !corner.counts() {
+            return self.places.push(Rows::None);
+        }
+        // Columns of q in the order of the frame: ε q is p, so that f = f̄ + q.
+        let q = near.map(|(weight, force)| force.map(|part| (self.pulled(weight, part), weight)));
+        let along = |axis: usize, factor: f64| {
+            let slack = q.map(|columns| (columns[axis].0, factor * columns[axis].1));
+            corner.relative(axis).map(move |(column, value)| (column, factor * value)).chain(slack)
+        };
+        let first = self.right.len();
+        if slope <= 0.0 && base <= NO_STRENGTH && growth <= NO_STRENGTH {
+            corner.relative(0).for_each(|(column, value)| self.cost[column] += tension * value);
+            self.row(along(0, 1.0), 0.0);
+            self.cones.push(SupportedConeT::NonnegativeConeT(1));
+            return self.places.push(Rows::Smooth(first));
+        }
+        if slope > 0.0 && growth == 0.0 && tension * slope >= base {
+            corner.relative(0).for_each(|(column, value)| self.cost[column] += base / slope * value);
+            self.row(along(0, 1.0), 0.0);
+            self.row(along(1, slope), 0.0);
+            self.row(along(2, slope), 0.0);
+            self.cones.push(SupportedConeT::SecondOrderConeT(3));
+            return self.places.push(Rows::Cone(first));
+        }
+        let y = self.unknown(base - tension * slope);
+        grows(y);
+        corner.relative(0).for_each(|(column, value)| self.cost[column] += tension * value);
+        self.row([(y, 1.0)].into_iter(), 0.0);
+        self.row(along(1, 1.0), 0.0);
+        self.row(along(2, 1.0), 0.0);
+        self.cones.push(SupportedConeT::SecondOrderConeT(3));
+        self.row(along(0, 1.0).chain([(y, -slope)]), 0.0);
+        self.cones.push(SupportedConeT::NonnegativeConeT(1));
+        self.places.push(Rows::Cut(first, first + 3));
+    }
+
+    fn run(self, strengths: &[Strength], goal: Goal, free: usize, sign: f64) -> Result<Outcome, EquilibriumError> {
+        let count = self.cost.len();
+        let matrix = CscMatrix::new_from_triplets(self.right.len(), count, self.rows, self.columns, self.values);
+        let (at, of): (Vec<usize>, Vec<f64>) = self.squares.into_iter().unzip();
+        let form = CscMatrix::new_from_triplets(count, count, at.clone(), at, of);
+        let settings = |(tolerance, regularisation): (f64, f64)| DefaultSettings {
+            verbose: false,
+            presolve_enable: false,
+            tol_gap_abs: tolerance,
+            tol_gap_rel: tolerance,
+            tol_feas: tolerance,
+            reduced_tol_gap_abs: REDUCED,
+            reduced_tol_gap_rel: REDUCED,
+            reduced_tol_feas: REDUCED,
+            static_regularization_constant: regularisation,
+            max_threads: 1,
+            ..DefaultSettings::default()
+        };
+        let failed = |status: String| EquilibriumError::NotConverged { status };
+        let attempt = |tuning: (f64, f64)| {
+            let mut solver = DefaultSolver::new(&form, &self.cost, &matrix, &self.right, &self.cones, settings(tuning))
+                .map_err(|error| failed(error.to_string()))?;
+            solver.solve();
+            Ok(solver.solution)
+        };
+        let is_answer = |status| {
+            use SolverStatus::{AlmostSolved, DualInfeasible, PrimalInfeasible, Solved};
+            matches!(status, Solved | AlmostSolved | DualInfeasible | PrimalInfeasible)
+        };
+        let mut solution = attempt(ATTEMPTS[0])?;
+        for tuning in &ATTEMPTS[1..] {
+            if !is_answer(solution.status) {
+                solution = attempt(*tuning)?;
+            }
+        }
+        match solution.status {
+            SolverStatus::Solved | SolverStatus::AlmostSolved => {}
+            SolverStatus::DualInfeasible => return Ok(Outcome::Falls(solution.x[..free].to_vec())),
+            SolverStatus::PrimalInfeasible => return Ok(Outcome::Unlimited),
+            status => return Err(failed(format!("{status:?}"))),
+        }
+        let force = |(place, strength): (&Rows, &Strength)| {
+            let z = |row: usize| solution.z[row];
+            let Strength { slope, base, tension, .. } = *strength;
+            match *place {
+                Rows::None => [0.0; 3],
+                Rows::Smooth(row) => [z(row) - tension, 0.0, 0.0],
+                Rows::Cone(row) => [z(row) - base / slope, slope * z(row + 1), slope * z(row + 2)],
+                Rows::Cut(row, own) => [z(own) - tension, z(row + 1), z(row + 2)],
+            }
+        };
+        let forces: Vec<_> = self.places.iter().zip(strengths).map(force).collect();
+        // The row of the normalisation is the last one.
+        let factor = if goal == Goal::Rest { 0.0 } else { sign * solution.z[self.right.len() - 1] };
+        Ok(Outcome::Solved(Solved { factor, forces, velocities: solution.x[..free].to_vec() }))
+    }
+}

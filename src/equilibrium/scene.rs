@@ -1,0 +1,153 @@
+//! What is asked about: bodies, their contacts, their loads.
+
+use super::error::EquilibriumError;
+use nalgebra::Vector3;
+
+/// A force and its torque about the centre of a body.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Load {
+    /// Force.
+    pub force: Vector3<f64>,
+    /// Torque about the centre of the body, force × length.
+    pub torque: Vector3<f64>,
+}
+
+impl Load {
+    /// No load.
+    pub const NONE: Self = Self { force: Vector3::new(0.0, 0.0, 0.0), torque: Vector3::new(0.0, 0.0, 0.0) };
+
+    /// A force through the centre.
+    pub fn force(force: Vector3<f64>) -> Self {
+        Self { force, ..Self::NONE }
+    }
+}
+
+/// A rigid body.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Body {
+    /// Its centre of mass; torques and velocities are about it.
+    pub centre: Vector3<f64>,
+    /// Whether it is held: it carries whatever comes, and does not move.
+    pub held: bool,
+    /// The load that is there: weight, water, surcharge.
+    pub dead: Load,
+    /// The load that the load factor multiplies.
+    pub live: Load,
+}
+
+impl Body {
+    /// A free body with its weight as a force.
+    pub fn free(centre: Vector3<f64>, weight: Vector3<f64>) -> Self {
+        Self { centre, held: false, dead: Load::force(weight), live: Load::NONE }
+    }
+
+    /// A held body.
+    pub fn held(centre: Vector3<f64>) -> Self {
+        Self { centre, held: true, dead: Load::NONE, live: Load::NONE }
+    }
+}
+
+/// A polygon, a line or a point on which two bodies touch, and its strength.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Contact {
+    /// The two bodies, by index.
+    pub bodies: [usize; 2],
+    /// Corners, in order: one or more.
+    pub corners: Vec<Vector3<f64>>,
+    /// Normal from the first body to the second, of any length.
+    pub normal: Vector3<f64>,
+    /// Area, which cohesion and tension act on; 0 for a line or a point.
+    pub area: f64,
+    /// Coefficient of friction μ = tan φ.
+    pub friction: f64,
+    /// Cohesion c, a stress.
+    pub cohesion: f64,
+    /// Tensile strength, a stress.
+    pub tension: f64,
+}
+
+impl Contact {
+    /// A contact with friction alone. The area is that of the polygon of the corners.
+    pub fn new(bodies: [usize; 2], corners: Vec<Vector3<f64>>, normal: Vector3<f64>, friction: f64) -> Self {
+        let doubled: Vector3<f64> =
+            corners.windows(2).map(|pair| (pair[0] - corners[0]).cross(&(pair[1] - corners[0]))).sum();
+        let area = 0.5 * doubled.norm();
+        Self { bodies, corners, normal, area, friction, cohesion: 0.0, tension: 0.0 }
+    }
+}
+
+/// Bodies and their contacts.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Scene {
+    /// The bodies.
+    pub bodies: Vec<Body>,
+    /// Where they touch.
+    pub contacts: Vec<Contact>,
+}
+
+/// Velocity of a body.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Velocity {
+    /// Of its centre.
+    pub linear: Vector3<f64>,
+    /// Angular.
+    pub angular: Vector3<f64>,
+}
+
+impl Scene {
+    /// Number of corners of all contacts: forces come in this order, contact after contact.
+    pub fn corner_count(&self) -> usize {
+        self.contacts.iter().map(|contact| contact.corners.len()).sum()
+    }
+
+    pub(super) fn validate(&self) -> Result<(), EquilibriumError> {
+        let mut touched = vec![false; self.bodies.len()];
+        for (index, contact) in self.contacts.iter().enumerate() {
+            let [first, second] = contact.bodies;
+            let count = self.bodies.len();
+            if first == second || first.max(second) >= count {
+                return Err(EquilibriumError::Bodies { contact: index, first, second, count });
+            }
+            if contact.corners.is_empty() {
+                return Err(EquilibriumError::NoCorner(index));
+            }
+            contact.bodies.iter().for_each(|&body| touched[body] = true);
+            let check = |name, value: f64, fine: bool, range| match fine && value.is_finite() {
+                true => Ok(()),
+                false => Err(EquilibriumError::OutOfRange { name, of: "contact", index, value, range }),
+            };
+            let length = contact.normal.norm();
+            check("length of the normal", length, length > 0.0, "above 0")?;
+            contact.corners.iter().try_for_each(|at| check("a corner", at.sum(), true, "finite"))?;
+            for (name, value) in [
+                ("area", contact.area),
+                ("friction", contact.friction),
+                ("cohesion", contact.cohesion),
+                ("tension", contact.tension),
+            ] {
+                check(name, value, value >= 0.0, "0 or above, and finite")?;
+            }
+        }
+        for (index, body) in self.bodies.iter().enumerate() {
+            for (name, v) in [
+                ("centre", body.centre),
+                ("dead force", body.dead.force),
+                ("dead torque", body.dead.torque),
+                ("live force", body.live.force),
+                ("live torque", body.live.torque),
+            ] {
+                let value = v.sum();
+                if !value.is_finite() {
+                    return Err(EquilibriumError::OutOfRange { name, of: "body", index, value, range: "finite" });
+                }
+            }
+        }
+        let free = |(index, body): (usize, &Body)| (!body.held).then_some(index);
+        match self.bodies.iter().enumerate().filter_map(free).find(|&body| !touched[body]) {
+            _ if self.bodies.iter().all(|body| body.held) => Err(EquilibriumError::NoFreeBody),
+            _ if !self.bodies.iter().any(|body| body.held) => Err(EquilibriumError::NoSupport),
+            Some(body) => Err(EquilibriumError::NoContact(body)),
+            None => Ok(()),
+        }
+    }
+}

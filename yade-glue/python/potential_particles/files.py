@@ -1,0 +1,1 @@
+../../../python/potential_particles/files.py
