@@ -57,6 +57,33 @@ fn faces_are_where_the_half_spaces_end() {
     }
 }
 
+/// A script that names faces by their numbers finds them: the planes of a wedge stay in the order given, whatever their areas, and one that makes no
+/// face is left out.
+#[test]
+fn half_spaces_keep_their_order() {
+    let (steep, flat) = (70f64.to_radians(), 25f64.to_radians());
+    let given = [
+        Vector3::new(steep.sin(), 0.0, steep.cos()),
+        Vector3::new(-1.0, 0.0, 0.0),
+        Vector3::new(0.0, 1.0, 0.0),
+        Vector3::new(0.0, -flat.sin(), flat.cos()),
+        Vector3::new(0.0, 0.0, -1.0),
+        Vector3::new(0.0, -1.0, 0.0),
+    ];
+    for turn in 0..given.len() {
+        let mut planes: Vec<Plane> = given.iter().map(|&normal| Plane { normal, offset: 1.0 }).collect();
+        planes.rotate_left(turn);
+        let beyond = Plane { normal: given[0], offset: 1.5 };
+        let all: Vec<Plane> = planes[..2].iter().chain([&beyond]).chain(&planes[2..]).copied().collect();
+        let shape = shapes::half_spaces(&all, &sharp()).unwrap();
+        let found: Vec<_> = shape.particle.planes().map(|plane| shape.orientation * plane.normal).collect();
+        assert_eq!(found.len(), planes.len());
+        for (found, plane) in found.iter().zip(&planes) {
+            assert!((found - plane.normal).norm() < 1e-14, "turned by {turn}: {found} is not {}", plane.normal);
+        }
+    }
+}
+
 /// A tetrahedron at any place, turned: its centroid is the mean of its corners, and its frame leads back to them.
 #[test]
 fn a_hull_stands_where_its_points_are() {

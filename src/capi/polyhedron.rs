@@ -144,7 +144,7 @@ pub unsafe extern "C" fn pp_polyhedron_free(polyhedron: *mut pp_polyhedron) {
     }
 }
 
-/// Planes of the faces: rows of a, b, c, h, unit normals, largest face first.
+/// Planes of the faces: rows of a, b, c, h, unit normals; half-spaces in the order given, else largest face first.
 ///
 /// planes: room for capacity rows; may be NULL when capacity is 0. count: receives the number of
 /// faces, also when the buffer is too small (PP_BUFFER_TOO_SMALL), so that one call asks the size.

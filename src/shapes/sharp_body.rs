@@ -18,7 +18,7 @@ const OF_SUMS: f64 = 16.0 * f64::EPSILON;
 #[cfg_attr(not(feature = "capi"), expect(dead_code, reason = "triangles and volume: for the C interface"))]
 pub(crate) struct SharpBody {
     pub origin: Vector3<f64>,
-    /// Of its faces, unit normals.
+    /// Of its faces, unit normals: half-spaces in their order, those of points by falling area.
     pub planes: Vec<Plane>,
     pub corners: Vec<Vector3<f64>>,
     /// Its surface, three numbers of corners each, counter-clockwise from outside.
@@ -36,7 +36,7 @@ pub(super) struct HullOfPoints {
 }
 
 impl SharpBody {
-    /// {n·x ≤ d} of half-spaces, with normals of any length. Those that make no face of their own are left out.
+    /// {n·x ≤ d} of half-spaces, with normals of any length. Those that make no face of their own are left out, the others keep their order.
     ///
     /// # Errors
     /// Too many half-spaces; those that are none, that hold no point, that leave a side open or whose body is flat.
@@ -56,11 +56,13 @@ impl SharpBody {
             |(of, outline): (usize, Vec<u32>)| Face { normal: units[of - OF_CUBE].0, ..Face::new(&corners, outline) };
         let faces: Vec<Face<Vec<u32>>> = outlines.into_iter().map(face).collect();
         let Distinct { planes, .. } = coplanar::distinct(&corners, &faces, 0.0).ok_or(ShapeError::Thin)?;
-        let given = |(face, _): &(usize, Plane)| {
-            let (normal, offset) = units[numbers[*face]];
+        let mut kept: Vec<usize> = planes.iter().map(|(face, _)| numbers[*face]).collect();
+        kept.sort_unstable();
+        let given = |number: usize| {
+            let (normal, offset) = units[number];
             Plane { normal, offset }
         };
-        let planes = planes.iter().map(given).collect();
+        let planes = kept.into_iter().map(given).collect();
         let corners: Vec<_> = corners.into_iter().map(|corner| corner + middle).collect();
         let centroid = at_the_origin(middle + solid.centroid(), &corners);
         Ok(Self { origin: Vector3::zeros(), planes, corners, triangles, volume: solid.volume, centroid })

@@ -63,7 +63,7 @@ class Polyhedron:
 
     @functools.cached_property
     def planes(self):
-        """Rows (n, 4) of a, b, c, h, unit normals, the largest face first."""
+        """Rows (n, 4) of a, b, c, h, unit normals: half-spaces in the order given, else the largest face first."""
         return library.rows("pp_polyhedron_faces", self._handle, 4)
 
     @property
