@@ -305,7 +305,8 @@ impl Summary {
             polar_moment: 0.0,
             twist_lever: 0.0,
             mean_depth: 0.0,
-            largest_depth: task.length * (1.0 - deepest.max(0.0).sqrt()),
+            // Within rounding, s may be above 1.
+            largest_depth: (task.length * (1.0 - deepest.max(0.0).sqrt())).max(0.0),
             energy: f64::NAN,
             stiffness: Matrix6::repeat(f64::NAN),
             reach: 0.0,

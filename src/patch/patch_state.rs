@@ -254,7 +254,7 @@ impl PatchState {
             second_moment: now.axes * patch.second_moment * now.axes.transpose(),
             mean_depth: patch.mean_depth * (size / patch.force.norm()),
             // Of closest, s is not that of the point.
-            largest_depth: now.s.map_or(patch.largest_depth, |s| patch.length * (1.0 - s)),
+            largest_depth: now.s.map_or(patch.largest_depth, |s| (patch.length * (1.0 - s)).max(0.0)),
             energy: patch.energy + work.dot(&motion.screw),
             stiffness: Matrix6::repeat(f64::NAN),
             // The stiffness is summed at points that are meant for the force: it is known to about the root of the tolerance.
@@ -269,6 +269,7 @@ impl PatchState {
 }
 
 impl Motion {
+    /// Of a patch without a depth, none is: 0 over 0 is not a number.
     fn is_small(&self, tolerance: f64) -> bool {
         self.size <= FARTHEST * tolerance.sqrt() && self.change <= OF_SHAPE * tolerance
     }

@@ -173,7 +173,7 @@ pub fn patch_of_contact(
         centroid: world([centroid[0] - pole[0], centroid[1] - pole[1]]),
         second_moment: second,
         mean_depth: if whole { depth_length * load / length } else { 0.0 },
-        largest_depth: depth_length * (1.0 - deepest.max(0.0).sqrt()),
+        largest_depth: (depth_length * (1.0 - deepest.max(0.0).sqrt())).max(0.0),
         energy: if settings.with_energy { depth_length * sums[7] } else { f64::NAN },
         stiffness: if settings.with_stiffness {
             let of_space = turned(&stiffness(walker.field, walker.nodes), &frame);

@@ -264,3 +264,35 @@ fn walls_stay_within_the_estimate() {
     }
     tally.check(1500);
 }
+
+/// Two faces that meet within rounding: s may be above 1 at each point of their patch. What follows, however far they move, is not carried on from it.
+#[test]
+fn nothing_follows_from_a_touch_within_rounding() {
+    let (mut chance, mut without_depth) = (Chance::new(61), 0);
+    for round in 0..300 {
+        let [a, b] = [0; 2].map(|_| cuboid([0.5, 0.4, 0.3], 0.01, 0.0));
+        let turn = chance.rotation();
+        let pose_a = Pose::from_rotation([0.0; 3], &turn).unwrap();
+        let at = |overlap: f64, tilt: f64| {
+            let tilted = turn * UnitQuaternion::from_scaled_axis(tilt * Vector3::y()).to_rotation_matrix().into_inner();
+            Pose::from_rotation((turn * Vector3::new(1.0 - overlap, 0.1, 0.05)).into(), &tilted).unwrap()
+        };
+        let (mut state, mut scratch) = (PatchState::default(), PatchScratch::new());
+        let apart = chance.pick(&[-4.0, -2.0, -1.0, 0.0, 1.0, 2.0]) * f64::EPSILON;
+        for overlap in [apart, apart, 1e-13, 1e-9, 1e-6, 1e-4] {
+            let pose_b = at(overlap, chance.pick(&[0.0, 0.5]) * overlap);
+            let contact = contact(&a, &pose_a, &b, &pose_b);
+            let Ok(found) = state.patch_of_contact(&a, &pose_a, &b, &pose_b, &contact, &SETTINGS, &mut scratch) else {
+                continue;
+            };
+            without_depth += usize::from(found.largest_depth == 0.0);
+            assert!(found.largest_depth >= 0.0, "round {round}: {:e}", found.largest_depth);
+            if overlap >= 1e-9 {
+                let anew = patch_of_contact(&a, &pose_a, &b, &pose_b, &contact, &SETTINGS, &mut scratch, |_| ()).unwrap();
+                let off = (found.force - anew.force).norm() / anew.force.norm();
+                assert!(off < 1e-4, "round {round}, overlap {overlap:e}: {off:e}, {:?}", found.flags);
+            }
+        }
+    }
+    assert!(without_depth > 5, "{without_depth} patches without a depth");
+}
