@@ -99,8 +99,8 @@ void FixWall::checkBorder() const
             ends |= mesh && std::abs((high ? mesh->high() : mesh->low())[d] - border) < reach;
         }
         if (ends)
-            error->warning(FLERR, "{} {}: the box is periodic in {}, the wall is not: bodies that reach over the border do not meet the part of the wall at the other side; let the mesh go on by {} "
-                "beyond the border, or leave that border free", style, id, "xyz"[d], reach);
+            error->warning(FLERR, "{} {}: the box is periodic in {}, the wall is not: bodies at the border do not meet the wall at the other side; "
+                "extend the mesh by {} beyond the border, or leave that border free", style, id, "xyz"[d], reach);
     }
 }
 

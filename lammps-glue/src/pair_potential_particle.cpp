@@ -204,8 +204,8 @@ void PairPotentialParticle::checkBonds(int before)
         if (isBond(slot))
             now += (static_cast<int>(bodies[slot].a) < local) + (static_cast<int>(bodies[slot].b) < local);
     if (now < before && atom->natoms == atomsAtBuild)
-        error->one(FLERR, "{}: {} bonded atoms have lost their partner: bonds are stretched beyond the reach of the list of neighbours, or special_bonds "
-            "or neigh_modify exclude leaves pairs out; give a skin of more than {}, or a larger stiffness", style, before - now, neighbor->skin);
+        error->one(FLERR, "{}: {} bonded atoms have lost their partner: their bonds reach beyond the list of neighbours, or neigh_modify "
+            "exclude leaves pairs out; give a skin of more than {}, or a larger stiffness", style, before - now, neighbor->skin);
     atomsAtBuild = atom->natoms;
 }
 
@@ -250,8 +250,8 @@ void PairPotentialParticle::checkSkin()
     for (size_t i = 0; i < held.size(); ++i) {
         const double way = (vector(atom->x[i]) - vector(held[i].data())).norm();
         if (way > 0.5 * neighbor->skin)
-            error->one(FLERR, "{}: atom {} has moved by {} since the list of neighbours was built {} steps ago, more than half the skin of {}: contacts may be "
-                "missing; give 'neigh_modify delay 0 every 1 check yes', or a skin of {} or more", style, atom->tag[i], way, neighbor->ago, neighbor->skin,
+            error->one(FLERR, "{}: atom {} has moved by {} in {} steps without a new list of neighbours, more than half the skin of {}: "
+                "give 'neigh_modify delay 0 every 1 check yes', or a skin of {} or more", style, atom->tag[i], way, neighbor->ago, neighbor->skin,
                 3 * way);
     }
 }

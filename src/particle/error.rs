@@ -60,8 +60,8 @@ pub enum ParticleError {
     )]
     RoundingTooLarge { r: f64, limit: f64 },
     #[error(
-        "rounding radius r={r:?} is too small for a particle that reaches {radius:?} from its centre, more than 1e150 times r/√(1−k): squares \
-         of depths leave the range of numbers; take a larger r, or what encloses a smaller volume"
+        "rounding radius r={r:?} is too small for a particle that reaches {radius:?} from its centre, more than 1e150 times r/√(1−k): \
+         take a larger r, or planes that enclose less"
     )]
     RoundingTooSmall { r: f64, radius: f64 },
     #[error(

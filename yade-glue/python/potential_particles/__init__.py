@@ -75,8 +75,8 @@ def _import_yade():
         import yade
     except ImportError as error:
         raise ImportError(
-            "potential_particles needs YADE (Debian package yade): run the script with `yade script.py`, or with the "
-            "Python of YADE after sys.path.insert(0, ...) of the folder that its launcher /usr/bin/yade enters so. "
+            "potential_particles needs YADE (Debian package yade): run `yade script.py`, or add the folder of YADE's Python "
+            "package, as in /usr/bin/yade, to sys.path first. "
             + str(error)) from error
     import yade.config
     return yade, str(getattr(yade.config, "version", "unknown"))

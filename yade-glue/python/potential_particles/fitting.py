@@ -62,8 +62,8 @@ def of_surface(hull, samples, volume, rounding, name, planes=None, error=None):
         closest = min(closest, shape.fit.largest)
         if len(hull.planes) <= number:
             break
-    raise ValueError(f"{name}: error={error:g} is not reached with up to {number} planes, which leave {closest:.2g} of the equivalent diameter: "
-                     "allow a larger error, or more planes; a surface that is not convex has no convex particle near to it")
+    raise ValueError(f"{name}: error={error:g} is not reached with up to {number} planes, which leave {closest:.2g} of the diameter: "
+                     "allow a larger error or more planes, or cut a surface that is not convex (shapes.clump_from_mesh)")
 
 
 def warn_of_volume(shape, what):
@@ -105,8 +105,8 @@ def _of_planes(hull, samples, volume, number, rounding, name):
         share = LEAST_R if low <= 0.0 else MOST_R if high >= 0.0 else brentq(surplus, LEAST_R, MOST_R, (0.0,), xtol=1e-4)
     if rounding.is_chosen or share in (LEAST_R, MOST_R):
         if surplus(share, least) > 0.0 or surplus(share, most) < 0.0:
-            raise ValueError(f"{name}: {number} planes about its hull, moved by less than 0.3 of the size, do not have the volume of the surface: "
-                             "the surface is far from convex (shapes.clump_from_mesh cuts it into convex parts), or r is too large")
+            raise ValueError(f"{name}: {number} planes about its hull do not enclose the volume of the surface: it is far from convex "
+                             "(shapes.clump_from_mesh cuts it into convex parts), or r is too large")
         shift = brentq(lambda moved: surplus(share, moved), least, most, xtol=1e-6 * size) if k < 1.0 else 0.0
     polyhedron = outer if shift == 0.0 else Polyhedron.of_planes(outer.normals, outer.offsets + shift)
     shape = polyhedron.rounded(size * share, k, shadow, name, TOLERANCE)

@@ -87,10 +87,7 @@ def guard(yade, own_version, running):
             if found is None or found == own_version:
                 raise
             raise RuntimeError(
-                f"{file} was saved by another YADE (its archive is of version {found}; YADE {running} writes {own_version}), and "
-                "YADE loads no engines of another version, contacts only if their physics did not change, and no binary files of a "
-                "newer one. Load it with the YADE that saved it, set O.engines = [], if that is not enough O.interactions.clear() "
-                "too, and save as .xml.bz2; the script that loads that sets its engines anew. "
-                f"YADE's own message: {error!r}") from error
+                f"{file} was saved by another YADE (archive version {found}; YADE {running} reads {own_version}): load it there, set "
+                f"O.engines = [], save as .xml.bz2, and set the engines anew here (docs/yade_versions.md): {error!r}") from error
 
     yade.wrapper.Omega.load = loading

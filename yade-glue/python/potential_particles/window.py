@@ -19,9 +19,8 @@ def serve(yade, dispatcher_of):
         dispatcher = dispatcher_of(renderer)
     except RuntimeError as reason:
         renderer.shape, renderer.bound = False, True
-        warnings.warn("YADE's 3-D window cannot draw the shapes of potential_particles (%s) and shows the boxes of all bodies. In a scene "
-                      "with our shapes, to draw the others (yade.qt.Renderer().shape = True) or to pick a body by a click ends YADE. "
-                      "potential_particles.plot draws all." % reason)
+        warnings.warn("YADE's 3-D window cannot draw our shapes (%s) and shows boxes: leave yade.qt.Renderer().shape at False and pick no "
+                      "body by a click, which end YADE; potential_particles.plot draws all bodies" % reason)
         return
     # Setting the list makes the table anew; of two functors for a class the last is taken.
     dispatcher.functors = dispatcher.functors + [yade.wrapper.Gl1_PotentialParticle_Conic()]
